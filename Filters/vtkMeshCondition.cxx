@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshCondition.h"
 
-#include "Filters/Conditions/ConditionText.h"
-#include "Filters/Conditions/vtkConditionList.h"
+#include "Filters/Regions/ConditionText.h"
+#include "Filters/Regions/vtkConditionList.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 
 #include "vtkDataArray.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkRegionFilter.h"
 
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/vtkFunctionRegion.h"
 #include "Filters/Regions/vtkHeldCount.h"
 #include "Filters/Regions/vtkMarkedPoints.h"
@@ -8,8 +9,7 @@
 #include "Filters/Regions/vtkPointRegion.h"
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Regions/vtkSelectedPoints.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
-#include "Filters/Streaming/vtkWarnOnce.h"
+#include "Filters/Tasks/vtkWarnOnce.h"
 #include "Filters/vtkRegionChain.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingBlend.h"
 
-#include "Filters/Blending/vtkBlendTask.h"
-#include "Filters/Mesh/vtkReplacedArray.h"
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkBlendTask.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 

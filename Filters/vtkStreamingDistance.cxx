@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingDistance.h"
 
-#include "Filters/Distance/vtkDistanceTask.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkDistanceTask.h"
 #include "IO/vtkPieceColumns.h"
 #include "smg/Deform.h"
 #include "smg/DescriptionFiles.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshDeformation.h"
 
-#include "Filters/Deformation/vtkDeformationTask.h"
-#include "Filters/Deformation/vtkInteractiveMesh.h"
-#include "Filters/Deformation/vtkMovedPiece.h"
-#include "Filters/Handles/vtkHandleArrays.h"
-#include "Filters/Mesh/vtkCoarserPreview.h"
+#include "Filters/Pieces/vtkCoarserPreview.h"
 #include "Filters/Processes/vtkDistributedDeformation.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Regions/vtkHandleArrays.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkDeformationTask.h"
+#include "Filters/Tasks/vtkInteractiveMesh.h"
+#include "Filters/Tasks/vtkMovedPiece.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshPreview.h"
 
-#include "Filters/Streaming/vtkInputStamp.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Pieces/vtkInputStamp.h"
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "IO/Preview/StreamPreview.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"

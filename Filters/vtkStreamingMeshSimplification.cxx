@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSimplification.h"
 
+#include "Filters/Pieces/vtkInputStamp.h"
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/vtkRegionPoints.h"
-#include "Filters/Streaming/vtkInputStamp.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
-#include "Filters/Streaming/vtkSolveEstimate.h"
+#include "Filters/Tasks/vtkSolveEstimate.h"
 #include "Filters/vtkRegionChain.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Simplification/SimplifyEstimate.h"
@@ -14,8 +14,8 @@
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/GroupedDigits.h"
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "smg/Simplify.h"
 #include "smg/VsmReader.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSmoothing.h"
 
-#include "Filters/Deformation/vtkMovedPiece.h"
-#include "Filters/Mesh/vtkReplacedArray.h"
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Smoothing/vtkSmoothingTask.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkMovedPiece.h"
+#include "Filters/Tasks/vtkSmoothingTask.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingSolver.h"
 
-#include "Filters/Streaming/vtkSolveEstimate.h"
-#include "Filters/Streaming/vtkSolveTables.h"
+#include "Filters/Tasks/vtkSolveEstimate.h"
+#include "Filters/Tasks/vtkSolveTables.h"
 #include "Filters/vtkSolverRequests.h"
 
 #include "vtkDemandDrivenPipeline.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshPieceData.h"
 
-#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Mesh/AttributeNames.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"

@@ -7,7 +7,7 @@
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
 
 #include "vtkCellArray.h"

@@ -4,9 +4,9 @@
 #include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/ScratchFolder.h"
-#include "Solver/Storage/WholeFile.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Files/ScratchFolder.h"
+#include "Solver/Files/WholeFile.h"
 #include "smg/Error.h"
 
 #include "vtkCellData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Mesh/ReservedNames.h"
 
 namespace smg
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
 
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/External/Workers.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
-#include "Solver/Storage/Workers.h"
 #include "smg/Error.h"
 
 #include "vtkAlgorithm.h"

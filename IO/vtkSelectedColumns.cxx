@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkSelectedColumns.h"
 
-#include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Mesh/ReservedNames.h"
 #include "smg/MeshSource.h"
 
 #include "vtkDataArraySelection.h"

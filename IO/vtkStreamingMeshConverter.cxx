@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshConverter.h"
 
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "smg/Error.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshReader.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
+#include "IO/External/BlockFile.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Preview/KeptPreview.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkSelectedColumns.h"
 #include "IO/vtkStreamingMeshKeys.h"
-#include "Solver/Storage/BlockFile.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"

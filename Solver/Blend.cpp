@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Blend.h"
 
-#include "Solver/Blending/BlendProblem.h"
-#include "Solver/Blending/BlendedValues.h"
 #include "Solver/Core/Timer.h"
-#include "Solver/Description/ClippedValues.h"
-#include "Solver/Engine/CheckOptions.h"
-#include "Solver/Storage/MemoryLimitError.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Stream/VisitBlocks.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Jobs/Blending/BlendProblem.h"
+#include "Solver/Jobs/Blending/BlendedValues.h"
+#include "Solver/Memory/MemoryLimitError.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Problem/ClippedValues.h"
 #include "smg/Error.h"
 
 #include <algorithm>

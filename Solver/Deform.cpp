@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Deform.h"
 
-#include "Solver/Deformation/InteractiveDeformation.h"
-#include "Solver/Deformation/InteractiveEngine.h"
-#include "Solver/Engine/CheckOptions.h"
-#include "Solver/Engine/ExtendedEngine.h"
-#include "Solver/Operators/Extended.h"
+#include "Solver/Jobs/Deformation/InteractiveDeformation.h"
+#include "Solver/Jobs/Deformation/InteractiveEngine.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/ExtendedEngine.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "smg/Error.h"
 #include "smg/Solve.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Distance.h"
 
-#include "Solver/Distance/DistanceRun.h"
-#include "Solver/Distance/PathDistance.h"
-#include "Solver/Distance/WallDistance.h"
+#include "Solver/Jobs/Distance/DistanceRun.h"
+#include "Solver/Jobs/Distance/PathDistance.h"
+#include "Solver/Jobs/Distance/WallDistance.h"
 #include "smg/Error.h"
 
 #include <cmath>

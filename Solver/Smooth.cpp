@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Smooth.h"
 
-#include "Solver/Engine/CheckOptions.h"
-#include "Solver/Operators/Extended.h"
-#include "Solver/Smoothing/Smoother.h"
+#include "Solver/Jobs/Fairing/Smoother.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Extended.h"
 #include "smg/Error.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Solve.h"
 
-#include "Solver/Engine/CheckOptions.h"
-#include "Solver/Engine/ExtendedEngine.h"
-#include "Solver/Operators/Extended.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/ExtendedEngine.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "smg/Error.h"
 #include "smg/SolveWith.h"

@@ -10,9 +10,10 @@ if (TARGET smgDistributed)
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development)
 endif ()
 # What smg/SolveWith.h compiles: on the path of StreamingMultigrid::Engine alone.
-foreach (folder Core Cycle Engine Hierarchy Operators Problem Results Storage Stream)
-  install(DIRECTORY Solver/${folder}
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid/engine/Solver" COMPONENT development
+foreach (folder Assembly Checkpoint Core Files Jobs/Results Memory Mesh Multigrid)
+  install(DIRECTORY Solver/${folder}/
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid/engine/Solver/${folder}"
+    COMPONENT development
     FILES_MATCHING PATTERN "*.h" PATTERN "*.txx")
 endforeach ()
 

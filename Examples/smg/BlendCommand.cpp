@@ -2,8 +2,8 @@
 #include "PlacesOption.h"
 #include "SolvingCommand.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "Solver/Engine/CheckOptions.h"
+#include "IO/Formats/FormatTable.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Blend.h"
 #include "smg/SolvedMesh.h"
 

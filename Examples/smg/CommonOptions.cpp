@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 
-#include "IO/Estimate/JobEstimate.h"
+#include "IO/Conversion/JobEstimate.h"
 #include "IO/Files/Suffix.h"
-#include "Solver/Storage/Checkpoint.h"
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Storage/WholeFile.h"
+#include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Files/WholeFile.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #include "OneProcess.h"
 #include "ProgressBar.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
-#include "IO/Estimate/JobEstimate.h"
+#include "IO/Conversion/JobEstimate.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineCommand.h"
 
-#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Description/WeightsName.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Problem/WeightsName.h"
+#include "IO/Formats/FormatTable.h"
 #include "smg/Deform.h"
 #include "smg/DescribedHandles.h"
 #include "smg/DescriptionFiles.h"

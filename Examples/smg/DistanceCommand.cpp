@@ -2,8 +2,8 @@
 #include "MeshCommand.h"
 #include "PlacesOption.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
 #include "smg/Distance.h"
 #include "smg/SolvedMesh.h"
 

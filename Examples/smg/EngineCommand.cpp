@@ -3,7 +3,7 @@
 
 #include "ProgressBar.h"
 
-#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/MeshFile.h"
 #include "smg/Error.h"
 
 namespace

@@ -3,7 +3,7 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/CheckVsm.h"
 #include "smg/Error.h"
 

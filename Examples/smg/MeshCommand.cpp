@@ -6,11 +6,11 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "IO/Formats/MeshFile.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 
 #include <algorithm>
 #include <chrono>

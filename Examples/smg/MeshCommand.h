@@ -5,7 +5,7 @@
 #include "InputOptions.h"
 #include "ResultFile.h"
 
-#include "IO/Estimate/JobEstimate.h"
+#include "IO/Conversion/JobEstimate.h"
 #include "smg/Convert.h"
 #include "smg/Solve.h"
 #include "smg/VsmReader.h"

@@ -4,9 +4,9 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
 #include "smg/Error.h"
 #include "smg/Preview.h"
 #include "smg/WriteMesh.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ResultFile.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
-#include "IO/AnyFormat/WriteRestored.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
+#include "IO/Formats/WriteRestored.h"
 #include "smg/WriteMesh.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/Estimate/JobEstimate.h"
+#include "IO/Conversion/JobEstimate.h"
+#include "IO/Formats/FormatTable.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"

@@ -4,10 +4,10 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
-#include "IO/Estimate/JobEstimate.h"
+#include "IO/Conversion/JobEstimate.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Simplification/SimplifyEstimate.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"

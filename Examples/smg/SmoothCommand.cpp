@@ -2,9 +2,9 @@
 #include "PlacesOption.h"
 #include "SolvingCommand.h"
 
-#include "IO/AnyFormat/FormatTable.h"
 #include "IO/Files/PartialProgress.h"
-#include "Solver/Engine/CheckOptions.h"
+#include "IO/Formats/FormatTable.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/MovedMesh.h"
 #include "smg/Smooth.h"
 #include "smg/SolvedMesh.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineCommand.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/Problem/ProblemKeys.h"
-#include "Solver/Description/ComposeDescriptions.h"
-#include "Solver/Engine/CheckOptions.h"
+#include "IO/Description/ProblemKeys.h"
+#include "IO/Formats/FormatTable.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Problem/ComposeDescriptions.h"
 #include "smg/DescribedProblem.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"

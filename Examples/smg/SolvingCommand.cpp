@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
-#include "IO/Problem/JsonNode.h"
+#include "IO/Description/JsonNode.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Processes/vtkDistributedDeformation.h"
 
-#include "Filters/Deformation/DeformedVertices.h"
-#include "Filters/Handles/vtkHandleArrays.h"
 #include "Filters/Processes/vtkProcessParts.h"
-#include "IO/Files/SinglePrecision.h"
-#include "IO/Motion/NormalSums.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Filters/Regions/vtkHandleArrays.h"
+#include "Filters/Tasks/DeformedVertices.h"
+#include "IO/Mesh/SinglePrecision.h"
+#include "IO/Results/NormalSums.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 #include "smg/DescribedHandles.h"
 #include "smg/Error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Deformation/vtkDeformationTask.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkDeformationTask.h"
 
 #include <functional>
 #include <vector>

@@ -2,9 +2,9 @@
 #include "Filters/Processes/vtkDistributedPoisson.h"
 
 #include "Filters/Processes/vtkProcessParts.h"
-#include "Solver/Description/ComposeDescriptions.h"
-#include "Solver/Description/DescriptionText.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Problem/ComposeDescriptions.h"
+#include "Solver/Problem/DescriptionText.h"
 #include "smg/DescribedProblem.h"
 
 #include "vtkPointSet.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Poisson/vtkPoissonTask.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkPoissonTask.h"
 
 #include <functional>
 #include <vector>

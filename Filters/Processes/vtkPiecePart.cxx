@@ -2,12 +2,12 @@
 #include "Filters/Processes/vtkPiecePart.h"
 
 #include "Filters/Processes/StreamNumbers.h"
-#include "IO/Formats/Vsm/Columns.h"
-#include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Mesh/Columns.h"
+#include "IO/Mesh/ReservedNames.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -2,7 +2,7 @@
 #include "Filters/Processes/vtkProcessParts.h"
 
 #include "IO/vtkMeshPieceData.h"
-#include "Solver/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Error.h"
 
 #include "vtkMPI.h"

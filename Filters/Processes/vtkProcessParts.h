@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Filters/Processes/vtkPiecePart.h"
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
 #include "Solver/Distributed/Team.h"
 #include "smg/DistributedSolver.h"
 #include "smg/Report.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/EdgeLength.h"
 
-#include "Solver/Projection/PointTree.h"
+#include "Solver/Jobs/Projection/PointTree.h"
 
 #include <cmath>
 #include <span>

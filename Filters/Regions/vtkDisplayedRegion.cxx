@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkDisplayedRegion.h"
 
-#include "Filters/Mesh/vtkCellParts.h"
-#include "Filters/Mesh/vtkMeshInMemory.h"
+#include "Filters/Pieces/vtkCellParts.h"
+#include "Filters/Pieces/vtkMeshInMemory.h"
 #include "Filters/Regions/vtkPlacesOfIds.h"
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "IO/vtkMeshPieceData.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/PointRegionSettings.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkRegionContext.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/vtkHeldPoints.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
 
 #include "vtkBoundingBox.h"
 

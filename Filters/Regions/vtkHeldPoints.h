@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Pieces/vtkInputStamp.h"
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/SoughtIds.h"
-#include "Filters/Streaming/vtkInputStamp.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
-#include "Solver/Projection/PointProjection.h"
+#include "Solver/Jobs/Projection/PointProjection.h"
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 #include "Filters/Regions/vtkMarkedPoints.h"
 
 #include "IO/vtkMeshPieceData.h"
-#include "Solver/Problem/OpenFacets.h"
+#include "Solver/Assembly/OpenFacets.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 

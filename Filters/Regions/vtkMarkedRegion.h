@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/MarkedRegionSettings.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkRegionContext.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
-#include "Solver/Description/SelectedVertices.h"
+#include "Solver/Problem/SelectedVertices.h"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Streaming/vtkInputStamp.h"
+#include "Filters/Pieces/vtkInputStamp.h"
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
 

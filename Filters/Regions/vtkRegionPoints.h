@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Mesh/vtkMeshInMemory.h"
+#include "Filters/Pieces/vtkMeshInMemory.h"
 #include "Filters/Regions/PointRegionSettings.h"
 #include "Filters/Regions/SoughtIds.h"
 #include "Filters/Regions/vtkRegionContext.h"
-#include "Solver/Projection/PointProjection.h"
+#include "Solver/Jobs/Projection/PointProjection.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "Filters/Regions/PointRegionSettings.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkRegionContext.h"
-#include "Solver/Projection/PointProjection.h"
+#include "Solver/Jobs/Projection/PointProjection.h"
 
 #include <optional>
 #include <vector>

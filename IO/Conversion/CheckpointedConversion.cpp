@@ -4,7 +4,7 @@
 #include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConversionReportState.h"
 #include "IO/Conversion/KeptConversion.h"
-#include "Solver/Storage/Checkpoint.h"
+#include "Solver/Checkpoint/Checkpoint.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

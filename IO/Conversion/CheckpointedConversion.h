@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/FolderLock.h"
+#include "Solver/Files/FolderLock.h"
 #include "smg/Convert.h"
 
 #include <filesystem>

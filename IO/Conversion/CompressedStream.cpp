@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/CompressedStream.h"
 
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "smg/Error.h"
 

@@ -6,8 +6,8 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/Raw/Weld.h"
-#include "Solver/Storage/Reservation.h"
+#include "IO/Import/Weld.h"
+#include "Solver/Memory/Reservation.h"
 #include "smg/Error.h"
 #include "smg/WriteMesh.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
-#include "IO/Formats/MeshPart.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "IO/Mesh/MeshPart.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 

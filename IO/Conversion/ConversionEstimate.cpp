@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/ConversionEstimate.h"
 
-#include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/CompressedStream.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/RowBytes.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Formats/Vsm/VsmBytes.h"
+#include "IO/Mesh/RowBytes.h"
 #include "Solver/Core/ByteText.h"
-#include "Solver/Estimate/Costs.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Jobs/Estimate/Costs.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Raw/RawMesh.h"
+#include "IO/Import/RawMesh.h"
 #include "smg/Convert.h"
 #include "smg/Export.h"
 

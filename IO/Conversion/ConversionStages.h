@@ -2,9 +2,9 @@
 #pragma once
 
 #include "IO/Conversion/Conversion.h"
-#include "IO/Order/StreamAssembly.h"
-#include "IO/Raw/RawMesh.h"
-#include "Solver/Storage/Checkpoint.h"
+#include "IO/Import/RawMesh.h"
+#include "IO/Order/Assembly/StreamAssembly.h"
+#include "Solver/Checkpoint/Checkpoint.h"
 
 #include <optional>
 

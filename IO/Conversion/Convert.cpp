@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
 
-#include "IO/AnyFormat/MeshFile.h"
-#include "IO/AnyFormat/WriteRestored.h"
 #include "IO/Conversion/CompressedStream.h"
 #include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConvertMesh.h"
 #include "IO/Conversion/CopyStream.h"
+#include "IO/Formats/MeshFile.h"
+#include "IO/Formats/WriteRestored.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"
 

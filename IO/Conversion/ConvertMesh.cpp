@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/ConvertMesh.h"
 
-#include "IO/AnyFormat/Importer.h"
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/ConversionStages.h"
 #include "IO/Conversion/NumberNames.h"
 #include "IO/Files/InQuotes.h"
+#include "IO/Formats/Importer.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
+#include "IO/Import/ReadStream.h"
+#include "IO/Import/Weld.h"
+#include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
-#include "IO/Order/LayoutSource.h"
-#include "IO/Order/TakeIsolated.h"
-#include "IO/Raw/ReadStream.h"
-#include "IO/Raw/Weld.h"
+#include "IO/Order/Search/TakeIsolated.h"
 
 #include <cstdint>
 #include <limits>

@@ -2,9 +2,9 @@
 #include "IO/Conversion/CopyStream.h"
 
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/Order/CellFlagger.h"
+#include "IO/Order/Assembly/CellFlagger.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Stream/AddedColumn.h"
+#include "Solver/Mesh/AddedColumn.h"
 
 #include <cstring>
 #include <limits>

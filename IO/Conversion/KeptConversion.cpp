@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/KeptConversion.h"
 
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Files/Suffix.h"
+#include "IO/Formats/MeshFile.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/SystemCalls.h"
+#include "Solver/Core/SystemCalls.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

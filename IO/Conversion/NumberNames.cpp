@@ -2,7 +2,7 @@
 #include "IO/Conversion/NumberNames.h"
 
 #include "IO/Files/InQuotes.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 
 #include <algorithm>
 

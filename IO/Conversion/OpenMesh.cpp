@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
 
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/CheckpointedConversion.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "IO/Formats/MeshFile.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
 
 #include <optional>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "IO/External/Workspace.h"
-#include "Solver/Storage/Buffer.h"
-#include "Solver/Storage/CheckedFile.h"
-#include "Solver/Storage/StateReader.h"
-#include "Solver/Storage/StateWriter.h"
+#include "Solver/Files/CheckedFile.h"
+#include "Solver/Files/StateReader.h"
+#include "Solver/Files/StateWriter.h"
+#include "Solver/Memory/Buffer.h"
 #include "smg/Export.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/Workers.h"
+#include "IO/External/Workers.h"
 
 #include <algorithm>
 #include <array>

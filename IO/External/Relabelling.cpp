@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/Relabelling.h"
 
-#include "Solver/Storage/OrderedJobs.h"
-#include "Solver/Storage/Reservation.h"
+#include "IO/External/OrderedJobs.h"
+#include "Solver/Memory/Reservation.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/Workers.h"
 #include "IO/External/Workspace.h"
-#include "Solver/Storage/Buffer.h"
-#include "Solver/Storage/Workers.h"
+#include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/BlockFile.h"
+#include "IO/External/Workers.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/BlockFile.h"
-#include "Solver/Storage/Pool.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Storage/ScratchFolder.h"
-#include "Solver/Storage/Workers.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Files/ScratchFolder.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Export.h"
 
 #include <cstdint>

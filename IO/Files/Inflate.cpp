@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/Inflate.h"
 
-#include "Solver/Storage/Buffer.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Memory/Buffer.h"
 #include "smg/Error.h"
 
 #include <zlib.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Files/FileDescriptor.h"
 #include "smg/Export.h"
 
 #include <atomic>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/WriteBehind.h"
+#include "IO/External/WriteBehind.h"
+#include "Solver/Files/FileDescriptor.h"
 
 #include <cstddef>
 #include <filesystem>

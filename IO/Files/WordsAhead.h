@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/OrderedJobs.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/CharacterKinds.h"
 #include "IO/Files/InputFile.h"
-#include "Solver/Storage/OrderedJobs.h"
-#include "Solver/Storage/Reservation.h"
+#include "Solver/Memory/Reservation.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/LayOut.h"
 
-#include "IO/Order/AxisOrder.h"
-#include "IO/Order/FirstUseOrder.h"
-#include "IO/Order/SpectralOrder.h"
+#include "IO/Order/Search/AxisOrder.h"
+#include "IO/Order/Search/FirstUseOrder.h"
+#include "IO/Order/Search/SpectralOrder.h"
 
 #include <optional>
 #include <utility>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Order/BreadthFirstOrder.h"
-#include "IO/Order/MeshCounts.h"
-#include "IO/Order/StreamAssembly.h"
-#include "IO/Raw/RawMesh.h"
+#include "IO/Import/RawMesh.h"
+#include "IO/Order/Assembly/StreamAssembly.h"
+#include "IO/Order/Pages/MeshCounts.h"
+#include "IO/Order/Search/BreadthFirstOrder.h"
 #include "smg/Convert.h"
 
 #include <string>

@@ -3,11 +3,11 @@
 
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
-#include "IO/Order/LayoutSource.h"
 #include "IO/Preview/PreviewPiece.h"
 #include "IO/Preview/StreamPreview.h"
-#include "IO/Raw/RawMeshBuilder.h"
 #include "smg/Error.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/PreviewPiece.h"
 
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/Preview/SolidPreview.h"
 #include "IO/Preview/StreamPreview.h"
 

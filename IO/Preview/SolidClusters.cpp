@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/SolidClusters.h"
 
-#include "Solver/Problem/Vector.h"
+#include "Solver/Core/Vector.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Preview/SolidClusters.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Description/OpenValues.h"
+#include "Solver/Problem/OpenValues.h"
 
 #include <algorithm>
 #include <cmath>

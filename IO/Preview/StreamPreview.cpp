@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/StreamPreview.h"
 
-#include "IO/Formats/Vsm/Columns.h"
-#include "IO/Motion/NormalSums.h"
+#include "IO/Mesh/Columns.h"
+#include "IO/Results/NormalSums.h"
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
 #include "Solver/Core/Progress.h"

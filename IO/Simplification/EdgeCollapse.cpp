@@ -2,7 +2,7 @@
 #include "IO/Simplification/EdgeCollapse.h"
 
 #include "IO/Simplification/SurfaceTopology.h"
-#include "Solver/Problem/Vector.h"
+#include "Solver/Core/Vector.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SimplifiedMesh.h"
 
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Mesh/Columns.h"
 
 #include <algorithm>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/StreamSimplifier.h"
 
-#include "IO/Formats/RowBytes.h"
+#include "IO/Mesh/RowBytes.h"
 #include "IO/Simplification/Bodies.h"
 #include "IO/Simplification/VertexClustering.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/OrderedJobs.h"
 #include "IO/Simplification/EdgeCollapse.h"
 #include "IO/Simplification/SurfaceParts.h"
+#include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/Checkpoint.h"
-#include "Solver/Storage/OrderedJobs.h"
-#include "Solver/Storage/Pool.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SurfaceParts.h"
 
-#include "IO/Formats/RowBytes.h"
+#include "IO/Mesh/RowBytes.h"
 
 #include <algorithm>
 #include <cstring>

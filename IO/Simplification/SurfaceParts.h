@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Simplification/SurfacePart.h"
-#include "Solver/Description/OpenValues.h"
+#include "Solver/Problem/OpenValues.h"
 #include "smg/MeshSource.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/OpenVertices.h"
 #include "Solver/Distributed/SharedVertices.h"
-#include "Solver/Problem/OpenVertices.h"
 #include "smg/Deform.h"
 #include "smg/DistributedSolver.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Distributed/HypreObjects.h"
-#include "Solver/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
 
 #include <functional>
 #include <span>

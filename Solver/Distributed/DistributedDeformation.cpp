@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/DistributedDeformation.h"
 
-#include "Solver/Deformation/DeformationReport.h"
-#include "Solver/Deformation/HandleChecks.h"
-#include "Solver/Deformation/RotationProblem.h"
 #include "Solver/Distributed/CheckShared.h"
 #include "Solver/Distributed/DistributedRun.h"
 #include "Solver/Distributed/PositionProblem.h"
+#include "Solver/Jobs/Deformation/DeformationReport.h"
+#include "Solver/Jobs/Deformation/HandleChecks.h"
+#include "Solver/Jobs/Deformation/RotationProblem.h"
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,7 @@
 #include "Solver/Distributed/DistributedRun.h"
 
 #include "Solver/Distributed/PartMemory.h"
-#include "Solver/Engine/FreeComponents.h"
+#include "Solver/Multigrid/Engine/FreeComponents.h"
 
 #include <algorithm>
 #include <array>

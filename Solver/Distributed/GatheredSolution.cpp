@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/GatheredSolution.h"
 
-#include "Solver/Engine/VertexRange.h"
+#include "Solver/Multigrid/Engine/VertexRange.h"
 
 #include <algorithm>
 #include <array>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/PartAssembly.h"
 
+#include "Solver/Assembly/CommonShare.h"
+#include "Solver/Assembly/EdgeWeightError.h"
+#include "Solver/Assembly/OpenEdges.h"
+#include "Solver/Assembly/RowShortfall.h"
 #include "Solver/Distributed/CheckShared.h"
 #include "Solver/Distributed/PartNames.h"
 #include "Solver/Distributed/SharedEdges.h"
 #include "Solver/Distributed/SharedFacets.h"
-#include "Solver/Problem/CommonShare.h"
-#include "Solver/Problem/EdgeWeightError.h"
-#include "Solver/Problem/OpenEdges.h"
-#include "Solver/Problem/RowShortfall.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/CellAssembly.h"
+#include "Solver/Assembly/EdgeTargets.h"
 #include "Solver/Distributed/HypreObjects.h"
 #include "Solver/Distributed/SharedComponents.h"
 #include "Solver/Distributed/SharedVertices.h"
-#include "Solver/Engine/AssemblyReport.h"
-#include "Solver/Problem/CellAssembly.h"
-#include "Solver/Problem/EdgeTargets.h"
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
 
 #include <cstdint>
 #include <memory>

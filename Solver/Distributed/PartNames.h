@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 #include "smg/DistributedSolver.h"
 
 #include <cstddef>

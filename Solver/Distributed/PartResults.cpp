@@ -3,9 +3,9 @@
 
 #include "Solver/Distributed/SharedEdges.h"
 #include "Solver/Distributed/SharedFacets.h"
-#include "Solver/Results/HeldSolution.h"
-#include "Solver/Results/ProblemResults.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Jobs/Results/HeldSolution.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 
 #include <algorithm>
 #include <iterator>

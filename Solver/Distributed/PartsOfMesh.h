@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Description/MeshParts.h"
 #include "Solver/Distributed/SharedVertices.h"
+#include "Solver/Problem/MeshParts.h"
 
 namespace smg
 {

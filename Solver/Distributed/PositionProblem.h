@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/Frame.h"
-#include "Solver/Deformation/RotationProblem.h"
+#include "Solver/Jobs/Deformation/Frame.h"
+#include "Solver/Jobs/Deformation/RotationProblem.h"
 #include "smg/Problem.h"
 
 #include <span>

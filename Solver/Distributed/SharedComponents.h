@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/Components.h"
 #include "Solver/Distributed/SharedVertices.h"
-#include "Solver/Problem/Components.h"
 #include "smg/Export.h"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/FacetSet.h"
+#include "Solver/Assembly/OpenFacets.h"
 #include "Solver/Distributed/SharedVertices.h"
-#include "Solver/Problem/FacetSet.h"
-#include "Solver/Problem/OpenFacets.h"
 
 namespace smg
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/Team.h"
 
-#include "Solver/Storage/Checksum.h"
+#include "Solver/Files/Checksum.h"
 
 #include <algorithm>
 #include <climits>

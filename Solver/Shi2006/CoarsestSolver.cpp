@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Shi2006/CoarsestSolver.h"
 
-#include "Solver/Cycle/CoarsestFactor.h"
+#include "Solver/Multigrid/Cycle/CoarsestFactor.h"
 
 namespace smg::shi2006
 {

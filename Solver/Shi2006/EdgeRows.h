@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/Ring.h"
+#include "Solver/Memory/Ring.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/Assembly.h"
+#include "Solver/Assembly/Assembly.h"
 #include "Solver/Shi2006/Level.h"
 
 namespace smg::shi2006

@@ -2,13 +2,13 @@
 #include "Solver/Shi2006/Shi2006.h"
 
 #include "Solver/Core/Timer.h"
-#include "Solver/Engine/AssemblyReport.h"
-#include "Solver/Engine/VertexRange.h"
+#include "Solver/Memory/MemoryLimitError.h"
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
+#include "Solver/Multigrid/Engine/VertexRange.h"
 #include "Solver/Shi2006/FinestRows.h"
 #include "Solver/Shi2006/Relaxation.h"
 #include "Solver/Shi2006/RightSideTransfer.h"
 #include "Solver/Shi2006/VCycle.h"
-#include "Solver/Storage/MemoryLimitError.h"
 #include "smg/Error.h"
 
 #include <algorithm>

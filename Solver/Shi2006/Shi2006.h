@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Engine/FreeComponents.h"
-#include "Solver/Engine/SolveProgress.h"
+#include "Solver/Multigrid/Engine/FreeComponents.h"
+#include "Solver/Multigrid/Engine/SolveProgress.h"
 #include "Solver/Shi2006/VCycle.h"
 #include "smg/Problem.h"
 #include "smg/Solve.h"

@@ -2,7 +2,7 @@
 // The deformation of the armadillo, of triangles and of tetrahedra: feet fixed, top turned by 70
 // degrees and scaled by 1.3, an arm turned by 90 degrees.
 
-#include "Solver/Deformation/InteractiveDeformation.h"
+#include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 #include "Testing/Archive/vtkArchiveMeshes.h"
 #include "Testing/Support/ArrayHandles.h"
 #include "Testing/Support/Bumps.h"

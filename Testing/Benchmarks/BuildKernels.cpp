@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/Assembly.h"
 #include "Solver/Core/Timer.h"
-#include "Solver/Cycle/RowBlockPacker.h"
-#include "Solver/Operators/Coarsening.h"
-#include "Solver/Operators/Extended.h"
-#include "Solver/Problem/Assembly.h"
+#include "Solver/Multigrid/Cycle/RowBlockPacker.h"
+#include "Solver/Multigrid/Engine/Coarsening.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Benchmarks/Kernels.h"
 #include "Testing/Benchmarks/TimedOperators.h"

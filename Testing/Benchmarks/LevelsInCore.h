@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Engine/FirstPass.h"
-#include "Solver/Engine/Hierarchy.h"
-#include "Solver/Engine/SolveRun.h"
-#include "Solver/Operators/Extended.h"
+#include "Solver/Multigrid/Engine/FirstPass.h"
+#include "Solver/Multigrid/Engine/Hierarchy.h"
+#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Support/MemorySource.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/ScheduleModel.h"
 
-#include "Solver/Cycle/Pipeline.h"
-#include "Solver/Cycle/RowBlock.h"
+#include "Solver/Multigrid/Cycle/Pipeline.h"
+#include "Solver/Multigrid/Cycle/RowBlock.h"
 
 #include <algorithm>
 #include <cstddef>

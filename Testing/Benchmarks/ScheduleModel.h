@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/LongestFirst.h"
-#include "Solver/Engine/StepRecorder.h"
+#include "Solver/Multigrid/Engine/StepRecorder.h"
 
 #include <vector>
 

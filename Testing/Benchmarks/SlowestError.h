@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Solver/Core/DisjointSets.h"
-#include "Solver/Cycle/CoreCycle.h"
-#include "Solver/Cycle/CoreIteration.h"
+#include "Solver/Multigrid/Cycle/CoreCycle.h"
+#include "Solver/Multigrid/Cycle/CoreIteration.h"
 #include "Testing/Benchmarks/LevelsInCore.h"
 #include "Testing/Support/TestMeshes.h"
 

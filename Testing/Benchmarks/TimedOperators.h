@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Timer.h"
-#include "Solver/Operators/OperatorSet.h"
+#include "Solver/Multigrid/OperatorSet.h"
 
 #include <array>
 #include <cstddef>

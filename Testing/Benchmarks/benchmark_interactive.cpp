@@ -9,7 +9,7 @@
 // so that a handle can be dragged. Takes the options of Google Benchmark (--help).
 
 #include "IO/Preview/StreamPreview.h"
-#include "Solver/Deformation/InteractiveDeformation.h"
+#include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 #include "Testing/Support/ArrayHandles.h"
 #include "Testing/Support/MemorySource.h"
 #include "smg/VsmReader.h"

@@ -11,9 +11,9 @@
 // the model. --measure adds the wall times of solves with as many threads as the machine has cores.
 
 #include "Solver/Core/Timer.h"
-#include "Solver/Cycle/RowBlock.h"
-#include "Solver/Engine/PoissonSolver.h"
-#include "Solver/Operators/Extended.h"
+#include "Solver/Multigrid/Cycle/RowBlock.h"
+#include "Solver/Multigrid/Engine/PoissonSolver.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Benchmarks/Output.h"
 #include "Testing/Benchmarks/ScheduleModel.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Faults/Fault.h"
 
-#include "Solver/Storage/SystemCalls.h"
+#include "Solver/Core/SystemCalls.h"
 
 #include <algorithm>
 #include <atomic>

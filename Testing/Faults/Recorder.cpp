@@ -7,7 +7,7 @@
 //   ftruncate FILE SIZE        fsync FILE             close FILE
 //   link FILE PATH             rename FROM<tab>TO     unlink PATH     rmdir PATH     mkdir PATH
 // FILE is the number of the file descriptor.
-#include "Solver/Storage/SystemCalls.h"
+#include "Solver/Core/SystemCalls.h"
 
 #include <cerrno>
 #include <cstdlib>

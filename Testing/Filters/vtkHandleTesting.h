@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/vtkStreamingMeshKeys.h"
-#include "Solver/Projection/PointProjection.h"
+#include "Solver/Jobs/Projection/PointProjection.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/MemorySource.h"
 

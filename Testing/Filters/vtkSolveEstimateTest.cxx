@@ -4,10 +4,10 @@
 #include "Filters/vtkStreamingMeshDeformation.h"
 #include "Filters/vtkStreamingMeshSimplification.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
-#include "IO/Estimate/JobEstimate.h"
+#include "IO/Conversion/JobEstimate.h"
 #include "IO/Simplification/SimplifyEstimate.h"
 #include "Solver/Core/ByteText.h"
-#include "Solver/Estimate/Costs.h"
+#include "Solver/Jobs/Estimate/Costs.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
 #include "smg/VsmReader.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/Checkpoint.h"
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/StateFront.h"
+#include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Checkpoint/StateFront.h"
+#include "Solver/Files/FileDescriptor.h"
 #include "Testing/Fuzzing/EditedState.h"
 #include "Testing/Fuzzing/SmallSolve.h"
 #include "Testing/Fuzzing/SolverTargets.h"

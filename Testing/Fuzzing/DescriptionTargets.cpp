@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Problem/ComposeDescriptions.h"
 #include "Testing/Fuzzing/SmallSolve.h"
 #include "Testing/Fuzzing/SolverTargets.h"
 #include "Testing/Support/DescribedMesh.h"

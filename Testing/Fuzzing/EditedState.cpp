@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/EditedState.h"
 
-#include "Solver/Storage/StateFront.h"
-#include "Solver/Storage/StateWriter.h"
+#include "Solver/Checkpoint/StateFront.h"
+#include "Solver/Files/StateWriter.h"
 
 #include <algorithm>
 #include <cstring>

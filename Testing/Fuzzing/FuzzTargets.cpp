@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/FuzzTargets.h"
 
-#include "IO/AnyFormat/Importer.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Gmsh/GmshFormat.h"
+#include "IO/Formats/Importer.h"
 #include "IO/Formats/Medit/MeditFormat.h"
 #include "IO/Formats/Obj/ObjFormat.h"
 #include "IO/Formats/Off/OffFormat.h"
@@ -12,7 +12,7 @@
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 #include "Testing/Fuzzing/FuzzPlace.h"
 #include "Testing/Fuzzing/MeshChecks.h"
 #include "Testing/Fuzzing/SealedVsm.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 
 #include <span>
 #include <string_view>

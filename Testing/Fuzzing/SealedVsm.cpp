@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/SealedVsm.h"
 
-#include "Solver/Storage/BlockFileLayout.h"
-#include "Solver/Storage/Checksum.h"
+#include "IO/External/BlockFileLayout.h"
+#include "Solver/Files/Checksum.h"
 #include "smg/Error.h"
 
 #include <algorithm>

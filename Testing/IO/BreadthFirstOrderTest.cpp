@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/BreadthFirstOrder.h"
+#include "IO/Order/Search/BreadthFirstOrder.h"
 
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/InCorePages.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
 
-#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Order/CellFlagger.h"
+#include "IO/Order/Assembly/CellFlagger.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Restore/FanChain.h"
+#include "IO/Export/FanChain.h"
 
 #include "Testing/Support/TestMeshes.h"
 

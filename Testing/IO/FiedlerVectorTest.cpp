@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/FiedlerVector.h"
+#include "IO/Order/Search/FiedlerVector.h"
 
 #include "smg/Error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Formats/FormatTable.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/FormatTable.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Gmsh/GmshFormat.h"
 #include "IO/Formats/Medit/MeditFormat.h"
 #include "IO/Formats/Obj/ObjFormat.h"

@@ -8,7 +8,7 @@
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
+#include "IO/Mesh/AttributeNames.h"
+#include "IO/Mesh/Columns.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/HdfFile.h"
 #include "Testing/IO/ImportFixture.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/InvertedCells.h"
+#include "IO/Results/InvertedCells.h"
 
-#include "IO/Motion/MovedPoints.h"
+#include "IO/Results/MovedPoints.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TestMeshes.h"

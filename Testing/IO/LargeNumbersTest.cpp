@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/External/PagedArray.h"
 #include "IO/External/Relabelling.h"
-#include "IO/Formats/Vsm/PagedArray.h"
-#include "IO/Order/PlacedCells.h"
-#include "IO/Order/VertexLinks.h"
-#include "IO/Order/VertexStar.h"
+#include "IO/Order/Assembly/PlacedCells.h"
+#include "IO/Order/Pages/VertexLinks.h"
+#include "IO/Order/Pages/VertexStar.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 
@@ -23,14 +23,14 @@ namespace smg::testing
 namespace
 {
 
-using Numbers = std::vector<std::uint32_t>;
+using Indices = std::vector<std::uint32_t>;
 
 constexpr std::int64_t MostNumbers = (std::int64_t(1) << 32) - 2;
 
-/** Numbers on both sides of 2^31, and the largest ones of a conversion, ascending. */
-Numbers largeNumbers()
+/** Indices on both sides of 2^31, and the largest ones of a conversion, ascending. */
+Indices largeNumbers()
 {
-  Numbers numbers(400);
+  Indices numbers(400);
   std::iota(numbers.begin(), numbers.begin() + 200, (1U << 31) - 100);
   std::iota(numbers.begin() + 200, numbers.end(), static_cast<std::uint32_t>(MostNumbers - 200));
   return numbers;
@@ -46,7 +46,7 @@ protected:
 /** What CellGroups, VertexLinks and VertexStar find, ranks relative to the first one. */
 struct Around
 {
-  std::vector<Numbers> neighbours;
+  std::vector<Indices> neighbours;
   std::vector<std::int64_t> boundary, fans;
   bool operator==(const Around&) const = default;
 };
@@ -57,7 +57,7 @@ TEST_F(LargeNumbers, AreReplaced)
 {
   Relabelling labels(this->Space, MostNumbers, std::int64_t(4) << 20);
   RecordFile<std::uint32_t> file(this->Space);
-  Numbers expected;
+  Indices expected;
   for (const std::uint32_t number : largeNumbers())
   {
     labels.put(number, ~number);
@@ -67,7 +67,7 @@ TEST_F(LargeNumbers, AreReplaced)
   }
   file.close();
   EXPECT_LE(labels.passes(), 4);
-  Numbers replaced;
+  Indices replaced;
   labels.apply(file, 2,
     [&](std::span<const std::uint32_t> record)
     { replaced.insert(replaced.end(), record.begin(), record.end()); });
@@ -116,7 +116,7 @@ TEST_F(LargeNumbers, OfAPagedArray)
 
 TEST_F(LargeNumbers, OfTheCornersOfCells)
 {
-  const Numbers numbers = largeNumbers();
+  const Indices numbers = largeNumbers();
   for (std::size_t i = 0; i + 4 <= numbers.size(); ++i)
   {
     const std::array corners{ numbers[i + 1], numbers[i + 3], numbers[i], numbers[i + 2] };
@@ -155,7 +155,7 @@ TEST_F(LargeNumbers, OfTheVerticesAroundAVertex)
       for (std::int64_t rank = range.begin; rank < range.end; ++rank)
       {
         const auto vertex = static_cast<std::uint32_t>(rank);
-        Numbers& neighbours = found.neighbours.emplace_back(links.of(vertex).size());
+        Indices& neighbours = found.neighbours.emplace_back(links.of(vertex).size());
         neighbours.resize(star.visit(vertex, links.of(vertex), 3, neighbours));
         for (std::uint32_t& neighbour : neighbours)
         {

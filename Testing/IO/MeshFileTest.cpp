@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/MeshFile.h"
 
-#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"

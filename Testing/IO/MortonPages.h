@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/External/Relabelling.h"
-#include "IO/Order/OrderedVertices.h"
-#include "IO/Order/PageBuilder.h"
+#include "IO/Order/Pages/OrderedVertices.h"
+#include "IO/Order/Pages/PageBuilder.h"
 
 #include <algorithm>
 #include <array>

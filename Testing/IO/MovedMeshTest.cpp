@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/MovedMesh.h"
 
-#include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
+#include "IO/Mesh/AttributeNames.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/PrecisionSource.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/MovedVertices.h"
+#include "IO/Results/MovedVertices.h"
 
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/StreamMesh.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/PageBuilder.h"
+#include "IO/Order/Pages/PageBuilder.h"
 
-#include "IO/Order/GroupPages.h"
-#include "IO/Order/UsedVertices.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Order/Pages/GroupPages.h"
+#include "IO/Order/Pages/UsedVertices.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/Error.h"

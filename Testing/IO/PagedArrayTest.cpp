@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/PagedArray.h"
+#include "IO/External/PagedArray.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 

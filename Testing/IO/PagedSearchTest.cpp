@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/PagedSearch.h"
+#include "IO/Order/Search/PagedSearch.h"
 
 #include "IO/External/Relabelling.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Problem/ProblemKeys.h"
+#include "IO/Description/ProblemKeys.h"
 #include "smg/DescriptionFiles.h"
 
-#include "IO/Problem/ParseWhere.h"
+#include "IO/Description/ParseWhere.h"
 #include "Testing/IO/RegionFileFixture.h"
 #include "Testing/Support/DescribedMesh.h"
 #include "Testing/Support/SolveMesh.h"

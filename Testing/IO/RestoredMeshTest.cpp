@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Restore/RestoredMesh.h"
+#include "IO/Export/RestoredMesh.h"
 
 #include "Testing/IO/RestoredMeshFixture.h"
 #include "Testing/Support/ColumnValues.h"

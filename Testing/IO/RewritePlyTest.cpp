@@ -2,8 +2,8 @@
 #include "smg/WriteMesh.h"
 
 #include "IO/Formats/Ply/WritePly.h"
-#include "IO/Motion/VertexNormals.h"
-#include "Solver/Stream/AddedColumn.h"
+#include "IO/Results/VertexNormals.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/ShiftedSource.h"
 #include "Testing/IO/StreamFormatsFixture.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/SearchPlan.h"
+#include "IO/Order/Search/SearchPlan.h"
 
-#include "IO/Order/AxisEnds.h"
-#include "IO/Order/SourcePlan.h"
+#include "IO/Order/Search/AxisEnds.h"
+#include "IO/Order/Search/SourcePlan.h"
 #include "Testing/Support/InCorePages.h"
 
 #include <gtest/gtest.h>

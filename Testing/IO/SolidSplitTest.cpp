@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Raw/SolidSplit.h"
+#include "IO/Import/SolidSplit.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/SpectralOrder.h"
-#include "IO/Order/AxisOrder.h"
+#include "IO/Order/Search/SpectralOrder.h"
+#include "IO/Order/Search/AxisOrder.h"
 #include "Testing/IO/MortonPages.h"
 #include "Testing/Support/Sanitized.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/StreamAssembly.h"
+#include "IO/Order/Assembly/StreamAssembly.h"
 
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Order/FirstUseOrder.h"
-#include "IO/Order/LayoutSource.h"
-#include "IO/Order/TakeIsolated.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Order/Assembly/LayoutSource.h"
+#include "IO/Order/Search/FirstUseOrder.h"
+#include "IO/Order/Search/TakeIsolated.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"

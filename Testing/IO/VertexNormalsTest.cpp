@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/VertexNormals.h"
+#include "IO/Results/VertexNormals.h"
 
-#include "IO/Motion/CellNormals.h"
+#include "IO/Results/CellNormals.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"

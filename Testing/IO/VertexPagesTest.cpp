@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/VertexPages.h"
+#include "IO/Order/Pages/VertexPages.h"
 
 #include "IO/External/Relabelling.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/StreamStatistics.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "Solver/Storage/ScratchAccount.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/WriteMesh.h"

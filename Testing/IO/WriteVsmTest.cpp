@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/Output/SourceAhead.h"
-#include "Solver/Storage/Workers.h"
+#include "IO/External/Workers.h"
+#include "IO/Results/SourceAhead.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/MeshText.h"

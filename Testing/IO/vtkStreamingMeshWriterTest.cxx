@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"

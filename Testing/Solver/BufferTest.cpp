@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/Buffer.h"
+#include "Solver/Memory/Buffer.h"
 #include "smg/Error.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/Checkpoint.h"
-#include "Solver/Storage/FolderLock.h"
-#include "Solver/Storage/IoStatistics.h"
-#include "Solver/Storage/ScratchStream.h"
-#include "Solver/Storage/SystemCalls.h"
+#include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Core/SystemCalls.h"
+#include "Solver/Files/FolderLock.h"
+#include "Solver/Files/IoStatistics.h"
+#include "Solver/Files/ScratchStream.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Operators/Coarsening.h"
+#include "Solver/Multigrid/Engine/Coarsening.h"
 #include "Testing/Solver/CoarseningTesting.h"
 #include "Testing/Support/Combinations.h"
 

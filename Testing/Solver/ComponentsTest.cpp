@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/Components.h"
-#include "Solver/Problem/ComponentLabels.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Assembly/Components.h"
+#include "Solver/Assembly/ComponentLabels.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Cycle/CoreCycle.h"
+#include "Solver/Multigrid/Cycle/CoreCycle.h"
 #include "Testing/Solver/CycleTesting.h"
 #include "Testing/Support/Combinations.h"
 

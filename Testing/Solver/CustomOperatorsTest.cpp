@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Operators/Extended.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "smg/SolveWith.h"
 

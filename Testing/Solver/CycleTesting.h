@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Cycle/CoreCycle.h"
-#include "Solver/Cycle/RowBlockPacker.h"
+#include "Solver/Multigrid/Cycle/CoreCycle.h"
+#include "Solver/Multigrid/Cycle/RowBlockPacker.h"
 #include "Testing/Solver/PatchReference.h"
 #include "Testing/Support/AllIndices.h"
 

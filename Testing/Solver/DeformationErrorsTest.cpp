@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Testing/Solver/DeformationTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/NotNumbers.h"

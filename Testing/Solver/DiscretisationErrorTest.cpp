@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Results/DiscretisationError.h"
-#include "Solver/Engine/CheckOptions.h"
-#include "Solver/Results/ProblemResults.h"
+#include "Solver/Jobs/Results/DiscretisationError.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Testing/Solver/EllipticTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "smg/Error.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Distance/DistanceRun.h"
-#include "Solver/Distance/PathDistance.h"
+#include "Solver/Jobs/Distance/DistanceRun.h"
+#include "Solver/Jobs/Distance/PathDistance.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/SolveMesh.h"
 #include "smg/Distance.h"

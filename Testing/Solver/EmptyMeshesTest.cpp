@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deformation/InteractiveDeformation.h"
+#include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 #include "Testing/Solver/DeformationTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemoryMesh.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Cycle/WideIndex.h"
-#include "Solver/Hierarchy/CoarseEntry.h"
-#include "Solver/Hierarchy/CoarseningData.h"
-#include "Solver/Hierarchy/RowEntry.h"
+#include "Solver/Multigrid/Cycle/WideIndex.h"
+#include "Solver/Multigrid/Setup/CoarseEntry.h"
+#include "Solver/Multigrid/Setup/CoarseningData.h"
+#include "Solver/Multigrid/Setup/RowEntry.h"
 
 #include <gtest/gtest.h>
 

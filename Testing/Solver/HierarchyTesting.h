@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Cycle/GaussSeidel.h"
-#include "Solver/Hierarchy/ExtendedInterpolation.h"
-#include "Solver/Hierarchy/GalerkinProduct.h"
-#include "Solver/Hierarchy/Sparsification.h"
-#include "Solver/Operators/Coarsening.h"
+#include "Solver/Multigrid/Cycle/GaussSeidel.h"
+#include "Solver/Multigrid/Engine/Coarsening.h"
+#include "Solver/Multigrid/Setup/ExtendedInterpolation.h"
+#include "Solver/Multigrid/Setup/GalerkinProduct.h"
+#include "Solver/Multigrid/Setup/Sparsification.h"
 #include "Testing/Support/EdgeWeights.h"
 #include "Testing/Support/MemorySource.h"
 

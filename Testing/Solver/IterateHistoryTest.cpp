@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Engine/Chebyshev.h"
-#include "Solver/Engine/ConjugateResiduals.h"
+#include "Solver/Multigrid/Engine/Chebyshev.h"
+#include "Solver/Multigrid/Engine/ConjugateResiduals.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Cycle/RowBlockPacker.h"
-#include "Solver/Operators/Extended.h"
+#include "Solver/Multigrid/Cycle/RowBlockPacker.h"
+#include "Solver/Multigrid/Extended.h"
 #include "Testing/Solver/CoarseningTesting.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/AssembledRows.h"
-#include "Solver/Problem/CellAssembly.h"
-#include "Solver/Problem/RowAssembly.h"
-#include "Solver/Storage/MonotoneRing.h"
-#include "Solver/Storage/RaggedRing.h"
+#include "Solver/Assembly/AssembledRows.h"
+#include "Solver/Assembly/CellAssembly.h"
+#include "Solver/Assembly/RowAssembly.h"
+#include "Solver/Memory/MonotoneRing.h"
+#include "Solver/Memory/RaggedRing.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TestMeshes.h"
 

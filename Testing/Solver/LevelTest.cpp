@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Cycle/Level.h"
+#include "Solver/Multigrid/Cycle/Level.h"
 #include "Testing/Solver/CycleTesting.h"
 #include "Testing/Support/Combinations.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whatever a job keeps of a stream counts within its memory limit, whose error names the bytes.
-#include "Solver/Hierarchy/RowBatch.h"
+#include "Solver/Multigrid/Setup/RowBatch.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "smg/Blend.h"
 #include "smg/DescribedHandles.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Stream/MeshAhead.h"
+#include "Solver/Mesh/MeshAhead.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"

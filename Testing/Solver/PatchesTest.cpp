@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Hierarchy/Patches.h"
+#include "Solver/Multigrid/Setup/Patches.h"
 #include "Testing/Solver/CycleTesting.h"
 #include "Testing/Solver/PatchReference.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Cycle/Pipeline.h"
+#include "Solver/Multigrid/Cycle/Pipeline.h"
 
 #include <gtest/gtest.h>
 

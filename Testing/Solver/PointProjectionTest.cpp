@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Projection/PointProjection.h"
+#include "Solver/Jobs/Projection/PointProjection.h"
 
 #include "Testing/Solver/ProjectionTesting.h"
 #include "Testing/Support/ErrorMessage.h"

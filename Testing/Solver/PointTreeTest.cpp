@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Projection/PointTree.h"
+#include "Solver/Jobs/Projection/PointTree.h"
 
 #include "Testing/Support/TestMeshes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/Pool.h"
-#include "Solver/Storage/Buffer.h"
+#include "Solver/Memory/Pool.h"
+#include "Solver/Memory/Buffer.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "smg/Error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Results/ProblemResults.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
 #include "Testing/Solver/WaveProblem.h"
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/FlatCells.h"
-#include "Solver/Problem/RowShortfall.h"
+#include "Solver/Assembly/FlatCells.h"
+#include "Solver/Assembly/RowShortfall.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "smg/CellWeights.h"
 

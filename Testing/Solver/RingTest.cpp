@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/MonotoneRing.h"
-#include "Solver/Storage/RaggedRing.h"
+#include "Solver/Memory/MonotoneRing.h"
+#include "Solver/Memory/RaggedRing.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/Error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Projection/RingWindow.h"
+#include "Solver/Jobs/Projection/RingWindow.h"
 
 #include "Testing/Solver/ProjectionTesting.h"
 #include "Testing/Support/Combinations.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/ScratchAccount.h"
+#include "Solver/Files/ScratchAccount.h"
 
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Files/ScratchFolder.h"
 
-#include "Solver/Storage/SystemCalls.h"
+#include "Solver/Core/SystemCalls.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/ScratchStream.h"
+#include "Solver/Files/ScratchStream.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>

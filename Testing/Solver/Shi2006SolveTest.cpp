@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "Testing/Solver/MemoryLimits.h"
 #include "Testing/Solver/Shi2006Testing.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/SpareBuffers.h"
+#include "Solver/Memory/SpareBuffers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/StateReader.h"
-#include "Solver/Storage/StateWriter.h"
+#include "Solver/Files/StateReader.h"
+#include "Solver/Files/StateWriter.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Stream/StreamCheck.h"
+#include "Solver/Mesh/StreamCheck.h"
 
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ErrorMessage.h"

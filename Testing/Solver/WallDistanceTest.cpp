@@ -3,7 +3,7 @@
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/SolutionRanges.h"
 
-#include "Solver/Distance/TriangleTree.h"
+#include "Solver/Jobs/Distance/TriangleTree.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/SystemCalls.h"
+#include "Solver/Core/SystemCalls.h"
 #include "Testing/Support/ErrorMessage.h"
 
 #include <gtest/gtest.h>

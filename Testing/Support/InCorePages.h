@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Order/PageBuilder.h"
+#include "IO/Order/Pages/PageBuilder.h"
 #include "Testing/Support/InCoreOrder.h"
 
 #include <cstdint>

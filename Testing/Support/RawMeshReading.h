@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/AnyFormat/Importer.h"
-#include "IO/Raw/RawMesh.h"
+#include "IO/Formats/Importer.h"
+#include "IO/Import/RawMesh.h"
 #include "smg/Column.h"
 
 #include <gtest/gtest.h>

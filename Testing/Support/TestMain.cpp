@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Files/FileDescriptor.h"
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,11 @@
 #include "ReadPart.h"
 
 #include "IO/Files/Suffix.h"
-#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/Formats/Vtk/WriteVtkXml.h"
-#include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/WholeFile.h"
+#include "IO/Mesh/ReservedNames.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Files/WholeFile.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HtmlReport/ShownColumns.h"
 
-#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Mesh/AttributeNames.h"
 #include "smg/Preview.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "IO/Formats/Gmsh/GmshInput.h"
 #include "IO/Formats/Gmsh/GmshNodes.h"
 #include "IO/Formats/Gmsh/GmshTags.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 
 #include <array>
 #include <string>

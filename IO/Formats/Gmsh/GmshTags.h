@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/Formats/Gmsh/GmshInput.h"
-#include "IO/Formats/Shared/LabelColumn.h"
-#include "Solver/Storage/Reservation.h"
+#include "IO/Import/LabelColumn.h"
+#include "Solver/Memory/Reservation.h"
 
 #include <array>
 #include <cstdint>

@@ -3,9 +3,9 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Files/TextStart.h"
-#include "IO/Formats/Shared/LabelColumn.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/LabelColumn.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Format.h"
+#include "IO/Mesh/Format.h"
 
 namespace smg
 {

@@ -4,10 +4,10 @@
 #include "IO/Files/ParseNumber.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Files/TextStart.h"
-#include "IO/Formats/Shared/TextColors.h"
-#include "IO/Formats/Shared/TriangleRuns.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/TextColors.h"
+#include "IO/Import/TriangleRuns.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <algorithm>
 #include <array>

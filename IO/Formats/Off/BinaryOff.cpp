@@ -4,8 +4,8 @@
 #include "IO/Files/ByteOrder.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Off/OffAttributes.h"
-#include "IO/Formats/Shared/TextColors.h"
-#include "IO/Formats/Shared/TriangleRuns.h"
+#include "IO/Import/TextColors.h"
+#include "IO/Import/TriangleRuns.h"
 
 #include <array>
 #include <bit>

@@ -4,9 +4,9 @@
 #include "IO/Files/ParseNumber.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Off/OffHeader.h"
-#include "IO/Formats/Shared/ImportColumn.h"
-#include "IO/Formats/Shared/TextColors.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Import/ImportColumn.h"
+#include "IO/Import/TextColors.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <algorithm>
 #include <array>

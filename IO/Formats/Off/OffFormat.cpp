@@ -6,10 +6,10 @@
 #include "IO/Formats/Off/BinaryOff.h"
 #include "IO/Formats/Off/OffAttributes.h"
 #include "IO/Formats/Off/OffHeader.h"
-#include "IO/Formats/Shared/TextColors.h"
-#include "IO/Formats/Shared/TriangleRuns.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/TextColors.h"
+#include "IO/Import/TriangleRuns.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <string>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/PlacedColumns.h"
+#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Off/OffFormat.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Restore/PlacedColumns.h"
-#include "IO/Restore/RestoredMesh.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyHeader.h"
 #include "IO/Formats/Ply/PlyPlan.h"
-#include "IO/Formats/Shared/TriangleRuns.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/TriangleRuns.h"
 #include "smg/Error.h"
 
 #include <algorithm>

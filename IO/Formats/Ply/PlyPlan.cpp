@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Ply/PlyPlan.h"
 
-#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include "IO/Formats/Ply/PlyRecords.h"
 
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Mesh/AttributeNames.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyRecords.h"
-#include "IO/Restore/RestoredMesh.h"
 
 #include <array>
 #include <cstring>

@@ -2,10 +2,10 @@
 #include "IO/Formats/Ply/RewritePly.h"
 
 #include "IO/Files/SequentialOutput.h"
-#include "IO/Files/SinglePrecision.h"
 #include "IO/Formats/Ply/PlyCursor.h"
 #include "IO/Formats/Ply/PlyHeader.h"
 #include "IO/Formats/Ply/PlyRecords.h"
+#include "IO/Mesh/SinglePrecision.h"
 
 #include <algorithm>
 #include <cstddef>

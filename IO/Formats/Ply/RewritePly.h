@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Motion/MovedVertices.h"
+#include "IO/Results/MovedVertices.h"
 #include "Solver/Core/Progress.h"
 
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/PositionedFile.h"
 #include "IO/Formats/Ply/PlyRecords.h"
-#include "IO/Formats/Shared/OtherCounts.h"
+#include "IO/Import/OtherCounts.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/PlacedColumns.h"
+#include "IO/Export/RestoredMesh.h"
 #include "IO/External/RowSort.h"
 #include "IO/Files/ByteOrder.h"
 #include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Stl/StlFormat.h"
-#include "IO/Restore/PlacedColumns.h"
-#include "IO/Restore/RestoredMesh.h"
-#include "Solver/Problem/Vector.h"
+#include "Solver/Core/Vector.h"
 #include "smg/Error.h"
 
 #include <algorithm>

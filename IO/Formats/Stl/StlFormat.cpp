@@ -3,10 +3,10 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Files/TextStart.h"
-#include "IO/Formats/Shared/CornerWelder.h"
-#include "IO/Formats/Shared/TriangleRuns.h"
 #include "IO/Formats/Stl/StlLayout.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/CornerWelder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/TriangleRuns.h"
 #include "smg/Error.h"
 
 #include <bit>

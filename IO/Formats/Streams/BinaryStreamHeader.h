@@ -3,7 +3,7 @@
 
 #include "IO/Files/ByteOrder.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Files/FileDescriptor.h"
 
 #include <bit>
 #include <cstddef>

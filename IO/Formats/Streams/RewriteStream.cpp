@@ -2,9 +2,9 @@
 #include "IO/Formats/Streams/RewriteStream.h"
 
 #include "IO/Files/PartialProgress.h"
-#include "IO/Files/SinglePrecision.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
+#include "IO/Mesh/SinglePrecision.h"
 
 #include <algorithm>
 #include <limits>

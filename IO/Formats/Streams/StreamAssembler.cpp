@@ -2,7 +2,7 @@
 #include "IO/Formats/Streams/StreamAssembler.h"
 
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 
 #include <algorithm>

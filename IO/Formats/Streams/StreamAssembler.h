@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/PagedArray.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "smg/VsmReader.h"
 

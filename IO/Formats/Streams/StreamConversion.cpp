@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/StreamConversion.h"
 
-#include "IO/Files/SinglePrecision.h"
+#include "IO/Export/PlacedColumns.h"
+#include "IO/Export/RestoredMesh.h"
+#include "IO/External/PagedArray.h"
 #include "IO/Formats/Streams/StreamAssembler.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
-#include "IO/Formats/Vsm/PagedArray.h"
-#include "IO/Restore/PlacedColumns.h"
-#include "IO/Restore/RestoredMesh.h"
+#include "IO/Mesh/SinglePrecision.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/BlockFile.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/OriginalNumbers.h"
+#include "Solver/Mesh/OriginalNumbers.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

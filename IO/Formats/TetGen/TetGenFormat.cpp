@@ -4,8 +4,8 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/Suffix.h"
 #include "IO/Files/TextScanner.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/AttributeNames.h"
 #include "smg/Error.h"
 
 #include <algorithm>

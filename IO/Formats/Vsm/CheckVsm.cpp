@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/CheckVsm.h"
 
+#include "IO/External/BlockFile.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/BlockFile.h"
 
 #include <cstddef>
 #include <vector>

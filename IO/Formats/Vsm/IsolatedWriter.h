@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/BlockFile.h"
 #include "IO/Formats/Vsm/PositionBuffer.h"
 #include "IO/Formats/Vsm/RowBuffer.h"
-#include "Solver/Storage/BlockFile.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

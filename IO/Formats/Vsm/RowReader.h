@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/BlockFile.h"
+#include "IO/External/BlockFile.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/PagedArray.h"
+#include "IO/External/PagedArray.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/VsmBytes.h"
 
-#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/Vsm/VsmFile.h"
+#include "IO/Mesh/RowBytes.h"
 
 #include <cmath>
 #include <string_view>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/BlockFile.h"
 #include "IO/Formats/Vsm/RowReader.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "Solver/Storage/BlockFile.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

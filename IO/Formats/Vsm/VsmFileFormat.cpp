@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/VsmFileFormat.h"
 
+#include "IO/External/Workers.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "Solver/Storage/Workers.h"
 
 namespace smg
 {

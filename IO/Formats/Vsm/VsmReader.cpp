@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/VsmReader.h"
 
-#include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/Vsm/PieceReader.h"
 #include "IO/Formats/Vsm/PositionReader.h"
 #include "IO/Formats/Vsm/RowReader.h"
 #include "IO/Formats/Vsm/VertexReader.h"
 #include "IO/Formats/Vsm/VsmFile.h"
 #include "IO/Formats/Vsm/VsmSource.h"
+#include "IO/Mesh/Columns.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/VsmWriter.h"
 
+#include "IO/External/PagedArray.h"
 #include "IO/Formats/Vsm/IsolatedWriter.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
-#include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Formats/Vsm/PositionBuffer.h"
-#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vsm/RowBuffer.h"
 #include "IO/Formats/Vsm/StreamStatistics.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Mesh/ReservedNames.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>

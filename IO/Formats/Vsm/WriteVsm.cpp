@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/WriteVsm.h"
 
-#include "IO/Formats/Vsm/Columns.h"
+#include "IO/External/OrderedJobs.h"
+#include "IO/External/Workers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/OrderedJobs.h"
-#include "Solver/Storage/Workers.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/BlockFile.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/BlockFile.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 

@@ -3,7 +3,7 @@
 
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/VtkArray.h"
-#include "Solver/Storage/Buffer.h"
+#include "Solver/Memory/Buffer.h"
 
 #include <array>
 #include <bit>

@@ -6,7 +6,7 @@
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
 #include "IO/Formats/Vtk/VtkXmlRoot.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 #include "smg/Error.h"
 
 #include <filesystem>

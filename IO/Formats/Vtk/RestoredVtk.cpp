@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/ByteOrder.h"
 #include "IO/Files/PositionedFile.h"
-#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
-#include "IO/Restore/RestoredMesh.h"
+#include "IO/Mesh/RowBytes.h"
 #include "smg/Error.h"
 
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/RowBytes.h"
+#include "IO/Export/RestoredMesh.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
-#include "IO/Restore/RestoredMesh.h"
+#include "IO/Mesh/RowBytes.h"
 
 namespace smg
 {

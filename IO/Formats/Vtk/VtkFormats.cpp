@@ -7,7 +7,7 @@
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
 #include "IO/Formats/Vtk/WriteVtkXml.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 
 #include <algorithm>
 

@@ -2,15 +2,15 @@
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 
 #include "IO/Files/InQuotes.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
-#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/Formats/Vtk/VtkCellReader.h"
 #include "IO/Formats/Vtk/VtkFiles.h"
 #include "IO/Formats/Vtk/VtkPointMerger.h"
 #include "IO/Formats/Vtk/VtkTuples.h"
-#include "Solver/Storage/Reservation.h"
+#include "IO/Mesh/AttributeNames.h"
+#include "IO/Mesh/ReservedNames.h"
+#include "Solver/Memory/Reservation.h"
 
 #include <algorithm>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Export.h"
 

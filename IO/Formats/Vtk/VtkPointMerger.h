@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Vtk/VtkFiles.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 
 #include <cstdint>
 #include <optional>

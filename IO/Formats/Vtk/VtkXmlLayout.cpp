@@ -2,10 +2,10 @@
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
 
 #include "IO/Files/InQuotes.h"
-#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vtk/VtkXmlArray.h"
 #include "IO/Formats/Vtk/VtkXmlRoot.h"
 #include "IO/Formats/Vtk/XmlTags.h"
+#include "IO/Mesh/ReservedNames.h"
 
 #include <algorithm>
 #include <optional>

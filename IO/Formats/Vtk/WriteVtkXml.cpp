@@ -2,8 +2,8 @@
 #include "IO/Formats/Vtk/WriteVtkXml.h"
 
 #include "IO/Files/Suffix.h"
-#include "IO/Formats/Shared/OtherCounts.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
+#include "IO/Import/OtherCounts.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 

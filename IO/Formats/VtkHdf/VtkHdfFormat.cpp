@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 
-#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
+#include "IO/Mesh/RowBytes.h"
 #include "smg/Error.h"
 
 #include <dlfcn.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Engine/CheckOptions.h"
-#include "Solver/Engine/PoissonSolver.h"
-#include "Solver/Operators/Extended.h"
-#include "Solver/Operators/OperatorSet.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/PoissonSolver.h"
+#include "Solver/Multigrid/Extended.h"
+#include "Solver/Multigrid/OperatorSet.h"
 #include "smg/Solve.h"
 
 #include <memory>
@@ -19,7 +19,7 @@ namespace smg
  * headers, whose names may change with any version, and the compiler flags by which the same bits
  * are computed on every machine.
  *
- * @tparam Operators a type that satisfies the concept OperatorSet (Solver/Operators/OperatorSet.h);
+ * @tparam Operators a type that satisfies the concept OperatorSet (Solver/Multigrid/OperatorSet.h);
  * the multigrid is compiled for it
  * @param mesh the stream, read once
  * @param problem the problem

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Tasks/SolveSummary.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
 
 #include "smg/Error.h"

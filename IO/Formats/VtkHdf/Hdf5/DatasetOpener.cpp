@@ -4,7 +4,7 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/ByteSource.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
-#include "Solver/Storage/Reservation.h"
+#include "Solver/Memory/Reservation.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Files/FileDescriptor.h"
 #include "smg/Column.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/RawMeshBuilder.h"
 #include "smg/Error.h"
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/MeshPart.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Mesh/MeshPart.h"
 
 #include <cstdint>
 #include <memory>

@@ -2,9 +2,9 @@
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
 #include "IO/Files/InQuotes.h"
-#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
+#include "IO/Mesh/ReservedNames.h"
 #include "Solver/Core/Progress.h"
 #include "smg/VsmReader.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Format.h"
 #include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
+#include "IO/Mesh/Format.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Pieces/vtkReplacedArray.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Rounds values to the type of an array. */
+class Rounding
+{
+public:
+  explicit Rounding(vtkDataArray& array)
+    : IsReal(array.GetDataType() == VTK_FLOAT || array.GetDataType() == VTK_DOUBLE)
+    , Least(array.GetDataTypeMin())
+    , Most(array.GetDataTypeMax())
+  {
+    // The largest number of a 64-bit type is not a double, and the next one above it not of the
+    // type.
+    this->Most = this->Most >= 0x1p63 ? std::nextafter(this->Most, 0.0) : this->Most;
+  }
+
+  double operator()(double value) const
+  {
+    return this->IsReal ? value : std::clamp(std::nearbyint(value), this->Least, this->Most);
+  }
+
+private:
+  bool IsReal;
+  double Least, Most;
+};
+
+} // namespace
+
+std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
+  const std::vector<double>& values, std::size_t first, std::size_t stride)
+{
+  vtkDataArray* before = mesh.GetPointData()->GetArray(name.c_str());
+  if (!before)
+  {
+    return 0;
+  }
+  const auto after = vtkSmartPointer<vtkDataArray>::Take(before->NewInstance());
+  after->SetName(before->GetName());
+  after->SetNumberOfComponents(before->GetNumberOfComponents());
+  after->SetNumberOfTuples(before->GetNumberOfTuples());
+  after->CopyComponentNames(before);
+  const Rounding rounded(*before);
+  for (vtkIdType i = 0; i < after->GetNumberOfTuples(); ++i)
+  {
+    for (int k = 0; k < after->GetNumberOfComponents(); ++k)
+    {
+      const std::size_t place = static_cast<std::size_t>(i) * stride + first;
+      const double value = values[place + static_cast<std::size_t>(k)];
+      // Points of no cell keep what they have.
+      after->SetComponent(i, k, std::isnan(value) ? before->GetComponent(i, k) : rounded(value));
+    }
+  }
+  mesh.GetPointData()->AddArray(after);
+  return static_cast<std::size_t>(after->GetNumberOfComponents());
+}
+
+} // namespace smg

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Tasks/vtkPoissonTask.h"
+
+#include "Filters/Tasks/vtkPieceResults.h"
+#include "IO/Files/PartialProgress.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Problem/ComposeDescriptions.h"
+#include "Solver/Problem/DescriptionText.h"
+#include "smg/DescribedProblem.h"
+#include "smg/Error.h"
+#include "smg/SolvedMesh.h"
+
+#include <algorithm>
+
+namespace smg
+{
+namespace
+{
+
+/** The share of the solve in the progress; the evaluation of the solution takes the rest. */
+constexpr double SolveShare = 0.9;
+
+} // namespace
+
+void PoissonTask::check() const
+{
+  if (!isPosed(this->problem))
+  {
+    throw Error(
+      "Nothing says what to solve: choose a Dirichlet mask with values or a source, put a "
+      "Mesh Condition before this filter, or name a problem file.");
+  }
+  checkCellResults(this->problem);
+  checkOptions(this->options);
+  checkAutomaticTolerance(this->options, this->problem.weights);
+  checkOperators(this->options);
+}
+
+PieceColumns PoissonTask::columns() const
+{
+  // The original ids are for error messages and for vertices that the problem refers to.
+  return { .all = false,
+    .required = namedColumns(this->problem),
+    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
+}
+
+int PoissonTask::columnsOn(const StreamInfo& info) const
+{
+  int columns = this->problem.columns;
+  for (const std::string& name : this->values)
+  {
+    for (const auto* specs : { &info.vertexColumns, &info.cellColumns })
+    {
+      const auto found = std::ranges::find(*specs, name, &ColumnSpec::name);
+      columns = found == specs->end() ? columns : std::max(columns, found->components);
+    }
+  }
+  return columns;
+}
+
+ProblemDescription PoissonTask::description(const StreamInfo& info) const
+{
+  ProblemDescription description = this->problem;
+  description.columns = this->columnsOn(info);
+  return description;
+}
+
+Costs PoissonTask::costs(const StreamInfo& info) const
+{
+  return solveCosts(info, this->columnsOn(info), this->problem.weights, this->options);
+}
+
+AddedValues PoissonTask::added(const StreamInfo& info) const
+{
+  return solvedValues(
+    this->columnsOn(info), this->problem.gradientOutput, this->problem.fluxOutput);
+}
+
+std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
+{
+  const ProblemDescription description = this->description(mesh.info());
+  DescribedProblem problem(description, mesh.info());
+  const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
+  problem.prepare(*source(), scratch, this->options.memoryLimit);
+  SolveOptions options = this->options;
+  options.scratch = scratch;
+  options.progress = partOf(progress, 0.0, SolveShare);
+  options.again = source;
+  options.checkpoint.mesh = mesh.fingerprint();
+  options.checkpoint.problem = textOf(description);
+  std::unique_ptr<Solution> solution = smg::solve(*source(), problem, options);
+
+  report = solution->report();
+  const auto goOn = partOf(progress, SolveShare, 1.0);
+  SolvedMesh solved(
+    mesh, problem, *solution, { .memoryLimit = options.memoryLimit, .threads = options.threads });
+  MeshBlock block;
+  for (std::int64_t done = 0; solved.next(block); done += block.vertices())
+  {
+    if (!goOn(static_cast<double>(done) / static_cast<double>(mesh.info().vertices)))
+    {
+      throw Cancelled();
+    }
+  }
+  solved.finish(report);
+  report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
+  return solution;
+}
+
+} // namespace smg

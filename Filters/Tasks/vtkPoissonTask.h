@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Tasks/vtkStreamedTask.h"
+#include "smg/ProblemDescription.h"
+
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** A problem whose columns are arrays of the pieces. */
+class PoissonTask : public StreamedTask
+{
+public:
+  ProblemDescription problem;
+  /**
+   * Arrays whose number of components is the number of right-hand sides if the problem has fewer.
+   */
+  std::vector<std::string> values;
+  SolveOptions options;           ///< except for the progress function
+  std::vector<std::string> notes; ///< for the report
+
+  /** The problem on a mesh with these columns. */
+  ProblemDescription description(const StreamInfo& info) const;
+
+  void check() const override;
+  PieceColumns columns() const override;
+  Costs costs(const StreamInfo& info) const override;
+  AddedValues added(const StreamInfo& info) const override;
+  std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
+    const ProgressFunction& progress, Report& report) const override;
+
+private:
+  int columnsOn(const StreamInfo& info) const;
+};
+
+} // namespace smg

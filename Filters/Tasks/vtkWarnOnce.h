@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Tasks/SolveSummary.h"
+
+#include "vtkObject.h"
+
+#include <string>
+
+namespace smg
+{
+
+/** Issues a warning of an object, but not repeatedly while its cause persists. */
+class WarnOnce
+{
+public:
+  explicit WarnOnce(vtkObject& object)
+    : Object(object)
+  {
+  }
+
+  /** Warns, unless this was the last warning. */
+  void warn(const std::string& sentence)
+  {
+    if (this->Last != sentence)
+    {
+      vtkWarningWithObjectMacro(&this->Object, << sentence);
+      this->Last = sentence;
+    }
+  }
+
+  /** Allows the last warning to be issued again. */
+  void forget() { this->Last.clear(); }
+
+private:
+  vtkObject& Object;
+  std::string Last;
+};
+
+/** Warns of a solve that has not converged but `mustConverge`, and of what else a user must not
+ * miss. */
+inline void warnOf(vtkObject& object, const SolveSummary& summary, bool mustConverge)
+{
+  for (const std::string& warning : summary.warnings)
+  {
+    vtkWarningWithObjectMacro(&object, << warning << '.');
+  }
+  if (summary.error.empty() && !summary.converged && mustConverge)
+  {
+    vtkWarningWithObjectMacro(&object, << "The solve did not converge: after " << summary.cycles
+                                       << " cycles the relative residual is " << summary.residual
+                                       << "; raise MaximumCycles or Tolerance.");
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Description/JsonNode.h"
+
+#include "IO/Description/JsonComplaint.h"
+#include "IO/Files/InQuotes.h"
+#include "Solver/Core/OneLine.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace smg
+{
+
+void JsonNode::requireObject(std::span<const char* const> keys) const
+{
+  if (!this->Value->is_object())
+  {
+    this->fail("must be an object");
+  }
+  for (const auto& item : this->Value->items())
+  {
+    const bool known =
+      std::any_of(keys.begin(), keys.end(), [&item](const char* key) { return item.key() == key; });
+    if (!known)
+    {
+      std::string names;
+      for (const char* key : keys)
+      {
+        names += names.empty() ? key : std::string(", ") + key;
+      }
+      this->child(item.value(), item.key()).fail("is not known here; the keys are " + names);
+    }
+  }
+}
+
+JsonNode JsonNode::member(const char* key) const
+{
+  const auto found = this->Value->find(key);
+  if (found == this->Value->end())
+  {
+    this->fail(std::string("has no '") + key + '\'');
+  }
+  return this->child(*found, key);
+}
+
+std::vector<JsonNode> JsonNode::elements() const
+{
+  this->requireArray();
+  std::vector<JsonNode> nodes;
+  for (std::size_t i = 0; i < this->Value->size(); ++i)
+  {
+    nodes.push_back(this->element(i));
+  }
+  return nodes;
+}
+
+std::string JsonNode::string() const
+{
+  if (!this->Value->is_string())
+  {
+    this->fail("must be a string");
+  }
+  return this->Value->get<std::string>();
+}
+
+std::string JsonNode::columnName() const
+{
+  const std::string name = this->string();
+  if (name.empty())
+  {
+    this->fail("must be the name of a column");
+  }
+  return name;
+}
+
+double JsonNode::number() const
+{
+  if (!this->Value->is_number() || !std::isfinite(this->Value->get<double>()))
+  {
+    this->fail("must be a finite number");
+  }
+  return this->Value->get<double>();
+}
+
+namespace
+{
+
+bool isIntegerIn(const nlohmann::json& value, std::int64_t least, std::int64_t most)
+{
+  const bool fits = value.is_number_unsigned()
+                      ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(most)
+                      : value.is_number_integer();
+  return fits && value.get<std::int64_t>() >= least && value.get<std::int64_t>() <= most;
+}
+
+} // namespace
+
+std::int64_t JsonNode::integer(std::int64_t least, std::int64_t most) const
+{
+  if (!isIntegerIn(*this->Value, least, most))
+  {
+    this->fail("must be an integer from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+  return this->Value->get<std::int64_t>();
+}
+
+std::vector<std::int64_t> JsonNode::integers(std::int64_t least, std::int64_t most) const
+{
+  this->requireArray();
+  std::vector<std::int64_t> integers;
+  integers.reserve(this->Value->size());
+  for (const nlohmann::json& value : *this->Value)
+  {
+    // Creating a node, with its place, would cost more than parsing the number.
+    integers.push_back(isIntegerIn(value, least, most)
+                         ? value.get<std::int64_t>()
+                         : this->element(integers.size()).integer(least, most));
+  }
+  return integers;
+}
+
+std::vector<double> JsonNode::numbers(std::size_t count) const
+{
+  if (!this->Value->is_array() || this->Value->size() != count)
+  {
+    this->fail(
+      "must be an array of " + std::to_string(count) + (count == 1 ? " number" : " numbers"));
+  }
+  std::vector<double> numbers;
+  for (const JsonNode& node : this->elements())
+  {
+    numbers.push_back(node.number());
+  }
+  return numbers;
+}
+
+void JsonNode::fail(const std::string& sentence) const
+{
+  throw Error(
+    oneLine(this->File + ": " + (this->Place.empty() ? "" : this->Place + ": ") + sentence + '.'));
+}
+
+void JsonNode::requireArray() const
+{
+  if (!this->Value->is_array())
+  {
+    this->fail("must be an array");
+  }
+}
+
+JsonNode JsonNode::element(std::size_t i) const
+{
+  return this->child((*this->Value)[i], '[' + std::to_string(i) + ']');
+}
+
+JsonNode JsonNode::child(const nlohmann::json& value, const std::string& step) const
+{
+  JsonNode node(value, this->File);
+  const bool dot = !this->Place.empty() && step[0] != '[';
+  node.Place = this->Place + (dot ? "." : "") + step;
+  return node;
+}
+
+namespace
+{
+
+/**
+ * A parser callback that rejects duplicate keys, of which the parser would silently use the last.
+ */
+class UniqueKeys
+{
+public:
+  explicit UniqueKeys(std::string file)
+    : File(std::move(file))
+  {
+  }
+
+  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed)
+  {
+    if (event == nlohmann::json::parse_event_t::object_start)
+    {
+      this->Objects.emplace_back();
+    }
+    else if (event == nlohmann::json::parse_event_t::object_end)
+    {
+      this->Objects.pop_back();
+    }
+    else if (event == nlohmann::json::parse_event_t::key &&
+             !this->Objects.back().insert(parsed.get<std::string>()).second)
+    {
+      throw Error(this->File + ": the key " + inQuotes(parsed.get<std::string>()) +
+                  " occurs twice in the same object: remove one.");
+    }
+    return true;
+  }
+
+private:
+  std::string File;
+  std::vector<std::set<std::string>> Objects; ///< the keys of the open objects
+};
+
+} // namespace
+
+std::string jsonFileText(const std::string& path)
+{
+  std::error_code absent;
+  if (std::filesystem::is_directory(path, absent))
+  {
+    throw Error(path + ": this is a folder: name a JSON file.");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+  {
+    throw Error(path + ": cannot be opened: " + std::strerror(errno) + '.');
+  }
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (stream.bad() || text.empty())
+  {
+    throw Error(path + (text.empty() ? ": the file is empty or cannot be read."
+                                     : ": the file cannot be read."));
+  }
+  return text;
+}
+
+nlohmann::json readJsonFile(const std::string& path)
+{
+  return readJsonText(jsonFileText(path), path);
+}
+
+nlohmann::json readJsonText(const std::string& text, const std::string& name)
+{
+  try
+  {
+    return nlohmann::json::parse(text, UniqueKeys(name));
+  }
+  catch (const nlohmann::json::exception&)
+  {
+    throw Error(name + ", " + jsonComplaint(text) + '.');
+  }
+}
+
+} // namespace smg

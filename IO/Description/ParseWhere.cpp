@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Description/ParseWhere.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+std::array<double, 3> pointOf(const JsonNode& node)
+{
+  const std::vector<double> n = node.numbers(3);
+  return { n[0], n[1], n[2] };
+}
+
+Region halfSpaceOf(const JsonNode& node)
+{
+  const std::vector<double> n = node.numbers(4);
+  return Region::HalfSpace{ { n[0], n[1], n[2] }, n[3] };
+}
+
+Region boxOf(const JsonNode& node)
+{
+  const std::vector<double> n = node.numbers(6);
+  return Region::Box{ { n[0], n[1], n[2] }, { n[3], n[4], n[5] } };
+}
+
+Region sphereOf(const JsonNode& node)
+{
+  const std::vector<double> n = node.numbers(4);
+  return Region::Sphere{ { n[0], n[1], n[2] }, n[3] };
+}
+
+Region verticesOf(const JsonNode& node)
+{
+  return Region::Vertices{ node.integers(0, std::numeric_limits<std::int64_t>::max()) };
+}
+
+/** The member of WhereKeys that the object has; null for none, if that is allowed. */
+const char* keyOf(const JsonNode& object, bool none)
+{
+  const auto given = [&object](const char* key) { return object.has(key); };
+  const auto count = std::ranges::count_if(WhereKeys, given);
+  if (count > 1 || (count == 0 && !none))
+  {
+    std::string list;
+    for (std::size_t k = 0; k < WhereKeys.size(); ++k)
+    {
+      list += k == 0 ? "" : k + 1 == WhereKeys.size() ? " and " : ", ";
+      list += WhereKeys[k];
+    }
+    object.fail((none ? "must have at most one of " : "must have exactly one of ") + list);
+  }
+  return count == 0 ? nullptr : *std::ranges::find_if(WhereKeys, given);
+}
+
+Region regionOf(const JsonNode& object, std::string_view key)
+{
+  const JsonNode node = object.member(key.data());
+  Region region = key == "halfspace" ? halfSpaceOf(node)
+                  : key == "box"     ? boxOf(node)
+                  : key == "sphere"  ? sphereOf(node)
+                                     : verticesOf(node);
+  if (const std::string complaint = region.complaint(); !complaint.empty())
+  {
+    node.fail(complaint);
+  }
+  return region;
+}
+
+ColumnTag tagOf(const JsonNode& node)
+{
+  const std::vector<JsonNode> parts = node.elements();
+  if (parts.size() != 2)
+  {
+    node.fail("must be [\"name of a column\", value]");
+  }
+  return { parts[0].columnName(), parts[1].number() };
+}
+
+NearestVertices nearestOf(const JsonNode& node)
+{
+  NearestVertices nearest;
+  for (const JsonNode& point : node.elements())
+  {
+    nearest.points.push_back(pointOf(point));
+  }
+  if (nearest.points.empty())
+  {
+    node.fail("must have at least one point [x, y, z]");
+  }
+  return nearest;
+}
+
+} // namespace
+
+Where parseWhere(const JsonNode& object, bool everywhere)
+{
+  const char* given = keyOf(object, everywhere);
+  if (!given)
+  {
+    return Everywhere{};
+  }
+  const std::string_view key = given;
+  const JsonNode node = object.member(given);
+  if (key == "tag")
+  {
+    return tagOf(node);
+  }
+  if (key == "mask")
+  {
+    return ColumnMask{ node.columnName() };
+  }
+  if (key == "nearest")
+  {
+    return nearestOf(node);
+  }
+  if (key == "boundary")
+  {
+    if (!node.isTrue())
+    {
+      node.fail("can only be true: leave it out for another place");
+    }
+    return OnBoundary{};
+  }
+  return regionOf(object, key);
+}
+
+void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> keys)
+{
+  std::vector<const char*> all(WhereKeys.begin(), WhereKeys.end());
+  all.insert(all.end(), keys);
+  object.requireObject(all);
+}
+
+} // namespace smg

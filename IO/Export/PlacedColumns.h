@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Export/RestoredChunks.h"
+#include "IO/Files/InQuotes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace smg
+{
+
+/** Columns of a restored mesh that a text format can hold, and the others. */
+class PlacedColumns
+{
+public:
+  explicit PlacedColumns(const RestoredInfo& info)
+    : OfVertices(info.vertexColumns)
+    , OfElements(info.elementColumns)
+  {
+  }
+  /** Of a mesh that is to be restored. */
+  explicit PlacedColumns(const StreamInfo& mesh)
+    : OfVertices(mesh.vertexColumns)
+    , OfElements(mesh.cellColumns)
+  {
+  }
+
+  // The index of the column with this name and number of components; -1 if there is none.
+  std::ptrdiff_t ofVertices(std::string_view name, int least, int most)
+  {
+    return this->OfVertices.place(name, least, most, false);
+  }
+  std::ptrdiff_t ofElements(std::string_view name, int least, int most)
+  {
+    return this->OfElements.place(name, least, most, false);
+  }
+  // The index of the first of these columns with one integer per tuple, since the names of labels
+  // differ between formats.
+  std::ptrdiff_t integerOfVertices(std::initializer_list<std::string_view> names)
+  {
+    return this->OfVertices.firstInteger(names);
+  }
+  std::ptrdiff_t integerOfElements(std::initializer_list<std::string_view> names)
+  {
+    return this->OfElements.firstInteger(names);
+  }
+
+  /** A note for the user on the columns that were not requested. */
+  std::vector<std::string> leftOut(std::string_view suffix) const
+  {
+    const std::string names =
+      this->OfVertices.others("vertex", this->OfElements.others("cell", {}));
+    if (names.empty())
+    {
+      return {};
+    }
+    return { "These columns are left out, since " + std::string(suffix) +
+             " files have no place for them: " + names + '.' };
+  }
+
+private:
+  struct Places
+  {
+    explicit Places(const std::vector<ColumnSpec>& columns)
+      : Specs(columns)
+      , Taken(columns.size(), false)
+    {
+    }
+
+    std::ptrdiff_t place(std::string_view name, int least, int most, bool integer)
+    {
+      const auto found = std::ranges::find_if(this->Specs,
+        [&](const ColumnSpec& spec)
+        {
+          const bool isReal = spec.type == ScalarType::Float32 || spec.type == ScalarType::Float64;
+          return spec.name == name && spec.components >= least && spec.components <= most &&
+                 !(integer && isReal);
+        });
+      if (found == this->Specs.end())
+      {
+        return -1;
+      }
+      const std::ptrdiff_t place = found - this->Specs.begin();
+      this->Taken[static_cast<std::size_t>(place)] = true;
+      return place;
+    }
+
+    std::ptrdiff_t firstInteger(std::initializer_list<std::string_view> names)
+    {
+      std::ptrdiff_t found = -1;
+      for (const std::string_view* name = names.begin(); name != names.end() && found < 0; ++name)
+      {
+        found = this->place(*name, 1, 1, true);
+      }
+      return found;
+    }
+
+    /** The names of the others, before the given ones. */
+    std::string others(const std::string& owner, std::string names) const
+    {
+      for (std::size_t i = this->Specs.size(); i-- > 0;)
+      {
+        if (!this->Taken[i])
+        {
+          names = owner + ' ' + inQuotes(this->Specs[i].name) + (names.empty() ? "" : ", ") + names;
+        }
+      }
+      return names;
+    }
+
+    std::vector<ColumnSpec> Specs;
+    std::vector<bool> Taken;
+  };
+
+  Places OfVertices, OfElements;
+};
+
+} // namespace smg

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/RestoredMesh.h"
+
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+namespace smg
+{
+
+namespace
+{
+
+const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
+
+/** The names of the columns, and then `last`. */
+std::vector<std::string> namesWith(const std::vector<ColumnSpec>& specs, const std::string& last)
+{
+  std::vector<std::string> names;
+  for (const ColumnSpec& spec : specs)
+  {
+    names.push_back(spec.name);
+  }
+  names.push_back(last);
+  return names;
+}
+
+/** Shares of the work. */
+constexpr double VerticesShare = RestoredMesh::SortedShare * 0.4;
+constexpr double CellsShare = RestoredMesh::SortedShare * 0.8;
+
+} // namespace
+
+std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
+{
+  std::vector<ColumnSpec> own;
+  std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
+    [](const ColumnSpec& spec)
+    { return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName; });
+  return own;
+}
+
+RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace)
+  : Space(workspace)
+  , Name(vsm.string())
+{
+  VsmReader reader(vsm, &workspace.traffic());
+  this->readInfo(reader);
+  // The table of the numbers is released before the cells are merged.
+  const std::int64_t memory = workspace.available();
+  this->Vertices = std::make_unique<VertexRestorer>(workspace, memory / 4, this->Info, this->Name);
+  this->Elements = std::make_unique<ElementRestorer>(workspace, memory / 3, this->Info);
+  {
+    Relabelling ids(workspace, reader.info().vertices, memory / 4);
+    RecordFile<std::uint32_t> corners(workspace);
+    this->readVertices(reader, ids, corners);
+    this->readIsolated(reader);
+    this->Vertices->sort();
+    this->readCells(reader, ids, corners);
+  }
+  workspace.tell(CellsShare);
+  this->Elements->restore(this->Info);
+  const std::vector<std::string> notes = this->Elements->notes();
+  this->Notes.insert(this->Notes.end(), notes.begin(), notes.end());
+  workspace.tell(SortedShare);
+}
+
+void RestoredMesh::readInfo(const VsmReader& reader)
+{
+  const StreamInfo& stream = reader.info();
+  if (findColumn(stream.vertexColumns, VertexNumbers) < 0)
+  {
+    throw Error(this->Name +
+                ": has no column OriginalId of one int64 a vertex, without which the original "
+                "order is not known: convert the original file, and keep that column.");
+  }
+  this->Info.cellType = stream.cellType;
+  this->Info.doublePositions = stream.doublePositions;
+  this->Info.isolated = reader.isolatedVertices();
+  this->Info.vertices = stream.vertices + this->Info.isolated;
+  this->Info.cells = stream.cells;
+  this->Info.vertexColumns = ownColumns(stream.vertexColumns);
+  this->Info.elementColumns = ownColumns(stream.cellColumns);
+  if (this->Info.vertices >= std::int64_t(NoIndex))
+  {
+    throw Error(this->Name + ": has " + std::to_string(this->Info.vertices) +
+                " vertices; the original order can be restored of at most 4294967294.");
+  }
+  this->KnowsCells = findColumn(stream.cellColumns, OriginalCellIdSpec) >= 0;
+  if (!this->KnowsCells)
+  {
+    this->Notes.push_back("The cells are in the order of the mesh stream, since it has no column "
+                          "OriginalCellId.");
+  }
+}
+
+void RestoredMesh::readVertices(
+  VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners)
+{
+  const auto source = reader.source(namesWith(this->Info.vertexColumns, OriginalIdName), {});
+  std::vector<std::uint32_t> numbers;
+  for (MeshBlock block; source->next(block);)
+  {
+    const std::span<const std::int64_t> originals =
+      std::as_const(block.vertexColumns.back()).as<std::int64_t>();
+    this->Vertices->put(originals, block.positions, block.vertexColumns);
+    for (std::size_t i = 0; i < originals.size(); ++i)
+    {
+      ids.put(static_cast<std::uint32_t>(block.firstVertex + static_cast<std::int64_t>(i)),
+        static_cast<std::uint32_t>(originals[i]));
+    }
+    numbers.assign(block.corners.begin(), block.corners.end());
+    corners.put(std::span<const std::uint32_t>(numbers));
+    this->Space.tell(
+      VerticesShare * static_cast<double>(block.firstCell) / static_cast<double>(this->Info.cells));
+  }
+  corners.close();
+}
+
+void RestoredMesh::readIsolated(VsmReader& reader)
+{
+  // The columns of the info come first, as for the other vertices.
+  std::vector<std::ptrdiff_t> places;
+  for (const ColumnSpec& spec : this->Info.vertexColumns)
+  {
+    places.push_back(findColumn(reader.info().vertexColumns, spec));
+  }
+  IsolatedVertices chunk;
+  for (std::int64_t first = 0; first < this->Info.isolated; first += VsmFormat::BlockRows)
+  {
+    reader.readIsolated(first, std::min(VsmFormat::BlockRows, this->Info.isolated - first), chunk);
+    std::vector<Column> columns;
+    for (const std::ptrdiff_t place : places)
+    {
+      columns.push_back(std::move(chunk.columns[static_cast<std::size_t>(place)]));
+    }
+    this->Vertices->put(chunk.ids, chunk.positions, columns);
+  }
+}
+
+void RestoredMesh::readCells(
+  VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners)
+{
+  std::vector<std::string> names = namesWith(this->Info.elementColumns, OriginalCellIdName);
+  if (!this->KnowsCells)
+  {
+    names.pop_back();
+  }
+  const auto source = reader.source({}, names);
+  const auto cornersOfCell = static_cast<std::size_t>(cornersOf(this->Info.cellType));
+  MeshBlock block;
+  std::size_t cell = 0; // of the block
+  std::size_t cells = 0;
+  ids.apply(corners, cornersOfCell,
+    [&](std::span<const std::uint32_t> numbers)
+    {
+      while (cell == cells && source->next(block))
+      {
+        cell = 0;
+        cells = block.corners.size() / cornersOfCell;
+        this->Space.tell(VerticesShare + (CellsShare - VerticesShare) *
+                                           static_cast<double>(block.firstCell) /
+                                           static_cast<double>(this->Info.cells));
+      }
+      std::int64_t number = block.firstCell + static_cast<std::int64_t>(cell);
+      if (this->KnowsCells)
+      {
+        number = block.cellColumns[this->Info.elementColumns.size()].as<std::int64_t>()[cell];
+      }
+      if (number < 0)
+      {
+        throw Error(this->Name + ": cell " +
+                    std::to_string(block.firstCell + static_cast<std::int64_t>(cell)) +
+                    " has the OriginalCellId " + std::to_string(number) +
+                    ", but the original numbers are not negative: convert the original file anew.");
+      }
+      this->Elements->put(number, numbers, block.cellColumns, cell++);
+    });
+}
+
+/** Reports the progress after this many more vertices or elements. */
+void RestoredMesh::deliver(std::int64_t count)
+{
+  this->Delivered += count;
+  this->Space.tell(SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
+                                   static_cast<double>(this->Info.vertices + this->Info.elements));
+}
+
+bool RestoredMesh::next(RestoredVertices& vertices)
+{
+  const bool more = this->Vertices->next(vertices);
+  this->deliver(vertices.count());
+  return more;
+}
+
+bool RestoredMesh::next(RestoredElements& elements)
+{
+  const bool more = this->Elements->next(elements);
+  this->deliver(elements.count());
+  return more;
+}
+
+} // namespace smg

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Export/ElementRestorer.h"
+#include "IO/Export/RestoredChunks.h"
+#include "IO/Export/VertexRestorer.h"
+#include "IO/External/Relabelling.h"
+#include "IO/External/Workspace.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+class VsmReader;
+
+/** The columns that were not added by a conversion. */
+std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs);
+
+/**
+ * A .vsm file in the order of its original file: its vertices by the vertex column `OriginalId`,
+ * including isolated ones, and its cells by the cell column `OriginalCellId`, polygons as polygons.
+ * Works out of core, in the memory of the workspace.
+ *
+ * The columns added by a conversion (`OriginalId`, `OriginalCellId`, `CellFlags`) are omitted.
+ */
+class RestoredMesh
+{
+public:
+  /**
+   * Reads the stream and sorts it. Reports the workspace's progress up to SortedShare.
+   * @throws Error if the file has no OriginalId, its vertices are not all of the original ones, or
+   * it cannot be read; Cancelled.
+   */
+  RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace);
+  RestoredMesh(const RestoredMesh&) = delete;
+  RestoredMesh& operator=(const RestoredMesh&) = delete;
+
+  const RestoredInfo& info() const { return this->Info; }
+  /** The workspace of the sort, for further operations. */
+  Workspace& workspace() const { return this->Space; }
+  /** Notes for the user on the restored mesh, a sentence each. */
+  const std::vector<std::string>& notes() const { return this->Notes; }
+
+  /** The next vertices, from 0; returns false at the end. They can be read once. Throws Error;
+   * Cancelled. */
+  bool next(RestoredVertices& vertices);
+  /** The next elements, from 0; returns false at the end. Throws Error; Cancelled. */
+  bool next(RestoredElements& elements);
+  /** Goes back to the first element. */
+  void rewindElements() { this->Elements->rewind(); }
+
+  /** The share of the work, 0 to 1, before the mesh can be read. */
+  static constexpr double SortedShare = 0.6;
+
+private:
+  void readInfo(const VsmReader& reader);
+  void readVertices(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
+  void readIsolated(VsmReader& reader);
+  void readCells(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
+  void deliver(std::int64_t count);
+
+  Workspace& Space;
+  std::string Name;
+  RestoredInfo Info;
+  bool KnowsCells = false; ///< whether there is an OriginalCellId
+  std::unique_ptr<VertexRestorer> Vertices;
+  std::unique_ptr<ElementRestorer> Elements;
+  std::vector<std::string> Notes;
+  std::int64_t Delivered = 0; ///< vertices and elements
+};
+
+} // namespace smg

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Files/IoStatistics.h"
+#include "smg/Column.h"
+#include "smg/Export.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+class Workers;
+
+/** A table of a block file: rows with the same columns. */
+struct TableSpec
+{
+  std::string name;
+  /** A column of 0 components is opaque: any number of bytes per block, independent of the rows. */
+  std::vector<ColumnSpec> columns;
+  bool operator==(const TableSpec&) const = default;
+};
+
+/**
+ * Writes a block file: a container of tables, each split into blocks of rows, with each column of a
+ * block compressed and checksummed (XXH3, 64 bits) separately. A JSON header, the table layout and
+ * an index of all blocks allow reading any block independently. BlockFileLayout.h defines the
+ * format.
+ *
+ * The file is written under a temporary name beside `path` and renamed by finish(); without
+ * finish() the destructor removes it. A thread of the writer writes behind the caller; at most
+ * `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with the path,
+ * by the next append() or by finish().
+ */
+class SMG_EXPORT BlockFileWriter
+{
+public:
+  static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
+  /** The most blocks that are compressed at once, and the most bytes that each has in the mean if
+   * they are several. */
+  static constexpr int MostBlocks = 8;
+  static constexpr std::size_t BlockBytes = std::size_t(256) << 10;
+
+  /** Blocks are compressed on the threads of `workers`, which must outlive the writer; null: on
+   * that of the caller. The file does not depend on it. */
+  BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
+    IoStatistics* statistics = nullptr, Workers* workers = nullptr);
+  /** The most bytes of blocks that several threads compress, with compressors and results. */
+  static std::int64_t memoryFor(const Workers& workers);
+  ~BlockFileWriter();
+  BlockFileWriter(const BlockFileWriter&) = delete;
+  BlockFileWriter& operator=(const BlockFileWriter&) = delete;
+
+  /** Appends `rows` rows to table `table`; one span of bytes per column, which is copied. */
+  void append(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns);
+
+  /** Writes index and header (the text of a JSON value, at most about 16,000 bytes), closes,
+   * renames. */
+  void finish(const std::string& header);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+/**
+ * Reads a block file. Opening checks the magic, the version, the checksums of the header and the
+ * index, and that the length of the file agrees with the index; reading a block checks its
+ * checksums. Every failure is an Error that names the file, the table and the block. One thread at
+ * a time.
+ */
+class SMG_EXPORT BlockFileReader
+{
+public:
+  explicit BlockFileReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
+  ~BlockFileReader();
+  BlockFileReader(const BlockFileReader&) = delete;
+  BlockFileReader& operator=(const BlockFileReader&) = delete;
+
+  /** The text of a JSON value. */
+  const std::string& header() const;
+  /** A checksum of the header and the index, and by the checksums in these of the whole file. */
+  std::uint64_t contentChecksum() const;
+  const std::vector<TableSpec>& tables() const;
+  Codec codec() const;
+
+  std::int64_t rows(int table) const;
+  std::int64_t blocks(int table) const;
+  std::int64_t firstRow(int table, std::int64_t block) const;
+  std::int64_t blockRows(int table, std::int64_t block) const;
+  /** The block that holds row `row`. */
+  std::int64_t blockOf(int table, std::int64_t row) const;
+  /** Bytes of a column of a block, uncompressed. */
+  std::size_t columnBytes(int table, std::int64_t block, int column) const;
+  /** Bytes of a column in the file, of all its blocks. */
+  std::int64_t storedBytes(int table, int column) const;
+
+  /** Reads a column of a block into `bytes`, which must have exactly columnBytes(...) bytes. */
+  void read(int table, std::int64_t block, int column, std::span<std::byte> bytes);
+
+  /**
+   * Starts reading all columns of a block on a thread of the reader, so that a later read() does
+   * not wait. This is a hint: any block may be read without it. Eight such blocks are kept, each
+   * until all of it is read or it is the oldest.
+   */
+  void prefetch(int table, std::int64_t block);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+/** Whether the file begins with the magic of a block file. */
+SMG_EXPORT bool isBlockFile(const std::filesystem::path& path);
+
+} // namespace smg

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/External/BlockFile.h"
+
+#include "IO/External/BlockFileLayout.h"
+#include "IO/External/Codec.h"
+#include "IO/External/ReadAhead.h"
+#include "Solver/Files/Checksum.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "smg/Error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+namespace smg
+{
+
+struct BlockFileReader::Implementation
+{
+  Implementation(std::filesystem::path path, IoStatistics* statistics)
+    : Name(path.string())
+    , Statistics(statistics)
+    , File(FileDescriptor::openForReading(path))
+    , Ahead(this->File)
+  {
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(this->Name + ": " + what); }
+
+  /** Reads and checks the front. */
+  BlockFileFront readFront(std::span<std::byte> region) const
+  {
+    const std::size_t there = this->File.readSome(0, region);
+    BlockFileFront front{};
+    std::memcpy(&front, region.data(), std::min(there, sizeof(front)));
+    if (std::string_view(front.magic, sizeof(front.magic)) != BlockFileMagic)
+    {
+      this->fail(
+        "is not a file of this kind: it does not begin with " + std::string(BlockFileMagic) + ".");
+    }
+    if (there < region.size())
+    {
+      this->fail("is truncated: it has only " + std::to_string(there) + " bytes.");
+    }
+    if (front.order != BlockFileFront::OrderMark)
+    {
+      this->fail("was written on a machine with another byte order; create it again on this one.");
+    }
+    if (front.version != BlockFileVersion)
+    {
+      this->fail("is of version " + std::to_string(front.version) + ", but this program reads " +
+                 std::to_string(BlockFileVersion) + "; create it again with this program.");
+    }
+    if (front.frontChecksum != checksum(region.first(offsetof(BlockFileFront, frontChecksum))))
+    {
+      this->fail("the checksum of its first bytes is wrong: the file is damaged; create it again.");
+    }
+    return front;
+  }
+
+  void checkLength(const BlockFileFront& front) const
+  {
+    const std::int64_t size = this->File.size();
+    const std::int64_t most = INT64_MAX / 2;
+    if (front.tailOffset < BlockFileHeaderBytes || front.tailOffset > most || front.tailBytes < 0 ||
+        front.tailBytes > most)
+    {
+      this->fail("its first bytes are invalid: the file is damaged; create it again.");
+    }
+    const std::int64_t expected = front.tailOffset + front.tailBytes;
+    if (size != expected)
+    {
+      this->fail((size < expected ? "is truncated: it has " : "has bytes appended: it has ") +
+                 std::to_string(size) + " bytes instead of " + std::to_string(expected) + ".");
+    }
+  }
+
+  void open()
+  {
+    std::vector<std::byte> region(BlockFileHeaderBytes);
+    const BlockFileFront front = this->readFront(region);
+    this->checkLength(front);
+    const std::span<std::byte> rest = std::span(region).subspan(sizeof(front));
+    const bool fits =
+      front.headerBytes >= 0 && front.headerBytes <= static_cast<std::int64_t>(rest.size());
+    const auto header = rest.first(fits ? front.headerBytes : 0);
+    const auto zeros = rest.subspan(header.size());
+    if (!fits || checksum(header) != front.headerChecksum ||
+        std::any_of(zeros.begin(), zeros.end(), [](std::byte b) { return b != std::byte{}; }))
+    {
+      this->fail("the checksum of the header is wrong: the file is damaged; create it again.");
+    }
+    this->Header.assign(reinterpret_cast<const char*>(header.data()), header.size());
+    if (!nlohmann::json::accept(this->Header))
+    {
+      this->fail("the header is not JSON: the file is damaged; create it again.");
+    }
+    std::vector<std::byte> tail(front.tailBytes);
+    this->File.read(front.tailOffset, tail);
+    if (checksum(tail) != front.tailChecksum)
+    {
+      this->fail("the checksum of the index is wrong: the file is damaged; create it again.");
+    }
+    this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
+    this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
+    this->ContentChecksum = front.frontChecksum;
+    this->count(BlockFileHeaderBytes + front.tailBytes, 0);
+  }
+
+  std::string place(int table, std::int64_t block) const
+  {
+    return "table '" + this->Index.tables[table].name + "', block " + std::to_string(block);
+  }
+
+  void check(int table, std::int64_t block) const
+  {
+    if (table < 0 || table >= static_cast<int>(this->Index.tables.size()) || block < 0 ||
+        block >= this->Index.blocks[table].blocks())
+    {
+      this->fail(
+        "there is no block " + std::to_string(block) + " of table " + std::to_string(table) + ".");
+    }
+  }
+
+  void count(std::int64_t bytes, std::int64_t waited)
+  {
+    if (this->Statistics)
+    {
+      this->Statistics->bytesRead += bytes;
+      this->Statistics->waitNanoseconds += waited;
+    }
+  }
+
+  std::size_t storedBytes(int table, std::int64_t block) const
+  {
+    std::size_t bytes = 0;
+    for (std::size_t c = 0; c < this->Index.tables[table].columns.size(); c++)
+    {
+      bytes += this->Index.entry(table, block, static_cast<int>(c)).storedBytes;
+    }
+    return bytes;
+  }
+
+  /** The stored bytes of a column: prefetched, or read into `room`. */
+  std::span<const std::byte> fetch(
+    int table, std::int64_t block, int column, std::span<std::byte> room)
+  {
+    std::int64_t offset = this->Index.blocks[table].offset[block];
+    for (int c = 0; c < column; c++)
+    {
+      offset += this->Index.entry(table, block, c).storedBytes;
+    }
+    const std::int64_t waited = this->Ahead.waitNanoseconds();
+    const auto ahead = this->Ahead.find(offset, room.size());
+    this->count(0, this->Ahead.waitNanoseconds() - waited);
+    if (ahead)
+    {
+      return *ahead;
+    }
+    std::int64_t wait = 0;
+    if (const int error = this->File.tryRead(offset, room, wait); error != 0)
+    {
+      FileDescriptor::throwReadError(this->Name, error);
+    }
+    this->count(static_cast<std::int64_t>(room.size()), wait);
+    return room;
+  }
+
+  std::string Name;
+  IoStatistics* Statistics;
+  FileDescriptor File;
+  std::string Header;
+  BlockFileIndex Index;
+  std::uint64_t ContentChecksum = 0;
+  std::unique_ptr<ColumnCodec> Coder;
+  std::vector<std::byte> Stored;
+  ReadAhead Ahead;
+};
+
+BlockFileReader::BlockFileReader(std::filesystem::path path, IoStatistics* statistics)
+  : Self(std::make_unique<Implementation>(std::move(path), statistics))
+{
+  this->Self->open();
+}
+
+BlockFileReader::~BlockFileReader() = default;
+
+const std::string& BlockFileReader::header() const
+{
+  return this->Self->Header;
+}
+
+std::uint64_t BlockFileReader::contentChecksum() const
+{
+  return this->Self->ContentChecksum;
+}
+
+const std::vector<TableSpec>& BlockFileReader::tables() const
+{
+  return this->Self->Index.tables;
+}
+
+Codec BlockFileReader::codec() const
+{
+  return this->Self->Index.codec;
+}
+
+std::int64_t BlockFileReader::rows(int table) const
+{
+  return this->Self->Index.blocks[table].firstRow.back();
+}
+
+std::int64_t BlockFileReader::blocks(int table) const
+{
+  return this->Self->Index.blocks[table].blocks();
+}
+
+std::int64_t BlockFileReader::firstRow(int table, std::int64_t block) const
+{
+  return this->Self->Index.blocks[table].firstRow[block];
+}
+
+std::int64_t BlockFileReader::blockRows(int table, std::int64_t block) const
+{
+  const auto& firstRow = this->Self->Index.blocks[table].firstRow;
+  return firstRow[block + 1] - firstRow[block];
+}
+
+std::int64_t BlockFileReader::blockOf(int table, std::int64_t row) const
+{
+  const auto& firstRow = this->Self->Index.blocks[table].firstRow;
+  if (row < 0 || row >= firstRow.back())
+  {
+    this->Self->fail(
+      "table '" + this->tables()[table].name + "' has no row " + std::to_string(row) + ".");
+  }
+  return std::upper_bound(firstRow.begin(), firstRow.end(), row) - firstRow.begin() - 1;
+}
+
+std::size_t BlockFileReader::columnBytes(int table, std::int64_t block, int column) const
+{
+  return this->Self->Index.entry(table, block, column).plainBytes;
+}
+
+std::int64_t BlockFileReader::storedBytes(int table, int column) const
+{
+  std::int64_t bytes = 0;
+  for (std::int64_t block = 0; block < this->blocks(table); block++)
+  {
+    bytes += this->Self->Index.entry(table, block, column).storedBytes;
+  }
+  return bytes;
+}
+
+void BlockFileReader::read(int table, std::int64_t block, int column, std::span<std::byte> bytes)
+{
+  Implementation& self = *this->Self;
+  self.check(table, block);
+  const ColumnEntry& entry = self.Index.entry(table, block, column);
+  const ColumnSpec& spec = self.Index.tables[table].columns[column];
+  if (bytes.size() != entry.plainBytes)
+  {
+    self.fail(self.place(table, block) + ": column '" + spec.name + "' has " +
+              std::to_string(entry.plainBytes) + " bytes, not " + std::to_string(bytes.size()) +
+              ".");
+  }
+  const bool compressed = entry.storedBytes < entry.plainBytes;
+  if (compressed && self.Stored.size() < entry.storedBytes)
+  {
+    self.Stored.resize(entry.storedBytes);
+  }
+  const std::span<std::byte> room =
+    compressed ? std::span(self.Stored).first(entry.storedBytes) : bytes;
+  const std::span<const std::byte> stored = self.fetch(table, block, column, room);
+  if (checksum(stored) != entry.checksum)
+  {
+    self.fail(self.place(table, block) + ": the checksum of column '" + spec.name +
+              "' is wrong: the file is damaged; create it again.");
+  }
+  if (compressed && !self.Coder->decompress(stored, bytes, spec.tupleBytes()))
+  {
+    self.fail(self.place(table, block) + ": column '" + spec.name +
+              "' cannot be decompressed: the file is damaged; create it again.");
+  }
+  if (!compressed && !stored.empty() && stored.data() != bytes.data())
+  {
+    std::memcpy(bytes.data(), stored.data(), stored.size());
+  }
+  if (column + 1 == static_cast<int>(self.Index.tables[table].columns.size()))
+  {
+    self.Ahead.release(self.Index.blocks[table].offset[block] +
+                       static_cast<std::int64_t>(self.storedBytes(table, block)));
+  }
+}
+
+void BlockFileReader::prefetch(int table, std::int64_t block)
+{
+  Implementation& self = *this->Self;
+  self.check(table, block);
+  const std::size_t bytes = self.storedBytes(table, block);
+  if (bytes > 0 && self.Ahead.request(self.Index.blocks[table].offset[block], bytes))
+  {
+    self.count(static_cast<std::int64_t>(bytes), 0);
+  }
+}
+
+bool isBlockFile(const std::filesystem::path& path)
+{
+  try
+  {
+    std::array<char, BlockFileMagic.size()> magic{};
+    const FileDescriptor file = FileDescriptor::openForReading(path);
+    return file.readSome(0, std::as_writable_bytes(std::span(magic))) == magic.size() &&
+           std::string_view(magic.data(), magic.size()) == BlockFileMagic;
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/External/Workers.h"
+
+#include "smg/Error.h"
+
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** About 20 microseconds. */
+constexpr int MostSpins = 400;
+constexpr int MostThreads = 64;
+
+thread_local bool isOfWorkers = false;
+
+void spinPause()
+{
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+} // namespace
+
+Workers::Workers(int threads)
+  : Threads(std::clamp(threads > 0 ? threads : tbb::info::default_concurrency(), 1, MostThreads))
+{
+}
+
+Workers::~Workers()
+{
+  {
+    const std::lock_guard lock(this->Mutex);
+    this->Stop = true;
+    this->HasWork = true;
+  }
+  this->Submitted.notify_all();
+}
+
+bool Workers::isCaller()
+{
+  return isOfWorkers;
+}
+
+void Workers::start()
+{
+  this->Team.reserve(static_cast<std::size_t>(this->Threads - 1)); // a started thread must be kept
+  while (!this->IsComplete && std::ssize(this->Team) < this->Threads - 1)
+  {
+    auto thread = std::make_unique<IoThread>();
+    try
+    {
+      thread->start([this] { this->runThread(); });
+      this->Team.push_back(std::move(thread));
+    }
+    catch (const Error&)
+    {
+      this->IsComplete = true; // as many as the system permits
+    }
+  }
+}
+
+void Workers::submit(Job& job)
+{
+  this->start();
+  bool isAwaited = false;
+  {
+    const std::lock_guard lock(this->Mutex);
+    job.Failure = nullptr;
+    job.IsDone.store(false, std::memory_order_relaxed);
+    this->Waiting.push_back(&job);
+    this->HasWork.store(true, std::memory_order_relaxed);
+    isAwaited = this->Sleeping > 0;
+  }
+  if (isAwaited)
+  {
+    this->Submitted.notify_one();
+  }
+}
+
+/** Spins for a moment, unless there are more threads than cores; returns whether the flag is set.
+ */
+bool Workers::spinUntil(const std::atomic<bool>& flag)
+{
+  static const int cores = tbb::info::default_concurrency();
+  const int spins = this->Threads <= cores ? MostSpins : 0;
+  for (int i = 0; i < spins; ++i)
+  {
+    if (flag.load(std::memory_order_acquire))
+    {
+      return true;
+    }
+    spinPause();
+  }
+  return false;
+}
+
+void Workers::run(Job& job)
+{
+  try
+  {
+    job.Work();
+  }
+  catch (...)
+  {
+    job.Failure = std::current_exception();
+  }
+}
+
+void Workers::runThread()
+{
+  isOfWorkers = true;
+  std::unique_lock lock(this->Mutex);
+  for (;;)
+  {
+    if (!this->Waiting.empty())
+    {
+      Job& job = *this->Waiting.front();
+      this->Waiting.pop_front();
+      this->HasWork.store(this->Stop || !this->Waiting.empty(), std::memory_order_relaxed);
+      lock.unlock();
+      this->run(job);
+      lock.lock();
+      job.IsDone.store(true, std::memory_order_release);
+      if (this->OwnerSleeps)
+      {
+        this->Finished.notify_one();
+      }
+      continue;
+    }
+    if (this->Stop)
+    {
+      return;
+    }
+    lock.unlock();
+    const bool hasWork = this->spinUntil(this->HasWork);
+    lock.lock();
+    if (!hasWork)
+    {
+      ++this->Sleeping;
+      this->Submitted.wait(lock, [this] { return this->Stop || !this->Waiting.empty(); });
+      --this->Sleeping;
+    }
+  }
+}
+
+/** Runs jobs that wait until this one is done. */
+void Workers::wait(Job& job)
+{
+  std::unique_lock lock(this->Mutex);
+  while (!job.IsDone.load(std::memory_order_relaxed))
+  {
+    if (!this->Waiting.empty())
+    {
+      Job& next = *this->Waiting.front();
+      this->Waiting.pop_front();
+      this->HasWork.store(!this->Waiting.empty(), std::memory_order_relaxed);
+      lock.unlock();
+      this->run(next);
+      lock.lock();
+      next.IsDone.store(true, std::memory_order_release);
+      continue;
+    }
+    lock.unlock();
+    const bool isDone = this->spinUntil(job.IsDone);
+    lock.lock();
+    if (!isDone)
+    {
+      this->OwnerSleeps = true;
+      this->Finished.wait(lock, [&job] { return job.IsDone.load(std::memory_order_relaxed); });
+      this->OwnerSleeps = false;
+    }
+  }
+}
+
+void Workers::finish(Job& job)
+{
+  this->wait(job);
+  if (job.Failure)
+  {
+    std::rethrow_exception(std::exchange(job.Failure, nullptr));
+  }
+}
+
+void Workers::cancel(Job& job) noexcept
+{
+  {
+    const std::lock_guard lock(this->Mutex);
+    const auto waiting = std::ranges::find(this->Waiting, &job);
+    if (waiting != this->Waiting.end())
+    {
+      this->Waiting.erase(waiting);
+      this->HasWork.store(!this->Waiting.empty(), std::memory_order_relaxed);
+      return;
+    }
+  }
+  this->wait(job);
+}
+
+} // namespace smg

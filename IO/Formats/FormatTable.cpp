@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/FormatTable.h"
+
+#include "IO/Files/Inflate.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Formats/Gmsh/GmshFormat.h"
+#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/Obj/ObjFormat.h"
+#include "IO/Formats/Off/OffFormat.h"
+#include "IO/Formats/Ply/PlyFormat.h"
+#include "IO/Formats/Stl/StlFormat.h"
+#include "IO/Formats/Streams/StreamsFormat.h"
+#include "IO/Formats/TetGen/TetGenFormat.h"
+#include "IO/Formats/Vsm/VsmFileFormat.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Formats/VtkHdf/VtkHdfFormat.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+// Formats without a signature are ordered by increasing risk of confusion with others.
+constexpr const Format* Formats[] = {
+  &VsmFileFormat,
+  &StreamsFormat,
+  &PlyFormat,
+  &StlFormat,
+  &ObjFormat,
+  &OffFormat,
+  &MeditFormat,
+  &GmshFormat,
+  &TetGenFormat,
+  &LegacyVtkFormat,
+  &VtkXmlFormat,
+  &ParallelVtkXmlFormat,
+  &VtkHdfFormat,
+};
+
+/** The first bytes of a file, uncompressed. */
+struct FileStart
+{
+  std::string bytes;
+  std::optional<std::uint64_t> size; ///< of the file; none if it is compressed
+};
+
+/** The start of a file; empty if it cannot be read. */
+FileStart startOf(const std::filesystem::path& path)
+{
+  FileStart start{ std::string(FormatBytes, '\0'), {} };
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(start.bytes.data(), static_cast<std::streamsize>(FormatBytes));
+  start.bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  if (isGzip(start.bytes))
+  {
+    start.bytes = inflateStart(start.bytes, FormatBytes);
+    return start;
+  }
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error)
+  {
+    start.size = size;
+  }
+  return start;
+}
+
+template <class Test>
+const Format* firstOf(Test&& test)
+{
+  const auto* const found =
+    std::ranges::find_if(Formats, [&](const Format* format) { return test(*format); });
+  return found == std::end(Formats) ? nullptr : *found;
+}
+
+const Format* formatOfSign(std::string_view start)
+{
+  return firstOf([&](const Format& format) { return format.hasSign && format.hasSign(start); });
+}
+
+const Format* formatLookingRight(std::string_view start, std::optional<std::uint64_t> size)
+{
+  return firstOf(
+    [&](const Format& format) { return format.looksRight && format.looksRight(start, size); });
+}
+
+bool canBeUsed(const Format& format, FormatUse use)
+{
+  const bool writes = format.write || format.writeVsm;
+  switch (use)
+  {
+    case FormatUse::Read:
+      return format.parse || format.kind != MeshFileKind::Indexed;
+    case FormatUse::Write:
+      return writes;
+    case FormatUse::WriteColumns:
+      return writes && format.holdsColumns();
+    case FormatUse::Restore:
+      return format.restore != nullptr;
+    case FormatUse::RestoreColumns:
+      return format.restore && format.holdsColumns();
+  }
+  return false;
+}
+
+/** For example "a, b or c". */
+std::string listOf(const std::vector<std::string_view>& words, std::string_view conjunction)
+{
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+  {
+    list += i == 0 ? "" : i + 1 < words.size() ? ", " : ' ' + std::string(conjunction) + ' ';
+    list += words[i];
+  }
+  return list;
+}
+
+template <class Test>
+std::string suffixesOf(std::span<const FormatUse> uses, std::string_view conjunction, Test&& test)
+{
+  std::vector<std::string_view> suffixes;
+  for (const Format* format : Formats)
+  {
+    for (const FileSuffix& suffix : format->suffixes)
+    {
+      const auto can = [format](FormatUse use) { return canBeUsed(*format, use); };
+      if (std::ranges::any_of(uses, can) && test(suffix))
+      {
+        suffixes.push_back(suffix.text);
+      }
+    }
+  }
+  return listOf(suffixes, conjunction);
+}
+
+} // namespace
+
+std::span<const Format* const> formats()
+{
+  return Formats;
+}
+
+const Format* formatOfSuffix(std::string_view suffix)
+{
+  return firstOf(
+    [&](const Format& format) {
+      return std::ranges::find(format.suffixes, suffix, &FileSuffix::text) != format.suffixes.end();
+    });
+}
+
+const Format* formatOfName(const std::filesystem::path& path)
+{
+  const std::string suffix = lowerSuffix(path);
+  return formatOfSuffix(suffix == ".gz" ? lowerSuffix(path.stem()) : suffix);
+}
+
+const Format* formatOfContent(const std::filesystem::path& path)
+{
+  return formatOfSign(startOf(path).bytes);
+}
+
+const Format* formatOfForm(const std::filesystem::path& path)
+{
+  const FileStart start = startOf(path);
+  return formatLookingRight(start.bytes, start.size);
+}
+
+const Format* formatOfStart(
+  std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path)
+{
+  if (const Format* format = formatOfSign(start))
+  {
+    return format;
+  }
+  const Format* format = formatLookingRight(start, size);
+  format = format ? format : formatOfName(path);
+  return format && format->kind == MeshFileKind::Indexed ? format : nullptr;
+}
+
+const Format* formatOfFile(const std::filesystem::path& path)
+{
+  const FileStart start = startOf(path);
+  return formatOfStart(start.bytes, start.size, path);
+}
+
+const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path)
+{
+  const std::string text = lowerSuffix(path);
+  const Format* const format = formatOfSuffix(text);
+  return format && canBeUsed(*format, use)
+           ? &*std::ranges::find(format->suffixes, std::string_view(text), &FileSuffix::text)
+           : nullptr;
+}
+
+bool restoresColumns(const std::filesystem::path& path, std::span<const std::string> columns)
+{
+  const Format* const format = formatOfSuffix(lowerSuffix(path));
+  const auto hasPlace = [format](const std::string& column)
+  { return std::ranges::find(format->vertexColumns, column) != format->vertexColumns.end(); };
+  return format && format->restore &&
+         (format->holdsColumns() || std::ranges::all_of(columns, hasPlace));
+}
+
+std::string suffixList(const Format& format, std::string_view conjunction)
+{
+  std::vector<std::string_view> suffixes;
+  for (const FileSuffix& suffix : format.suffixes)
+  {
+    suffixes.push_back(suffix.text);
+  }
+  return listOf(suffixes, conjunction);
+}
+
+std::string suffixList(FormatUse use, std::string_view conjunction)
+{
+  return suffixesOf({ &use, 1 }, conjunction, [](const FileSuffix&) { return true; });
+}
+
+std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction)
+{
+  return suffixList({ &use, 1 }, cells, conjunction);
+}
+
+std::string suffixList(
+  std::span<const FormatUse> uses, std::optional<CellType> cells, std::string_view conjunction)
+{
+  return suffixesOf(uses, conjunction,
+    [cells](const FileSuffix& suffix) { return !cells || suffix.holds(*cells); });
+}
+
+void checkHolds(const std::filesystem::path& path, const FileSuffix& suffix, CellType cells,
+  const std::string& choices)
+{
+  if (!suffix.holds(cells))
+  {
+    throw Error(path.string() + ": a " + std::string(suffix.text) + " file holds no " +
+                (cells == CellType::Triangle ? "triangles" : "tetrahedra") + ": choose " + choices +
+                '.');
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/MeshFile.h"
+
+#include "IO/External/BlockFile.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/Streams/StreamFile.h"
+#include "Solver/Files/FileDescriptor.h"
+#include "smg/Error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include <unistd.h>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The kind of a file by its content; Unknown if that says nothing. */
+MeshFileKind kindOfContent(const std::filesystem::path& path)
+{
+  if (isBlockFile(path))
+  {
+    return MeshFileKind::Vsm;
+  }
+  if (formatOfContent(path))
+  {
+    return MeshFileKind::Indexed;
+  }
+  const Resemblance stream = resemblanceToStream(path);
+  const Format* const indexed = formatOfForm(path);
+  if (stream == Resemblance::None || !indexed)
+  {
+    const bool isStream = stream != Resemblance::None;
+    return isStream ? MeshFileKind::Stream
+                    : (indexed ? MeshFileKind::Indexed : MeshFileKind::Unknown);
+  }
+  // Both forms: a STL file may begin with any bytes, and text may be OBJ or SMA. The name decides.
+  if (stream == Resemblance::Sure)
+  {
+    return formatOfName(path) == indexed ? MeshFileKind::Indexed : MeshFileKind::Stream;
+  }
+  return isStreamSuffix(lowerSuffix(path)) ? MeshFileKind::Stream : MeshFileKind::Indexed;
+}
+
+} // namespace
+
+MeshFileKind kindOfInput(const std::filesystem::path& path)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored))
+  {
+    const MeshFileKind kind = kindOfContent(path);
+    if (kind != MeshFileKind::Unknown)
+    {
+      return kind;
+    }
+  }
+  const std::string suffix = lowerSuffix(path);
+  if (isStreamSuffix(suffix))
+  {
+    return MeshFileKind::Stream;
+  }
+  const Format* const named = formatOfName(path);
+  return suffix == ".vsm" ? MeshFileKind::Vsm
+                          : (named && named->kind == MeshFileKind::Indexed ? MeshFileKind::Indexed
+                                                                           : MeshFileKind::Unknown);
+}
+
+MeshFileKind kindOfOutput(const std::filesystem::path& path)
+{
+  return suffixFor(FormatUse::Write, path) ? formatOfName(path)->kind : MeshFileKind::Unknown;
+}
+
+void checkOutput(const std::filesystem::path& path)
+{
+  if (!suffixFor(FormatUse::Write, path))
+  {
+    throw Error(path.string() + ": meshes are written as " + suffixList(FormatUse::Write, "or") +
+                ": choose such a suffix. Other formats are written from a .vsm file by smg convert "
+                "--restore-order.");
+  }
+  checkOutputPlace(path);
+}
+
+void checkOutput(const std::filesystem::path& path, CellType cellType)
+{
+  checkOutput(path);
+  const FileSuffix& suffix = *suffixFor(FormatUse::Write, path);
+  checkHolds(path, suffix, cellType, suffixList(FormatUse::Write, cellType, "or"));
+}
+
+void checkOutputPlace(const std::filesystem::path& path)
+{
+  // A folder that is not accessible is reported below.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+  {
+    throw Error(path.string() + ": this is a folder: choose the name of a file.");
+  }
+  const std::filesystem::path target = FileDescriptor::targetOf(path);
+  if (std::filesystem::exists(target, ignored) &&
+      !std::filesystem::is_regular_file(target, ignored))
+  {
+    throw Error(path.string() + ": this is a device or a pipe: choose the name of a file.");
+  }
+  const std::filesystem::path parent = target.parent_path();
+  const std::filesystem::path folder = parent.empty() ? std::filesystem::path(".") : parent;
+  if (!std::filesystem::is_directory(folder, ignored))
+  {
+    throw Error(path.string() + ": there is no folder " + folder.string() + '.');
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+  {
+    throw Error(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
+                std::strerror(errno) + '.');
+  }
+}
+
+void checkIsNotInput(
+  const std::filesystem::path& in, const std::filesystem::path& out, const std::string& what)
+{
+  std::error_code absent;
+  if (std::filesystem::equivalent(in, out, absent))
+  {
+    throw Error(out.string() + " is " + what + ": choose another name for the result.");
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Mesh/Format.h"
+#include "smg/Export.h"
+
+#include <filesystem>
+#include <string>
+
+namespace smg
+{
+
+/** The kind of an input file, by its content if possible, else by its suffix: Vsm, Stream, Indexed,
+ * or Unknown. The file may still be damaged or not exist. */
+SMG_EXPORT MeshFileKind kindOfInput(const std::filesystem::path& path);
+
+/** The kind of an output file, by suffix; Unknown if meshes cannot be written with it. */
+SMG_EXPORT MeshFileKind kindOfOutput(const std::filesystem::path& path);
+
+/**
+ * Checks an output file before the work: throws Error if meshes cannot be written with its suffix,
+ * its format cannot hold these cells, it is a folder, or its folder does not exist or is not
+ * writable.
+ */
+SMG_EXPORT void checkOutput(const std::filesystem::path& path, CellType cellType);
+
+/** The same, before the mesh is known. */
+SMG_EXPORT void checkOutput(const std::filesystem::path& path);
+
+/** Throws Error if a file of any format cannot be created there: the path is a folder, a device or
+ * a pipe, or its folder does not exist or is not writable. */
+SMG_EXPORT void checkOutputPlace(const std::filesystem::path& path);
+
+/** Throws Error if the output is an input, also by another name or link. `what` describes the
+ * input, for example "the mesh itself". */
+SMG_EXPORT void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
+  const std::string& what = "the mesh itself");
+
+} // namespace smg

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Import/RawMesh.h"
+
+namespace smg
+{
+
+/** Throws Error unless weldPoints() accepts this tolerance. */
+void checkWeldDistance(double tolerance);
+
+/**
+ * Merges points at the same position: cells then name the first one of them, and the others have no
+ * cells. Points are processed in ascending order of x (then y, z, number); each is merged with the
+ * first remaining earlier one within `tolerance` of it, if there is one.
+ * @param tolerance largest distance, in units of the coordinates, at least 0: equal coordinates
+ * @return the number of merged points
+ * @throws Error if the tolerance is negative or not a number, or if more points lie within the
+ * tolerance along x than fit into the memory; Cancelled
+ */
+std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace);
+
+} // namespace smg

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Mesh/MeshPart.h"
+#include "Solver/Core/Progress.h"
+#include "smg/MeshSource.h"
+#include "smg/WriteMesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace smg
+{
+
+class InputFile;
+class RawMeshBuilder;
+class RestoredMesh;
+
+/** How a file holds its mesh. */
+enum class MeshFileKind
+{
+  Vsm,     ///< the container of this library
+  Stream,  ///< cells and vertices in the order of a stream
+  Indexed, ///< vertices and cells that name them by their numbers, in any order
+  Unknown  ///< none of these
+};
+
+/** A suffix of the files of a format, and the cells written with it. */
+struct FileSuffix
+{
+  std::string_view text; ///< in lower case, with the dot
+  bool triangles = true, tetrahedra = true;
+  bool isText = false; ///< whether meshes are written as text
+
+  bool holds(CellType cells) const
+  {
+    return cells == CellType::Triangle ? this->triangles : this->tetrahedra;
+  }
+};
+
+/** The size of a mesh according to its file, or estimated from the size of the file. */
+struct FileCounts
+{
+  StreamInfo mesh;      ///< counts, precision and columns
+  bool counted = false; ///< whether the file states them
+};
+
+/** A mesh that is to be written, for an estimate of the bytes of its file. */
+struct MeshToWrite
+{
+  StreamInfo mesh;           ///< with the columns of the result
+  std::int64_t vsmBytes = 0; ///< as a .vsm file
+  FileSuffix suffix = {};    ///< of the file
+};
+
+/** Bytes of a vertex in a file, with its share of cells: two triangles, six tetrahedra. */
+struct VertexShare
+{
+  std::int64_t bytes = 75;
+  int corners = 3;
+};
+
+/** A sentence for each difference between a written file and the mesh. */
+using WriteNotes = std::vector<std::string>;
+
+/** Format::attributes of a format that has every column of a mesh. */
+inline constexpr std::string_view AllColumns = "all columns";
+
+/** The number of bytes at the beginning of a file that identify its format. */
+inline constexpr std::size_t FormatBytes = 4096;
+
+/**
+ * The description of a file format: all code that reads, writes and lists formats uses only the
+ * table of these (IO/Formats/FormatTable.h). Each format has its own folder; unsupported
+ * operations are null.
+ */
+struct Format
+{
+  std::string_view name;
+  std::span<const FileSuffix> suffixes;
+  /** The data besides positions and cells, for tables and help. */
+  std::string_view attributes;
+  MeshFileKind kind = MeshFileKind::Indexed;
+
+  /** Columns of vertices that `restore` has places for, of a format without all columns. */
+  std::span<const std::string_view> vertexColumns = {};
+
+  bool holdsColumns() const { return this->attributes == AllColumns; }
+
+  /** Whether the first bytes of a file have the signature of this format. */
+  bool (*hasSign)(std::string_view start) = nullptr;
+  /**
+   * Whether the first bytes look like it, for a format without a sign.
+   * @param size of the file, if it is known
+   */
+  bool (*looksRight)(std::string_view start, std::optional<std::uint64_t> size) = nullptr;
+
+  /**
+   * Parses a file as a stream and passes the mesh to the builder. Converts a MeshError of the
+   * builder to an Error with the position in the file, or leaves it to the caller.
+   */
+  void (*parse)(InputFile& file, RawMeshBuilder& builder, const MeshPart& part,
+    const ProgressFunction& progress) = nullptr;
+  /** The size stated at the beginning of an uncompressed file; none if it is too short. */
+  std::optional<FileCounts> (*counts)(InputFile& file, const MeshPart& part) = nullptr;
+  /** Whether its files have time steps and partitions. Otherwise `part` is the whole mesh. */
+  bool hasParts = false;
+  /** Otherwise, the estimate from the size of the file. */
+  VertexShare share = {};
+
+  /** About the bytes of a file that is written or restored, or of both files of TetGen. */
+  std::int64_t (*bytes)(const MeshToWrite& written) = nullptr;
+  /** Writes a mesh stream in its order, in one pass. The suffix is one for these cells. */
+  WriteNotes (*write)(MeshSource& source, const std::filesystem::path& path,
+    const WriteMeshOptions& options) = nullptr;
+  /** Writes a .vsm file; instead of `write`, for a format that reads the mesh more than once. */
+  WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
+    const WriteMeshOptions& options) = nullptr;
+  /** Writes a mesh in the order of its original file; reads it once. The file is renamed when it is
+   * complete. */
+  WriteNotes (*restore)(RestoredMesh& mesh, const std::filesystem::path& path) = nullptr;
+};
+
+/** Format::parse of a function that reports progress only by the bytes it reads. */
+template <void (*Parse)(InputFile&, RawMeshBuilder&)>
+void parseWith(InputFile& file, RawMeshBuilder& builder, const MeshPart&, const ProgressFunction&)
+{
+  Parse(file, builder);
+}
+
+} // namespace smg

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Assembly/CellFlagger.h"
+
+#include "IO/Order/Assembly/CellShape.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+const std::vector<std::uint8_t>& CellFlagger::flags(const MeshBlock& block)
+{
+  for (std::size_t i = 0; i < block.positions.size(); i += 3)
+  {
+    this->Points.push_back({ block.positions[i], block.positions[i + 1], block.positions[i + 2] });
+    this->Cells.emplace_back();
+  }
+  this->Flags.resize(block.corners.size() / this->Corners);
+  for (std::size_t cell = 0; cell < this->Flags.size(); ++cell)
+  {
+    this->Flags[cell] = this->flag(block.corners.data() + cell * this->Corners);
+  }
+  for (; this->First < block.finalized && !this->Points.empty(); ++this->First)
+  {
+    this->Points.pop_front();
+    this->Cells.pop_front();
+  }
+  return this->Flags;
+}
+
+std::uint8_t CellFlagger::flag(const std::int64_t* corners)
+{
+  std::array<std::array<double, 3>, 4> points;
+  std::array<std::int64_t, 4> sorted{ -1, -1, -1, -1 };
+  for (std::size_t k = 0; k < this->Corners; ++k)
+  {
+    points[k] = this->Points[static_cast<std::size_t>(corners[k] - this->First)];
+    sorted[k] = corners[k];
+  }
+  std::uint8_t flag = 0;
+  if (isDegenerate({ corners, this->Corners }, { points.data(), this->Corners }))
+  {
+    flag |= DegenerateCell;
+    ++this->Degenerate;
+  }
+  std::sort(sorted.begin(), sorted.end());
+  // A cell is listed under the corner with the fewest cells, so that lists stay short at a hub.
+  bool duplicate = false;
+  CellsOfVertex* shortest = nullptr;
+  for (std::size_t k = 0; k < this->Corners && !duplicate; ++k)
+  {
+    CellsOfVertex& cells = this->Cells[static_cast<std::size_t>(corners[k] - this->First)];
+    duplicate = std::find(cells.begin(), cells.end(), sorted) != cells.end();
+    shortest = shortest && shortest->size() <= cells.size() ? shortest : &cells;
+  }
+  if (duplicate)
+  {
+    flag |= DuplicateCell;
+    ++this->Duplicates;
+  }
+  else
+  {
+    shortest->push_back(sorted);
+  }
+  return flag;
+}
+
+} // namespace smg

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Assembly/LayoutSource.h"
+
+#include "IO/Mesh/ReservedNames.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Adds the specs of the columns, and that of the original numbers if requested and missing. */
+bool addSpecs(const std::vector<RawColumn>& columns, const ColumnSpec& numbers, bool wanted,
+  std::vector<ColumnSpec>& specs)
+{
+  for (const RawColumn& column : columns)
+  {
+    specs.push_back(column.spec);
+  }
+  const bool add = wanted && findColumn(specs, numbers) < 0;
+  if (add)
+  {
+    specs.push_back(numbers);
+  }
+  return add;
+}
+
+} // namespace
+
+LayoutSource::LayoutSource(
+  const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, CellIds cellIds)
+  : Mesh(mesh)
+  , Layout(layout)
+  , Vertices(layout.vertices, mesh.doublePositions)
+  , Corners(layout.corners)
+  , Elements(layout.elements)
+  , Flags(layout.flags)
+  , BlockVertices(layout.blockVertices)
+  , BlockFinalized(layout.blockFinalized)
+{
+  this->Info.cellType = mesh.cellType;
+  this->Info.vertices = layout.vertexCount;
+  this->Info.cells = layout.cellCount;
+  this->Info.doublePositions = mesh.doublePositions;
+  this->AddIds = addSpecs(mesh.vertexColumns, OriginalIdSpec, true, this->Info.vertexColumns);
+  this->AddElements = addSpecs(
+    mesh.elementColumns, OriginalCellIdSpec, cellIds == WithCellIds, this->Info.cellColumns);
+  if (layout.flags.size() > 0)
+  {
+    this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });
+    this->Flags.next(this->NextFlag);
+  }
+  if (!mesh.vertexColumns.empty())
+  {
+    this->VertexJoin.emplace(workspace, mesh.vertexColumns, workspace.available() / 4);
+    OrderedVertexReader vertices(layout.vertices, mesh.doublePositions);
+    for (OrderedVertex<double> vertex; vertices.next(vertex);)
+    {
+      this->VertexJoin->put(vertex.id);
+    }
+    this->VertexJoin->join();
+  }
+  if (!mesh.elementColumns.empty())
+  {
+    this->CellJoin.emplace(workspace, mesh.elementColumns, workspace.available() / 4);
+    RecordFile<std::uint32_t>::Reader elements(layout.elements);
+    for (std::uint32_t element = 0; elements.next(element);)
+    {
+      this->CellJoin->put(element);
+    }
+    this->CellJoin->join();
+  }
+}
+
+bool LayoutSource::next(MeshBlock& block)
+{
+  std::int64_t endVertex = 0;
+  if (!this->BlockVertices.next(endVertex))
+  {
+    return false;
+  }
+  block.firstVertex = this->NextVertex;
+  block.firstCell = this->NextCell;
+  this->fillVertices(block, endVertex);
+  this->fillCells(
+    block, std::min(this->NextCell + StreamLayout::BlockCells, this->Layout.cellCount));
+  this->BlockFinalized.next(block.finalized);
+  return true;
+}
+
+void LayoutSource::fillVertices(MeshBlock& block, std::int64_t end)
+{
+  const std::int64_t rows = end - this->NextVertex;
+  block.positions.resize(static_cast<std::size_t>(rows) * 3);
+  block.vertexColumns.resize(this->Info.vertexColumns.size());
+  std::int64_t* ids = nullptr;
+  if (this->AddIds)
+  {
+    Column& column = block.vertexColumns.back();
+    column.spec = OriginalIdSpec;
+    column.resize(static_cast<std::size_t>(rows));
+    ids = column.as<std::int64_t>().data();
+  }
+  OrderedVertex<double> vertex;
+  for (std::int64_t i = 0; i < rows && this->Vertices.next(vertex); ++i)
+  {
+    std::copy_n(vertex.position, 3, block.positions.begin() + 3 * i);
+    if (ids)
+    {
+      ids[i] = vertex.id;
+    }
+  }
+  if (this->VertexJoin)
+  {
+    this->VertexJoin->fill(rows, block.vertexColumns);
+  }
+  this->NextVertex = end;
+}
+
+void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
+{
+  const std::int64_t rows = end - this->NextCell;
+  this->Numbers.resize(static_cast<std::size_t>(rows * cornersOf(this->Info.cellType)));
+  this->Corners.next(std::span(this->Numbers));
+  block.corners.assign(this->Numbers.begin(), this->Numbers.end());
+  block.cellColumns.resize(this->Info.cellColumns.size());
+  if (this->AddElements)
+  {
+    Column& column = block.cellColumns[this->Mesh.elementColumns.size()];
+    column.spec = OriginalCellIdSpec;
+    column.resize(static_cast<std::size_t>(rows));
+    this->Numbers.resize(static_cast<std::size_t>(rows));
+    this->Elements.next(std::span(this->Numbers));
+    std::copy(this->Numbers.begin(), this->Numbers.end(), column.as<std::int64_t>().begin());
+  }
+  if (this->CellJoin)
+  {
+    this->CellJoin->fill(rows, block.cellColumns);
+  }
+  if (this->Layout.flags.size() > 0)
+  {
+    Column& column = block.cellColumns.back();
+    column.spec = { CellFlagsName, ScalarType::UInt8, 1 };
+    column.bytes.assign(static_cast<std::size_t>(rows), std::byte(0));
+    this->fillFlags(column, end);
+  }
+  this->NextCell = end;
+}
+
+void LayoutSource::fillFlags(Column& column, std::int64_t end)
+{
+  while (this->NextFlag.cell < end)
+  {
+    column.bytes[static_cast<std::size_t>(this->NextFlag.cell - this->NextCell)] =
+      static_cast<std::byte>(this->NextFlag.flags);
+    if (!this->Flags.next(this->NextFlag))
+    {
+      this->NextFlag.cell = NoIndex;
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Pages/PageBuilder.h"
+
+#include "IO/External/Relabelling.h"
+#include "IO/Order/Pages/CellGroups.h"
+#include "IO/Order/Pages/CellSample.h"
+#include "IO/Order/Pages/Contraction.h"
+#include "IO/Order/Pages/EdgeMetric.h"
+#include "IO/Order/Pages/GroupPages.h"
+#include "IO/Order/Pages/PageSize.h"
+#include "IO/Order/Pages/RankedVertices.h"
+#include "IO/Order/Pages/UsedVertices.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The vertices of a mesh in the order of their ranks, and the cells by ranks. */
+template <class Real>
+struct Arrangement
+{
+  RecordFile<RankedVertex<Real>> vertices;
+  CellGroups groups;
+  double crossing; ///< share of the edges of sampled cells that leave their page
+};
+
+/** Counts the edges of cells that leave their page, for a small sample of the cells. */
+class CrossingEstimate
+{
+public:
+  CrossingEstimate(std::int64_t cells, int pageVertices)
+    : Stride(1 + cells / 1000000)
+    , PageVertices(static_cast<std::uint32_t>(pageVertices))
+  {
+  }
+
+  void add(std::span<const std::uint32_t> cell)
+  {
+    if (++this->Seen < this->Stride)
+    {
+      return;
+    }
+    this->Seen = 0;
+    for (std::size_t a = 1; a < cell.size(); ++a)
+    {
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        ++this->Edges;
+        this->Crossing += cell[a] / this->PageVertices != cell[b] / this->PageVertices;
+      }
+    }
+  }
+  double share() const
+  {
+    return double(this->Crossing) / double(std::max<std::int64_t>(1, this->Edges));
+  }
+
+private:
+  std::int64_t Stride, Seen = 0, Edges = 0, Crossing = 0;
+  std::uint32_t PageVertices;
+};
+
+/** Ranks the vertices by the keys (see rankVertices) and puts the cells into groups. */
+template <class Real, class Key>
+Arrangement<Real> arrange(const RawMesh& mesh, Workspace& workspace, int pageVertices, Key&& key)
+{
+  const std::int64_t memory = workspace.available();
+  const auto corners = static_cast<std::size_t>(cornersOf(mesh.cellType));
+  Relabelling ranks(workspace, mesh.vertices, memory / 2);
+  RecordFile<RankedVertex<Real>> vertices = [&]
+  {
+    UsedVertices used(mesh, workspace, memory / 8);
+    return rankVertices<Real>(mesh, workspace, used, memory * 2 / 5, key, ranks);
+  }();
+  const std::int64_t collecting = memory / 5;
+  CellGroups groups(workspace, { 0, vertices.size() },
+    groupVertices(vertices.size(), mesh.cells, corners, pageVertices, memory, collecting), corners,
+    collecting);
+  CrossingEstimate crossing(mesh.cells, pageVertices);
+  ranks.apply(mesh.corners, corners,
+    [&](std::span<const std::uint32_t> cell)
+    {
+      groups.put(cell);
+      crossing.add(cell);
+    });
+  groups.close();
+  return { std::move(vertices), std::move(groups), crossing.share() };
+}
+
+/** The arrangement by coordinates, or by the numbers of the vertices if these are better. */
+template <class Real>
+Arrangement<Real> arrangeByPlace(const RawMesh& mesh, Workspace& workspace, int pageVertices)
+{
+  const CellSample sample = sampleCells(mesh);
+  const EdgeMetric metric(sample);
+  if (numbersAreMoreLocal(sample, metric, mesh.vertices, 4.0 * pageVertices))
+  {
+    return arrange<Real>(mesh, workspace, pageVertices,
+      [](std::uint32_t id, const Real*) { return std::uint64_t(id); });
+  }
+  return arrange<Real>(mesh, workspace, pageVertices,
+    [&metric](std::uint32_t, const Real* position) { return metric.key(position); });
+}
+
+/** The arrangement by clusters of the mesh's graph. */
+template <class Real>
+Arrangement<Real> arrangeByGraph(const RawMesh& mesh, Workspace& workspace, int pageVertices)
+{
+  const RecordFile<std::uint32_t> numbers = clusterNumbers(mesh, workspace);
+  RecordFile<std::uint32_t>::Reader next(numbers);
+  std::int64_t read = 0;
+  return arrange<Real>(mesh, workspace, pageVertices,
+    [&](std::uint32_t id, const Real*)
+    {
+      // Isolated vertices are not queried.
+      std::uint32_t number = NoIndex;
+      for (; read <= std::int64_t(id); ++read)
+      {
+        next.next(number);
+      }
+      return std::uint64_t(number);
+    });
+}
+
+template <class Real>
+Arrangement<Real> arrange(
+  const RawMesh& mesh, Workspace& workspace, int pageVertices, bool topological)
+{
+  if (topological)
+  {
+    return arrangeByGraph<Real>(mesh, workspace, pageVertices);
+  }
+  Arrangement<Real> byPlace = arrangeByPlace<Real>(mesh, workspace, pageVertices);
+  if (byPlace.crossing <= mostCrossing(mesh.cellType, pageVertices))
+  {
+    return byPlace;
+  }
+  // No order is good around a vertex that is connected to nearly all others.
+  Arrangement<Real> byGraph = arrangeByGraph<Real>(mesh, workspace, pageVertices);
+  return byGraph.crossing < byPlace.crossing ? std::move(byGraph) : std::move(byPlace);
+}
+
+template <class Real>
+PagedMesh build(const RawMesh& mesh, Workspace& workspace, const PageOptions& options)
+{
+  const int pageVertices = options.pageVertices > 0
+                             ? options.pageVertices
+                             : choosePageVertices(mesh.cellType, mesh.doublePositions,
+                                 mesh.vertices, workspace.available());
+  const Arrangement<Real> arranged =
+    arrange<Real>(mesh, workspace, pageVertices, options.topological);
+  GroupPages<Real> pages(mesh, workspace, arranged.vertices, pageVertices);
+  pages.append(arranged.groups);
+  return pages.finish();
+}
+
+} // namespace
+
+PagedMesh buildPages(const RawMesh& mesh, Workspace& workspace, const PageOptions& options)
+{
+  return mesh.doublePositions ? build<double>(mesh, workspace, options)
+                              : build<float>(mesh, workspace, options);
+}
+
+} // namespace smg

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Import/RawMesh.h"
+#include "IO/Order/Pages/MeshCounts.h"
+#include "IO/Order/Pages/OrderedVertices.h"
+#include "IO/Order/Pages/VertexPages.h"
+
+namespace smg
+{
+
+/** Options for making pages. */
+struct PageOptions
+{
+  /** Vertices of a page; 0: chosen from the mesh and the memory. */
+  int pageVertices = 0;
+  /** For tests: the topological order, regardless of the coordinates. */
+  bool topological = false;
+};
+
+/** The pages of a mesh, without its isolated vertices, and its counts. */
+struct PagedMesh
+{
+  VertexPages pages;
+  MeshCounts counts; ///< without components
+  /** Coordinates of the vertices whose rank is a multiple of sampleStride, x, y, z each. */
+  std::vector<float> samples;
+  std::int64_t sampleStride = 1;
+  /** The share of the directed edges that lead to another page. */
+  double crossing = 0;
+};
+
+/**
+ * Puts the vertices of a mesh into pages along a Hilbert curve, out of core: keys by a metric that
+ * makes edges about equally long, an external sort, the cells renumbered, and the cells of a
+ * stretch of pages collected at a time. Where coordinates say nothing of neighbourhood, the curve
+ * gives way to repeated contraction of the mesh's graph.
+ *
+ * Throws Error; Cancelled.
+ */
+PagedMesh buildPages(const RawMesh& mesh, Workspace& workspace, const PageOptions& options = {});
+
+} // namespace smg

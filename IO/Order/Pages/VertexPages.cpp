@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Pages/VertexPages.h"
+
+#include "IO/External/Relabelling.h"
+#include "Solver/Files/Checksum.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::size_t LeastCollectedBytes = std::size_t(256) << 10;
+constexpr std::size_t MostVarintBytes = 5;
+constexpr std::size_t PolledBytes = std::size_t(256) << 10;
+
+/** Writes the lists of neighbours after their offsets, which become narrow if possible. */
+std::uint32_t putAdjacency(
+  std::byte* to, std::uint32_t firstRank, std::span<const VertexPages::Vertex> vertices)
+{
+  const auto count = static_cast<std::uint32_t>(vertices.size());
+  std::byte* const lists = to + std::size_t(4) * count;
+  std::byte* end = lists;
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const auto begin = static_cast<std::uint32_t>(end - lists);
+    std::memcpy(to + std::size_t(4) * i, &begin, 4);
+    end = varint::put(end, static_cast<std::uint32_t>(vertices[i].neighbours.size()));
+    for (const std::uint32_t rank : vertices[i].neighbours)
+    {
+      end = varint::put(end, varint::zigzag(rank - (firstRank + i)));
+    }
+  }
+  while ((end - lists) % 4 != 0)
+  {
+    *end++ = std::byte(0);
+  }
+  const auto bytes = static_cast<std::uint32_t>(end - lists);
+  if (bytes > PageView::MostNarrowBytes)
+  {
+    return 4 * count + bytes;
+  }
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    // In place: the narrow offset i is before the wide one i + 1.
+    std::uint32_t begin;
+    std::memcpy(&begin, to + std::size_t(4) * i, 4);
+    const auto narrow = static_cast<std::uint16_t>(begin);
+    std::memcpy(to + std::size_t(2) * i, &narrow, 2);
+  }
+  const std::uint32_t offsets = PageView::narrowOffsetBytes(count);
+  std::memset(to + std::size_t(2) * count, 0, offsets - 2 * count);
+  std::memmove(to + offsets, lists, bytes);
+  return offsets + bytes;
+}
+
+template <class Real>
+std::byte* putPositions(std::byte* to, std::span<const VertexPages::Vertex> vertices)
+{
+  for (const VertexPages::Vertex& vertex : vertices)
+  {
+    const Real position[3] = { static_cast<Real>(vertex.position[0]),
+      static_cast<Real>(vertex.position[1]), static_cast<Real>(vertex.position[2]) };
+    std::memcpy(to, position, sizeof position);
+    to += sizeof position;
+  }
+  return to;
+}
+
+std::byte* putNumbers(std::byte* to, std::span<const VertexPages::Vertex> vertices,
+  std::uint32_t VertexPages::Vertex::*number)
+{
+  for (const VertexPages::Vertex& vertex : vertices)
+  {
+    std::memcpy(to, &(vertex.*number), sizeof(std::uint32_t));
+    to += sizeof(std::uint32_t);
+  }
+  return to;
+}
+
+} // namespace
+
+VertexPages::VertexPages(Workspace& workspace, int pageVertices, bool doublePositions)
+  : Space(&workspace)
+  , PageVertices(static_cast<std::uint32_t>(pageVertices))
+  , DoublePositions(doublePositions)
+  , Directory(workspace)
+{
+  assert(pageVertices > 0);
+}
+
+void VertexPages::append(std::span<const Vertex> vertices)
+{
+  assert(!vertices.empty() && vertices.size() <= this->PageVertices);
+  assert(this->Vertices % this->PageVertices == 0);
+  std::size_t numbers = 2 * vertices.size();
+  for (const Vertex& vertex : vertices)
+  {
+    numbers += vertex.neighbours.size();
+  }
+  const std::size_t most =
+    numbers * MostVarintBytes + vertices.size() * (8 + this->positionBytes()) + 64;
+  if (numbers > std::numeric_limits<std::uint32_t>::max() / MostVarintBytes - 64)
+  {
+    throw Error("The mesh cannot be ordered: a few of its vertices have " +
+                std::to_string(numbers) + " neighbours; remove the cells around them.");
+  }
+  this->makeRoom(most);
+  std::byte* const begin = this->Collecting.data() + this->Collected;
+  const std::uint32_t adjacency =
+    putAdjacency(begin, static_cast<std::uint32_t>(this->Vertices), vertices);
+  std::byte* end = putNumbers(begin + adjacency, vertices, &Vertex::place);
+  end = putNumbers(end, vertices, &Vertex::id);
+  end = this->DoublePositions ? putPositions<double>(end, vertices)
+                              : putPositions<float>(end, vertices);
+
+  const auto unplaced = std::ranges::count(vertices, NoIndex, &Vertex::place);
+  std::byte* const places = begin + adjacency;
+  std::byte* const rest = places + vertices.size() * sizeof(std::uint32_t);
+  this->Directory.push({ this->FileEnd + std::int64_t(this->Collected), adjacency,
+    static_cast<std::uint32_t>(unplaced),
+    { checksum({ begin, places }), checksum({ places, rest }), checksum({ rest, end }) } });
+  const auto bytes = static_cast<std::size_t>(end - begin);
+  this->Collected += bytes;
+  this->LargestPage = std::max(this->LargestPage, bytes);
+  this->AllAdjacencyBytes += adjacency;
+  this->Vertices += static_cast<std::int64_t>(vertices.size());
+}
+
+void VertexPages::makeRoom(std::size_t bytes)
+{
+  if (this->Collected + bytes <= this->Collecting.size())
+  {
+    return;
+  }
+  this->flush();
+  if (bytes > this->Collecting.size())
+  {
+    this->Collecting = Buffer();
+    this->Collecting = Buffer(this->Space->pool(), std::max(bytes, LeastCollectedBytes));
+  }
+}
+
+void VertexPages::flush()
+{
+  if (this->Collected == 0)
+  {
+    return;
+  }
+  if (!this->File.isOpen())
+  {
+    this->File = FileDescriptor::createNameless(this->Space->folder());
+  }
+  this->File.write(this->FileEnd, this->Collecting.bytes().first(this->Collected));
+  this->Space->traffic().bytesWritten += std::int64_t(this->Collected);
+  this->FileEnd += std::int64_t(this->Collected);
+  this->Collected = 0;
+}
+
+void VertexPages::close()
+{
+  this->flush();
+  this->Collecting = Buffer();
+}
+
+void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
+{
+  const Page& where = this->Directory[std::size_t(page)];
+  const bool isWhole = bytes.size() == this->bytes(page);
+  assert((isWhole || bytes.size() == where.adjacency) && this->Collected == 0);
+  this->File.read(where.offset, bytes);
+  const std::size_t rest = where.adjacency + this->placesBytes(page);
+  if (checksum(bytes.first(where.adjacency)) != where.sums[0] ||
+      (isWhole && (checksum(bytes.first(rest).subspan(where.adjacency)) != where.sums[1] ||
+                    checksum(bytes.subspan(rest)) != where.sums[2])))
+  {
+    throwDamagedBlock(this->File.path(), page);
+  }
+  this->Space->traffic().bytesRead += std::int64_t(bytes.size());
+  // Pages are small, so progress is not reported after each of them.
+  this->Unpolled += bytes.size();
+  if (this->Unpolled >= PolledBytes)
+  {
+    this->Unpolled = 0;
+    this->Space->poll();
+  }
+}
+
+void VertexPages::writePlaces(std::int64_t page, std::span<const std::byte> bytes)
+{
+  Page& where = this->Directory[std::size_t(page)];
+  const std::span<const std::byte> places = bytes.subspan(where.adjacency, this->placesBytes(page));
+  where.sums[1] = checksum(places);
+  this->File.write(where.offset + where.adjacency, places);
+  this->Space->traffic().bytesWritten += std::int64_t(places.size());
+}
+
+} // namespace smg

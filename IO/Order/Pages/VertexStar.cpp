@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Pages/VertexStar.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace smg
+{
+
+VertexStar::VertexStar(Workspace& workspace, RankRange range, std::size_t largestLink)
+  : First(static_cast<std::uint32_t>(range.begin))
+  , Count(static_cast<std::uint32_t>(range.size()))
+  , Slots(workspace.pool(), std::size_t(this->Count) * sizeof(std::uint32_t))
+  , Spokes(workspace.pool(), largestLink * sizeof(Spoke))
+{
+  std::fill_n(this->slots(), this->Count, ~std::uint32_t(0));
+}
+
+std::int64_t VertexStar::bytes(std::int64_t rangeSize, std::size_t largestLink)
+{
+  return rangeSize * std::int64_t(sizeof(std::uint32_t)) +
+         static_cast<std::int64_t>(largestLink * sizeof(Spoke));
+}
+
+/** Starts the list of neighbours with those outside the range, in ascending order. */
+void VertexStar::findOutside(
+  std::uint32_t vertex, std::span<const std::uint32_t> link, std::span<std::uint32_t> neighbours)
+{
+  std::size_t outside = 0;
+  for (const std::uint32_t rank : link)
+  {
+    // Written without a branch, since few are counted.
+    neighbours[outside] = rank;
+    outside += rank - this->First >= this->Count && rank != vertex;
+    if (outside == neighbours.size())
+    {
+      break;
+    }
+  }
+  if (outside > 0)
+  {
+    const auto begin = neighbours.begin();
+    std::sort(begin, begin + std::ptrdiff_t(outside));
+    outside = static_cast<std::size_t>(std::unique(begin, begin + std::ptrdiff_t(outside)) - begin);
+  }
+  this->Outside = this->Found = static_cast<std::uint32_t>(outside);
+  for (std::uint32_t i = 0; i < this->Found; ++i)
+  {
+    this->spokes()[i] = { 0, i };
+  }
+}
+
+/** The number of the neighbour; a new one for a new neighbour. */
+std::uint32_t VertexStar::spoke(std::uint32_t rank, std::span<std::uint32_t> neighbours)
+{
+  const std::uint32_t place = rank - this->First;
+  if (place >= this->Count)
+  {
+    const auto outside = neighbours.first(this->Outside);
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(outside, rank) - outside.begin());
+  }
+  std::uint32_t& slot = this->slots()[place];
+  if (slot - this->Begin >= this->Found)
+  {
+    slot = this->Begin + this->Found;
+    neighbours[this->Found] = rank;
+    this->spokes()[this->Found] = { 0, this->Found };
+    ++this->Found;
+  }
+  return slot - this->Begin;
+}
+
+std::uint32_t VertexStar::root(std::uint32_t spoke)
+{
+  Spoke* spokes = this->spokes();
+  while (spokes[spoke].parent != spoke)
+  {
+    spoke = spokes[spoke].parent = spokes[spokes[spoke].parent].parent;
+  }
+  return spoke;
+}
+
+void VertexStar::connectTriangles(
+  std::uint32_t vertex, std::span<const std::uint32_t> link, std::span<std::uint32_t> neighbours)
+{
+  Spoke* spokes = this->spokes();
+  this->Boundary = this->NonManifold = this->Fans = 0;
+  for (std::size_t i = 0; i < link.size(); i += 2)
+  {
+    const std::uint32_t ends[] = { link[i], link[i + 1] };
+    if (ends[0] == ends[1] || ends[0] == vertex || ends[1] == vertex)
+    {
+      for (const std::uint32_t end : ends)
+      {
+        if (end != vertex)
+        {
+          this->spoke(end, neighbours);
+        }
+      }
+      continue;
+    }
+    const std::uint32_t a = this->spoke(ends[0], neighbours);
+    const std::uint32_t b = this->spoke(ends[1], neighbours);
+    // A spoke without triangles is not part of a fan yet.
+    this->Fans += (spokes[a].triangles++ == 0) + (spokes[b].triangles++ == 0);
+    const std::uint32_t rootA = this->root(a), rootB = this->root(b);
+    this->Fans -= rootA != rootB;
+    spokes[std::max(rootA, rootB)].parent = std::min(rootA, rootB);
+  }
+  for (std::uint32_t i = 0; i < this->Found; ++i)
+  {
+    const bool counted = neighbours[i] > vertex;
+    this->Boundary += counted && spokes[i].triangles == 1;
+    this->NonManifold += counted && spokes[i].triangles > 2;
+  }
+}
+
+std::size_t VertexStar::visit(std::uint32_t vertex, std::span<const std::uint32_t> link,
+  std::size_t corners, std::span<std::uint32_t> neighbours)
+{
+  assert(neighbours.size() >= link.size());
+  if (std::uint64_t(this->Begin) + 2 * link.size() > ~std::uint32_t(0))
+  {
+    std::fill_n(this->slots(), this->Count, ~std::uint32_t(0));
+    this->Begin = 0;
+  }
+  this->findOutside(vertex, link, neighbours);
+  if (corners == 3)
+  {
+    this->connectTriangles(vertex, link, neighbours);
+  }
+  else
+  {
+    for (const std::uint32_t rank : link)
+    {
+      if (rank != vertex)
+      {
+        this->spoke(rank, neighbours);
+      }
+    }
+  }
+  this->Begin += this->Found;
+  return this->Found;
+}
+
+} // namespace smg

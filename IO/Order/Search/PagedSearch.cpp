@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Search/PagedSearch.h"
+
+#include "IO/External/Relabelling.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::uint32_t PolledVisits = std::uint32_t(1) << 16;
+
+/** Tests without a division whether a 32-bit number is a multiple of a fixed one. */
+class MultipleOf
+{
+public:
+  explicit MultipleOf(std::int64_t divisor)
+    // Lemire: n is a multiple of d if n * ceil(2^64 / d), modulo 2^64, is less than that factor.
+    : Factor(~std::uint64_t(0) / static_cast<std::uint64_t>(divisor) + 1)
+  {
+  }
+  bool operator()(std::uint32_t n) const { return n * this->Factor <= this->Factor - 1; }
+
+private:
+  std::uint64_t Factor;
+};
+
+/** Assigns the next positions to vertices, page by page. */
+class Placing
+{
+public:
+  Placing(VertexPages& pages, PageCache& cache, SearchQueue& queue, std::int64_t firstPlace)
+    : Pages(pages)
+    , Cache(cache)
+    , Queue(queue)
+    , Next(static_cast<std::uint32_t>(firstPlace))
+  {
+  }
+
+  /** The position of a vertex, whose page must be loaded; assigns one if it has none. */
+  std::uint32_t placeOf(const PageView& view, std::uint32_t page, std::uint32_t rank)
+  {
+    std::uint32_t& place = view.places()[rank - view.firstRank()];
+    if (place == NoIndex)
+    {
+      place = this->Next++;
+      --this->Pages.unplaced(page);
+      this->Cache.touch(page);
+      this->Queue.push(rank);
+    }
+    return place;
+  }
+  std::uint32_t placeOf(std::uint32_t rank)
+  {
+    const std::uint32_t page = this->Pages.pageOf(rank);
+    return this->placeOf(this->Cache.whole(page), page, rank);
+  }
+
+private:
+  VertexPages& Pages;
+  PageCache& Cache;
+  SearchQueue& Queue;
+  std::uint32_t Next;
+};
+
+} // namespace
+
+PagedSearch::PagedSearch(
+  VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes)
+  : Space(workspace)
+  , Pages(pages)
+  , Cache(cache)
+  , QueueBytes(queueBytes)
+  , Queue(workspace, queueBytes)
+  , Visited(workspace, pages.vertices())
+{
+}
+
+std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueBytes)
+{
+  return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
+}
+
+template <class Reach, class Take>
+SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& reach, Take&& take)
+{
+  assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && this->Queue.size() == 0);
+  SearchResult result;
+  std::size_t nextSource = 0;
+  std::uint32_t level = 0;
+  std::int64_t leftOfLevel = 0;
+  double sumOfQueues = 0;
+  while (nextSource < sources.size() || this->Queue.size() > 0)
+  {
+    if (leftOfLevel == 0)
+    {
+      if (this->Queue.size() == 0)
+      {
+        level = std::max(level, sources[nextSource].level);
+      }
+      while (nextSource < sources.size() && sources[nextSource].level <= level)
+      {
+        reach(sources[nextSource++].rank);
+      }
+      leftOfLevel = this->Queue.size();
+      if (leftOfLevel == 0)
+      {
+        continue;
+      }
+    }
+    result.last = this->Queue.pop();
+    take(result.last, level);
+    ++result.vertices;
+    if (++this->Visits % PolledVisits == 0)
+    {
+      this->Space.poll(); // pages in the cache are not read, which would poll
+    }
+    sumOfQueues += static_cast<double>(this->Queue.size());
+    result.peakQueue = std::max(result.peakQueue, this->Queue.size());
+    if (--leftOfLevel == 0)
+    {
+      result.levels = ++level;
+    }
+  }
+  result.meanQueue = result.vertices > 0 ? sumOfQueues / double(result.vertices) : 0;
+  return result;
+}
+
+template <class Look, class Seen>
+SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Look&& look, Seen&& seen)
+{
+  const auto reach = [this](std::uint32_t rank)
+  {
+    if (this->Visited.set(rank))
+    {
+      this->Queue.push(rank);
+    }
+  };
+  // Vertices of a page come in sequences. Nothing else requests pages, so the view stays valid.
+  PageView view(nullptr, 0, 0, 0);
+  return this->run(sources, reach,
+    [&](std::uint32_t rank, std::uint32_t level)
+    {
+      if (rank - view.firstRank() >= view.vertices())
+      {
+        view = look(this->Pages.pageOf(rank));
+      }
+      view.neighbours(rank - view.firstRank(), reach);
+      seen(rank, level);
+    });
+}
+
+template <class Look>
+SearchResult PagedSearch::probeBy(std::span<const SearchSource> sources,
+  std::span<std::uint32_t> levels, std::int64_t stride, Look&& look)
+{
+  this->Visited.clear();
+  if (levels.empty())
+  {
+    return this->visit(sources, look, [](std::uint32_t, std::uint32_t) {});
+  }
+  std::ranges::fill(levels, NoIndex);
+  const MultipleOf isSample(stride);
+  return this->visit(sources, look,
+    [&](std::uint32_t rank, std::uint32_t level)
+    {
+      if (isSample(rank))
+      {
+        levels[rank / std::uint32_t(stride)] = level;
+      }
+    });
+}
+
+SearchResult PagedSearch::probe(
+  std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
+{
+  ++this->Probes;
+  return this->probeBy(
+    sources, levels, stride, [this](std::uint32_t page) { return this->Cache.adjacency(page); });
+}
+
+std::optional<SearchResult> PagedSearch::probeLoaded(
+  std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
+{
+  struct IsNotLoaded
+  {
+  };
+  try
+  {
+    const SearchResult result = this->probeBy(sources, levels, stride,
+      [this](std::uint32_t page)
+      {
+        const std::optional<PageView> view = this->Cache.loaded(page);
+        return view ? *view : throw IsNotLoaded();
+      });
+    ++this->Probes;
+    return result;
+  }
+  catch (const IsNotLoaded&)
+  {
+    this->Queue.clear();
+    return std::nullopt;
+  }
+}
+
+std::int64_t PagedSearch::components()
+{
+  this->Visited.clear();
+  std::int64_t count = 0;
+  for (std::int64_t rank = 0; rank < this->Pages.vertices(); ++count)
+  {
+    const SearchSource source = { 0, static_cast<std::uint32_t>(rank) };
+    this->visit(
+      { &source, 1 }, [this](std::uint32_t page) { return this->Cache.adjacency(page); },
+      [](std::uint32_t, std::uint32_t) {});
+    rank = this->Visited.firstUnset(rank);
+  }
+  return count;
+}
+
+SearchResult PagedSearch::place(std::span<const SearchSource> sources, OrderedVertices& order)
+{
+  assert(order.doublePositions == this->Pages.doublePositions());
+  return this->Pages.doublePositions() ? this->placeAs<double>(sources, order)
+                                       : this->placeAs<float>(sources, order);
+}
+
+template <class Real>
+SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, OrderedVertices& order)
+{
+  Placing placing(this->Pages, this->Cache, this->Queue, order.count);
+  const SearchResult result = this->run(
+    sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
+    [&](std::uint32_t rank, std::uint32_t)
+    {
+      const std::uint32_t page = this->Pages.pageOf(rank);
+      const PageView view = this->Cache.whole(page);
+      this->Cache.pin(page);
+      const std::uint32_t vertex = rank - view.firstRank();
+      OrderedVertex<Real> record;
+      record.reach = view.places()[vertex];
+      assert(record.reach == order.count);
+      view.neighbours(vertex,
+        [&](std::uint32_t neighbour)
+        {
+          const bool isHere = neighbour - view.firstRank() < view.vertices();
+          record.reach = std::max(record.reach,
+            isHere ? placing.placeOf(view, page, neighbour) : placing.placeOf(neighbour));
+        });
+      record.id = view.ids()[vertex];
+      std::memcpy(
+        record.position, view.position(vertex, sizeof record.position), sizeof record.position);
+      order.records.put(0, record);
+      ++order.count;
+    });
+  this->Cache.unpin();
+  return result;
+}
+
+} // namespace smg

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Search/PatchGraph.h"
+
+#include "IO/External/Relabelling.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+PatchGraph::PatchGraph(VertexPages& pages, Workspace& workspace, PagedArray<std::uint32_t>& patches,
+  PagedArray<float>& values)
+  : Pages(pages)
+  , Stretch(pages, workspace)
+  , Patches(patches)
+  , Values(values)
+{
+}
+
+template <class Take>
+bool PatchGraph::forEachRun(std::int64_t run, Take&& take)
+{
+  // A run is a part of a page, or several pages.
+  const std::int64_t pagesOfRun = std::max<std::int64_t>(1, run / this->Pages.pageVertices());
+  for (std::int64_t page = 0; page < this->Pages.pages(); page += pagesOfRun)
+  {
+    this->Stretch.load(page, std::min(page + pagesOfRun, this->Pages.pages()));
+    const std::int64_t end = this->Stretch.end();
+    const std::int64_t step = pagesOfRun > 1 ? end - this->Stretch.first() : run;
+    for (std::int64_t begin = this->Stretch.first(); begin < end; begin += step)
+    {
+      if (!take(std::uint32_t(begin), std::uint32_t(std::min(begin + step, end))))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool PatchGraph::build(std::int64_t run, const PatchLimits& limits)
+{
+  this->Graph = WeightedGraph();
+  this->Closed = 0;
+  const bool labelled = this->forEachRun(run,
+    [&](std::uint32_t begin, std::uint32_t end)
+    {
+      this->label(begin, end);
+      return this->Graph.masses.size() <= limits.nodes;
+    });
+  return labelled && this->forEachRun(run,
+                       [&](std::uint32_t begin, std::uint32_t end)
+                       {
+                         this->connect(begin, end);
+                         return this->Graph.edges() <= limits.edges;
+                       });
+}
+
+/** Puts the part of a run that is connected to a vertex into the queue, breadth first; returns
+ * whether no edge leaves the run. */
+bool PatchGraph::search(
+  std::uint32_t start, std::uint32_t begin, std::uint32_t end, std::uint8_t mark)
+{
+  bool closed = true;
+  this->Queue.assign(1, start);
+  this->Marks[start - begin] = mark;
+  for (std::size_t i = 0; i < this->Queue.size(); ++i)
+  {
+    this->Stretch.neighbours(this->Queue[i],
+      [&](std::uint32_t other)
+      {
+        if (other < begin || other >= end)
+        {
+          closed = false;
+        }
+        else if (this->Marks[other - begin] != mark)
+        {
+          this->Marks[other - begin] = mark;
+          this->Queue.push_back(other);
+        }
+      });
+  }
+  return closed;
+}
+
+void PatchGraph::label(std::uint32_t begin, std::uint32_t end)
+{
+  this->Marks.assign(end - begin, 0);
+  for (std::uint32_t rank = begin; rank < end; ++rank)
+  {
+    if (this->Marks[rank - begin] != 0)
+    {
+      continue;
+    }
+    if (this->search(rank, begin, end, 1))
+    {
+      // Starts at the end of the component, so that its order is narrow.
+      this->search(this->Queue.back(), begin, end, 2);
+      for (const std::uint32_t vertex : this->Queue)
+      {
+        this->Patches.at(vertex) = NoIndex;
+        this->Values.at(vertex) = static_cast<float>(this->Closed++);
+      }
+      continue;
+    }
+    const std::uint32_t patch = this->Graph.nodes();
+    for (const std::uint32_t vertex : this->Queue)
+    {
+      this->Patches.at(vertex) = patch;
+    }
+    this->Graph.masses.push_back(static_cast<float>(this->Queue.size()));
+  }
+}
+
+/** Appends the edges of the patches of a run, which follow those of earlier runs. */
+void PatchGraph::connect(std::uint32_t begin, std::uint32_t end)
+{
+  this->Crossing.clear();
+  std::uint32_t next = NoIndex; // after the patches of the run
+  for (std::uint32_t rank = begin; rank < end; ++rank)
+  {
+    const std::uint32_t patch = this->Patches.get(rank);
+    if (patch == NoIndex)
+    {
+      continue;
+    }
+    next = next == NoIndex ? patch + 1 : std::max(next, patch + 1);
+    this->Stretch.neighbours(rank,
+      [&](std::uint32_t other)
+      {
+        // Parts of a run have no edges between each other.
+        if (other < begin || other >= end)
+        {
+          this->Crossing.emplace_back(patch, this->Patches.get(other));
+        }
+      });
+  }
+  std::sort(this->Crossing.begin(), this->Crossing.end());
+  for (std::size_t i = 0; i < this->Crossing.size(); ++i)
+  {
+    const auto [patch, other] = this->Crossing[i];
+    if (i > 0 && this->Crossing[i - 1] == this->Crossing[i])
+    {
+      this->Graph.weights.back() += 1;
+      continue;
+    }
+    while (this->Graph.begin.size() <= patch)
+    {
+      this->Graph.begin.push_back(static_cast<std::uint32_t>(this->Graph.edges()));
+    }
+    this->Graph.neighbours.push_back(other);
+    this->Graph.weights.push_back(1);
+  }
+  while (next != NoIndex && this->Graph.begin.size() <= next)
+  {
+    this->Graph.begin.push_back(static_cast<std::uint32_t>(this->Graph.edges()));
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Search/SourcePlan.h"
+
+#include "Solver/Memory/Buffer.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+using Levels = std::span<std::int32_t>;
+
+constexpr std::int32_t MostBins = 150;
+/** The number of single candidates with which plans start. */
+constexpr int Beginnings = 4;
+constexpr std::size_t MostSources = 24;
+/** The shares of the levels by which a further source starts before the others reach it. Mostly
+ * small: such a source straightens the arriving front, whereas an early one has its own front. */
+constexpr double HeadStarts[] = { 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7,
+  1.0 };
+/** The number of adjustments of the levels after each addition, and the shares of their range. */
+constexpr int AdjustRounds = 2;
+constexpr double Adjustments[] = { -0.1, 0.1, -0.04, 0.04, -0.015, 0.015, -0.005, 0.005 };
+/** The minimum gain of a further source, and of a change of a level. */
+constexpr double SourceGain = 0.998, LevelGain = 0.9997;
+
+/** Estimates the cost of a search from the levels of the samples. */
+class LevelCost
+{
+public:
+  LevelCost(std::size_t samples, std::int64_t vertices)
+    : VerticesPerSample(double(vertices) / double(samples))
+    , Samples(samples)
+  {
+  }
+
+  /** All levels are from `first` to `last`. */
+  double operator()(std::span<const std::int32_t> levels, std::int32_t first, std::int32_t last)
+  {
+    const std::int32_t width = std::max(1, (last - first + MostBins) / MostBins);
+    const auto bins = static_cast<std::size_t>((last - first) / width) + 1;
+    std::fill_n(this->Bins.begin(), bins, 0);
+    // In double precision, so that the last level of a long mesh is not rounded beyond the bins.
+    const double scale = 1.0 / width;
+    for (const std::int32_t level : levels)
+    {
+      ++this->Bins[static_cast<std::size_t>((level - first + 0.5) * scale)];
+    }
+    return this->costOfBins(bins, this->VerticesPerSample / width);
+  }
+
+private:
+  double costOfBins(std::size_t bins, double verticesPerCount) const
+  {
+    double squares = 0, peak = 0;
+    for (std::size_t i = 0; i < bins; ++i)
+    {
+      const double count = this->Bins[i];
+      squares += count * count;
+      // Smoothed, since a bin has few samples; the last one is not full.
+      const bool isInside = bins > 4 && i > 0 && i + 1 < bins;
+      const double smooth = isInside
+                              ? 0.25 * this->Bins[i - 1] + 0.5 * count + 0.25 * this->Bins[i + 1]
+                              : (i + 1 < bins ? count : 0);
+      peak = std::max(peak, smooth);
+    }
+    return searchCost(squares / double(this->Samples), peak) * verticesPerCount;
+  }
+
+  double VerticesPerSample;
+  std::size_t Samples;
+  std::array<std::int32_t, MostBins> Bins;
+};
+
+class Planner
+{
+public:
+  Planner(const SourceDistances& distances, std::int64_t vertices, Workspace& workspace)
+    : Distances(distances)
+    , Cost(distances.samples(), vertices)
+    , Memory(workspace.pool(), 2 * distances.samples() * sizeof(std::int32_t))
+    , Current(reinterpret_cast<std::int32_t*>(this->Memory.data()), distances.samples())
+    , Tried(this->Current.data() + distances.samples(), distances.samples())
+  {
+  }
+
+  SourcePlan single(std::size_t candidate)
+  {
+    const std::span<const std::int32_t> distances = this->Distances[candidate];
+    return { { { candidate, 0 } }, this->Cost(distances, 0, *std::ranges::max_element(distances)) };
+  }
+
+  /** Adds sources to a plan while this reduces the cost. */
+  void extend(SourcePlan& plan)
+  {
+    this->Last = this->evaluate(plan, this->Current);
+    for (std::size_t added = 1; added < MostSources && this->addSource(plan); ++added)
+    {
+      this->Last = this->evaluate(plan, this->Current);
+      for (int round = 0; round < AdjustRounds; ++round)
+      {
+        this->adjustLevels(plan);
+      }
+      this->dropSources(plan);
+    }
+  }
+
+private:
+  /** Computes the levels of the samples in the search of a plan; returns the last of them. */
+  std::int32_t evaluate(const SourcePlan& plan, Levels levels) const
+  {
+    std::ranges::fill(levels, std::numeric_limits<std::int32_t>::max());
+    std::int32_t last = 0;
+    for (const PlannedSource& source : plan.sources)
+    {
+      last = join(levels, levels, source.level, this->Distances[source.candidate]);
+    }
+    return last;
+  }
+  static std::int32_t join(std::span<const std::int32_t> levels, Levels joined, std::int32_t level,
+    std::span<const std::int32_t> distances)
+  {
+    std::int32_t last = 0;
+    for (std::size_t i = 0; i < joined.size(); ++i)
+    {
+      joined[i] = std::min(levels[i], level + distances[i]);
+      last = std::max(last, joined[i]);
+    }
+    return last;
+  }
+
+  bool addSource(SourcePlan& plan)
+  {
+    double best = plan.cost * SourceGain;
+    PlannedSource added{ this->Distances.candidates(), 0 };
+    for (std::size_t candidate = 0; candidate < this->Distances.candidates(); ++candidate)
+    {
+      const std::span<const std::int32_t> distances = this->Distances[candidate];
+      std::int32_t reached = 0; // a source that starts later has no effect
+      for (std::size_t i = 0; i < distances.size(); ++i)
+      {
+        reached = std::max(reached, this->Current[i] - distances[i]);
+      }
+      for (const double share : HeadStarts)
+      {
+        const std::int32_t level = reached - 1 - static_cast<std::int32_t>(share * this->Last);
+        const std::int32_t last = join(this->Current, this->Tried, level, distances);
+        const double cost = this->Cost(this->Tried, std::min(0, level), last);
+        if (cost < best)
+        {
+          best = cost;
+          added = { candidate, level };
+        }
+      }
+    }
+    if (added.candidate == this->Distances.candidates())
+    {
+      return false;
+    }
+    plan.sources.push_back(added);
+    beginAtZero(plan);
+    plan.cost = best;
+    return true;
+  }
+
+  static void beginAtZero(SourcePlan& plan)
+  {
+    const std::int32_t first =
+      std::ranges::min_element(plan.sources, {}, &PlannedSource::level)->level;
+    for (PlannedSource& source : plan.sources)
+    {
+      source.level -= first;
+    }
+  }
+
+  /** Varies the level of each source, and keeps improvements. */
+  void adjustLevels(SourcePlan& plan)
+  {
+    for (std::size_t i = 0; i < plan.sources.size(); ++i)
+    {
+      for (const double share : Adjustments)
+      {
+        SourcePlan changed = plan;
+        changed.sources[i].level += static_cast<std::int32_t>(share * this->Last);
+        this->takeIfBetter(plan, std::move(changed), LevelGain);
+      }
+    }
+  }
+
+  /** Removes the sources that others have made useless. */
+  void dropSources(SourcePlan& plan)
+  {
+    for (std::size_t i = plan.sources.size(); i-- > 0 && plan.sources.size() > 1;)
+    {
+      SourcePlan changed = plan;
+      changed.sources.erase(changed.sources.begin() + static_cast<std::ptrdiff_t>(i));
+      this->takeIfBetter(plan, std::move(changed), 1.0);
+    }
+  }
+
+  /** Replaces the plan if the cost of the changed one is at most `gain` times its cost. */
+  void takeIfBetter(SourcePlan& plan, SourcePlan changed, double gain)
+  {
+    beginAtZero(changed);
+    const std::int32_t last = this->evaluate(changed, this->Tried);
+    changed.cost = this->Cost(this->Tried, 0, last);
+    if (changed.cost <= plan.cost * gain)
+    {
+      plan = std::move(changed);
+      std::swap(this->Current, this->Tried);
+      this->Last = last;
+    }
+  }
+
+  const SourceDistances& Distances;
+  LevelCost Cost;
+  Buffer Memory;
+  Levels Current;        ///< of the plan under extension
+  std::int32_t Last = 0; ///< the greatest of them
+  Levels Tried;
+};
+
+} // namespace
+
+std::int64_t sourcePlanMemory(std::size_t samples, int threads)
+{
+  const std::int64_t planners = std::min(threads, Beginnings);
+  return planners * 2 * static_cast<std::int64_t>(samples * sizeof(std::int32_t));
+}
+
+std::vector<SourcePlan> planSources(
+  const SourceDistances& distances, std::int64_t vertices, Workspace& workspace)
+{
+  std::vector<SourcePlan> plans;
+  {
+    Planner planner(distances, vertices, workspace);
+    for (std::size_t candidate = 0; candidate < distances.candidates(); ++candidate)
+    {
+      plans.push_back(planner.single(candidate));
+    }
+  }
+  std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
+  plans.resize(std::min(plans.size(), std::size_t(Beginnings)));
+  Workers& workers = workspace.workers();
+  const std::int64_t needed = sourcePlanMemory(distances.samples(), workers.threads());
+  Workers alone(1);
+  runAll(workspace.available() >= needed ? workers : alone, static_cast<int>(plans.size()),
+    [&](int i)
+    {
+      Planner planner(distances, vertices, workspace);
+      planner.extend(plans[static_cast<std::size_t>(i)]);
+    });
+  std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
+  return plans;
+}
+
+} // namespace smg

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Import/RawMesh.h"
+#include "IO/Order/Assembly/StreamAssembly.h"
+#include "smg/VsmReader.h"
+
+#include <functional>
+
+namespace smg
+{
+
+using TakeVertices = std::function<void(const IsolatedVertices& vertices)>;
+
+/**
+ * Passes the vertices of a mesh that are not in its layout to `take`, in chunks and in the order of
+ * the file, with the vertex columns of a LayoutSource. They are numbered by OriginalId if the mesh
+ * has that column, otherwise by their numbers in the file.
+ */
+void takeIsolatedVertices(
+  const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take);
+
+} // namespace smg

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/SolvedMesh.h"
+
+#include "IO/Results/SourceAhead.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
+#include "Solver/Jobs/Results/RenumberExtremes.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+bool isOfSolve(const std::string& name)
+{
+  return name == SolutionName || name == GradientName || name == FluxName;
+}
+
+void append(
+  const char* name, int components, std::span<const double> values, std::vector<Column>& columns)
+{
+  Column column{ { name, ScalarType::Float64, components }, {} };
+  column.bytes.resize(values.size_bytes());
+  std::memcpy(column.bytes.data(), values.data(), values.size_bytes());
+  columns.push_back(std::move(column));
+}
+
+} // namespace
+
+struct SolvedMesh::Implementation
+{
+  Implementation(
+    const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
+    : source(std::make_unique<SourceAhead>(mesh.source(), options.threads))
+    , results(source->info(), problem, solution, options)
+    , wanted(options)
+    , info(source->info())
+    , file(mesh.path())
+  {
+    if (solution.vertices() != this->info.vertices)
+    {
+      throw Error(this->file.string() + " has " + std::to_string(this->info.vertices) +
+                  " vertices, the solution " + std::to_string(solution.vertices()) +
+                  ": it is that of another mesh.");
+    }
+    const int columns = problem.columns();
+    for (std::vector<ColumnSpec>* specs : { &this->info.vertexColumns, &this->info.cellColumns })
+    {
+      std::erase_if(*specs, [](const ColumnSpec& spec) { return isOfSolve(spec.name); });
+    }
+    constexpr double NoSolution = std::numeric_limits<double>::quiet_NaN();
+    this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns, NoSolution });
+    if (options.gradient)
+    {
+      this->info.cellColumns.push_back({ GradientName, ScalarType::Float64, 3 * columns });
+    }
+    if (options.flux)
+    {
+      this->info.cellColumns.push_back({ FluxName, ScalarType::Float64, 3 * columns });
+    }
+  }
+
+  std::unique_ptr<MeshSource> source;
+  ProblemResults results;
+  ResultOptions wanted;
+  StreamInfo info;
+  std::filesystem::path file;
+  bool ended = false; ///< the stream has been read to its end
+};
+
+SolvedMesh::SolvedMesh(
+  const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
+  : Self(std::make_unique<Implementation>(mesh, problem, solution, options))
+{
+}
+
+SolvedMesh::~SolvedMesh() = default;
+
+const StreamInfo& SolvedMesh::info() const
+{
+  return this->Self->info;
+}
+
+bool SolvedMesh::next(MeshBlock& block)
+{
+  if (!this->Self->source->next(block))
+  {
+    this->Self->ended = true;
+    return false;
+  }
+  // The problem may use the columns of an earlier solve.
+  this->Self->results.add(block);
+  for (std::vector<Column>* columns : { &block.vertexColumns, &block.cellColumns })
+  {
+    std::erase_if(*columns, [](const Column& column) { return isOfSolve(column.spec.name); });
+  }
+  const int columns = this->Self->info.vertexColumns.back().components;
+  append(SolutionName, columns, this->Self->results.values(), block.vertexColumns);
+  if (this->Self->wanted.gradient)
+  {
+    append(GradientName, 3 * columns, this->Self->results.gradient(), block.cellColumns);
+  }
+  if (this->Self->wanted.flux)
+  {
+    append(FluxName, 3 * columns, this->Self->results.flux(), block.cellColumns);
+  }
+  return true;
+}
+
+void SolvedMesh::finish(Report& report)
+{
+  if (!this->Self->ended)
+  {
+    throw Error("the results of a solution are known when its mesh has been read to the end");
+  }
+  this->Self->results.finish(report);
+  if (findColumn(this->Self->info.vertexColumns, OriginalIdSpec) < 0)
+  {
+    return;
+  }
+  VsmReader mesh(this->Self->file);
+  Column id;
+  renumberExtremes(report,
+    [&](std::int64_t vertex)
+    {
+      mesh.readVertexColumn(OriginalIdName, vertex, 1, id);
+      return id.as<std::int64_t>()[0];
+    });
+}
+
+} // namespace smg

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/AssembledRows.h"
+#include "Solver/Assembly/CellAssembly.h"
+#include "Solver/Assembly/EdgeTargets.h"
+#include "Solver/Assembly/FinalVertices.h"
+#include "Solver/Assembly/NeighbourReach.h"
+#include "Solver/Assembly/RowAssembly.h"
+#include "Solver/Assembly/RowListener.h"
+#include "Solver/Assembly/WeighedCells.h"
+#include "Solver/Memory/Reservation.h"
+#include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Multigrid/Setup/StiffRows.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Converts the mesh stream to the rows of the finest level: weights are summed per edge while cells
+ * arrive; when a vertex is final, its row, right-hand side and initial value are appended to
+ * `rows`. Constrained vertices are nodes with an empty row; they contribute to alpha and b of their
+ * neighbours.
+ */
+class SMG_EXPORT Assembly
+{
+public:
+  /** The detection of the stiff rows of a level for a problem on such cells with these `rows`. */
+  static StiffRows stiffRows(CellType type, Weights weights, const AssembledRows& rows)
+  {
+    const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
+    return may ? StiffRows(StiffRows::Triangles, rows.weightScale) : StiffRows();
+  }
+
+  /** `listener`, if given, receives the data that the rows do not store. */
+  Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
+    Components& components, ComponentLabels& labels, RowListener* listener = nullptr);
+
+  /** Adds a block and completes the rows of the vertices that it finalises. Throws Error on an
+   * invalid block. */
+  void add(const MeshBlock& block);
+  /** Completes the remaining rows. Throws Error if the stream ended before the counts of its
+   * StreamInfo.
+   */
+  void finish();
+
+  // The same in steps on several threads: between beginApart() and release(), weigh() or
+  // weighRest(), connect() and closeRows() may run at the same time, each on what the one before it
+  // has made in the step before.
+
+  /** Begins a step that may weigh the cells of a block of so many vertices. */
+  void beginApart(std::int64_t vertices);
+  /** Adds the vertices of a block and weighs its cells, for which the problem is asked. */
+  void weigh(const MeshBlock& block);
+  /** The same at the end of the stream. */
+  void weighRest();
+  /** Connects the corners of the weighed cells, and collects the vertices that become final; where
+   * this asks the problem or needs its facets, weigh() has done it. */
+  void connect();
+  /** Completes the rows of collected vertices. */
+  void closeRows();
+  /** Releases the data that no later row needs. */
+  void release();
+  /** Whether the rows of all vertices so far are completed. */
+  bool isClosed() const { return this->Closed == this->vertices(); }
+
+  std::int64_t vertices() const { return this->Cells.vertices.end(); }
+  std::int64_t openVertices() const { return this->vertices() - this->Closed; }
+  std::int64_t cells() const { return this->Check.cells(); }
+  CellType cellType() const { return this->Info.cellType; }
+  std::int64_t prescribed() const { return this->Rows.prescribed(); }
+  std::int64_t held() const { return this->Rows.held(); }
+  std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }
+  /** The data of the cells. */
+  const WeightPolicy& weights() const { return this->Cells.policy; }
+  /** With cotangent weights: rows that were raised. */
+  std::int64_t raisedRows() const { return this->Rows.raised(); }
+  /** See StiffRows. */
+  std::int64_t stiffRows() const { return this->Rows.stiff(); }
+  /** ||b - A x_0|| of the completed rows. */
+  const InitialResidual& residual() const { return this->Rows.residual(); }
+
+private:
+  void beginRows();
+  void collectBelow(std::int64_t end, bool apart);
+  void collectBatch(std::int64_t end);
+  void collectVertex(std::int64_t i);
+  void askTargets(std::int64_t begin, std::size_t edge);
+
+  StreamInfo Info;
+  StreamCheck Check;
+  Components& Parts;
+  RowListener* Listener;
+  AssembledRows& Out;
+  double WeightScale = 1.0; // see AssembledRows
+
+  // By open vertex.
+  CellAssembly Cells;
+  // Of a block each, and not accounted for: a constant times the block of the mesh source.
+  WeighedCells Weighed, Connected; // the latter are those that connect() takes
+  NeighbourReach Reach;
+
+  EdgeTargets Targets;
+  const bool ConnectsApart;
+  std::vector<std::size_t> RowEnds; // of a query
+  FinalVertices Collected, Arrived; // the latter are those that closeRows() completes
+  Reservation FinalMemory;          // of both
+  RowAssembly Rows;
+
+  std::int64_t Closed = 0; // vertices with completed rows
+};
+
+} // namespace smg

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/ComponentLabels.h"
+#include "Solver/Assembly/Components.h"
+#include "Solver/Assembly/OpenComponents.h"
+#include "Solver/Assembly/OpenVertices.h"
+#include "Solver/Assembly/RowLoads.h"
+#include "Solver/Assembly/WeighedCells.h"
+#include "Solver/Assembly/WeightPolicy.h"
+#include "Solver/Assembly/WeightedEdges.h"
+#include "smg/CellWeights.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** What cells contribute to their vertices and edges, summed for open vertices: weights, masses,
+ * loads and components. Assembly makes rows of it in stream order. */
+struct SMG_EXPORT CellAssembly
+{
+  /** `scale`: see WeightPolicy; `labels` receives the component of each closed vertex. */
+  CellAssembly(Pool& pool, CellType type, Problem& problem, double& scale, Components& components,
+    ComponentLabels& labels);
+
+  /** Adds the vertices, cells and facets of a block. Throws Error if the problem returns invalid
+   * data. */
+  void add(const MeshBlock& block);
+
+  // The same in two steps, on two threads: connect() of some cells may run at the same time as
+  // weigh() of the block after them if there is room for this. Not with data on facets: those
+  // of a block are added while others are taken.
+
+  bool mayConnectApart() const { return !this->loads.facets(); }
+  /** Provides room for so many more vertices. */
+  void reserve(std::int64_t vertices);
+  /** Adds the vertices of a block and the loads in its cells; `to` receives those of its cells that
+   * connect their corners. Throws Error if the problem returns invalid data. */
+  void weigh(const MeshBlock& block, WeighedCells& to);
+  /** Connects the corners of the cells. */
+  void connect(const WeighedCells& cells);
+
+  WeightPolicy policy;
+  OpenVertices vertices;
+  OpenComponents parts;
+  WeightedEdges edges;
+  RowLoads loads;
+
+private:
+  void addVertices(const MeshBlock& block);
+  void extend(std::int64_t vertices);
+  void weigh(
+    const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<WeighedCell>& to);
+  void weigh(const std::int64_t* corners, unsigned flags, std::vector<WeighedCell>& to);
+  void connect(std::span<const WeighedCell> cells);
+  void connect(const WeighedCell& cell);
+
+  CellType Type;
+  std::vector<WeighedCell> Weighed; // a batch of add()
+};
+
+} // namespace smg

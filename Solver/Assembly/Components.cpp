@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/Components.h"
+
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace smg
+{
+
+std::int32_t Components::add()
+{
+  if (this->Of.size() >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw Error("the mesh falls into too many parts: convert it with the order bfs");
+  }
+  this->account(1);
+  const auto label = static_cast<std::int32_t>(this->Of.size());
+  this->Of.push_back({ label, false, 1 });
+  return label;
+}
+
+/** Accounts for the memory of so many more labels. */
+void Components::account(std::int64_t labels)
+{
+  if (this->Account)
+  {
+    this->Account->acquire(
+      labels * (static_cast<std::int64_t>(sizeof(Component) + sizeof(Unknowns)) +
+                 this->Columns * static_cast<std::int64_t>(sizeof(Sums))));
+  }
+}
+
+void Components::load(StateReader& state)
+{
+  state(this->Of, this->Counted, this->Summed);
+  state.require(this->Of.size() < static_cast<std::size_t>(INT32_MAX) &&
+                this->Counted.size() == this->Of.size() &&
+                this->Summed.size() == this->Of.size() * static_cast<std::size_t>(this->Columns));
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    // Labels are joined to those of larger components, hence without circles.
+    const auto parent = static_cast<std::size_t>(this->Of[label].parent);
+    state.require(parent < this->Of.size() &&
+                  (parent == label || this->Of[parent].labels > this->Of[label].labels));
+  }
+  this->account(this->labels());
+}
+
+std::int32_t Components::root(std::int32_t label) const
+{
+  while (this->Of[static_cast<std::size_t>(label)].parent != label)
+  {
+    label = this->Of[static_cast<std::size_t>(label)].parent;
+  }
+  return label;
+}
+
+std::int32_t Components::join(std::int32_t a, std::int32_t b)
+{
+  a = this->root(a);
+  b = this->root(b);
+  if (a == b)
+  {
+    return a;
+  }
+  // The smaller component is joined to the larger one, which keeps the paths to the roots short.
+  if (this->Of[static_cast<std::size_t>(a)].labels < this->Of[static_cast<std::size_t>(b)].labels)
+  {
+    std::swap(a, b);
+  }
+  Component& whole = this->Of[static_cast<std::size_t>(a)];
+  Component& part = this->Of[static_cast<std::size_t>(b)];
+  part.parent = a;
+  whole.anchored = whole.anchored || part.anchored;
+  whole.labels += part.labels;
+  return a;
+}
+
+void Components::extendCounts(std::size_t labels)
+{
+  if (labels > this->Counted.size())
+  {
+    this->Counted.resize(labels);
+    this->Summed.resize(labels * static_cast<std::size_t>(this->Columns));
+  }
+}
+
+void Components::count(
+  std::int32_t label, const double* b, const double* x0, const double* residual, double mass)
+{
+  const auto of = static_cast<std::size_t>(label);
+  this->extendCounts(of + 1);
+  Unknowns& all = this->Counted[of];
+  ++all.number;
+  all.mass += mass;
+  all.massSquares += mass * mass;
+  for (int k = 0; k < this->Columns; ++k)
+  {
+    Sums& sum = this->sums(of, k);
+    sum.b += b[k];
+    sum.absolute += std::fabs(b[k]);
+    sum.initial += x0[k];
+    sum.weighed += mass * x0[k];
+    sum.residual += residual[k];
+    sum.residuals += mass * residual[k];
+  }
+}
+
+void Components::settle()
+{
+  this->extendCounts(this->Of.size());
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    if (this->isRoot(label))
+    {
+      continue;
+    }
+    const auto root = static_cast<std::size_t>(this->root(static_cast<std::int32_t>(label)));
+    Unknowns& whole = this->Counted[root];
+    const Unknowns part = std::exchange(this->Counted[label], {});
+    whole.number += part.number;
+    whole.mass += part.mass;
+    whole.massSquares += part.massSquares;
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      Sums& to = this->sums(root, k);
+      const Sums from = std::exchange(this->sums(label, k), {});
+      to.b += from.b;
+      to.absolute += from.absolute;
+      to.initial += from.initial;
+      to.weighed += from.weighed;
+      to.residual += from.residual;
+      to.residuals += from.residuals;
+    }
+  }
+}
+
+void Components::combine(const std::function<void(std::span<double>)>& add)
+{
+  this->settle();
+  std::vector<double> sums;
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    const Unknowns& all = this->Counted[label];
+    sums.insert(sums.end(), { this->Of[label].anchored ? 1.0 : 0.0, static_cast<double>(all.number),
+                              all.mass, all.massSquares });
+  }
+  for (const Sums& sum : this->Summed)
+  {
+    sums.insert(
+      sums.end(), { sum.b, sum.absolute, sum.initial, sum.weighed, sum.residual, sum.residuals });
+  }
+  add(sums);
+  const double* next = sums.data();
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    Unknowns& all = this->Counted[label];
+    this->Of[label].anchored = *next++ > 0.0;
+    all.number = static_cast<std::int64_t>(*next++);
+    all.mass = *next++;
+    all.massSquares = *next++;
+  }
+  for (Sums& sum : this->Summed)
+  {
+    for (double* value :
+      { &sum.b, &sum.absolute, &sum.initial, &sum.weighed, &sum.residual, &sum.residuals })
+    {
+      *value = *next++;
+    }
+  }
+}
+
+std::int64_t Components::components() const
+{
+  std::int64_t count = 0;
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    count += this->isRoot(label) ? 1 : 0;
+  }
+  return count;
+}
+
+std::int64_t Components::freeComponents() const
+{
+  std::int64_t count = 0;
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    count += this->isRoot(label) && !this->Of[label].anchored ? 1 : 0;
+  }
+  return count;
+}
+
+/** Calls f(label, column) for free components in which b does not sum to zero. */
+template <class F>
+void Components::forShifts(F&& f) const
+{
+  constexpr double Rounding = 1e-12;
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    for (int k = 0; this->isRoot(label) && !this->Of[label].anchored && k < this->Columns; ++k)
+    {
+      const Sums& sum = this->sums(label, k);
+      if (std::fabs(sum.b) > Rounding * sum.absolute)
+      {
+        f(label, k);
+      }
+    }
+  }
+}
+
+std::vector<double> Components::rightSideShifts() const
+{
+  std::vector<double> shifts(this->Summed.size());
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
+        this->sums(label, k).b / this->weightSum(label);
+    });
+  return shifts;
+}
+
+std::vector<double> Components::shiftedSums() const
+{
+  std::vector<double> sums(static_cast<std::size_t>(this->Columns));
+  this->forShifts(
+    [&](std::size_t label, int k) { sums[static_cast<std::size_t>(k)] += this->sums(label, k).b; });
+  return sums;
+}
+
+double Components::incompatibility() const
+{
+  double largest = 0.0;
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      const Sums& sum = this->sums(label, k);
+      largest = std::max(largest, std::fabs(sum.b) / sum.absolute);
+    });
+  return largest;
+}
+
+double Components::shiftedSquares() const
+{
+  double squares = 0.0;
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      // ||r - s w||^2 - ||r||^2 with the shift s and the weights w.
+      const Unknowns& all = this->Counted[label];
+      const Sums& sum = this->sums(label, k);
+      const bool masses = all.mass > 0.0;
+      const double shift = sum.b / this->weightSum(label);
+      squares += shift * shift * (masses ? all.massSquares : static_cast<double>(all.number)) -
+                 2.0 * shift * (masses ? sum.residuals : sum.residual);
+    });
+  return squares;
+}
+
+std::vector<double> Components::meanShifts(std::span<const double> sums) const
+{
+  std::vector<double> shifts(sums.size());
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    for (int k = 0; this->isRoot(label) && !this->Of[label].anchored && k < this->Columns; ++k)
+    {
+      const std::size_t place =
+        label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k);
+      const Sums& sum = this->sums(label, k);
+      const double initial = this->Counted[label].mass > 0.0 ? sum.weighed : sum.initial;
+      shifts[place] = (sums[place] - initial) / this->weightSum(label);
+    }
+  }
+  return shifts;
+}
+
+} // namespace smg

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Files/StateReader.h"
+#include "Solver/Files/StateWriter.h"
+#include "Solver/Memory/Pool.h"
+#include "smg/Export.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The connected components of the mesh during a pass: each vertex has a label, and labels of
+ * connected vertices are joined. A component without a constrained vertex (a free component)
+ * determines its solution only up to a constant, and only if its right-hand side sums to zero; this
+ * class accumulates the required sums. Means are weighted by the lumped masses of the vertices, so
+ * that a constant source is subtracted from the right-hand side, or by 1 if there are none.
+ *
+ * One thread may count() while another one adds, joins and anchors labels; the sums of a label do
+ * not depend on when it is joined. settle() ends this.
+ */
+class SMG_EXPORT Components
+{
+public:
+  /** `pool` accounts for the memory, if not null. */
+  explicit Components(int columns, Pool* pool = nullptr)
+    : Columns(columns)
+    , Account(pool)
+  {
+  }
+
+  /** Adds a component and returns its label. */
+  std::int32_t add();
+  /** Joins two components; returns the label of the union. */
+  std::int32_t join(std::int32_t a, std::int32_t b);
+  std::int32_t root(std::int32_t label) const;
+
+  /** Counts an unknown with this label, which only free components need: its right-hand side,
+   * initial value and residual b - A x0, `columns` numbers each, and its mass. */
+  void count(
+    std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
+  /** Marks the component as constrained. */
+  void anchor(std::int32_t label) { this->Of[static_cast<std::size_t>(label)].anchored = true; }
+
+  std::int64_t components() const;
+  std::int64_t freeComponents() const;
+
+  /** Adds what has been counted for joined labels to their roots, for all that follows. */
+  void settle();
+
+  /** Per column and component (label-major): the mean source, sum of b / sum of masses; 0 for
+   * components that are not free, or if b sums to zero up to rounding. */
+  std::vector<double> rightSideShifts() const;
+  /** Per column: the sum of b that the shifts subtract from all components. */
+  std::vector<double> shiftedSums() const;
+  /** The largest |sum of b| / sum of |b| that the shifts subtract; 0 without shifts. */
+  double incompatibility() const;
+  /** The change of ||r_0||^2 due to the shifts. */
+  double shiftedSquares() const;
+  /** Per column and free component: the mean of the values minus the mean of the initial values,
+   * given the sums of the weighted values (label-major). */
+  std::vector<double> meanShifts(std::span<const double> sums) const;
+  /** The weight of a vertex of this mass in the means of the component. */
+  double weightOf(std::int32_t root, double mass) const
+  {
+    return this->Counted[static_cast<std::size_t>(root)].mass > 0.0 ? mass : 1.0;
+  }
+  std::int64_t labels() const { return static_cast<std::int64_t>(this->Of.size()); }
+  bool isFree(std::int32_t root) const
+  {
+    return !this->Of[static_cast<std::size_t>(root)].anchored;
+  }
+
+  /** Replaces the sums of all labels by those over several processes that have the same labels,
+   * which `add` computes in place. */
+  void combine(const std::function<void(std::span<double>)>& add);
+
+  void save(StateWriter& state) { state(this->Of, this->Counted, this->Summed); }
+  void load(StateReader& state);
+
+private:
+  struct Component
+  {
+    std::int32_t parent;
+    bool anchored;
+    std::int64_t labels; ///< number of joined labels
+
+    template <class State>
+    void exchange(State& state)
+    {
+      state(this->parent, this->anchored, this->labels);
+    }
+  };
+  /** The unknowns of a label and the sums of their masses. */
+  struct Unknowns
+  {
+    std::int64_t number;
+    double mass, massSquares;
+  };
+  /** The sums of a column. */
+  struct Sums
+  {
+    double b, absolute;         ///< of b, |b|
+    double initial, weighed;    ///< of x0, mass x0
+    double residual, residuals; ///< of r0, mass r0
+  };
+
+  void account(std::int64_t labels);
+  Sums& sums(std::size_t label, int column)
+  {
+    return this
+      ->Summed[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(column)];
+  }
+  const Sums& sums(std::size_t label, int column) const
+  {
+    return const_cast<Components*>(this)->sums(label, column);
+  }
+  double weightSum(std::size_t label) const
+  {
+    const Unknowns& all = this->Counted[label];
+    return all.mass > 0.0 ? all.mass : static_cast<double>(all.number);
+  }
+  void extendCounts(std::size_t labels);
+  template <class F>
+  void forShifts(F&& f) const;
+  bool isRoot(std::size_t label) const
+  {
+    return this->Of[label].parent == static_cast<std::int32_t>(label);
+  }
+
+  int Columns;
+  Pool* Account;
+  std::vector<Component> Of;
+  // Of the labels so far for which something has been counted.
+  std::vector<Unknowns> Counted;
+  std::vector<Sums> Summed; // `Columns` per label
+};
+
+} // namespace smg

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/ProblemCells.h"
+
+#include "Solver/Assembly/CellGradients.h"
+#include "Solver/Assembly/FlatCells.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+double largest(const CellWeights& cell, int edges)
+{
+  return *std::max_element(cell.weight, cell.weight + edges);
+}
+
+bool allFinite(const double* values, std::size_t count)
+{
+  return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+}
+
+std::string nameOf(const MeshBlock& block, std::size_t c)
+{
+  return "cell " + nameOfRow(block.cellColumns, OriginalCellIdSpec, block.firstCell, c);
+}
+
+} // namespace
+
+ProblemCells::ProblemCells(Problem& problem, CellType type, bool conductivities)
+  : Given(problem)
+  , Type(type)
+  , Kind(problem.weights())
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Conductivities(conductivities)
+{
+}
+
+/** Queries the problem for the batch that begins with cell `first` of the block. */
+void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<double>& points)
+{
+  this->gather(block, first, points);
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  CellBatch batch{ this->Type, block, first,
+    std::span(block.corners).subspan(first * corners, this->Cells.size() * corners), this->Points,
+    this->Weight, this->Measure, this->Screening, this->Source, this->Field, this->Conductivity };
+  this->Given.cells(batch);
+  for (std::size_t k = 0; k < this->Cells.size(); ++k)
+  {
+    this->take(k, block, first + k);
+  }
+}
+
+/** Sets the data of a batch on entry. */
+void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<double>& points)
+{
+  const int corners = cornersOf(this->Type);
+  const std::size_t all = block.corners.size() / static_cast<std::size_t>(corners);
+  const std::size_t cells = std::min(BatchCells, all - first);
+  this->Cells.resize(cells);
+  this->Points.clear();
+  this->Weight.clear();
+  this->Measure.clear();
+  this->Screening.assign(cells, 0.0);
+  this->Source.assign(cells * this->Columns, 0.0);
+  this->Field.assign(3 * cells * this->Columns, 0.0);
+  const std::int64_t* corner = block.corners.data() + first * static_cast<std::size_t>(corners);
+  for (Cell& cell : this->Cells)
+  {
+    const double* point[4] = {};
+    for (int k = 0; k < corners; ++k)
+    {
+      point[k] = points.at(*corner++);
+      this->Points.insert(this->Points.end(), point[k], point[k] + 3);
+    }
+    cell.weights = cellWeights(this->Type, point);
+    cell.flatness =
+      this->Kind == Weights::Cotangent ? flatnessFactor(this->Type, point, cell.weights) : 1.0;
+    this->Weight.insert(
+      this->Weight.end(), cell.weights.weight, cell.weights.weight + edgesOf(this->Type));
+    this->Measure.push_back(cell.weights.measure);
+  }
+  constexpr double Identity[6] = { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0 };
+  this->Conductivity.clear();
+  for (std::size_t k = 0; this->Conductivities && k < cells; ++k)
+  {
+    this->Conductivity.insert(this->Conductivity.end(), Identity, Identity + 6);
+  }
+}
+
+/** Reads the data of cell k of the batch, cell c of the block. */
+void ProblemCells::take(std::size_t k, const MeshBlock& block, std::size_t c)
+{
+  CellWeights& cell = this->Cells[k].weights;
+  const double measure = this->Measure[k];
+  if (cell.measure == 0.0 || measure == 0.0)
+  {
+    cell = {};
+    return;
+  }
+  this->takeWeights(k, block, c);
+  this->requireFinite(k, block, c);
+}
+
+void ProblemCells::takeWeights(std::size_t k, const MeshBlock& block, std::size_t c)
+{
+  CellWeights& cell = this->Cells[k].weights;
+  const auto edges = static_cast<std::size_t>(edgesOf(this->Type));
+  const double* weight = this->Weight.data() + k * edges;
+  const double before = largest(cell, edgesOf(this->Type));
+  const double after = *std::max_element(weight, weight + edges);
+  const bool seen = this->Kind != Weights::Uniform;
+  cell.measure = this->Measure[k];
+  if (!std::isfinite(cell.measure) || cell.measure < 0.0 ||
+      (seen && !(allFinite(weight, edges) && after > 0.0)))
+  {
+    throw Error("the problem's weights of " + nameOf(block, c) +
+                " are not valid: they must be finite, at least one of them positive, and the "
+                "measure not negative");
+  }
+  // Single precision, used on coarse levels, must represent products of weights and their inverse.
+  if (seen && !(after >= 1e-20 && after <= 1e20))
+  {
+    throw Error("the weights of " + nameOf(block, c) +
+                " are outside 1e-20 to 1e20: scale the conductivity or the weights of the problem");
+  }
+  std::copy_n(weight, edges, cell.weight);
+  this->Cells[k].scale = after / before;
+}
+
+void ProblemCells::requireFinite(std::size_t k, const MeshBlock& block, std::size_t c) const
+{
+  const double screening = this->Screening[k];
+  if (!(screening >= 0.0 && std::isfinite(screening)))
+  {
+    throw Error(
+      "the screening of " + nameOf(block, c) + " must be a finite number that is not negative");
+  }
+  if (!allFinite(this->Source.data() + k * this->Columns, this->Columns) ||
+      !allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
+  {
+    throw Error("the source or the field of " + nameOf(block, c) + " is not a finite number");
+  }
+}
+
+double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
+  const double* const* points, const CellWeights& cell)
+{
+  return kind != Weights::Cotangent ? 1.0
+         : own                      ? own->flatness()
+                                    : flatnessFactor(type, points, cell);
+}
+
+void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
+  double* const* load)
+{
+  const double* field = own.field();
+  if (std::all_of(field, field + 3 * columns, [](double q) { return q == 0.0; }))
+  {
+    return;
+  }
+  const double weight = own.flatness() * own.weights().measure;
+  const CellGradients gradients(type, points);
+  for (int c = 0; c < cornersOf(type); ++c)
+  {
+    for (int k = 0; k < columns; ++k)
+    {
+      load[c][k] +=
+        weight * dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/Ring.h"
+#include "smg/CellWeights.h"
+#include "smg/Problem.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace smg
+{
+
+/** The data of a problem in its cells, queried and checked in batches. */
+class ProblemCells
+{
+public:
+  /** `conductivities`: whether K is also queried. */
+  ProblemCells(Problem& problem, CellType type, bool conductivities = false);
+
+  /** Prepares cell `c` of the block, in ascending order; `points` are the positions of all open
+   * vertices. Throws Error if a value is invalid. */
+  void prepare(const MeshBlock& block, std::size_t c, const Ring<double>& points)
+  {
+    if (c % BatchCells == 0)
+    {
+      this->ask(block, c, points);
+    }
+    this->Current = c % BatchCells;
+  }
+
+  // Of the prepared cell:
+
+  /** The weights of the problem; measure 0: none. */
+  const CellWeights& weights() const { return this->Cells[this->Current].weights; }
+  /** See flatnessFactor(); 1 unless Weights::Cotangent. */
+  double flatness() const { return this->Cells[this->Current].flatness; }
+  /** The largest weight over the largest one of finite elements with K = 1. */
+  double scale() const { return this->Cells[this->Current].scale; }
+  double screening() const { return this->Screening[this->Current]; }
+  /** `columns` numbers. */
+  const double* source() const { return this->Source.data() + this->Current * this->Columns; }
+  /** 3 numbers per column. */
+  const double* field() const { return this->Field.data() + 3 * this->Current * this->Columns; }
+  /** 6 numbers, if requested. */
+  const double* conductivity() const { return this->Conductivity.data() + 6 * this->Current; }
+
+private:
+  static constexpr std::size_t BatchCells = 256;
+
+  struct Cell
+  {
+    CellWeights weights; // of finite elements, then of the problem
+    double flatness, scale;
+  };
+
+  void ask(const MeshBlock& block, std::size_t first, const Ring<double>& points);
+  void gather(const MeshBlock& block, std::size_t first, const Ring<double>& points);
+  void take(std::size_t k, const MeshBlock& block, std::size_t c);
+  void takeWeights(std::size_t k, const MeshBlock& block, std::size_t c);
+  void requireFinite(std::size_t k, const MeshBlock& block, std::size_t c) const;
+
+  Problem& Given;
+  CellType Type;
+  Weights Kind;
+  std::size_t Columns;
+  bool Conductivities;
+  std::size_t Current = 0;
+  std::vector<Cell> Cells; // of the batch
+  std::vector<double> Points, Weight, Measure, Screening, Source, Field, Conductivity;
+};
+
+/** The factor by which a solve with these weights reduces those of a cell: that of the prepared
+ * cell of the problem, if it has cells of its own. See flatnessFactor(). */
+double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
+  const double* const* points, const CellWeights& cell);
+
+/** Adds the integral of q . grad phi_c over the prepared cell, which has these corners, to
+ * `load[c]`, `columns` numbers for each corner c; scaled like the stiffness of the cell, so that
+ * the field K grad g yields g. */
+void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
+  double* const* load);
+
+} // namespace smg

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/ProblemFacets.h"
+
+#include "Solver/Assembly/CellFacets.h"
+#include "Solver/Assembly/FlatCells.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "smg/CellWeights.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace smg
+{
+
+ProblemFacets::ProblemFacets(
+  Pool& pool, Problem& problem, CellType type, const OpenVertices& vertices)
+  : Given(problem)
+  , Vertices(vertices)
+  , Type(type)
+  , Asks(problem.hasFacets())
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
+  , Counts(problem.conditionCounts())
+  , Open(pool)
+  , Kept(pool, static_cast<int>(2 + this->Corners * (1 + 2 * this->Columns)))
+{
+}
+
+void ProblemFacets::add(const MeshBlock& block)
+{
+  const std::size_t cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
+  const Column* flags = block.flags();
+  const std::ptrdiff_t ids = findColumn(block.cellColumns, OriginalCellIdSpec);
+  this->CellIds = ids < 0 ? nullptr : &block.cellColumns[static_cast<std::size_t>(ids)];
+  this->FirstCell = block.firstCell;
+  for (std::size_t first = 0; first < cells; first += BatchCells)
+  {
+    const std::size_t count = std::min(BatchCells, cells - first);
+    if (this->Asks)
+    {
+      this->ask(block, first, count);
+    }
+    for (std::size_t c = 0; c < count; ++c)
+    {
+      const unsigned flag = flags ? static_cast<unsigned>(flags->value(first + c)) : 0;
+      if ((flag & DuplicateCell) == 0)
+      {
+        this->addCell(block, first, c);
+      }
+    }
+  }
+}
+
+/** Queries the problem for the facets of cells [first, first + cells) of the block. */
+void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t cells)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  const std::size_t facets = cells * corners;
+  this->Flux.assign(facets, -1);
+  this->Robin.assign(facets, -1);
+  this->FluxValue.assign(facets * this->Corners * this->Columns, 0.0);
+  this->Coefficient.assign(facets * this->Corners, 0.0);
+  this->Ambient.assign(facets * this->Corners * this->Columns, 0.0);
+  FacetBatch batch{ this->Type, block, first,
+    std::span(block.corners).subspan(first * corners, cells * corners), this->Flux, this->FluxValue,
+    this->Robin, this->Coefficient, this->Ambient };
+  this->Given.facets(batch);
+}
+
+/** Adds the facets of cell c of the batch that begins with cell `first`. */
+void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size_t c)
+{
+  const int corners = cornersOf(this->Type);
+  const std::int64_t* corner =
+    block.corners.data() + (first + c) * static_cast<std::size_t>(corners);
+  if (hasRepeatedCorner(corner, corners) || !(this->Asks || this->mayHaveWanted(corner)))
+  {
+    return;
+  }
+  for (int k = 0; k < corners; ++k)
+  {
+    const CellFacet sorted = facetOf(this->Type, corner, k);
+    if (!this->Asks && !this->isWanted(sorted.vertex))
+    {
+      continue;
+    }
+    const std::size_t facet = c * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k);
+    const std::int32_t data =
+      this->keep(sorted.order, facet, block.firstCell + static_cast<std::int64_t>(first + c));
+    const std::int32_t before =
+      this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
+    if (before != OpenFacets::Fresh)
+    {
+      this->forget(before);
+      this->forget(data);
+    }
+  }
+}
+
+/** Whether all corners of a cell except one may have the same Dirichlet condition. */
+bool ProblemFacets::mayHaveWanted(const std::int64_t* corner) const
+{
+  std::size_t known = 0;
+  for (int k = 0; k < cornersOf(this->Type); ++k)
+  {
+    known += this->Vertices.dirichlet[corner[k]] >= 0 ? 1 : 0;
+  }
+  return known >= this->Corners;
+}
+
+/** Whether the corners of a facet have the same Dirichlet condition. */
+bool ProblemFacets::isWanted(const std::int64_t* vertex) const
+{
+  const std::int32_t condition = this->Vertices.dirichlet[vertex[0]];
+  return condition >= 0 &&
+         std::all_of(vertex + 1, vertex + this->Corners,
+           [&](std::int64_t v) { return this->Vertices.dirichlet[v] == condition; });
+}
+
+/** Stores the data of a facet of the batch with its corners in this order; returns 0 if there are
+ * none. */
+std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64_t cell)
+{
+  if (!this->Asks || (this->Flux[facet] < 0 && this->Robin[facet] < 0))
+  {
+    return 0;
+  }
+  if (this->Flux[facet] >= this->Counts.flux || this->Robin[facet] >= this->Counts.robin)
+  {
+    throw Error("a facet of cell " + std::to_string(cell) +
+                " names a condition that the problem does not have: see conditionCounts");
+  }
+  const std::int32_t slot = this->Kept.take();
+  double* kept = this->Kept.at(slot);
+  const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
+  std::memcpy(kept++, conditions, sizeof(conditions));
+  const std::int64_t name =
+    this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
+  std::memcpy(kept++, &name, sizeof(name));
+  const auto copy = [&](const std::vector<double>& values, std::size_t each)
+  {
+    for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
+    {
+      const std::size_t corner = facet * this->Corners + static_cast<std::size_t>(order[e]);
+      std::copy_n(values.data() + corner * each, each, kept);
+    }
+  };
+  copy(this->FluxValue, this->Columns);
+  copy(this->Coefficient, 1);
+  copy(this->Ambient, this->Columns);
+  return slot;
+}
+
+/** Checks a boundary facet; values at interior facets are not used. */
+void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
+{
+  const auto finite = [](const double* values, std::size_t count) {
+    return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+  };
+  const std::string where =
+    " on the boundary of cell " + (name >= 0 ? nameOfRow(name, true) : nameOfRow(-1 - name, false));
+  if (facet.flux >= 0 && !finite(facet.fluxValue, this->Corners * this->Columns))
+  {
+    throw Error("flux[" + std::to_string(facet.flux) + "]: is not a finite number" + where);
+  }
+  const bool negative =
+    facet.robin >= 0 && std::any_of(facet.coefficient, facet.coefficient + this->Corners,
+                          [](double value) { return !(value >= 0.0); });
+  if (facet.robin >= 0 && (negative || !finite(facet.coefficient, this->Corners) ||
+                            !finite(facet.ambient, this->Corners * this->Columns)))
+  {
+    throw Error("robin[" + std::to_string(facet.robin) +
+                "]: the coefficient and the ambient value must be finite numbers, the coefficient "
+                "not negative," +
+                where);
+  }
+}
+
+BoundaryFacet ProblemFacets::facet(
+  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const
+{
+  BoundaryFacet facet{ { low, middle, high } };
+  if (data > 0)
+  {
+    const double* kept = this->Kept.at(data);
+    std::int32_t conditions[2];
+    std::memcpy(conditions, kept, sizeof(conditions));
+    std::int64_t name = 0;
+    std::memcpy(&name, kept + 1, sizeof(name));
+    facet.flux = conditions[0];
+    facet.robin = conditions[1];
+    facet.fluxValue = kept + 2;
+    facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
+    facet.ambient = facet.coefficient + this->Corners;
+    this->require(facet, name);
+  }
+  return facet;
+}
+
+} // namespace smg

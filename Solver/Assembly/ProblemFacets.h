@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/BoundaryFacet.h"
+#include "Solver/Assembly/OpenFacets.h"
+#include "Solver/Assembly/OpenVertices.h"
+#include "smg/Problem.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** The data of a problem on the facets of its cells, queried in batches and stored until the
+ * boundary facets are known. The data of an interior facet are released with its second cell. */
+class ProblemFacets
+{
+public:
+  /** A problem without facets() is not queried; only facets whose corners all have the same
+   * Dirichlet condition are then added. */
+  ProblemFacets(Pool& pool, Problem& problem, CellType type, const OpenVertices& vertices);
+
+  /** Sets the number of vertices so far. */
+  void extend(std::int64_t vertices) { this->Open.extend(vertices); }
+  void release(std::int64_t first) { this->Open.release(first); }
+
+  /** Adds the facets of the cells of the block, except for cells that use a vertex twice or are
+   * flagged as duplicates. Throws Error if a value is invalid. */
+  void add(const MeshBlock& block);
+
+  /** The facets so far. */
+  const OpenFacets& open() const { return this->Open; }
+
+  /** Calls found(facet) for each boundary facet whose lowest corner is `vertex`, which is final;
+   * the pointers of the facet are valid during the call. Throws Error if a value is invalid. */
+  template <class Found>
+  void take(std::int64_t vertex, Found&& found)
+  {
+    this->Open.take(vertex,
+      [&](std::int64_t middle, std::int64_t high, std::int32_t data)
+      {
+        found(this->facet(vertex, middle, high, data));
+        this->forget(data);
+      });
+  }
+
+private:
+  static constexpr std::size_t BatchCells = 64;
+
+  void ask(const MeshBlock& block, std::size_t first, std::size_t cells);
+  void addCell(const MeshBlock& block, std::size_t first, std::size_t c);
+  bool mayHaveWanted(const std::int64_t* corner) const;
+  bool isWanted(const std::int64_t* vertex) const;
+  std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
+  void require(const BoundaryFacet& facet, std::int64_t name) const;
+  BoundaryFacet facet(
+    std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
+  void forget(std::int32_t data)
+  {
+    if (data > 0)
+    {
+      this->Kept.give(data);
+    }
+  }
+
+  Problem& Given;
+  const OpenVertices& Vertices;
+  CellType Type;
+  bool Asks;
+  std::size_t Columns, Corners; // Corners: of a facet
+  ConditionCounts Counts;
+  OpenFacets Open;
+  /** The data of a facet: its conditions, the name of its cell, flux, coefficients, ambient. The
+   * name is the index in the original file, or -1 minus the index in the stream. */
+  Slots<double> Kept;
+  // The block.
+  const Column* CellIds = nullptr;
+  std::int64_t FirstCell = 0;
+  // The batch.
+  std::vector<std::int32_t> Flux, Robin;
+  std::vector<double> FluxValue, Coefficient, Ambient;
+};
+
+} // namespace smg

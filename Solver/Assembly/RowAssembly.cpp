@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/RowAssembly.h"
+
+#include "Solver/Assembly/CommonShare.h"
+#include "Solver/Assembly/RowShortfall.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+/** The distance from vertex i to its neighbour j. Throws Error if a row cannot represent it. */
+std::int32_t distance(std::int64_t i, std::int64_t j)
+{
+  const std::int64_t delta = j - i;
+  if (delta > RowEntry::MostDistance || delta < -RowEntry::MostDistance)
+  {
+    throw Error("vertices " + std::to_string(i) + " and " + std::to_string(j) +
+                " share an edge but lie too far apart in the stream: convert the mesh with the "
+                "order bfs");
+  }
+  return static_cast<std::int32_t>(delta);
+}
+
+} // namespace
+
+RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& problem,
+  AssembledRows& rows, Components& components, StiffRows stiff, RowListener* listener)
+  : Vertices(vertices)
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Type(type)
+  , Kind(problem.weights())
+  , Out(rows)
+  , Parts(components)
+  , Stiff(stiff)
+  , Listener(listener)
+  , B(this->Columns)
+  , Constraint(this->Columns)
+  , Residual(vertices.values)
+{
+}
+
+void RowAssembly::close(const FinalVertices& made, std::size_t k)
+{
+  const std::int64_t i = made.first + static_cast<std::int64_t>(k);
+  const FinalVertices::Vertex& vertex = made.vertices[k];
+  const std::size_t begin = made.begin(k);
+  const double* x = this->Vertices.values.at(i);
+  this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
+  if (isKnown(this->Vertices.dirichlet[i], vertex.end - begin, vertex.alpha))
+  {
+    this->closeKnown(i);
+    return;
+  }
+  const double* load = made.loads.data() + k * this->Columns;
+  std::copy_n(load, this->Columns, this->B.data());
+  std::copy_n(load, this->Columns, this->Constraint.data());
+  this->Alpha = vertex.alpha;
+  this->Scale = static_cast<double>(vertex.scale);
+  this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
+    made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
+  this->raise(i);
+  this->Out.rows.close(this->Size, this->Alpha, -1, this->Stiff(this->Least),
+    this->AnyPrecise ? this->weights() : std::span<const double>());
+  this->Out.b.insert(this->Out.b.end(), this->B.begin(), this->B.end());
+  if (this->Listener)
+  {
+    this->Listener->constraint(this->Constraint.data());
+  }
+  this->count(i, vertex);
+}
+
+/** A vertex that is not an unknown: prescribed, or fixed at its initial value. */
+void RowAssembly::closeKnown(std::int64_t i)
+{
+  const double* x = this->Vertices.values.at(i);
+  ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
+  this->Out.b.insert(this->Out.b.end(), x, x + this->Columns);
+  if (this->Listener)
+  {
+    this->Listener->constraint(x);
+  }
+  this->Out.rows.open(0);
+  this->Out.rows.close(0, 1.0, -1);
+}
+
+/**
+ * Adds an edge to the sums of the row, and says whether it is that of a sliver: the large weights
+ * of these, some of which cancel, exceed a bound of those of regular cells. Their rounding to
+ * single precision would affect the solution, since it is of the size of the weights of other
+ * cells. Whether it is depends only on the edge, so that both of its rows agree.
+ */
+inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight)
+{
+  const double magnitude = std::fabs(weight);
+  this->Edges += magnitude;
+  if (this->Kind != Weights::Cotangent)
+  {
+    this->Ordinary += magnitude;
+    return false;
+  }
+  const double bound = squaredRegularWeight(
+    this->Type, this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
+  const double least = std::min(this->Scale, this->Out.weightScale);
+  if (magnitude * magnitude <= bound * least * least)
+  {
+    this->Ordinary += magnitude;
+    return false;
+  }
+  const double regular = std::sqrt(bound);
+  this->Ordinary += std::min(magnitude, regular * this->Scale);
+  return std::fabs(neighbour.weight) > regular * this->Out.weightScale;
+}
+
+/** Adds an entry for another neighbour. */
+inline void RowAssembly::addUnknown(
+  std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
+{
+  const auto stored = static_cast<float>(neighbour.weight);
+  const bool precise = this->addEdge(i, neighbour, static_cast<double>(stored));
+  const double weight = precise ? neighbour.weight : static_cast<double>(stored);
+  this->Row[this->Size] = { delta, stored };
+  this->Weight[static_cast<std::size_t>(this->Size++)] = weight;
+  this->Least = std::min(this->Least, stored);
+  this->AnyPrecise = this->AnyPrecise || precise;
+  if (target)
+  {
+    this->addTarget(weight, target);
+  }
+}
+
+/** Makes the entries of the row and adds the contributions of the neighbours to b. */
+void RowAssembly::addNeighbours(
+  std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target)
+{
+  this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
+  this->Weight.resize(std::max(this->Weight.size(), neighbours.size()));
+  this->Size = 0;
+  this->Edges = this->Ordinary = 0.0;
+  this->Least = 0.0F;
+  this->AnyPrecise = false;
+  const std::int32_t* dirichlet = this->Vertices.dirichlet.at(i);
+  for (const RowNeighbour& neighbour : neighbours)
+  {
+    const std::int32_t delta = distance(i, neighbour.to);
+    if (dirichlet[delta] >= 0)
+    {
+      this->addKnown(i, delta, neighbour, target);
+    }
+    else
+    {
+      this->addUnknown(i, delta, neighbour, target);
+    }
+    target = target ? target + this->Columns : nullptr;
+  }
+  this->sharpen(neighbours);
+}
+
+/** Keeps the weights of a row that nearly cancel in double precision, so that its small diagonal is
+ * that of the problem: the far corner of a needle has such a row. The rows of its neighbours may
+ * have these weights in single precision, which is enough for their diagonals. */
+void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
+{
+  if (this->Kind != Weights::Cotangent)
+  {
+    return;
+  }
+  constexpr double Cancelling = 1e-2;
+  double diagonal = this->Alpha, terms = 0.0;
+  for (const double weight : this->weights())
+  {
+    diagonal += weight;
+    terms += std::fabs(weight);
+  }
+  if (diagonal >= Cancelling * terms)
+  {
+    return;
+  }
+  std::size_t e = 0;
+  for (const RowNeighbour& neighbour : neighbours)
+  {
+    if (this->Vertices.dirichlet[neighbour.to] < 0)
+    {
+      this->Weight[e++] = neighbour.weight;
+    }
+  }
+  this->AnyPrecise = this->Size > 0;
+}
+
+/** Adds the weight of a prescribed neighbour to alpha and b. */
+void RowAssembly::addKnown(
+  std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
+{
+  const double weight = knownWeight(this->Kind, neighbour);
+  const double* value = this->Vertices.values.at(neighbour.to);
+  this->Alpha += weight;
+  this->addEdge(i, neighbour, weight);
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    const double term = weight * (value[k] + (target ? target[k] : 0.0));
+    this->B[k] += term;
+    this->Constraint[k] += term;
+  }
+  if (this->Listener)
+  {
+    this->Listener->link(delta, static_cast<float>(neighbour.weight));
+  }
+}
+
+/** Adds the edge target of an entry of this weight. */
+void RowAssembly::addTarget(double weight, const double* target)
+{
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    this->B[k] += weight * target[k];
+  }
+  if (this->Listener)
+  {
+    this->Listener->target(target);
+  }
+}
+
+/** Keeps the vertex near its initial value if its diagonal is lost in rounding. */
+void RowAssembly::raise(std::int64_t i)
+{
+  this->Raise = this->Kind == Weights::Cotangent ? rowShortfall(this->weights(), this->Alpha) : 0.0;
+  if (this->Raise == 0.0)
+  {
+    return;
+  }
+  ++this->Raised;
+  this->Alpha += this->Raise;
+  const double* x = this->Vertices.values.at(i);
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    this->B[k] += this->Raise * x[k];
+    this->Constraint[k] += this->Raise * x[k];
+  }
+}
+
+/** Adds the row to the sums over all rows and over its component. */
+void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
+{
+  const double share = commonShare(vertex.alpha + (this->Edges - this->Ordinary), this->Ordinary);
+  const AssembledRow row{ i, this->Row, this->weights(),
+    usableDiagonal(
+      std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->Alpha)) };
+  const std::span<const double> residual = this->Residual.add(row, this->B, share);
+  const double* x = this->Vertices.values.at(i);
+  if (this->Raise > 0.0)
+  {
+    // The amount that keeps the vertex near its initial value is not part of the problem.
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      this->B[k] -= this->Raise * x[k];
+    }
+  }
+  if (vertex.label >= 0)
+  {
+    this->Parts.count(vertex.label, this->B.data(), x, residual.data(), vertex.mass);
+  }
+}
+
+} // namespace smg

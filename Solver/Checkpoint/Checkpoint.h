@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Files/FileDescriptor.h"
+#include "Solver/Files/ScratchFolder.h"
+#include "Solver/Files/StateReader.h"
+#include "Solver/Files/StateWriter.h"
+#include "Solver/Memory/Pool.h"
+#include "smg/Export.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The states of a computation in a kept folder, by which a program continues it where another one
+ * was killed. A step saves its state when the disk has the scratch files that the state refers to;
+ * the next step keeps what this state refers to.
+ *
+ * The files `state.0` and `state.1` (or of another name) have the last two states. Each is complete
+ * when it gets its name, and has checksums of its subject and content; the content has those of the
+ * scratch files. If one file is damaged, the other one is used, provided that the scratch files
+ * still agree.
+ */
+class SMG_EXPORT Checkpoint
+{
+public:
+  static constexpr const char* StateName = "state";
+
+  /** Something in which the computations of a checkpoint agree. */
+  struct Item
+  {
+    std::string what;  ///< for example "tolerance"
+    std::string value; ///< any text
+
+    template <class State>
+    void exchange(State& state)
+    {
+      state(this->what, this->value);
+    }
+  };
+
+  /** The states `name`.0 and `name`.1 in `folder`, of a computation that agrees in `subject` and in
+   * the version of the program. `name` begins with StateName. */
+  Checkpoint(ScratchFolder& folder, std::vector<Item> subject, std::string name = StateName);
+
+  /** The number of steps of the last of the states `name` in a folder; 0 if there is none. */
+  static std::int64_t steps(
+    const std::filesystem::path& folder, const std::string& name = StateName);
+
+  /** The last state; none: the computation begins. Throws Error if it is damaged or of another
+   * subject. */
+  std::optional<StateReader> open(Pool& pool);
+  /** Saves the state after `steps` steps, more than before; `write` writes it. */
+  void save(std::int64_t steps, const std::function<void(StateWriter&)>& write);
+  /** The folder is removed when the scratch files are closed. */
+  void discard();
+
+private:
+  void compareSubject(StateReader& state) const;
+  std::filesystem::path path(int slot) const;
+
+  ScratchFolder& Folder;
+  std::vector<Item> Subject;
+  std::string Name;
+  int Last = 1; // the slot of the last state
+};
+
+} // namespace smg

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Files/FileDescriptor.h"
+
+#include "Solver/Core/SystemCalls.h"
+#include "Solver/Core/SystemError.h"
+#include "Solver/Files/ScratchAccount.h"
+#include "Solver/Files/ScratchFolder.h"
+#include "Solver/Files/TemporaryFiles.h"
+#include "Solver/Files/WaitClock.h"
+#include "smg/Error.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <string>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+void requireRegular(int file, const std::filesystem::path& path)
+{
+  struct stat status = {};
+  if (systemCalls().fstat(file, &status) != 0 || !S_ISREG(status.st_mode))
+  {
+    throw Error(path.string() + ": is not a regular file.");
+  }
+}
+
+int openNew(const std::filesystem::path& path)
+{
+  return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+/** The share of a file in the account of `folder`; null if this is not a scratch folder. */
+std::shared_ptr<ScratchShare> shareIn(const std::filesystem::path& folder)
+{
+  std::shared_ptr<ScratchAccount> account = ScratchAccount::of(folder);
+  return account ? std::make_shared<ScratchShare>(std::move(account)) : nullptr;
+}
+
+} // namespace
+
+FileDescriptor::~FileDescriptor()
+{
+  this->remove();
+}
+
+FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
+  : Number(std::exchange(other.Number, -1))
+  , Path(std::move(other.Path))
+  , Shown(std::move(other.Shown))
+  , IsTemporary(std::exchange(other.IsTemporary, false))
+  , IsNamed(std::exchange(other.IsNamed, false))
+  , Share(std::move(other.Share))
+{
+}
+
+FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept
+{
+  std::swap(this->Number, other.Number);
+  std::swap(this->Path, other.Path);
+  std::swap(this->Shown, other.Shown);
+  std::swap(this->IsTemporary, other.IsTemporary);
+  std::swap(this->IsNamed, other.IsNamed);
+  std::swap(this->Share, other.Share);
+  return *this;
+}
+
+FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
+{
+  FileDescriptor file;
+  file.Path = file.Shown = path;
+  // A named pipe without a writer would wait for one.
+  file.Number = systemCalls().open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC, 0);
+  if (!file.isOpen())
+  {
+    throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
+  }
+  requireRegular(file.Number, path);
+  return file;
+}
+
+std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path)
+{
+  constexpr int MostLinks = 40; // the limit of the system
+  std::filesystem::path target = path;
+  std::error_code none;
+  for (int links = 0; std::filesystem::is_symlink(target, none); ++links)
+  {
+    if (links == MostLinks)
+    {
+      throwWriteError(path, ELOOP);
+    }
+    // A link to an absolute path replaces the whole path.
+    target = target.parent_path() / std::filesystem::read_symlink(target, none);
+  }
+  return target;
+}
+
+FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
+{
+  const std::filesystem::path target = targetOf(path);
+  FileDescriptor file;
+  file.Shown = path;
+  removeAbandonedTemporaries(target);
+  do
+  {
+    file.close();
+    file.Path = temporaryName(target);
+    file.Number = openNew(file.Path);
+  } while (file.isOpen() ? !lockTemporary(file.Number) : errno == EEXIST);
+  if (!file.isOpen())
+  {
+    throw Error(path.string() + ": cannot be created: " + systemError(errno) + ".");
+  }
+  file.IsTemporary = true;
+  file.Share = shareIn(target.parent_path());
+  return file;
+}
+
+FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folder)
+{
+  const std::filesystem::path place = folder.empty() ? std::filesystem::path(".") : folder;
+  FileDescriptor file;
+  file.Path = file.Shown = place / "scratch file";
+  file.Share = shareIn(place);
+  file.Number = systemCalls().open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (!file.isOpen())
+  {
+    // Not every file system supports unnamed files.
+    file = createBeside(place / "scratch file");
+    systemCalls().unlink(file.Path.c_str());
+    file.IsTemporary = false;
+  }
+  return file;
+}
+
+FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
+{
+  FileDescriptor file;
+  file.Path = file.Shown = path;
+  file.Number =
+    systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (!file.isOpen())
+  {
+    throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
+  }
+  requireRegular(file.Number, path);
+  file.IsNamed = true;
+  file.Share = shareIn(path.parent_path());
+  if (file.Share)
+  {
+    // From now on the share has the bytes that an earlier program left.
+    ScratchAccount::of(path.parent_path())->remove(path);
+    if (!file.Share->extend(file.size()))
+    {
+      throwWriteError(path, ScratchLimit);
+    }
+  }
+  return file;
+}
+
+void FileDescriptor::giveName(const std::filesystem::path& path)
+{
+  const std::string self = "/proc/self/fd/" + std::to_string(this->Number);
+  removeClosed(path);
+  if (systemCalls().linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
+  {
+    throw Error(path.string() + ": an unnamed file cannot get this name: " + systemError(errno) +
+                ": name a folder in another file system.");
+  }
+  this->Path = this->Shown = path;
+  this->IsNamed = true;
+}
+
+std::int64_t FileDescriptor::size() const
+{
+  struct stat status = {};
+  if (systemCalls().fstat(this->Number, &status) != 0)
+  {
+    throwReadError(this->Shown, errno);
+  }
+  return status.st_size;
+}
+
+std::size_t FileDescriptor::readSome(std::int64_t offset, std::span<std::byte> bytes) const
+{
+  std::size_t done = 0;
+  while (done < bytes.size())
+  {
+    const ssize_t n = systemCalls().pread(
+      this->Number, bytes.data() + done, bytes.size() - done, offset + std::int64_t(done));
+    if (n == 0)
+    {
+      break;
+    }
+    if (n > 0)
+    {
+      done += n;
+    }
+    else if (errno != EINTR)
+    {
+      throwReadError(this->Shown, errno);
+    }
+  }
+  return done;
+}
+
+int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept
+{
+  while (!bytes.empty())
+  {
+    const ssize_t n = systemCalls().pread(this->Number, bytes.data(), bytes.size(), offset);
+    if (n == 0)
+    {
+      return EndOfFile;
+    }
+    if (n > 0)
+    {
+      bytes = bytes.subspan(n);
+      offset += n;
+    }
+    else if (errno != EINTR)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+std::size_t FileDescriptor::readCached(
+  std::int64_t offset, std::span<std::byte> bytes) const noexcept
+{
+  iovec part{ bytes.data(), bytes.size() };
+  const ssize_t n = systemCalls().preadv2(this->Number, &part, 1, offset, RWF_NOWAIT);
+  // Not every file system supports this: then nothing counts as cached.
+  return n > 0 ? static_cast<std::size_t>(n) : 0;
+}
+
+int FileDescriptor::tryRead(
+  std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept
+{
+  const std::size_t cached = bytes.empty() ? 0 : this->readCached(offset, bytes);
+  if (cached == bytes.size())
+  {
+    return 0;
+  }
+  const WaitClock clock;
+  const int error =
+    this->tryRead(offset + static_cast<std::int64_t>(cached), bytes.subspan(cached));
+  waited += clock.nanoseconds();
+  return error;
+}
+
+int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept
+{
+  if (this->Share && !this->Share->extend(offset + static_cast<std::int64_t>(bytes.size())))
+  {
+    return ScratchLimit;
+  }
+  while (!bytes.empty())
+  {
+    const ssize_t n = systemCalls().pwrite(this->Number, bytes.data(), bytes.size(), offset);
+    if (n == 0)
+    {
+      // The system takes no byte and names no reason: trying again might never end.
+      return EIO;
+    }
+    if (n > 0)
+    {
+      bytes = bytes.subspan(n);
+      offset += n;
+    }
+    else if (errno != EINTR)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+void FileDescriptor::read(std::int64_t offset, std::span<std::byte> bytes) const
+{
+  if (const int error = this->tryRead(offset, bytes); error != 0)
+  {
+    throwReadError(this->Shown, error);
+  }
+}
+
+void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes) const
+{
+  if (const int error = this->tryWrite(offset, bytes); error != 0)
+  {
+    throwWriteError(this->Shown, error);
+  }
+}
+
+void FileDescriptor::reserve(std::int64_t size) const
+{
+  while (size > 0 && systemCalls().fallocate(this->Number, FALLOC_FL_KEEP_SIZE, 0, size) != 0)
+  {
+    if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL)
+    {
+      return;
+    }
+    if (errno != EINTR)
+    {
+      throwWriteError(this->Shown, errno);
+    }
+  }
+}
+
+void FileDescriptor::willRead(std::int64_t offset, std::size_t bytes) const noexcept
+{
+  ::posix_fadvise(this->Number, offset, static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
+}
+
+void FileDescriptor::close()
+{
+  if (this->isOpen() && systemCalls().close(std::exchange(this->Number, -1)) != 0 && errno != EINTR)
+  {
+    throwWriteError(this->Shown, errno);
+  }
+  if (!this->IsTemporary)
+  {
+    this->releaseShare();
+  }
+}
+
+/** The bytes of a file that stays under its name still count. */
+void FileDescriptor::releaseShare() noexcept
+{
+  if (this->Share && this->IsNamed)
+  {
+    this->Share->keep(this->Path);
+  }
+  this->Share.reset();
+}
+
+void FileDescriptor::remove() noexcept
+{
+  if (this->isOpen())
+  {
+    systemCalls().close(std::exchange(this->Number, -1));
+  }
+  if (std::exchange(this->IsTemporary, false))
+  {
+    systemCalls().unlink(this->Path.c_str());
+  }
+  this->releaseShare();
+}
+
+void FileDescriptor::removeClosed(const std::filesystem::path& path) noexcept
+{
+  systemCalls().unlink(path.c_str());
+  if (const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path()))
+  {
+    account->remove(path);
+  }
+}
+
+void FileDescriptor::throwWriteError(const std::filesystem::path& path, int errorNumber)
+{
+  if (errorNumber == ScratchLimit)
+  {
+    const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path());
+    throw Error(ScratchFolder::placeOf(path.parent_path()).string() + ": " +
+                (account ? *account : ScratchAccount::process()).refusal() + '.');
+  }
+  throw Error(path.string() + ": cannot be written: " + systemError(errorNumber) + ".");
+}
+
+void FileDescriptor::throwReadError(const std::filesystem::path& path, int errorNumber)
+{
+  throw Error(
+    path.string() + ": cannot be read: " +
+    (errorNumber == EndOfFile ? "it is shorter than expected" : systemError(errorNumber)) + ".");
+}
+
+} // namespace smg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Files/ScratchBlocks.h"
+
+#include "Solver/Files/Checksum.h"
+#include "Solver/Files/WaitClock.h"
+
+namespace smg
+{
+
+void ScratchBlocks::write(std::int64_t index, std::span<const std::byte> bytes)
+{
+  const WaitClock clock;
+  if (index >= static_cast<std::int64_t>(this->Blocks.size()))
+  {
+    this->Blocks.resize(static_cast<std::size_t>(index) + 1);
+  }
+  Block& block = this->Blocks[static_cast<std::size_t>(index)];
+  if (bytes.size() > block.room)
+  {
+    block.offset = this->End;
+    block.room = bytes.size();
+    this->End += static_cast<std::int64_t>(bytes.size());
+  }
+  if (const int error = this->File.tryWrite(block.offset, bytes); error != 0)
+  {
+    FileDescriptor::throwWriteError(this->Path, error);
+  }
+  block.bytes = bytes.size();
+  block.checksum = checksum(bytes);
+  this->Statistics->bytesWritten += static_cast<std::int64_t>(bytes.size());
+  this->Statistics->waitNanoseconds += clock.nanoseconds();
+}
+
+std::size_t ScratchBlocks::bytes(std::int64_t index) const
+{
+  return index < static_cast<std::int64_t>(this->Blocks.size())
+           ? this->Blocks[static_cast<std::size_t>(index)].bytes
+           : 0;
+}
+
+void ScratchBlocks::read(std::int64_t index, std::span<std::byte> bytes)
+{
+  const Block block =
+    this->bytes(index) > 0 ? this->Blocks[static_cast<std::size_t>(index)] : Block{};
+  std::int64_t waited = 0;
+  if (const int error = this->File.tryRead(block.offset, bytes, waited); error != 0)
+  {
+    FileDescriptor::throwReadError(this->Path, error);
+  }
+  if (bytes.size() != block.bytes || (!bytes.empty() && checksum(bytes) != block.checksum))
+  {
+    throwDamagedBlock(this->Path, index);
+  }
+  this->Statistics->bytesRead += static_cast<std::int64_t>(bytes.size());
+  this->Statistics->waitNanoseconds += waited;
+}
+
+void ScratchBlocks::willRead(std::int64_t index) const
+{
+  if (const std::size_t size = this->bytes(index); size > 0)
+  {
+    this->File.willRead(this->Blocks[static_cast<std::size_t>(index)].offset, size);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/MeshColumns.h"
+#include "Solver/Problem/OpenValues.h"
+#include "Solver/Problem/VertexSetFile.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Labels of the vertices of a mesh stream, such that a cell lies in one patch if and only if the
+ * labels of its corners are equal. The label of a vertex in no patch is NaN, which equals nothing.
+ *
+ * With a column of the cells, the label of every other vertex is 0: a cell whose corners are all in
+ * some patch is in the same one.
+ */
+class PatchLabels
+{
+public:
+  /** Throws Error if there is no such column or it has several components. */
+  PatchLabels(const std::string& column, MeshColumns& columns);
+
+  /** To be called with all blocks of the stream and followed by endPreparing(): writes an unnamed
+   * scratch file of one bit a vertex if the column is one of the cells. */
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
+  void endPreparing();
+
+  /** Reads the labels of the vertices of a block; the first block restarts it. Throws Error if one
+   * is no number. */
+  void read(const MeshBlock& block, std::span<double> labels);
+
+  /** Accounts for what is kept of open vertices. */
+  Pool& memory() const { return this->Columns.memory(); }
+  /** The columns that read() needs. */
+  std::vector<std::string> vertexColumns() const;
+
+private:
+  /** The label in a row of the column. */
+  double at(const Column& column, std::size_t row, const MeshBlock& block) const;
+  void prepareCells(const MeshBlock& block);
+
+  const MeshColumns& Columns;
+  NamedColumn Patch;
+  // Of a column of the cells:
+  std::optional<VertexSetFile> Seam; ///< the vertices in no patch
+  OpenValues<double> Labels;         ///< of the first cell of each open vertex; NaN: none so far
+  OpenValues<std::uint8_t> OnSeam;
+  std::int64_t Written = 0, Known = 0; ///< vertices in the file, and read
+  std::vector<std::uint8_t> Bits;
+};
+
+} // namespace smg

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Deformation/DeformationReport.h"
+
+#include "smg/Error.h"
+
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+
+void checkAnyHeld(const Report& report)
+{
+  if (report.prescribed == 0)
+  {
+    throw Error("no vertex of the mesh is held by a handle: there is nothing to deform it by");
+  }
+}
+
+void checkMotions(double termSquares)
+{
+  if (!std::isfinite(termSquares))
+  {
+    throw Error("the deformed mesh leaves the range of numbers: use targets that are nearer, or "
+                "clamped weights "
+                "where cells are badly shaped");
+  }
+}
+
+void addDeformationNotes(Report& report)
+{
+  if (report.shared > 0)
+  {
+    report.notes.push_back(std::to_string(report.shared) +
+                           " vertices are held by more than one handle: the last one counts");
+  }
+  if (report.free_components > 0)
+  {
+    report.notes.push_back(std::to_string(report.free_components) + " of " +
+                           std::to_string(report.components) +
+                           " components have no held vertex: they stay as they are");
+  }
+}
+
+} // namespace smg

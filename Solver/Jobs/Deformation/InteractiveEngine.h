@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Jobs/Deformation/DeformationEngine.h"
+#include "Solver/Jobs/Deformation/HandleChecks.h"
+#include "Solver/Multigrid/Engine/Pass.h"
+#include "Solver/Multigrid/Engine/VertexRange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace smg
+{
+
+/** A deformation in core that can be repeated for other motions of the same held vertices. */
+template <OperatorSet Operators>
+class InteractiveEngine
+{
+public:
+  /** `options` are those of a deformation in core. */
+  InteractiveEngine(Operators operators, const DeformOptions& options, CellType cells)
+    : First(std::move(operators), options, cells)
+  {
+  }
+
+  /** To be called once. */
+  void deform(MeshSource& mesh, Handles& handles) { this->First.deform(mesh, handles); }
+  /** After deform(). Returns false, without any change, if other vertices are held. */
+  bool deformAgain(const VertexHandles& handles);
+
+  const Report& report() { return this->First.run().report; }
+  /** The positions; see Solution. Throws Error after an aborted update. */
+  void read(std::int64_t first, std::int64_t count, std::span<double> values);
+
+private:
+  template <class F>
+  void forHeld(F&& f);
+  bool holdsTheSame(const VertexHandles& handles);
+  void take(const VertexHandles& handles);
+  FirstResidual findRightSide();
+  void addLinks(const RestBlock& block, double& squares);
+
+  DeformationEngine<Operators> First;
+  /** Whether an update ended with an exception. */
+  bool Broken = false;
+};
+
+template <OperatorSet Operators>
+bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
+{
+  SolveRun& run = this->First.run();
+  Report& r = run.report;
+  run.beginReport();
+  checkSize(handles, r.vertices);
+  if (!this->holdsTheSame(handles))
+  {
+    return false;
+  }
+  this->forHeld([&](const RestBlock::Held&, std::size_t i)
+    { checkHeld(handles, i, static_cast<std::int64_t>(i)); });
+  this->Broken = true;
+  this->take(handles);
+  r.passes = r.cycles = 0;
+  r.seconds = {};
+  r.residuals.clear();
+  r.by_pass.clear();
+  r.steps.clear();
+  r.notes.clear();
+  r.warnings.clear();
+  this->First.steps().begin(false);
+  this->First.steps().solve(
+    [&]
+    {
+      const FirstResidual first = this->findRightSide();
+      Pass(run, this->First.levels()).begin();
+      return first;
+    });
+  this->Broken = false;
+  return true;
+}
+
+template <OperatorSet Operators>
+void InteractiveEngine<Operators>::read(
+  std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  if (this->Broken)
+  {
+    throw Error("the last update was broken off: there are no positions until one succeeds");
+  }
+  checkVertexRange(first, count, values.size() / PositionStep::Columns, this->report().vertices);
+  this->First.levels().window().readX(first, count, values.data());
+  this->First.rest().addStart(first, count, values.data());
+}
+
+/** Calls f(held, index) for each held vertex. */
+template <OperatorSet Operators>
+template <class F>
+void InteractiveEngine<Operators>::forHeld(F&& f)
+{
+  for (const RestBlock& block : this->First.rest().blocks())
+  {
+    for (RestBlock::Held& held : block.held())
+    {
+      f(held, static_cast<std::size_t>(block.first() + held.node));
+    }
+  }
+}
+
+template <OperatorSet Operators>
+bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
+{
+  const auto isHeld = [](std::uint8_t mask) { return mask != 0; };
+  bool same =
+    std::count_if(handles.mask.begin(), handles.mask.end(), isHeld) == this->report().prescribed;
+  this->forHeld(
+    [&](const RestBlock::Held&, std::size_t i) { same = same && isHeld(handles.mask[i]); });
+  return same;
+}
+
+/** Sets the targets, and the initial rotations. */
+template <OperatorSet Operators>
+void InteractiveEngine<Operators>::take(const VertexHandles& handles)
+{
+  LevelWindow<double>& window = this->First.levels().window();
+  window.abandon();
+  window.setColumns(RotationProblem::Columns);
+  std::ranges::fill(window.x().range(0, window.nodes()), 0.0);
+  std::int64_t& shared = this->First.run().report.shared;
+  shared = 0;
+  this->forHeld(
+    [&](RestBlock::Held& held, std::size_t i)
+    {
+      std::copy_n(handles.target.data() + 3 * i, 3, held.target.data());
+      double* x = window.x().at(static_cast<std::int64_t>(i));
+      std::copy_n(handles.rotation.data() + 3 * i, 3, x);
+      x[3] = handles.logScale[i];
+      shared += handles.mask[i] > 1 ? 1 : 0;
+    });
+}
+
+/** Computes right-hand side and first sweeps of the rotations, like Assembly and the first pass. */
+template <OperatorSet Operators>
+FirstResidual InteractiveEngine<Operators>::findRightSide()
+{
+  LevelWindow<double>& window = this->First.levels().window();
+  std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
+  double squares = 0.0;
+  for (const RestBlock& block : this->First.rest().blocks())
+  {
+    this->addLinks(block, squares);
+  }
+  return { std::sqrt(squares), roundingOf(squares) };
+}
+
+/** Adds the contributions of the held neighbours to the vertices of a block, and the squares of the
+ * result to `squares`. */
+template <OperatorSet Operators>
+void InteractiveEngine<Operators>::addLinks(const RestBlock& block, double& squares)
+{
+  const Ring<double>& x = this->First.levels().window().x();
+  const Ring<double>& b = this->First.levels().window().b();
+  const std::span<const RestBlock::Link> links = block.links();
+  for (std::size_t l = 0; l < links.size();)
+  {
+    const std::int32_t node = links[l].node;
+    const std::int64_t i = block.first() + node;
+    for (; l < links.size() && links[l].node == node; ++l)
+    {
+      for (int c = 0; c < RotationProblem::Columns; ++c)
+      {
+        b.at(i)[c] += static_cast<double>(links[l].weight) * x.at(i + links[l].delta)[c];
+      }
+    }
+    double own = 0.0;
+    for (int c = 0; c < RotationProblem::Columns; ++c)
+    {
+      own += b.at(i)[c] * b.at(i)[c];
+    }
+    squares += own;
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/Selection.h"
+#include "smg/MeshSource.h"
+#include "smg/Region.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** The sources of a distance: vertices or facets that are selected on a mesh. */
+class DistanceSources
+{
+public:
+  /** `place` is what is selected, `name` the name of the description in messages; `memory` accounts
+   * for open vertices. Throws Error if a selection is invalid. */
+  DistanceSources(const std::vector<Where>& from, DataPlace place, const StreamInfo& mesh,
+    const std::string& name, Pool& memory);
+
+  /** The stream with the columns that the selections need. */
+  std::unique_ptr<MeshSource> read(const StoredMesh& mesh) const;
+
+  /** Reads the mesh, if a selection needs that before the stream of the march. */
+  void prepare(const StoredMesh& mesh, const std::filesystem::path& scratch);
+  /** For the vertices of the next block of the stream: 1 at sources, else 0. */
+  std::span<const std::uint8_t> verticesAt(const MeshBlock& block);
+  /** For the cells of the next block: bit k is 1 if the facet opposite to corner k is a source. */
+  std::span<const std::uint8_t> facetsAt(const MeshBlock& block);
+  /** The number of vertex `i` of the block in the original file, or in the stream. */
+  std::int64_t numberOf(const MeshBlock& block, std::size_t i) const;
+  /** To be called after the last block: throws Error if a selection was empty. */
+  void finish();
+
+private:
+  /** Starts the next block. */
+  void start(Selection& selection, const MeshBlock& block) const;
+
+  MeshColumns Columns;
+  std::vector<std::unique_ptr<Selection>> Selections; ///< null: everywhere
+  bool Prepared = false;
+  std::vector<std::uint8_t> Selected; ///< of the block
+  std::vector<std::uint8_t> More;     ///< of one of the selections
+};
+
+} // namespace smg

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/March.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+/** Cosine up to which two directions count as perpendicular. */
+constexpr double Perpendicular = 1e-6;
+
+} // namespace
+
+int March::run(int maxPasses, Progress& progress, double begin,
+  const std::function<void(std::int64_t unsettled)>& passed)
+{
+  int passes = 0;
+  for (std::int64_t left = this->unsettled(); passes < maxPasses && left > 0; ++passes)
+  {
+    // How many passes are to come is not known.
+    const double end = begin + 0.5 * (1 - begin);
+    this->pass(passes % 2 == 0, progress, begin, end);
+    begin = end;
+    left = this->unsettled();
+    passed(left);
+  }
+  this->Window.flush();
+  return passes;
+}
+
+std::int64_t March::unsettled() const
+{
+  std::int64_t dirty = 0;
+  for (const ChunkedMesh::Chunk& chunk : this->Window.mesh().chunks)
+  {
+    dirty += chunk.dirty;
+  }
+  return dirty;
+}
+
+void March::pass(bool forwards, Progress& progress, double begin, double end)
+{
+  ChunkedMesh& mesh = this->Window.mesh();
+  const std::int64_t shown = std::min(ChunkPlan::WindowChunks, mesh.count());
+  const std::int64_t positions = mesh.count() - shown + 1;
+  for (std::int64_t p = 0; p < positions; ++p)
+  {
+    const std::int64_t first = forwards ? p : positions - 1 - p;
+    const std::int64_t last = first + shown - 1;
+    const auto isDirty = [](const ChunkedMesh::Chunk& chunk) { return chunk.dirty > 0; };
+    if (std::any_of(mesh.chunks.begin() + first, mesh.chunks.begin() + last + 1, isDirty))
+    {
+      this->Window.show(first, last);
+      const bool triangles = mesh.plan.cellType == CellType::Triangle;
+      triangles ? this->settle<3>(first, last) : this->settle<4>(first, last);
+    }
+    progress.update(
+      begin + (end - begin) * static_cast<double>(p + 1) / static_cast<double>(positions));
+  }
+}
+
+template <int Corners>
+void March::settle(std::int64_t first, std::int64_t last)
+{
+  ChunkedMesh& mesh = this->Window.mesh();
+  std::uint8_t* flags = this->Window.flags();
+  const double* distances = this->Window.distance();
+  for (std::int64_t chunk = first; chunk <= last; ++chunk)
+  {
+    const std::uint32_t begin = this->Window.placeOf(chunk);
+    const auto end = begin + static_cast<std::uint32_t>(mesh.countOf(chunk));
+    for (std::uint32_t v = begin; v < end && mesh.chunks[std::size_t(chunk)].dirty > 0; ++v)
+    {
+      if ((flags[v] & Dirty) != 0)
+      {
+        this->Queue.put(v, distances[v]);
+      }
+    }
+  }
+  while (!this->Queue.isEmpty())
+  {
+    const std::uint32_t v = this->Queue.take();
+    const bool hasAll = this->Window.hasAllCellsOf(v);
+    if (!hasAll && distances[v] == 0)
+    {
+      // Which of its cells have other sources must be known: see isBesideCurve().
+      continue;
+    }
+    flags[v] |= Changed;
+    if (hasAll)
+    {
+      flags[v] &= static_cast<std::uint8_t>(~Dirty);
+    }
+    this->Window.forCellsOf<Corners>(v,
+      [&](const std::uint32_t* cell)
+      {
+        // Without a branch, since which corner is v cannot be predicted; the last one is not used.
+        std::array<std::uint32_t, Corners> others;
+        std::size_t k = 0;
+        for (int c = 0; c < Corners; ++c)
+        {
+          others[k] = cell[c];
+          k += cell[c] != v ? 1 : 0;
+        }
+        this->passOn(v, others);
+      });
+  }
+  for (std::int64_t chunk = first; chunk <= last; ++chunk)
+  {
+    const std::uint8_t* begin = flags + this->Window.placeOf(chunk);
+    mesh.chunks[std::size_t(chunk)].dirty = std::count_if(
+      begin, begin + mesh.countOf(chunk), [](std::uint8_t bits) { return (bits & Dirty) != 0; });
+  }
+}
+
+FrontCorner March::corner(std::uint32_t vertex) const
+{
+  return { this->Window.point(vertex), this->Window.distance()[vertex],
+    (this->Window.flags()[vertex] & Straight) != 0 };
+}
+
+bool March::isNews(std::uint32_t w, const Arrival& arrival) const
+{
+  const double distance = this->Window.distance()[w];
+  // Of two fronts that arrive at the same time, the straight one goes ahead.
+  const bool isStraighter = arrival.isStraight && (this->Window.flags()[w] & Straight) == 0 &&
+                            arrival.distance < distance * (1 + Tolerance);
+  return arrival.distance < distance * (1 - Tolerance) || isStraighter;
+}
+
+template <std::size_t N>
+bool March::offer(
+  std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners)
+{
+  if (!this->isNews(w, arrival))
+  {
+    return true;
+  }
+  for (const std::uint32_t corner : corners)
+  {
+    const auto& via = this->Window.via()[corner];
+    if (N > 1 && std::find(via.begin(), via.end(), w) != via.end())
+    {
+      return false;
+    }
+  }
+  double& distance = this->Window.distance()[w];
+  std::uint8_t& flags = this->Window.flags()[w];
+  distance = std::min(distance, arrival.distance);
+  flags = static_cast<std::uint8_t>(
+    (flags & ~Straight) | Dirty | Changed | (arrival.isStraight ? Straight : 0));
+  auto& via = this->Window.via()[w];
+  std::fill(
+    std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
+  if (std::int64_t* source = this->Window.source())
+  {
+    source[w] = source[corners[static_cast<std::size_t>(arrival.nearestCorner())]];
+  }
+  this->Queue.put(w, distance);
+  return true;
+}
+
+template <int Corners>
+bool March::isBesideCurve(std::uint32_t v, std::uint32_t w) const
+{
+  const double* point = this->Window.point(v);
+  const Vector way = difference(this->Window.point(w), point);
+  bool isBeside = false;
+  this->Window.forCellsOf<Corners>(v,
+    [&](const std::uint32_t* cell)
+    {
+      for (int c = 0; c < Corners && !isBeside; ++c)
+      {
+        const Vector edge = difference(this->Window.point(cell[c]), point);
+        const double margin = Perpendicular * std::sqrt(dot(way, way) * dot(edge, edge));
+        isBeside =
+          cell[c] != v && this->Window.distance()[cell[c]] == 0 && dot(way, edge) > -margin;
+      }
+    });
+  return isBeside;
+}
+
+template <int Corners>
+void March::offerEdge(std::uint32_t v, std::uint32_t w, double length)
+{
+  const FrontCorner from = this->corner(v);
+  Arrival arrival = fromCorner(from, length);
+  if (from.isStraight && from.distance == 0)
+  {
+    arrival.isStraight = this->isBesideCurve<Corners>(v, w);
+  }
+  this->offer(w, arrival, std::array{ v });
+}
+
+/** Offers paths from v, and across its edges, to the other two corners of a triangle. */
+void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
+{
+  const FrontCorner from = this->corner(v);
+  const Vector e[2] = { difference(this->Window.point(others[0]), from.point),
+    difference(this->Window.point(others[1]), from.point) };
+  const double square[2] = { dot(e[0], e[0]), dot(e[1], e[1]) };
+  const double product = dot(e[0], e[1]);
+  for (int k = 0; k < 2; ++k)
+  {
+    const std::uint32_t w = others[k], b = others[1 - k];
+    const FrontCorner passed = this->corner(b);
+    if (this->Window.distance()[w] <= std::min(from.distance, passed.distance))
+    {
+      continue;
+    }
+    if (passed.distance < Infinite)
+    {
+      const Arrival across = acrossEdge({ square[1 - k], product, square[k] }, from, passed);
+      // No longer than the paths along the edges.
+      if (across.distance < Infinite && this->offer(w, across, std::array{ v, b }))
+      {
+        continue;
+      }
+    }
+    this->offerEdge<3>(v, w, std::sqrt(square[k]));
+  }
+}
+
+/** The same for the other three corners of a tetrahedron. */
+void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
+{
+  const FrontCorner from = this->corner(v);
+  Vector e[3];
+  double product[3][3];
+  for (int i = 0; i < 3; ++i)
+  {
+    e[i] = difference(this->Window.point(others[i]), from.point);
+    for (int j = 0; j <= i; ++j)
+    {
+      product[i][j] = product[j][i] = dot(e[i], e[j]);
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const std::uint32_t w = others[k];
+    const FrontCorner b = this->corner(others[i]), c = this->corner(others[j]);
+    const double before = this->Window.distance()[w];
+    if (before <= std::min({ from.distance, b.distance, c.distance }))
+    {
+      continue;
+    }
+    if (std::max(b.distance, c.distance) < Infinite)
+    {
+      const Arrival across = acrossFace({ product[i][i], product[i][j], product[j][j],
+                                          product[k][i], product[k][j], product[k][k] },
+        from, b, c);
+      if (across.distance < Infinite &&
+          this->offer(w, across, std::array{ v, others[i], others[j] }))
+      {
+        continue;
+      }
+    }
+    bool crosses = false;
+    for (const int n : { i, j })
+    {
+      const FrontCorner& passed = n == i ? b : c;
+      if (passed.distance < Infinite)
+      {
+        const Arrival across =
+          acrossEdge({ product[n][n], product[k][n], product[k][k] }, from, passed);
+        crosses =
+          (across.distance < Infinite && this->offer(w, across, std::array{ v, others[n] })) ||
+          crosses;
+      }
+    }
+    if (!crosses)
+    {
+      this->offerEdge<4>(v, w, std::sqrt(product[k][k]));
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Jobs/Distance/Arrival.h"
+#include "Solver/Jobs/Distance/MarchQueue.h"
+#include "Solver/Jobs/Distance/MarchWindow.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+namespace smg
+{
+
+/**
+ * Marches the front of a distance through a mesh in chunks, in passes over the stream in
+ * alternating directions. Within the window each pass settles what it can, in the order of the
+ * distances (a *label-correcting* form of Dijkstra's method and of fast marching, Tsitsiklis 1995,
+ * Sethian 1996): a vertex passes its distance on to its cells, and again when a shorter path to it
+ * is found. What crosses an end of the window is left to a later position of the window. A window
+ * without dirty vertices is not read.
+ *
+ * Every update takes the minimum of what it finds, so that the result depends on the window and on
+ * the order of updates by no more than rounding and the tolerance.
+ */
+class March
+{
+public:
+  March(ChunkedMesh& mesh, Pool& pool)
+    : Window(mesh, pool)
+    , Queue(pool, std::min(mesh.plan.window(), mesh.vertices))
+  {
+  }
+
+  /** Memory for chunks of at most so many cells, inner and crossing ones. */
+  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
+    std::int64_t crossingCells)
+  {
+    return MarchWindow::bytes(plan, vertices, innerCells, crossingCells) +
+           MarchQueue::bytes(std::min(plan.window(), vertices));
+  }
+
+  /** Makes passes until nothing changes, but at most so many; reports progress from `begin` to 1,
+   * and each pass with the number of unsettled vertices to `passed`. Returns their number. */
+  int run(int maxPasses, Progress& progress, double begin,
+    const std::function<void(std::int64_t unsettled)>& passed);
+
+  /** How often the mesh was read: chunks that were read over their number. */
+  double meshReadings() const
+  {
+    return static_cast<double>(this->Window.chunksRead()) /
+           static_cast<double>(this->Window.mesh().count());
+  }
+  /** Vertices that had changes to pass on when the last pass ended. */
+  std::int64_t unsettled() const;
+
+  MarchWindow& window() { return this->Window; }
+
+private:
+  /** Smaller relative changes of a distance are dropped: each would be passed on through the whole
+   * mesh. */
+  static constexpr double Tolerance = 1e-7;
+
+  void pass(bool forwards, Progress& progress, double begin, double end);
+  /** Settles the shown chunks. */
+  template <int Corners>
+  void settle(std::int64_t first, std::int64_t last);
+  /** Passes the distance of vertex v on to the other corners of a triangle ... */
+  void passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others);
+  /** ... or of a tetrahedron; v is the last element. */
+  void passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others);
+  FrontCorner corner(std::uint32_t vertex) const;
+  /** Whether the nearest point of a curve or surface of sources at source `v` may be beside v: a
+   * path from v to `w` ahead of one of the edges of the curve at v is not that from its end. */
+  template <int Corners>
+  bool isBesideCurve(std::uint32_t v, std::uint32_t w) const;
+  /** Offers the path from vertex `v` along an edge to vertex `w`. */
+  template <int Corners>
+  void offerEdge(std::uint32_t v, std::uint32_t w, double length);
+  /** Whether an arrival is news at vertex `w`. */
+  bool isNews(std::uint32_t w, const Arrival& arrival) const;
+  /**
+   * Offers a path to vertex `w` through a facet with these corners, to the source of the one
+   * nearest to the path. False if it does not count: the front has come to one of them by way of w.
+   * In a strip of triangles that are nearly flat each corner lies between its neighbours, and would
+   * have about the mean of their distances, down to 0 between two sources.
+   */
+  template <std::size_t N>
+  bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
+
+  MarchWindow Window;
+  MarchQueue Queue;
+};
+
+} // namespace smg

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/MarchDirections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::int64_t VertexBytes = sizeof(double) + 3 * sizeof(float);
+
+/** A path to a vertex, and the point where it crosses the facet opposite to that. */
+struct Path
+{
+  double distance = std::numeric_limits<double>::infinity();
+  Vector crossing{};
+};
+
+/** The point a + x (b - a) + y (c - a); c is not needed if y is 0. */
+Vector pointOf(const FrontCorner* const* corners, const double (&weight)[2])
+{
+  Vector point{ corners[0]->point[0], corners[0]->point[1], corners[0]->point[2] };
+  for (int n = 0; n < 2 && weight[n] != 0; ++n)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      point[k] += weight[n] * (corners[n + 1]->point[k] - corners[0]->point[k]);
+    }
+  }
+  return point;
+}
+
+/** The shortest path to w through the inside of the facet of N corners. */
+template <int N>
+Path throughInside(const double* w, const FrontCorner* const* corners)
+{
+  const Vector to = difference(w, corners[0]->point);
+  Arrival arrival;
+  if constexpr (N == 1)
+  {
+    arrival = fromCorner(*corners[0], std::sqrt(dot(to, to)));
+  }
+  else
+  {
+    const Vector e = difference(corners[1]->point, corners[0]->point);
+    if constexpr (N == 2)
+    {
+      arrival = acrossEdge({ dot(e, e), dot(e, to), dot(to, to) }, *corners[0], *corners[1]);
+    }
+    else
+    {
+      const Vector f = difference(corners[2]->point, corners[0]->point);
+      arrival = acrossFace({ dot(e, e), dot(e, f), dot(f, f), dot(e, to), dot(f, to), dot(to, to) },
+        *corners[0], *corners[1], *corners[2]);
+    }
+  }
+  return { arrival.distance, pointOf(corners, arrival.weight) };
+}
+
+/** The shortest path to w through the facet of N corners. */
+template <int N>
+Path through(const double* w, const FrontCorner* const* corners)
+{
+  const auto isReached = [](const FrontCorner* corner) { return std::isfinite(corner->distance); };
+  Path path;
+  if (std::all_of(corners, corners + N, isReached))
+  {
+    path = throughInside<N>(w, corners);
+  }
+  if constexpr (N > 1)
+  {
+    // Otherwise through one of the facets of the facet.
+    const bool isInside = std::isfinite(path.distance);
+    for (int k = 0; k < N && !isInside; ++k)
+    {
+      const FrontCorner* others[N - 1];
+      std::copy(corners + k + 1, corners + N, std::copy_n(corners, k, others));
+      const Path other = through<N - 1>(w, others);
+      path = other.distance < path.distance ? other : path;
+    }
+  }
+  return path;
+}
+
+} // namespace
+
+MarchDirections::MarchDirections(ChunkedMesh& mesh, Pool& pool)
+  : Window(mesh, pool)
+{
+  const std::int64_t vertices = std::min(mesh.plan.window(), mesh.vertices);
+  this->Memory = Buffer(pool, static_cast<std::size_t>(vertices * VertexBytes));
+  this->Shortest = reinterpret_cast<double*>(this->Memory.data());
+  this->Direction = reinterpret_cast<float*>(this->Shortest + vertices);
+}
+
+std::int64_t MarchDirections::bytes(
+  const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells, std::int64_t crossingCells)
+{
+  return MarchWindow::bytes(plan, vertices, innerCells, crossingCells) +
+         std::min(plan.window(), vertices) * VertexBytes;
+}
+
+template <int Corners>
+void MarchDirections::addCells(std::span<const std::uint32_t> corners)
+{
+  for (; !corners.empty(); corners = corners.subspan(Corners))
+  {
+    FrontCorner all[Corners];
+    for (int k = 0; k < Corners; ++k)
+    {
+      all[k] = { this->Window.point(corners[k]), this->Window.distance()[corners[k]],
+        (this->Window.flags()[corners[k]] & Straight) != 0 };
+    }
+    for (int k = 0; k < Corners; ++k)
+    {
+      const std::uint32_t w = corners[k];
+      if (all[k].distance == 0 || !std::isfinite(all[k].distance))
+      {
+        continue;
+      }
+      const FrontCorner* others[Corners - 1];
+      for (int n = 1; n < Corners; ++n)
+      {
+        others[n - 1] = &all[(k + n) % Corners];
+      }
+      const Path path = through<Corners - 1>(all[k].point, others);
+      const Vector along = difference(all[k].point, path.crossing.data());
+      const double length = std::sqrt(dot(along, along));
+      if (path.distance < this->Shortest[w] && length > 0)
+      {
+        this->Shortest[w] = path.distance;
+        std::ranges::transform(along, this->Direction + 3 * std::size_t(w),
+          [length](double part) { return static_cast<float>(part / length); });
+      }
+    }
+  }
+}
+
+void MarchDirections::addChunk(std::int64_t chunk)
+{
+  const ChunkedMesh& mesh = this->Window.mesh();
+  const auto place = static_cast<std::size_t>(this->Window.placeOf(chunk));
+  const auto count = static_cast<std::size_t>(mesh.countOf(chunk));
+  std::fill_n(this->Shortest + place, count, std::numeric_limits<double>::infinity());
+  std::fill_n(this->Direction + 3 * place, 3 * count, 0.0F);
+  for (const std::span<const std::uint32_t> cells :
+    { this->Window.innerCells(chunk), this->Window.crossingCells(chunk) })
+  {
+    mesh.plan.cellType == CellType::Triangle ? this->addCells<3>(cells) : this->addCells<4>(cells);
+  }
+}
+
+void MarchDirections::write(ScratchBlocks& to, Progress& progress)
+{
+  const ChunkedMesh& mesh = this->Window.mesh();
+  for (std::int64_t chunk = 0; chunk < mesh.count(); ++chunk)
+  {
+    this->Window.show(std::max<std::int64_t>(chunk - 1, 0), chunk);
+    this->addChunk(chunk);
+    // The cells of a chunk complete the one before.
+    for (std::int64_t done = chunk - 1; done <= chunk; ++done)
+    {
+      if (done >= 0 && (done < chunk || chunk + 1 == mesh.count()))
+      {
+        to.write(done,
+          std::as_bytes(std::span(this->Direction + 3 * std::size_t(this->Window.placeOf(done)),
+            3 * static_cast<std::size_t>(mesh.countOf(done)))));
+      }
+    }
+    progress.update(0.0);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/MarchWindow.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Bytes of the state and position of a vertex. */
+std::int64_t vertexBytes(bool sources)
+{
+  return 4 * std::int64_t(sizeof(double)) + 3 * std::int64_t(sizeof(std::uint32_t)) +
+         std::int64_t(sizeof(std::uint8_t)) + (sources ? std::int64_t(sizeof(std::int64_t)) : 0);
+}
+
+/** The vertices of a window, which may be longer than the mesh. */
+std::int64_t windowVertices(const ChunkPlan& plan, std::int64_t vertices)
+{
+  return std::min(plan.window(), vertices);
+}
+
+std::int64_t slotBytes(const ChunkPlan& plan, std::int64_t innerCells, std::int64_t crossingCells)
+{
+  const std::int64_t corners = cornersOf(plan.cellType);
+  return CellStars::bytes(plan.length, corners * innerCells) +
+         CellStars::bytes(2 * plan.span, corners * crossingCells);
+}
+
+} // namespace
+
+std::int64_t MarchWindow::bytes(
+  const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells, std::int64_t crossingCells)
+{
+  const std::int64_t slots =
+    std::min(ChunkPlan::WindowChunks, (vertices + plan.length - 1) / plan.length);
+  return windowVertices(plan, vertices) * vertexBytes(plan.sources) +
+         slots * slotBytes(plan, innerCells, crossingCells);
+}
+
+MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
+  : Mesh(mesh)
+  , Length(static_cast<std::uint32_t>(mesh.plan.length))
+  , Span(static_cast<std::uint32_t>(mesh.plan.span))
+{
+  const std::int64_t vertices = windowVertices(mesh.plan, mesh.vertices);
+  this->Memory = Buffer(pool, static_cast<std::size_t>(vertices * vertexBytes(mesh.plan.sources)));
+  std::byte* next = this->Memory.data();
+  const auto part = [&]<class T>(T*& values, std::int64_t components)
+  {
+    values = reinterpret_cast<T*>(next);
+    next += components * vertices * static_cast<std::int64_t>(sizeof(T));
+  };
+  part(this->Point, 3);
+  part(this->Distance, 1);
+  if (mesh.plan.sources)
+  {
+    part(this->Source, 1);
+  }
+  part(this->Via, 1);
+  part(this->Flag, 1);
+
+  std::int64_t inner = 0, crossing = 0;
+  for (const ChunkedMesh::Chunk& chunk : mesh.chunks)
+  {
+    inner = std::max(inner, chunk.innerCells);
+    crossing = std::max(crossing, chunk.crossingCells);
+  }
+  for (std::int64_t s = 0; s < std::min(ChunkPlan::WindowChunks, mesh.count()); ++s)
+  {
+    this->Slots[static_cast<std::size_t>(s)].memory =
+      Buffer(pool, static_cast<std::size_t>(slotBytes(mesh.plan, inner, crossing)));
+  }
+}
+
+void MarchWindow::show(std::int64_t first, std::int64_t last)
+{
+  for (std::int64_t chunk = first; chunk <= last; ++chunk)
+  {
+    Slot& slot = this->Slots[static_cast<std::size_t>(chunk % ChunkPlan::WindowChunks)];
+    if (slot.chunk != chunk)
+    {
+      this->write(slot.chunk);
+      this->load(slot, chunk);
+    }
+    slot.hasPrevious = chunk > first;
+    slot.hasNext = chunk < last;
+  }
+  this->readAhead(first < this->Shown ? first - 1 : last + 1);
+  this->Shown = first;
+}
+
+void MarchWindow::flush()
+{
+  for (const Slot& slot : this->Slots)
+  {
+    this->write(slot.chunk);
+  }
+}
+
+void MarchWindow::readAhead(std::int64_t chunk) const
+{
+  if (chunk < 0 || chunk >= this->Mesh.count())
+  {
+    return;
+  }
+  for (int part = 0; part < ChunkedMesh::MeshParts; ++part)
+  {
+    this->Mesh.mesh.willRead(chunk * ChunkedMesh::MeshParts + part);
+  }
+  for (int part = 0; part < ChunkedMesh::StateParts; ++part)
+  {
+    this->Mesh.state.willRead(chunk * ChunkedMesh::StateParts + part);
+  }
+}
+
+void MarchWindow::load(Slot& slot, std::int64_t chunk)
+{
+  slot.chunk = chunk;
+  this->loadPositions(chunk);
+  this->loadCells(slot, chunk);
+  this->loadState(chunk);
+  ++this->Read;
+}
+
+void MarchWindow::loadPositions(std::int64_t chunk)
+{
+  const auto count = static_cast<std::size_t>(3 * this->Mesh.countOf(chunk));
+  const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::Positions;
+  double* points = this->Point + 3 * std::size_t(this->placeOf(chunk));
+  if (!this->Mesh.plan.singlePositions)
+  {
+    this->Mesh.mesh.read(index, std::as_writable_bytes(std::span(points, count)));
+    return;
+  }
+  // Single precision is read into the second half and widened from the front.
+  const std::span<std::byte> half =
+    std::as_writable_bytes(std::span(points, count)).subspan(count * sizeof(float));
+  this->Mesh.mesh.read(index, half);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    float coordinate = 0;
+    std::memcpy(&coordinate, half.data() + i * sizeof(float), sizeof(float));
+    points[i] = coordinate;
+  }
+}
+
+void MarchWindow::loadCells(Slot& slot, std::int64_t chunk)
+{
+  const ChunkedMesh::Chunk& counts = this->Mesh.chunks[static_cast<std::size_t>(chunk)];
+  const std::int64_t corners = cornersOf(this->Mesh.plan.cellType);
+  auto* next = reinterpret_cast<std::uint32_t*>(slot.memory.data());
+  const auto place = [&](CellStars& stars, std::int64_t vertices, std::int64_t cells, int part)
+  {
+    stars.corners = next;
+    stars.list = stars.corners + corners * cells;
+    stars.start = stars.list + corners * cells;
+    next = stars.start + vertices + 1;
+    this->Mesh.mesh.read(chunk * ChunkedMesh::MeshParts + part,
+      std::as_writable_bytes(std::span(stars.corners, stars.list)));
+  };
+  place(slot.inner, this->Length, counts.innerCells, ChunkedMesh::InnerCells);
+  place(
+    slot.crossing, 2 * std::int64_t(this->Span), counts.crossingCells, ChunkedMesh::CrossingCells);
+  corners == 3 ? this->buildStars<3>(slot) : this->buildStars<4>(slot);
+}
+
+template <int Corners>
+void MarchWindow::buildStars(Slot& slot)
+{
+  const ChunkedMesh::Chunk& counts = this->Mesh.chunks[static_cast<std::size_t>(slot.chunk)];
+  const std::uint32_t first = this->placeOf(slot.chunk);
+  slot.inner.build<Corners>(
+    this->Length, counts.innerCells, [first](std::uint32_t corner) { return corner - first; });
+  // The chunk before the one in the first slot is in the last slot.
+  const std::uint32_t window = this->Length * static_cast<std::uint32_t>(ChunkPlan::WindowChunks);
+  const std::uint32_t begin = (first + window - this->Span) % window;
+  slot.crossing.build<Corners>(2 * std::int64_t(this->Span), counts.crossingCells,
+    [begin, window](std::uint32_t corner)
+    { return corner >= begin ? corner - begin : corner + window - begin; });
+}
+
+void MarchWindow::loadState(std::int64_t chunk)
+{
+  ScratchBlocks& file = this->Mesh.state;
+  const std::int64_t index = chunk * ChunkedMesh::StateParts;
+  const std::span<std::uint8_t> flags = this->of(this->Flag, chunk);
+  const std::span<double> distances = this->of(this->Distance, chunk);
+  file.read(index + ChunkedMesh::Flags, std::as_writable_bytes(flags));
+  const auto readOr = [&]<class T>(T* values, int part, T fallback)
+  {
+    const std::span<T> of = this->of(values, chunk);
+    if (file.bytes(index + part) > 0)
+    {
+      file.read(index + part, std::as_writable_bytes(of));
+      return;
+    }
+    std::ranges::fill(of, fallback);
+  };
+  readOr(this->Distance, ChunkedMesh::Distances, std::numeric_limits<double>::infinity());
+  std::ranges::fill(this->of(this->Via, chunk), std::array{ NoVertex, NoVertex, NoVertex });
+  if (this->Source)
+  {
+    readOr(this->Source, ChunkedMesh::Sources, std::int64_t(-1));
+  }
+}
+
+void MarchWindow::write(std::int64_t chunk)
+{
+  const auto isChanged = [](std::uint8_t flags) { return (flags & Changed) != 0; };
+  if (chunk < 0 || std::ranges::none_of(this->of(this->Flag, chunk), isChanged))
+  {
+    return;
+  }
+  const std::int64_t index = chunk * ChunkedMesh::StateParts;
+  const auto store = [&](auto* values, int part)
+  {
+    if (values)
+    {
+      this->Mesh.state.write(index + part, std::as_bytes(this->of(values, chunk)));
+    }
+  };
+  for (std::uint8_t& flags : this->of(this->Flag, chunk))
+  {
+    flags &= static_cast<std::uint8_t>(~Changed);
+  }
+  store(this->Flag, ChunkedMesh::Flags);
+  store(this->Distance, ChunkedMesh::Distances);
+  store(this->Source, ChunkedMesh::Sources);
+}
+
+std::span<const std::uint32_t> MarchWindow::innerCells(std::int64_t chunk) const
+{
+  const CellStars& stars =
+    this->Slots[static_cast<std::size_t>(chunk % ChunkPlan::WindowChunks)].inner;
+  return { stars.corners, stars.list };
+}
+
+std::span<const std::uint32_t> MarchWindow::crossingCells(std::int64_t chunk) const
+{
+  const CellStars& stars =
+    this->Slots[static_cast<std::size_t>(chunk % ChunkPlan::WindowChunks)].crossing;
+  return { stars.corners, stars.list };
+}
+
+} // namespace smg

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/PathDistance.h"
+
+#include "Solver/Jobs/Distance/ChunkWriter.h"
+#include "Solver/Jobs/Distance/DistanceSolution.h"
+#include "Solver/Jobs/Distance/March.h"
+#include "Solver/Jobs/Distance/MarchDirections.h"
+#include "Solver/Mesh/StreamCheck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Share of the first reading in the progress. */
+constexpr double FirstReading = 0.3;
+
+/** The files of the distances. */
+struct DistanceFiles
+{
+  DistanceFiles(const ChunkPlan& plan, DistanceRun& run)
+    : chunks(plan, run.scratch.path(), run.traffic)
+    , directions(run.scratch / "directions", run.traffic.add("directions"))
+  {
+  }
+  ChunkedMesh chunks;
+  ScratchBlocks directions;
+};
+
+/** The span of a stream that does not know it. */
+std::int64_t measuredSpan(const StoredMesh& mesh)
+{
+  const std::unique_ptr<MeshSource> source = mesh.source({}, {});
+  const auto corners = static_cast<std::size_t>(cornersOf(mesh.info().cellType));
+  std::int64_t span = 0;
+  for (MeshBlock block; source->next(block);)
+  {
+    for (std::size_t c = 0; c < block.corners.size(); c += corners)
+    {
+      const auto [low, high] = std::ranges::minmax(std::span(block.corners).subspan(c, corners));
+      span = std::max(span, high - low);
+    }
+  }
+  return span;
+}
+
+/** Memory of the march, for chunks of at most so many cells. */
+std::int64_t neededBytes(const ChunkPlan& plan, std::int64_t vertices, bool directions,
+  std::int64_t innerCells, std::int64_t crossingCells)
+{
+  const std::int64_t march = March::bytes(plan, vertices, innerCells, crossingCells);
+  return directions
+           ? std::max(march, MarchDirections::bytes(plan, vertices, innerCells, crossingCells))
+           : march;
+}
+
+void checkMemory(std::int64_t needed, const Pool& pool)
+{
+  if (needed > pool.limit())
+  {
+    throw Error(memoryLimitSentence(needed, pool.limit(), DistanceMemory) + '.');
+  }
+}
+
+/** The largest numbers of inner and of crossing cells of a chunk. */
+ChunkedMesh::Chunk largestOf(const ChunkedMesh& mesh)
+{
+  ChunkedMesh::Chunk largest;
+  for (const ChunkedMesh::Chunk& chunk : mesh.chunks)
+  {
+    largest.innerCells = std::max(largest.innerCells, chunk.innerCells);
+    largest.crossingCells = std::max(largest.crossingCells, chunk.crossingCells);
+  }
+  return largest;
+}
+
+/** Products of four lengths must be numbers. */
+void checkExtent(const std::vector<double>& low, const std::vector<double>& high)
+{
+  constexpr double Least = 1e-60, Most = 1e70;
+  double extent = 0;
+  for (std::size_t k = 0; k < low.size(); ++k)
+  {
+    extent = std::max(extent, high[k] - low[k]);
+  }
+  if (extent > Most || (extent > 0 && extent < Least))
+  {
+    throw Error("the extent of the mesh must lie between 1e-60 and 1e70 for distances: scale it");
+  }
+}
+
+/** Cuts the mesh into chunks. */
+void readMesh(
+  const StoredMesh& mesh, DistanceSources& sources, ChunkedMesh& chunks, DistanceRun& run)
+{
+  const std::unique_ptr<MeshSource> source = sources.read(mesh);
+  ChunkWriter writer(chunks, sources, run.pool);
+  std::vector<double> low(3, HUGE_VAL), high(3, -HUGE_VAL);
+  const auto all = static_cast<double>(std::max<std::int64_t>(mesh.info().vertices, 1));
+  const StreamCheck check = forCheckedBlocks(*source,
+    [&](const MeshBlock& block)
+    {
+      writer.add(block);
+      for (std::size_t i = 0; i < block.positions.size(); ++i)
+      {
+        low[i % 3] = std::min(low[i % 3], block.positions[i]);
+        high[i % 3] = std::max(high[i % 3], block.positions[i]);
+      }
+      const auto read = static_cast<double>(block.firstVertex + block.vertices());
+      run.progress.update(FirstReading * read / all);
+    });
+  check.finish(mesh.info());
+  writer.finish();
+  sources.finish();
+  run.report.vertices = chunks.vertices;
+  run.report.cells = writer.cells();
+  run.report.degenerate_cells = writer.skipped();
+  run.report.prescribed = run.report.distance->sources = writer.sources();
+  if (writer.sources() == 0)
+  {
+    throw Error("a distance needs at least one source, but the mesh has no vertex");
+  }
+  checkExtent(low, high);
+  noteUnwelded(chunks.plan.cellType, check.vertices(), check.cells(), run.report);
+}
+
+void march(ChunkedMesh& chunks, DistanceRun& run)
+{
+  March march(chunks, run.pool);
+  Report& report = run.report;
+  run.beginPasses();
+  report.passes = march.run(run.options.maxPasses, run.progress, FirstReading,
+    [&](std::int64_t unsettled)
+    { run.endPass(static_cast<double>(unsettled) / static_cast<double>(chunks.vertices)); });
+  report.peak_nodes = std::min(chunks.plan.window(), chunks.vertices);
+  report.distance->mesh_readings = march.meshReadings();
+  report.distance->unsettled = march.unsettled();
+  report.converged = report.distance->unsettled == 0;
+  if (!report.converged)
+  {
+    report.notes.push_back("After " + std::to_string(report.passes) +
+                           " passes, the largest number allowed, " +
+                           std::to_string(report.distance->unsettled) +
+                           " vertices had changes to pass on: some distances are too large.");
+  }
+}
+
+std::vector<StoredColumn> columnsOf(DistanceFiles& files, const DistanceDescription& description)
+{
+  using Type = StoredColumn::Type;
+  ScratchBlocks* state = &files.chunks.state;
+  std::vector<StoredColumn> columns{ { state, ChunkedMesh::StateParts, ChunkedMesh::Distances,
+    Type::Float64, 1, HUGE_VAL } };
+  if (description.source)
+  {
+    columns.push_back({ state, ChunkedMesh::StateParts, ChunkedMesh::Sources, Type::Int64, 1, -1 });
+  }
+  if (description.direction)
+  {
+    columns.push_back({ &files.directions, 1, 0, Type::Float32, 3, 0 });
+  }
+  return columns;
+}
+
+} // namespace
+
+std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
+  const DistanceDescription& description, std::unique_ptr<DistanceRun> run, const std::string& name,
+  std::int64_t chunkVertices)
+{
+  const StreamInfo& info = mesh.info();
+  if (description.from.empty())
+  {
+    throw Error(name + ": a distance needs at least one source.");
+  }
+  std::optional<DistanceSources> sources(
+    std::in_place, description.from, DataPlace::Vertices, info, name, run->pool);
+  ChunkPlan plan =
+    ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), description.source);
+  if (chunkVertices > 0)
+  {
+    plan.length = std::max(chunkVertices, plan.span);
+  }
+  if (info.vertices > 0)
+  {
+    plan.length = std::max(std::min(plan.length, info.vertices), plan.span);
+    // With the mean number of cells of a chunk; the exact need is known after the first reading.
+    const double share = std::min(1.0, double(plan.length) / double(info.vertices));
+    const auto cells = static_cast<std::int64_t>(std::ceil(share * double(info.cells)));
+    checkMemory(neededBytes(plan, info.vertices, description.direction, cells, 0), run->pool);
+  }
+  run->report.distance = Report::Distance{};
+  auto files = std::make_shared<DistanceFiles>(plan, *run);
+  ChunkedMesh& chunks = files->chunks;
+  const Timer building;
+  sources->prepare(mesh, run->scratch.path());
+  readMesh(mesh, *sources, chunks, *run);
+  sources.reset(); // and its memory, before the march
+  run->report.seconds.build = building.seconds();
+  const ChunkedMesh::Chunk largest = largestOf(chunks);
+  checkMemory(neededBytes(plan, chunks.vertices, description.direction, largest.innerCells,
+                largest.crossingCells),
+    run->pool);
+  march(chunks, *run);
+  if (description.direction)
+  {
+    MarchDirections(chunks, run->pool).write(files->directions, run->progress);
+  }
+  const std::vector<StoredColumn> columns = columnsOf(*files, description);
+  DistanceRun& shared = *run;
+  auto solution = std::make_unique<DistanceSolution>(
+    std::move(run), std::move(files), columns, chunks.vertices, plan.length);
+  solution->summarize();
+  shared.progress.update(1.0);
+  shared.finishReport();
+  return solution;
+}
+
+} // namespace smg

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Jobs/Distance/DistanceRun.h"
+#include "smg/Distance.h"
+
+#include <memory>
+#include <string>
+
+namespace smg
+{
+
+/**
+ * The Euclidean distance to walls: see smg::distance(). The wall triangles are held in memory, with
+ * a tree, as many as the limit allows; a pass over the vertices finds the nearest of these. Each
+ * further part of the wall takes another pass, so that the result is exact in any memory.
+ */
+std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
+  const DistanceDescription& description, std::unique_ptr<DistanceRun> run,
+  const std::string& name);
+
+} // namespace smg

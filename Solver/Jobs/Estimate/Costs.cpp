@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Estimate/Costs.h"
+
+#include "Solver/Core/Lanes.h"
+#include "Solver/Multigrid/Engine/ErrorBalance.h"
+#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smg
+{
+namespace
+{
+
+// Measured by Testing/Benchmarks/estimates.py on surfaces and tetrahedral meshes of 40 thousand to
+// 4 million vertices, on an AMD EPYC: see docs/performance.md.
+
+/** Constants of a kind of cells; bytes and seconds are those of a vertex. */
+struct Rates
+{
+  double rowBytes;      ///< of the rows of all levels on disk
+  double fewRowBytes;   ///< the same with the operators for few cycles
+  double chunkBytes;    ///< of the mesh on disk for distances
+  double buildSeconds;  ///< the first pass
+  double passSeconds;   ///< a further pass
+  double valueSeconds;  ///< a further pass, for each value
+  double readSeconds;   ///< reading the mesh, or computing something from all cells
+  double marchSeconds;  ///< a distance
+  double decadeCycles;  ///< accelerated V-cycles by which the residual becomes a tenth
+  double plainSlowdown; ///< how many more V-cycles there are without acceleration
+  double spanFactor;    ///< of the span, which is a power of the number of vertices
+  double spanPower;
+};
+
+constexpr Rates OfTriangles{ .rowBytes = 86,
+  .fewRowBytes = 86,
+  .chunkBytes = 40,
+  .buildSeconds = 1.3e-6,
+  .passSeconds = 0.06e-6,
+  .valueSeconds = 0.02e-6,
+  .readSeconds = 0.25e-6,
+  .marchSeconds = 0.8e-6,
+  .decadeCycles = 1.0,
+  .plainSlowdown = 1.25,
+  .spanFactor = 2.3,
+  .spanPower = 0.5 };
+constexpr Rates OfTetrahedra{ .rowBytes = 160,
+  .fewRowBytes = 110,
+  .chunkBytes = 105,
+  .buildSeconds = 3.5e-6,
+  .passSeconds = 0.14e-6,
+  .valueSeconds = 0.03e-6,
+  .readSeconds = 0.8e-6,
+  .marchSeconds = 5e-6,
+  .decadeCycles = 1.33,
+  .plainSlowdown = 1.6,
+  .spanFactor = 1.6,
+  .spanPower = 2.0 / 3.0 };
+
+const Rates& ratesOf(CellType cells)
+{
+  return cells == CellType::Triangle ? OfTriangles : OfTetrahedra;
+}
+
+std::int64_t bytesOf(const StreamInfo& info, double ofVertex)
+{
+  return static_cast<std::int64_t>(static_cast<double>(info.vertices) * ofVertex);
+}
+
+/** V-cycles to the tolerance, `ease` times the usual number. */
+int expectedCycles(const Rates& rates, const SolveOptions& options, double ease = 1.0)
+{
+  const bool isPlain = options.acceleration == AccelerationKind::None;
+  const double tolerance = options.tolerance == SolveOptions::AutomaticTolerance
+                             ? ErrorBalance::UsualResidual
+                             : options.tolerance;
+  const double cycles =
+    -std::log10(tolerance) * rates.decadeCycles * (isPlain ? rates.plainSlowdown : 1.0) * ease;
+  return std::clamp(static_cast<int>(std::ceil(cycles)), 1, options.maxCycles);
+}
+
+/** The scratch files of one iterate: two generations, on all levels, and a third one of a
+ * checkpoint; with acceleration its history, too. */
+double iterateBytes(int columns, const SolveOptions& options, int cycles)
+{
+  constexpr double AllLevels = 1.45;
+  constexpr int LeastAccelerated = 4;
+  const bool accelerates =
+    options.acceleration != AccelerationKind::None && cycles >= LeastAccelerated;
+  const double generations = options.checkpoint.folder.empty() ? 2.0 : 3.0;
+  return sizeof(double) * columns * (generations * AllLevels + (accelerates ? 2.0 : 0.0));
+}
+
+double passSeconds(const Rates& rates, int columns)
+{
+  return rates.passSeconds + rates.valueSeconds * strideOf(columns);
+}
+
+/** The costs of a solve of so many V-cycles. */
+Costs costsOfCycles(
+  const StreamInfo& info, int columns, Weights weights, const SolveOptions& options, int cycles)
+{
+  const Rates& rates = ratesOf(info.cellType);
+  Costs costs;
+  costs.memory = expectedMemory(info, columns, weights, options);
+  costs.passes = cycles + 1;
+  constexpr double LabelBytes = 4;
+  if (!options.inCore)
+  {
+    costs.scratch =
+      bytesOf(info, rates.rowBytes + LabelBytes + iterateBytes(columns, options, cycles));
+    // All files of a checkpoint stay until the result is written.
+    costs.kept = options.checkpoint.folder.empty()
+                   ? bytesOf(info, 2.0 * sizeof(double) * columns + LabelBytes)
+                   : costs.scratch;
+  }
+  costs.seconds = static_cast<double>(info.vertices) *
+                  (rates.buildSeconds + rates.readSeconds + cycles * passSeconds(rates, columns));
+  return costs;
+}
+
+} // namespace
+
+Costs solveCosts(const StreamInfo& info, int columns, Weights weights, const SolveOptions& options)
+{
+  return costsOfCycles(
+    info, columns, weights, options, expectedCycles(ratesOf(info.cellType), options));
+}
+
+Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
+{
+  constexpr int RotationColumns = 4;
+  const Rates& rates = ratesOf(info.cellType);
+  const int cycles = options.cycles > 0 ? options.cycles : expectedCycles(rates, options);
+  SolveOptions step = options;
+  if (options.cycles > 0)
+  {
+    step.acceleration = AccelerationKind::None;
+  }
+  Costs costs = costsOfCycles(info, RotationColumns, options.weights, step, cycles);
+  costs.passes = 2 * cycles + 1;
+  costs.seconds += static_cast<double>(info.vertices) *
+                   (rates.readSeconds + cycles * passSeconds(rates, RotationColumns));
+  constexpr double RestBytes = 30;
+  constexpr std::int64_t OpenRestBytes = 64, WindowSpans = 30;
+  costs.memory += OpenRestBytes * std::min(info.vertices, WindowSpans * info.span);
+  const std::int64_t rest = options.inCore ? 0 : bytesOf(info, RestBytes);
+  costs.scratch += options.inCore ? 0 : rest - bytesOf(info, rates.rowBytes - rates.fewRowBytes);
+  costs.kept += rest;
+  return costs;
+}
+
+Costs smoothCosts(const StreamInfo& info, int components, const SmoothingOptions& options)
+{
+  const bool movesPoints = options.column.empty();
+  const bool keepsVolume = options.keepVolume && movesPoints;
+  const int solves = options.steps * (options.keepEdges ? 2 : 1);
+  const int readings = options.steps * ((options.keepEdges ? 1 : 0) + (keepsVolume ? 2 : 1));
+  // The equations of a step couple only vertices within about the size of the details.
+  constexpr double Ease = 0.65;
+  const int cycles = expectedCycles(ratesOf(info.cellType), options, Ease);
+  const Costs step = costsOfCycles(info, components, Weights::Cotangent, options, cycles);
+  Costs costs = step;
+  costs.passes = 1 + solves * step.passes + readings;
+  costs.seconds = solves * step.seconds + (1 + readings) * static_cast<double>(info.vertices) *
+                                            ratesOf(info.cellType).readSeconds;
+  // The values, those of the next step, those that show edges, and normals.
+  const int files = 2 + (options.keepEdges ? 1 : 0) + (options.keepEdges || keepsVolume ? 1 : 0);
+  const std::int64_t own = bytesOf(info, files * components * double(sizeof(double)));
+  (options.inCore ? costs.memory : costs.scratch) += own;
+  costs.kept = options.inCore ? 0 : bytesOf(info, components * double(sizeof(double)));
+  return costs;
+}
+
+Costs blendCosts(
+  const StreamInfo& info, int components, SeamGradient seam, const SolveOptions& options)
+{
+  Costs costs = solveCosts(info, components, Weights::Cotangent, options);
+  const int readings = seam == SeamGradient::Average ? 3 : 2;
+  costs.passes += readings;
+  costs.seconds +=
+    readings * static_cast<double>(info.vertices) * ratesOf(info.cellType).readSeconds;
+  const double gradients = seam == SeamGradient::Average ? 1.0 + 3.0 * components : 0.0;
+  const std::int64_t own = bytesOf(info, (components + gradients) * double(sizeof(double)));
+  (options.inCore ? costs.memory : costs.scratch) += own;
+  return costs;
+}
+
+Costs distanceCosts(const StreamInfo& info, const DistanceDescription& description)
+{
+  const bool surface = info.cellType == CellType::Triangle;
+  const auto vertices = static_cast<double>(info.vertices);
+  const double numbers = 1.0 + description.source + 3.0 * description.direction;
+  Costs costs;
+  if (description.wall)
+  {
+    // The triangles of the boundary of a compact body.
+    constexpr double WallBytes = 2400, WallSeconds = 11e-6;
+    costs.memory = static_cast<std::int64_t>(WallBytes * std::pow(vertices, 2.0 / 3.0));
+    costs.scratch = costs.memory + bytesOf(info, 8.0 * numbers);
+    costs.kept = bytesOf(info, 8.0 * numbers);
+    costs.passes = 1;
+    costs.seconds = vertices * WallSeconds;
+    return costs;
+  }
+  const std::int64_t bytesOfSpan = surface ? 7300 : 4900;
+  const std::int64_t least = std::int64_t(surface ? 1 : 3) << 20;
+  costs.memory = least + bytesOfSpan * info.span;
+  costs.scratch = costs.kept = bytesOf(info, ratesOf(info.cellType).chunkBytes + 8.0 * numbers);
+  // Larger meshes have more paths that turn against the stream.
+  constexpr double OnePass = 170000, Growth = 0.94; // passes for a mesh e times as large
+  costs.passes =
+    std::max(1, static_cast<int>(std::lround(1.0 + Growth * std::log(vertices / OnePass))));
+  costs.seconds = vertices * ratesOf(info.cellType).marchSeconds;
+  return costs;
+}
+
+int expectedComponents(const StreamInfo& info, const std::string& column, int usual)
+{
+  const auto found = std::ranges::find(info.vertexColumns, column, &ColumnSpec::name);
+  return found == info.vertexColumns.end() ? usual : found->components;
+}
+
+std::int64_t usualSpan(CellType cells, std::int64_t vertices)
+{
+  const Rates& rates = ratesOf(cells);
+  return static_cast<std::int64_t>(
+    rates.spanFactor * std::pow(static_cast<double>(vertices), rates.spanPower));
+}
+
+} // namespace smg

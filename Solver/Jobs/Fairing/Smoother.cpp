@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Fairing/Smoother.h"
+
+#include "Solver/Assembly/BoundaryFacets.h"
+#include "Solver/Memory/Reservation.h"
+#include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Problem/ColumnNumbers.h"
+#include "smg/Error.h"
+#include "smg/MeshSource.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace smg
+{
+
+namespace
+{
+
+SmoothedBoundary boundaryOf(const SmoothingOptions& options)
+{
+  return options.boundary.value_or(
+    options.column.empty() ? SmoothedBoundary::Smooth : SmoothedBoundary::Free);
+}
+
+/** The column to smooth; none: the positions. */
+std::optional<NamedColumn> columnOf(
+  const std::string& name, CellType cellType, MeshColumns& columns)
+{
+  if (name.empty())
+  {
+    if (cellType != CellType::Triangle)
+    {
+      throw Error("the positions of tetrahedra cannot be smoothed, only those of triangles: name a "
+                  "column of the vertices to smooth instead");
+    }
+    return std::nullopt;
+  }
+  if (name == OriginalIdName)
+  {
+    columns.fail("column", '\'' + name + "' numbers the vertices and cannot be smoothed");
+  }
+  const NamedColumn column = columns.require(name, ColumnOwner::Vertices, "column");
+  if (column.owner == ColumnOwner::Cells)
+  {
+    columns.fail("column", '\'' + name + "' is a column of the cells: name one of the vertices");
+  }
+  if (column.components > 64)
+  {
+    columns.fail("column", '\'' + name + "' has more than 64 components");
+  }
+  return column;
+}
+
+} // namespace
+
+Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
+  : Mesh(mesh)
+  , Options(options)
+  , Columns(mesh.info(), "smooth")
+  , Column(columnOf(options.column, mesh.info().cellType, this->Columns))
+  , Held(options.hold,
+      boundaryOf(options) == SmoothedBoundary::Fixed ||
+        (this->movesPoints() && boundaryOf(options) == SmoothedBoundary::Free),
+      this->Columns)
+  , Result(std::make_unique<SmoothedValues>(options, this->Column ? this->Column->components : 3))
+  , Next(this->Result->storage, this->Result->columns())
+{
+  this->Columns.memory().setLimit(options.memoryLimit);
+  if (this->Result->scratch)
+  {
+    // Its limit is that of all scratch files.
+    this->Options.scratch = this->Result->scratch->path();
+  }
+  if (boundaryOf(options) == SmoothedBoundary::Smooth)
+  {
+    this->Curves.emplace(this->Result->memory);
+  }
+  if (options.keepEdges)
+  {
+    this->Presmoothed.emplace(this->Result->storage, 3);
+  }
+  if (options.keepEdges || (options.keepVolume && this->movesPoints()))
+  {
+    this->Normals.emplace(this->Result->storage, 3);
+  }
+}
+
+std::unique_ptr<Solution> Smoother::run()
+{
+  // The survey reads the mesh once, a step several times.
+  const double surveyed = 1.0 / (1.0 + 10.0 * this->Options.steps);
+  this->survey({ 0.0, surveyed });
+  for (int k = 0; k<this->Options.steps&& this->Result->vertices()> 0; ++k)
+  {
+    const double steps = this->Options.steps;
+    this->step(k, Part{ surveyed, 1.0 }.of(k / steps, (k + 1) / steps));
+  }
+  return this->finish();
+}
+
+void Smoother::read(Part part, const Visit& visit)
+{
+  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  visitBlocks(*source, this->Options.progress, part.begin, part.end, visit);
+  ++this->Result->total.passes;
+}
+
+/** The first reading: what is held, the values, the lengths that sizes refer to. */
+void Smoother::survey(Part part)
+{
+  const CellType type = this->Mesh.info().cellType;
+  StreamCheck check(type);
+  MeshMeasures measures(this->Result->memory, type);
+  Reservation held(this->Result->memory);
+  std::optional<BoundaryFacets> facets;
+  if (this->Curves || (this->Options.keepVolume && this->movesPoints()))
+  {
+    facets.emplace(this->Result->memory, type);
+  }
+  const auto addEdge = [this](std::int64_t low, std::int64_t high, std::int64_t /*none*/)
+  {
+    if (this->Curves)
+    {
+      this->Curves->add(low, high);
+    }
+  };
+  this->read(part.of(0.0, 0.8),
+    [&](const MeshBlock& block)
+    {
+      check.add(block);
+      measures.add(block);
+      this->Held.prepare(block, this->Options.scratch);
+      held.resize(this->Held.bytes());
+      this->keepValues(block);
+      if (facets)
+      {
+        facets->add(block, addEdge);
+      }
+    });
+  check.finish(this->Mesh.info());
+  this->requireWelded(check);
+  this->Held.endPreparing(boundaryOf(this->Options) == SmoothedBoundary::Fixed);
+  if (facets)
+  {
+    facets->finish(addEdge);
+  }
+  if (this->Curves)
+  {
+    this->Curves->begin(this->Result->values);
+    this->holdCurves(part.of(0.8, 1.0));
+  }
+  this->setSize(measures);
+  if (this->movesPoints())
+  {
+    const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
+    this->Result->total.volume = Report::Volume{};
+    this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
+    if (this->Options.keepVolume)
+    {
+      this->noteWinding(facets->turnedEdges(), isClosed ? &measures : nullptr);
+    }
+  }
+}
+
+/** Notes what makes the volume, and the normals along which it is kept, others than expected.
+ * `closed`: of a surface without boundary. */
+void Smoother::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
+{
+  std::vector<std::string>& notes = this->Result->total.notes;
+  if (turnedEdges > 0)
+  {
+    notes.push_back("The triangles at " + std::to_string(turnedEdges) +
+                    (turnedEdges == 1 ? " edge" : " edges") +
+                    " are wound against each other: there the surface has no sides, so that its "
+                    "volume is not kept. Orient the mesh first, or do not keep the volume");
+    return;
+  }
+  constexpr double Little = 0.01;
+  const double inwards = closed ? closed->turnedVolume() : 0.0;
+  const double outwards = closed ? closed->volume() + inwards : 0.0;
+  if (std::min(inwards, outwards) > Little * std::max(inwards, outwards))
+  {
+    notes.push_back("Some bodies are wound inside out, or are cavities of others: their volume, " +
+                    std::to_string(std::lround(100.0 * inwards / outwards)) +
+                    " % of that of the others, counts as negative, and what is kept is the sum");
+  }
+}
+
+void Smoother::keepValues(const MeshBlock& block)
+{
+  if (!this->Column)
+  {
+    this->Result->values.append(block.positions);
+    return;
+  }
+  const auto components = static_cast<std::size_t>(this->Column->components);
+  const smg::Column& column = this->Column->in(block);
+  this->Values.resize(static_cast<std::size_t>(block.vertices()) * components);
+  for (std::size_t k = 0; k < this->Values.size(); ++k)
+  {
+    this->Values[k] = column.value(k / components, static_cast<int>(k % components));
+    if (const char* flaw = flawOf(column.spec.type, this->Values[k]))
+    {
+      this->Columns.fail("column", '\'' + this->Column->name + "' " + flaw + " at " +
+                                     this->Columns.vertexName(block, k / components));
+    }
+  }
+  this->Result->values.append(this->Values);
+}
+
+/** Fixes the vertices of the boundary that are held. */
+void Smoother::holdCurves(Part part)
+{
+  if (!this->Options.hold.empty() && this->hasCurves())
+  {
+    this->read(part, [this](const MeshBlock& block)
+      { this->Curves->hold(block.firstVertex, this->Held.at(block)); });
+  }
+}
+
+/** Triangles that share no edges would be smoothed each for itself, to points. */
+void Smoother::requireWelded(const StreamCheck& check)
+{
+  const CellType type = this->Mesh.info().cellType;
+  const std::string note = unweldedNote(type, check.vertices(), check.cells());
+  if (!note.empty() && this->movesPoints())
+  {
+    throw Error(note + ": smoothed each for itself they would shrink.");
+  }
+  noteUnwelded(type, check.vertices(), check.cells(), this->Result->total);
+}
+
+void Smoother::setSize(const MeshMeasures& measures)
+{
+  const SmoothingSize size = this->Options.size;
+  const double unit = size.unit == SmoothingSize::MeanEdges  ? measures.meanEdge()
+                      : size.unit == SmoothingSize::Diagonal ? measures.diagonal()
+                                                             : 1.0;
+  this->Size = size.value * unit;
+  const double root = this->Size / (2.0 * std::numbers::pi);
+  this->Time = (std::exp2(1.0 / this->Options.steps) - 1.0) * root * root;
+  if (this->Result->vertices() > 0 &&
+      !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time)))
+  {
+    throw Error(unit > 0.0
+                  ? "the size of the details to smooth, " + scientific(this->Size) +
+                      " in the unit of the mesh, is too small or too large to compute with"
+                  : "no cell of the mesh has an area or volume that a size could refer to: "
+                    "give the size of the details to smooth in the unit of the mesh");
+  }
+  if (this->Size > measures.diagonal())
+  {
+    const std::string sentence = "The size of the details to smooth, " + scientific(this->Size) +
+                                 ", is larger than the mesh, whose diagonal is " +
+                                 scientific(measures.diagonal()) +
+                                 ", and leaves little of its shape. Is it in the unit of the mesh?";
+    if (this->movesPoints())
+    {
+      throw Error(sentence);
+    }
+    this->Result->total.notes.push_back(sentence);
+  }
+}
+
+} // namespace smg

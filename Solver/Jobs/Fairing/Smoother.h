@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Timer.h"
+#include "Solver/Files/VertexFile.h"
+#include "Solver/Jobs/Fairing/BoundaryCurves.h"
+#include "Solver/Jobs/Fairing/MeshMeasures.h"
+#include "Solver/Jobs/Fairing/SmoothedValues.h"
+#include "Solver/Jobs/Fairing/SmoothingProblem.h"
+#include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/MeshColumns.h"
+#include "smg/Smooth.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** Smooths a mesh, see smooth(): surveys it, then takes step after step. */
+class Smoother
+{
+public:
+  /** The options must be valid. Throws Error if they do not fit the mesh. */
+  Smoother(const StoredMesh& mesh, const SmoothingOptions& options);
+
+  /** To be called once. */
+  std::unique_ptr<Solution> run();
+
+private:
+  /** A part of the operation, for its progress. */
+  struct Part
+  {
+    double begin = 0.0, end = 1.0;
+
+    double at(double done) const { return this->begin + done * (this->end - this->begin); }
+    Part of(double from, double to) const { return { this->at(from), this->at(to) }; }
+  };
+  using Visit = std::function<void(const MeshBlock& block)>;
+
+  bool movesPoints() const { return this->Options.column.empty(); }
+  /** Whether there is a boundary that is smoothed as curves. */
+  bool hasCurves() const { return this->Curves && !this->Curves->isEmpty(); }
+
+  /** Reads the mesh once. */
+  void read(Part part, const Visit& visit);
+  void survey(Part part);
+  void keepValues(const MeshBlock& block);
+  void requireWelded(const StreamCheck& check);
+  void noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed);
+  void setSize(const MeshMeasures& measures);
+  void holdCurves(Part part);
+
+  void step(int k, Part part);
+  void findEdges(int k, Part part);
+  SmoothingProblem problem(double t, const VertexFile* surface);
+  void solveStep(SmoothingProblem& problem, const std::string& name, Part part, VertexFile& to);
+  void findNormals(const VertexFile& positions, bool ofHeld, Part part);
+  void keepVolume(Part part);
+  double sweptVolume(Part part, double& distance);
+  std::unique_ptr<Solution> finish();
+
+  const StoredMesh& Mesh;
+  SmoothingOptions Options;
+  Timer Wall;
+  double CpuAtStart = processSeconds();
+  MeshColumns Columns;
+  std::optional<NamedColumn> Column; ///< none: the positions
+  HeldVertices Held;
+  std::unique_ptr<SmoothedValues> Result; ///< with the current values
+  std::optional<BoundaryCurves> Curves;
+  VertexFile Next; ///< the values after the current step
+  std::optional<VertexFile> Presmoothed, Normals;
+  std::vector<double> Values;    ///< of a block
+  double Size = 0.0, Time = 0.0; ///< S and t
+};
+
+} // namespace smg

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Fairing/SmoothingProblem.h"
+
+#include "Solver/Assembly/FlatCells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smg
+{
+
+SmoothingProblem::SmoothingProblem(Pool& pool, double t, const VertexFile& values,
+  HeldVertices& held, const BoundaryCurves* boundary)
+  : Memory(pool)
+  , Before(pool.used())
+  , Columns(values.lanes())
+  , Time(t)
+  , Held(held)
+  , Boundary(boundary)
+  , Values(pool, values)
+{
+}
+
+void SmoothingProblem::setSurface(const VertexFile& positions)
+{
+  this->Surface.emplace(this->Memory, positions);
+}
+
+void SmoothingProblem::setEdges(const VertexFile& normals, const EdgeConductivity& conductivity)
+{
+  this->Normals.emplace(this->Memory, normals);
+  this->Edges = conductivity;
+}
+
+void SmoothingProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
+{
+  this->Values.startBlock(block);
+  for (std::optional<OpenTuples>* tuples : { &this->Surface, &this->Normals })
+  {
+    if (*tuples)
+    {
+      (*tuples)->startBlock(block);
+    }
+  }
+  const std::span<const std::uint8_t> held = this->Held.at(block);
+  if (held.empty())
+  {
+    return;
+  }
+  std::copy_n(
+    this->Values.at(block.firstVertex), conditions.value.size(), conditions.value.begin());
+  for (std::size_t i = 0; i < held.size(); ++i)
+  {
+    conditions.dirichlet[i] = held[i] ? 0 : -1;
+    conditions.screening[i] = 1.0 / this->Time;
+  }
+  for (std::size_t k = 0; k < conditions.value.size(); ++k)
+  {
+    conditions.source[k] = conditions.value[k] / this->Time;
+  }
+  if (this->Boundary)
+  {
+    this->Boundary->forVertices(block.firstVertex, block.vertices(),
+      [&conditions](std::size_t i, const std::array<double, 3>& position)
+      {
+        conditions.dirichlet[i] = 0;
+        std::ranges::copy(position, conditions.value.begin() + static_cast<std::ptrdiff_t>(3 * i));
+      });
+  }
+}
+
+void SmoothingProblem::cells(CellBatch& batch)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(batch.type));
+  for (std::size_t c = 0; c < batch.cells(); ++c)
+  {
+    if (batch.measure[c] == 0.0)
+    {
+      continue;
+    }
+    const double* points[4] = {};
+    for (std::size_t k = 0; k < corners; ++k)
+    {
+      points[k] = this->Surface->at(batch.corners[c * corners + k]);
+    }
+    this->setWeights(batch, c, points);
+  }
+}
+
+void SmoothingProblem::setWeights(
+  CellBatch& batch, std::size_t cell, const double* const* points) const
+{
+  const CellWeights own = cellWeights(batch.type, points);
+  const double rest = batch.measure[cell];
+  if (own.measure > 0.0 && this->Edges)
+  {
+    const double* normals[3];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      normals[k] = this->Normals->at(batch.corners[3 * cell + k]);
+    }
+    const CellWeights across =
+      conductivityWeights(batch.type, points, this->Edges->at(points, normals).data());
+    // Of a flat triangle, they may be lost in rounding.
+    const std::span<const double> weights(across.weight, 3);
+    if (std::ranges::all_of(weights, [](double weight) { return std::isfinite(weight); }) &&
+        *std::ranges::max_element(weights) > 0.0)
+    {
+      const double factor = flatnessFactor(batch.type, points, across);
+      std::ranges::transform(weights, batch.weightsOf(cell).begin(),
+        [factor](double weight) { return factor * weight; });
+    }
+  }
+  // A triangle that has collapsed keeps its stiffness at rest, and hardly any mass.
+  constexpr double LeastShare = 1e-6;
+  batch.measure[cell] = std::max(own.measure, LeastShare * rest);
+}
+
+} // namespace smg

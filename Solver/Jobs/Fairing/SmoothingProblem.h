@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Jobs/Fairing/BoundaryCurves.h"
+#include "Solver/Jobs/Fairing/EdgeConductivity.h"
+#include "Solver/Jobs/Fairing/OpenTuples.h"
+#include "Solver/Problem/HeldVertices.h"
+#include "smg/Problem.h"
+
+#include <optional>
+
+namespace smg
+{
+
+/**
+ * A step of implicit smoothing: (M + t L) u = M x with x as initial values, divided by t. M is the
+ * lumped mass of the mesh, or of a surface of other positions; L is the stiffness of the mesh, or
+ * of that surface with EdgeConductivity.
+ */
+class SmoothingProblem : public Problem
+{
+public:
+  /** `values` are x. `held` and, if not null, `boundary` are prescribed. All must outlive this. */
+  SmoothingProblem(Pool& pool, double t, const VertexFile& values, HeldVertices& held,
+    const BoundaryCurves* boundary);
+
+  /** Takes the masses from the surface at these positions. */
+  void setSurface(const VertexFile& positions);
+  /** Takes the stiffness from that surface, too, with these unit normals. */
+  void setEdges(const VertexFile& normals, const EdgeConductivity& conductivity);
+
+  int columns() const override { return this->Columns; }
+  void conditions(const MeshBlock& block, VertexConditions& conditions) override;
+  bool hasCells() const override { return this->Surface.has_value(); }
+  void cells(CellBatch& batch) override;
+  std::int64_t bytes() const override
+  {
+    return this->Memory.used() - this->Before + this->Held.bytes();
+  }
+
+private:
+  void setWeights(CellBatch& batch, std::size_t cell, const double* const* points) const;
+
+  Pool& Memory;
+  std::int64_t Before; ///< bytes in use when this was made
+  int Columns;
+  double Time;
+  HeldVertices& Held;
+  const BoundaryCurves* Boundary;
+  OpenTuples Values;
+  std::optional<OpenTuples> Surface, Normals;
+  std::optional<EdgeConductivity> Edges;
+};
+
+} // namespace smg

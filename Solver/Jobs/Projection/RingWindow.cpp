@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Projection/RingWindow.h"
+
+#include "Solver/Jobs/Projection/PointTree.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+constexpr std::int64_t MostPlaces = std::numeric_limits<std::int32_t>::max();
+
+/** The memory per vertex and per corner of a cell, in the window and in a VertexGraph. */
+constexpr std::int64_t BytesOfVertex = 64;
+constexpr std::int64_t BytesOfCorner = 12;
+
+/** Cancellation is checked after about this many found vertices. */
+constexpr std::size_t FoundBetweenUpdates = 1 << 20;
+
+/** Reserves room for more items with less slack than the doubling of vectors. */
+template <class T>
+void makeRoom(std::vector<T>& items, std::size_t more)
+{
+  const std::size_t size = items.size() + more;
+  if (size > items.capacity())
+  {
+    items.reserve(std::max(size, items.size() + items.size() / 8));
+  }
+}
+
+} // namespace
+
+RingWindow::RingWindow(CellType cellType, int rings)
+  : CornersOfCell(static_cast<std::size_t>(cornersOf(cellType)))
+  , Rings(rings)
+{
+}
+
+std::int64_t RingWindow::idOf(std::int64_t place) const
+{
+  const auto listed = static_cast<std::int64_t>(this->Listed.size());
+  return place < listed ? this->Listed[place] : this->FirstRecent + place - listed;
+}
+
+std::int32_t RingWindow::placeOf(std::int64_t id) const
+{
+  const auto listed = static_cast<std::int64_t>(this->Listed.size());
+  return static_cast<std::int32_t>(
+    id >= this->FirstRecent
+      ? listed + id - this->FirstRecent
+      : std::lower_bound(this->Listed.begin(), this->Listed.end(), id) - this->Listed.begin());
+}
+
+std::span<const double, 3> RingWindow::positionAt(std::int32_t place) const
+{
+  return std::span(this->Positions).subspan(3 * static_cast<std::size_t>(place)).first<3>();
+}
+
+void RingWindow::add(const MeshBlock& block)
+{
+  const auto corners = static_cast<std::int64_t>(block.corners.size() / this->CornersOfCell);
+  if (this->vertices() + block.vertices() > MostPlaces || this->cells() + corners > MostPlaces)
+  {
+    throw Error("more than " + std::to_string(MostPlaces) +
+                " vertices or cells lie around the points of a handle: give fewer rings, or a "
+                "radius instead, or convert the mesh with the order bfs");
+  }
+  makeRoom(this->Positions, block.positions.size());
+  makeRoom(this->Corners, block.corners.size());
+  this->Positions.insert(this->Positions.end(), block.positions.begin(), block.positions.end());
+  std::transform(block.corners.begin(), block.corners.end(), std::back_inserter(this->Corners),
+    [this](std::int64_t corner) { return this->placeOf(corner); });
+  this->Finalized = std::max(this->Finalized, block.finalized);
+}
+
+void RingWindow::finish()
+{
+  this->Finalized = this->idOf(this->vertices());
+}
+
+std::int64_t RingWindow::bytes() const
+{
+  return BytesOfVertex * this->vertices() +
+         BytesOfCorner * static_cast<std::int64_t>(this->Corners.size());
+}
+
+VertexGraph RingWindow::graph() const
+{
+  return { this->Corners, static_cast<int>(this->CornersOfCell), this->vertices() };
+}
+
+void RingWindow::forget(std::span<const std::int64_t> centers)
+{
+  std::vector<std::int32_t> found;
+  std::vector<std::uint8_t> isFound(static_cast<std::size_t>(this->vertices()), 0);
+  const auto begin = [&](std::int32_t place)
+  {
+    if (!isFound[place])
+    {
+      isFound[place] = 1;
+      found.push_back(place);
+    }
+  };
+  for (const std::int64_t center : centers)
+  {
+    begin(this->placeOf(center));
+  }
+  const std::int64_t end = this->idOf(this->vertices());
+  for (std::int64_t id = std::max(this->Finalized, this->FirstRecent); id < end; ++id)
+  {
+    begin(this->placeOf(id));
+  }
+  const std::size_t inner = this->graph().walk(this->Rings, found, isFound);
+
+  // Edges between vertices of the last ring do not lead to other vertices within the rings.
+  std::vector<std::uint8_t> isInner(isFound.size(), 0);
+  for (std::size_t i = 0; i < inner; ++i)
+  {
+    isInner[found[i]] = 1;
+  }
+  this->keepCells(isInner);
+  const std::vector<std::int32_t> places = this->keepVertices(isFound);
+  for (std::int32_t& corner : this->Corners)
+  {
+    corner = places[corner];
+  }
+}
+
+/** Keeps the cells with a marked vertex. */
+void RingWindow::keepCells(const std::vector<std::uint8_t>& isInner)
+{
+  auto kept = this->Corners.begin();
+  for (auto cell = this->Corners.begin(); cell != this->Corners.end();)
+  {
+    const auto end = cell + static_cast<std::ptrdiff_t>(this->CornersOfCell);
+    const bool isKept =
+      std::any_of(cell, end, [&isInner](std::int32_t corner) { return isInner[corner]; });
+    kept = isKept ? std::copy(cell, end, kept) : kept;
+    cell = end;
+  }
+  this->Corners.erase(kept, this->Corners.end());
+}
+
+/** Keeps the marked vertices, including all that are not final. Returns their indices. */
+std::vector<std::int32_t> RingWindow::keepVertices(const std::vector<std::uint8_t>& isKept)
+{
+  std::vector<std::int32_t> places(isKept.size(), -1);
+  std::vector<std::int64_t> listed;
+  std::int32_t kept = 0;
+  for (std::size_t place = 0; place < isKept.size(); ++place)
+  {
+    if (isKept[place])
+    {
+      const std::int64_t id = this->idOf(static_cast<std::int64_t>(place));
+      if (id < this->Finalized)
+      {
+        listed.push_back(id);
+      }
+      std::copy_n(this->Positions.begin() + 3 * static_cast<std::ptrdiff_t>(place), 3,
+        this->Positions.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
+      places[place] = kept++;
+    }
+  }
+  this->FirstRecent = std::max(this->FirstRecent, this->Finalized);
+  this->Positions.resize(3 * static_cast<std::size_t>(kept));
+  this->Listed = std::move(listed);
+  return places;
+}
+
+std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
+  std::span<const std::int64_t> centers, Progress& progress) const
+{
+  std::vector<std::pair<std::int32_t, std::int64_t>> sorted; // so that walks share cached data
+  for (std::size_t k = 0; k < centers.size(); ++k)
+  {
+    sorted.emplace_back(this->placeOf(centers[k]), static_cast<std::int64_t>(k));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Nearest> nearest(static_cast<std::size_t>(this->vertices()));
+  std::vector<std::uint8_t> isFound(nearest.size(), 0);
+  std::vector<std::int32_t> found;
+  const VertexGraph graph = this->graph();
+  std::size_t steps = 0;
+  std::int32_t last = -1;
+  for (const auto& [place, center] : sorted)
+  {
+    // The first of several centers at a vertex has been processed.
+    if (std::exchange(last, place) == place)
+    {
+      continue;
+    }
+    found.assign(1, place);
+    isFound[place] = 1;
+    graph.walk(this->Rings, found, isFound);
+    for (const std::int32_t vertex : found)
+    {
+      isFound[vertex] = 0;
+      const double squared =
+        PointTree::squaredDistance(this->positionAt(place), this->positionAt(vertex));
+      Nearest& best = nearest[vertex];
+      if (best.center < 0 || squared < best.squaredDistance ||
+          (squared == best.squaredDistance && center < best.center))
+      {
+        best = { center, squared };
+      }
+    }
+    steps += found.size();
+    if (steps >= FoundBetweenUpdates)
+    {
+      progress.update(0.0);
+      steps = 0;
+    }
+  }
+  return nearest;
+}
+
+std::vector<std::pair<std::int64_t, std::int64_t>> RingWindow::nearestCenters(
+  std::span<const std::int64_t> centers, Progress& progress) const
+{
+  const std::vector<Nearest> nearest = this->nearestAtPlaces(centers, progress);
+  const auto isReached = [](const Nearest& at) { return at.center >= 0; };
+  std::vector<std::pair<std::int64_t, std::int64_t>> reached;
+  reached.reserve(
+    static_cast<std::size_t>(std::count_if(nearest.begin(), nearest.end(), isReached)));
+  for (std::size_t place = 0; place < nearest.size(); ++place)
+  {
+    if (isReached(nearest[place]))
+    {
+      reached.emplace_back(this->idOf(static_cast<std::int64_t>(place)), nearest[place].center);
+    }
+  }
+  return reached;
+}
+
+} // namespace smg

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Jobs/Projection/VertexGraph.h"
+#include "smg/MeshSource.h"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The part of a mesh stream within a number of edges of chosen vertices, the centers. These are
+ * chosen while the stream is read, and may change until its end.
+ *
+ * Memory is proportional to the number of vertices in that part, independent of how many rings they
+ * are in. It includes the rings of vertices that are not final, and everything since the last call
+ * of forget(). It is the whole mesh if the stream does not mark final vertices.
+ */
+class RingWindow
+{
+public:
+  /** `rings` is the maximum number of edges from a center, at least 1. */
+  RingWindow(CellType cellType, int rings);
+
+  /** Adds the next block of a valid stream. */
+  void add(const MeshBlock& block);
+
+  /** Ends the stream: every vertex is final. */
+  void finish();
+
+  /** Discards everything outside the rings of the centers and of vertices that are not final. Only
+   * these centers and later vertices may be centers afterwards. */
+  void forget(std::span<const std::int64_t> centers);
+
+  /** The bytes required by the window and by walks in it. */
+  std::int64_t bytes() const;
+
+  /** The number of cells in the window. */
+  std::int64_t cells() const
+  {
+    return static_cast<std::int64_t>(this->Corners.size() / this->CornersOfCell);
+  }
+
+  /**
+   * The vertices within the rings of centers, after finish(), in ascending order, each with the
+   * index of the nearest center in space; of equally near ones, the first. `progress` does not
+   * advance; it may cancel.
+   */
+  std::vector<std::pair<std::int64_t, std::int64_t>> nearestCenters(
+    std::span<const std::int64_t> centers, Progress& progress) const;
+
+private:
+  struct Nearest
+  {
+    std::int64_t center = -1;
+    double squaredDistance = 0.0;
+  };
+
+  std::int64_t vertices() const { return static_cast<std::int64_t>(this->Positions.size() / 3); }
+  std::int64_t idOf(std::int64_t place) const;
+  std::int32_t placeOf(std::int64_t id) const;
+  std::span<const double, 3> positionAt(std::int32_t place) const;
+  VertexGraph graph() const;
+  std::vector<Nearest> nearestAtPlaces(
+    std::span<const std::int64_t> centers, Progress& progress) const;
+  void keepCells(const std::vector<std::uint8_t>& isInner);
+  std::vector<std::int32_t> keepVertices(const std::vector<std::uint8_t>& isKept);
+
+  std::size_t CornersOfCell;
+  int Rings;
+  std::int64_t Finalized = 0;
+
+  /** Vertices have indices in the window, in the order of their stream indices: first those below
+   * FirstRecent, which are listed, then all from there on. */
+  std::vector<std::int64_t> Listed;
+  std::int64_t FirstRecent = 0;
+  std::vector<double> Positions;     ///< x, y, z of each vertex
+  std::vector<std::int32_t> Corners; ///< window indices of the vertices of each cell
+};
+
+} // namespace smg

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Results/DiscretisationError.h"
+
+#include "Solver/Assembly/CellFacets.h"
+#include "Solver/Assembly/FlatCells.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+DiscretisationError::DiscretisationError(
+  Pool& pool, const StreamInfo& info, Problem& problem, ReadValues readValues)
+  : Type(info.cellType)
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Kind(problem.weights())
+  , Read(std::move(readValues))
+  , Check(info.cellType)
+  , Vertices(pool, problem)
+  , Facets(pool)
+  , Terms(pool, problem.columns() + 2)
+{
+  if (problem.hasCells())
+  {
+    this->Own.emplace(problem, this->Type);
+  }
+  if (problem.hasFacets())
+  {
+    this->Conditions.emplace(pool, problem, this->Type, this->Vertices);
+  }
+}
+
+void DiscretisationError::add(const MeshBlock& block)
+{
+  this->Check.add(block);
+  this->addVertices(block);
+  this->addCells(block);
+  if (this->Conditions)
+  {
+    this->Conditions->add(block);
+  }
+  this->finalize(block.finalized);
+}
+
+void DiscretisationError::addVertices(const MeshBlock& block)
+{
+  const std::int64_t begin = this->Vertices.end();
+  this->Vertices.add(block);
+  const std::int64_t end = this->Vertices.end();
+  this->Facets.extend(end);
+  if (this->Conditions)
+  {
+    this->Conditions->extend(end);
+  }
+  this->Values.resize(static_cast<std::size_t>(end - begin) * this->Columns);
+  this->Read(begin, end - begin, this->Values);
+  std::ranges::copy(this->Values, this->Vertices.values.at(begin));
+}
+
+void DiscretisationError::addCells(const MeshBlock& block)
+{
+  const auto count = static_cast<std::size_t>(cornersOf(this->Type));
+  const Column* flags = block.flags();
+  for (std::size_t c = 0; c < block.corners.size() / count; ++c)
+  {
+    if (this->Own)
+    {
+      this->Own->prepare(block, c, this->Vertices.points);
+    }
+    const std::int64_t* corners = block.corners.data() + c * count;
+    if ((flags && flags->value(c) != 0.0) || hasRepeatedCorner(corners, cornersOf(this->Type)))
+    {
+      continue;
+    }
+    const double* points[4] = {};
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      points[k] = this->Vertices.points.at(corners[k]);
+    }
+    const CellWeights weights = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
+    if (weights.measure > 0.0)
+    {
+      this->addCell(
+        corners, points, weights, flatnessOf(this->Kind, this->Own, this->Type, points, weights));
+    }
+  }
+}
+
+/** Adds the energy in a cell, and what it contributes to each of its facets. */
+void DiscretisationError::addCell(const std::int64_t* corners, const double* const* points,
+  const CellWeights& weights, double flatness)
+{
+  const int count = cornersOf(this->Type);
+  std::int32_t slots[4] = {};
+  for (int k = 0; k < count; ++k)
+  {
+    slots[k] = this->termsOf(facetOf(this->Type, corners, k).vertex);
+  }
+  double conductance[4] = {};
+  double* terms[4] = {};
+  for (int k = 0; k < count; ++k)
+  {
+    terms[k] = this->Terms.at(slots[k]);
+  }
+  for (int e = 0; e < edgesOf(this->Type); ++e)
+  {
+    const int i = edgeCorners(this->Type, e)[0], j = edgeCorners(this->Type, e)[1];
+    const double weight = flatness * weights.weight[e];
+    conductance[i] += weight;
+    conductance[j] += weight;
+    const double* a = this->Vertices.values.at(corners[i]);
+    const double* b = this->Vertices.values.at(corners[j]);
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      const double step = b[k] - a[k];
+      this->Sums.solution += weight * step * step;
+      terms[i][k] += weight * step;
+      terms[j][k] -= weight * step;
+    }
+  }
+  for (int k = 0; k < count; ++k)
+  {
+    terms[k][this->Columns] += std::max(0.0, conductance[k]);
+    terms[k][this->Columns + 1] += 1.0;
+  }
+  if (this->Own)
+  {
+    addFieldLoads(*this->Own, this->Type, points, static_cast<int>(this->Columns), terms);
+  }
+}
+
+/** The terms of the facet with these corners in ascending order. */
+std::int32_t DiscretisationError::termsOf(const std::int64_t* corners)
+{
+  const std::int32_t fresh = this->Terms.take();
+  const std::int32_t slot = this->Facets.join(
+    corners[0], corners[1], this->Type == CellType::Triangle ? 0 : corners[2], fresh);
+  if (slot == fresh)
+  {
+    std::fill_n(this->Terms.at(slot), this->Columns + 2, 0.0);
+  }
+  else
+  {
+    this->Terms.give(fresh);
+  }
+  return slot;
+}
+
+/** Takes what conditions let flow in through boundary facets whose lowest corner is `vertex`. */
+void DiscretisationError::addInflows(std::int64_t vertex)
+{
+  const int count = BoundaryFacet::cornersOf(this->Type);
+  this->Conditions->take(vertex,
+    [&](const BoundaryFacet& facet)
+    {
+      if (facet.flux < 0 && facet.robin < 0)
+      {
+        return;
+      }
+      const double* points[3] = {};
+      for (int c = 0; c < count; ++c)
+      {
+        points[c] = this->Vertices.points.at(facet.corners[c]);
+      }
+      double* terms = this->Terms.at(this->termsOf(facet.corners));
+      const double share = facetArea(this->Type, points) / count / count; // count: the dimension
+      for (int c = 0; c < count; ++c)
+      {
+        const double* u = this->Vertices.values.at(facet.corners[c]);
+        for (std::size_t k = 0; k < this->Columns; ++k)
+        {
+          const std::size_t at = static_cast<std::size_t>(c) * this->Columns + k;
+          terms[k] -= facet.flux >= 0 ? share * facet.fluxValue[at] : 0.0;
+          terms[k] -=
+            facet.robin >= 0 ? share * facet.coefficient[c] * (facet.ambient[at] - u[k]) : 0.0;
+        }
+      }
+    });
+}
+
+bool DiscretisationError::isPrescribed(
+  std::int64_t low, std::int64_t middle, std::int64_t high) const
+{
+  const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
+  return dirichlet[low] >= 0 && dirichlet[middle] >= 0 &&
+         (this->Type == CellType::Triangle || dirichlet[high] >= 0);
+}
+
+void DiscretisationError::finalize(std::int64_t end)
+{
+  const double dimension = cornersOf(this->Type) - 1;
+  for (; this->Final < end; ++this->Final)
+  {
+    if (this->Conditions)
+    {
+      this->addInflows(this->Final);
+    }
+    this->Facets.take(this->Final,
+      [&](std::int64_t middle, std::int64_t high, std::int32_t slot)
+      {
+        const double* terms = this->Terms.at(slot);
+        const double cells = terms[this->Columns + 1];
+        if (cells > 1.0 || (cells > 0.0 && !this->isPrescribed(this->Final, middle, high)))
+        {
+          const double sum = terms[this->Columns];
+          const double resistance = sum > 0.0 ? cells / sum : 0.0;
+          for (std::size_t k = 0; k < this->Columns; ++k)
+          {
+            this->Sums.error += dimension / 12.0 * resistance * terms[k] * terms[k];
+          }
+        }
+        this->Terms.give(slot);
+      });
+  }
+  this->Vertices.release(this->Final, this->Final);
+  this->Facets.release(this->Final);
+  if (this->Conditions)
+  {
+    this->Conditions->release(this->Final);
+  }
+}
+
+EnergySquares DiscretisationError::finish()
+{
+  this->finalize(this->Vertices.end());
+  return this->Sums;
+}
+
+} // namespace smg

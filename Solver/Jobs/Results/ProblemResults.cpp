@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Results/ProblemResults.h"
+
+#include "Solver/Assembly/FlatCells.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smg
+{
+namespace
+{
+
+constexpr PoolUse ResultMemory{ "reading the results",
+  "raise the memory limit, or convert the mesh with the order bfs" };
+
+} // namespace
+
+ProblemResults::ProblemResults(
+  const StreamInfo& info, Problem& problem, Solution& solution, const ResultOptions& options)
+  : Type(info.cellType)
+  , Given(problem)
+  , Solved(solution)
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Kind(problem.weights())
+  , Check(info.cellType)
+  , Memory(options.memoryLimit, ResultMemory)
+  , Vertices(this->Memory, problem)
+  , Reach(this->Memory)
+  , EdgeWeights(this->Memory)
+  , Facets(this->Memory, problem, info.cellType, this->Vertices)
+  , Edges(this->Memory, problem, info.cellType)
+  , Cells(info.cellType, problem.columns(), options.gradient, options.flux)
+  , Sums(info.cellType, problem)
+  , Terms(VertexTerms::size(this->Columns))
+{
+  if (problem.columns() != solution.columns())
+  {
+    throw Error(
+      "the solution has another number of columns than the problem and does not belong to it");
+  }
+  if (problem.hasEdgeTargets())
+  {
+    throw Error("the results of a problem with edge targets have no fluxes that balance");
+  }
+  if (problem.hasCells())
+  {
+    this->Own.emplace(problem, this->Type, options.flux);
+    this->CellLoads.emplace(this->Memory, this->Type, problem.columns());
+  }
+  if (problem.hasFacets())
+  {
+    this->FacetLoads.emplace(this->Memory, this->Type, problem.columns());
+  }
+}
+
+void ProblemResults::add(const MeshBlock& block)
+{
+  this->Check.add(block);
+  this->addPart(block);
+  this->finalize(block.finalized);
+}
+
+void ProblemResults::addPart(const MeshBlock& block)
+{
+  this->addVertices(block);
+  this->addCells(block);
+  this->Facets.add(block);
+}
+
+void ProblemResults::addVertices(const MeshBlock& block)
+{
+  const std::int64_t begin = this->Vertices.end();
+  this->Vertices.add(block);
+  const std::int64_t end = this->Vertices.end();
+  this->Facets.extend(end);
+  this->Edges.extend(end);
+  if (this->FacetLoads)
+  {
+    this->EdgeWeights.extend(end);
+  }
+  for (auto* loads : { &this->CellLoads, &this->FacetLoads })
+  {
+    if (*loads)
+    {
+      (*loads)->extend(end);
+    }
+  }
+  this->Values.resize(static_cast<std::size_t>(end - begin) * this->Columns);
+  this->Solved.read(begin, end - begin, this->Values);
+  std::ranges::copy(this->Values, this->Vertices.values.at(begin));
+  for (std::size_t e = 0; e < this->Values.size(); ++e)
+  {
+    this->Sums.compare(
+      e % this->Columns, this->Values[e], begin + static_cast<std::int64_t>(e / this->Columns));
+  }
+}
+
+void ProblemResults::addCells(const MeshBlock& block)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  const std::size_t cells = block.corners.size() / corners;
+  const Column* flags = block.flags();
+  this->Cells.begin(cells);
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    if (this->Own)
+    {
+      this->Own->prepare(block, c, this->Vertices.points);
+    }
+    this->addCell(
+      c, block.corners.data() + c * corners, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
+  }
+}
+
+void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigned flags)
+{
+  const int count = cornersOf(this->Type);
+  const double* points[4] = {};
+  const double* values[4] = {};
+  for (int k = 0; k < count; ++k)
+  {
+    points[k] = this->Vertices.points.at(corners[k]);
+    values[k] = this->Vertices.values.at(corners[k]);
+  }
+  CellWeights cell;
+  if (flags == 0 && !hasRepeatedCorner(corners, count))
+  {
+    cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
+  }
+  if (cell.measure == 0.0)
+  {
+    if (this->Given.connectsFlatCells() && isDistinctCell(corners, count, flags))
+    {
+      this->connect(corners, points, cell);
+    }
+    return;
+  }
+  const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
+  this->Cells.add(
+    c, points, values, cell, flatness, this->Own ? this->Own->conductivity() : nullptr);
+  for (int k = 0; k < count; ++k)
+  {
+    this->Vertices.mass[corners[k]] += cell.measure / count;
+  }
+  if (this->Own)
+  {
+    this->CellLoads->add(corners, points, *this->Own);
+  }
+  if (flatness < 1.0)
+  {
+    for (double& weight : cell.weight)
+    {
+      weight *= flatness;
+    }
+  }
+  this->connect(corners, points, cell);
+}
+
+/** Collects the weights, as in the solve, of the edges that carry a flux out of a condition. */
+void ProblemResults::connect(
+  const std::int64_t* corners, const double* const* points, const CellWeights& cell)
+{
+  if (this->FacetLoads)
+  {
+    this->weighEdges(corners, cell);
+  }
+  const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
+  const std::int32_t first = dirichlet[corners[0]];
+  bool same = true;
+  for (int k = 1; k < cornersOf(this->Type); ++k)
+  {
+    same = same && dirichlet[corners[k]] == first;
+  }
+  if (!same)
+  {
+    this->Edges.add(corners, points, cell, this->Own ? this->Own->scale() : 1.0,
+      [&](std::int64_t a, std::int64_t b) { return dirichlet[a] != dirichlet[b]; });
+  }
+}
+
+void ProblemResults::weighEdges(const std::int64_t* corners, const CellWeights& cell)
+{
+  for (int e = 0; e < edgesOf(this->Type); ++e)
+  {
+    for (const int k : { edgeCorners(this->Type, e)[0], edgeCorners(this->Type, e)[1] })
+    {
+      this->EdgeWeights[corners[k]] += std::fabs(cell.weight[e]);
+    }
+  }
+}
+
+void ProblemResults::finalize(std::int64_t end)
+{
+  for (; this->Final < end; ++this->Final)
+  {
+    this->close(this->Final, this->Terms.data());
+    this->Sums.add(VertexTerms(this->Terms.data()), this->Vertices.values.at(this->Final),
+      this->Vertices.dirichlet[this->Final]);
+  }
+  this->Vertices.release(this->Reach.advance(this->Final), this->Final);
+  for (auto* loads : { &this->CellLoads, &this->FacetLoads })
+  {
+    if (*loads)
+    {
+      (*loads)->release(this->Final);
+    }
+  }
+  this->EdgeWeights.release(this->Final);
+  this->Facets.release(this->Final);
+  this->Edges.release(this->Final);
+}
+
+void ProblemResults::addBoundary(std::int64_t i)
+{
+  this->Facets.take(i,
+    [this](const BoundaryFacet& facet)
+    {
+      const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
+      if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
+      {
+        return;
+      }
+      const double* points[3] = {};
+      for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
+      {
+        points[k] = this->Vertices.points.at(facet.corners[k]);
+      }
+      const double area = facetArea(this->Type, points);
+      if (this->FacetLoads)
+      {
+        this->FacetLoads->add(facet, area);
+      }
+      this->Sums.conditions.add(facet, area, this->Vertices);
+    });
+}
+
+/** Sets the terms of the next vertex, which has all of its data. */
+void ProblemResults::close(std::int64_t i, double* numbers)
+{
+  this->addBoundary(i);
+  VertexTerms terms(numbers);
+  const double mass = this->Vertices.mass[i];
+  terms.mass() = mass;
+  terms.screening() =
+    this->Vertices.screening[i] * mass + (this->CellLoads ? this->CellLoads->alpha(i) : 0.0);
+  terms.transfer() = this->FacetLoads ? this->FacetLoads->alpha(i) : 0.0;
+  terms.edges() = this->FacetLoads ? this->EdgeWeights[i] : 0.0;
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    terms.source(k) = mass * this->Vertices.sources.at(i)[k] +
+                      (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
+    terms.inflow(k) = this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0;
+    terms.outflow(k) = terms.outflowTerms(k) = 0.0;
+  }
+  this->Neighbours.clear();
+  this->Edges.take(i, this->Vertices.points, this->Neighbours);
+  this->Reach.close(i, this->Neighbours.empty() ? i : std::max(i, this->Neighbours.back().to));
+  if (this->Vertices.dirichlet[i] >= 0)
+  {
+    this->addEdges(this->Vertices.values.at(i), terms);
+  }
+}
+
+void ProblemResults::addEdges(const double* u, VertexTerms terms)
+{
+  for (const RowNeighbour& neighbour : this->Neighbours)
+  {
+    const double weight = knownWeight(this->Kind, neighbour);
+    const double* other = this->Vertices.values.at(neighbour.to);
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      terms.outflow(k) += weight * (u[k] - other[k]);
+      terms.outflowTerms(k) += std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other[k]));
+    }
+  }
+}
+
+std::vector<double> ProblemResults::takeTerms()
+{
+  const std::size_t each = this->Terms.size();
+  std::vector<double> all(static_cast<std::size_t>(this->Vertices.end()) * each);
+  for (; this->Final < this->Vertices.end(); ++this->Final)
+  {
+    this->close(this->Final, all.data() + static_cast<std::size_t>(this->Final) * each);
+  }
+  this->Sums.setCells(this->Cells);
+  return all;
+}
+
+void ProblemResults::finish(Report& report)
+{
+  this->finalize(this->Vertices.end());
+  this->Sums.setCells(this->Cells);
+  this->Sums.finish(report);
+}
+
+} // namespace smg

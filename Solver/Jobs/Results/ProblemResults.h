@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/FacetSet.h"
+#include "Solver/Assembly/NeighbourReach.h"
+#include "Solver/Assembly/OpenVertices.h"
+#include "Solver/Assembly/ProblemCells.h"
+#include "Solver/Assembly/ProblemFacets.h"
+#include "Solver/Assembly/VertexLoads.h"
+#include "Solver/Assembly/WeightedEdges.h"
+#include "Solver/Jobs/Results/CellResults.h"
+#include "Solver/Jobs/Results/ResultSums.h"
+#include "Solver/Jobs/Results/VertexTerms.h"
+#include "Solver/Mesh/StreamCheck.h"
+#include "smg/Export.h"
+#include "smg/Solve.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The derived results of a solution: gradients and fluxes of the cells, and, for the report, the
+ * flow through the boundary, the energy, the means and the extremes. The mesh stream is read once
+ * more, in the pass in which the caller writes the solution:
+ *
+ *     ProblemResults results(source.info(), problem, solution);
+ *     while (source.next(block)) { results.add(block); ... }
+ *     results.finish(report);
+ *
+ * Only the window of open vertices is in memory. The results do not depend on the blocks, bit for
+ * bit.
+ */
+class SMG_EXPORT ProblemResults
+{
+public:
+  /**
+   * `problem` is that of the solution; it is queried again from the first block on (also for
+   * CellBatch::conductivity if the flux is requested). Throws Error if the solution belongs to
+   * another problem, or if there are edge targets, which have no flux.
+   */
+  ProblemResults(const StreamInfo& info, Problem& problem, Solution& solution,
+    const ResultOptions& options = {});
+
+  /** Adds the next block. Throws Error for an invalid block, and the errors of reading the
+   * solution. */
+  void add(const MeshBlock& block);
+
+  // Of the last block:
+
+  /** The solution at its vertices: `columns` per vertex. */
+  std::span<const double> values() const { return this->Values; }
+  /** If requested: 3 numbers per column of each cell; 0 in cells without area or volume. On
+   * surfaces in the plane of the triangle. */
+  std::span<const double> gradient() const { return this->Cells.gradient(); }
+  std::span<const double> flux() const { return this->Cells.flux(); }
+
+  /** After the last block: see ResultSums. */
+  void finish(Report& report);
+
+  // Of the part of a mesh that a process has (see MeshPart), instead of add() and finish():
+
+  /** Adds the only block. */
+  void addPart(const MeshBlock& block);
+  /** The facets and edges of its cells. Those that other parts have as well are excluded, or joined
+   * with theirs, before the terms are taken. */
+  const OpenFacets& facets() const { return this->Facets.open(); }
+  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+  WeightedEdges& edges() { return this->Edges; }
+  /** What the part contributes to its vertices, VertexTerms::size() numbers each. */
+  std::vector<double> takeTerms();
+  /** The Dirichlet condition of a vertex of the part; -1: none. */
+  std::int32_t dirichlet(std::int64_t i) const { return this->Vertices.dirichlet[i]; }
+  /** The sums over its cells and facets, to which the vertices are added. */
+  ResultSums& sums() { return this->Sums; }
+
+private:
+  void addVertices(const MeshBlock& block);
+  void addCells(const MeshBlock& block);
+  void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
+  void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
+  void weighEdges(const std::int64_t* corners, const CellWeights& cell);
+  void finalize(std::int64_t end);
+  void addBoundary(std::int64_t i);
+  void close(std::int64_t i, double* numbers);
+  void addEdges(const double* u, VertexTerms terms);
+
+  CellType Type;
+  Problem& Given;
+  Solution& Solved;
+  std::size_t Columns;
+  Weights Kind;
+  StreamCheck Check;
+  Pool Memory;
+
+  // By open vertex.
+  OpenVertices Vertices; // their values are the solution
+  NeighbourReach Reach;
+  std::optional<ProblemCells> Own;
+  std::optional<VertexLoads> CellLoads, FacetLoads;
+  Ring<double> EdgeWeights; // magnitudes of the edge weights, if there are facet loads
+  ProblemFacets Facets;
+  WeightedEdges Edges; // from Dirichlet vertices to vertices outside the condition
+
+  FacetSet Inner; // facets that other parts have as well
+
+  CellResults Cells;
+  ResultSums Sums;
+  std::vector<double> Values, Terms; // of a block, of a vertex
+  std::vector<RowNeighbour> Neighbours;
+  std::int64_t Final = 0;
+};
+
+} // namespace smg

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/MirroredMemory.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <span>
+#include <type_traits>
+
+namespace smg
+{
+
+/**
+ * The part [first, end) in memory of an unbounded array of items, each of `lanes` values of T.
+ * Items are addressed by their index in the unbounded array; the neighbours of any item are
+ * contiguous in memory (MirroredMemory), so `at(i) + lanes * d` is item i + d. But at(i + d) may be
+ * another image of it: two results of at() do not bound a range.
+ */
+template <class T>
+class Ring
+{
+  static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+  explicit Ring(Pool& pool, int lanes = 1)
+    : Memory(pool)
+    , Lanes(lanes)
+  {
+  }
+
+  std::int64_t first() const { return this->First; }
+  std::int64_t end() const { return this->End; }
+  int lanes() const { return this->Lanes; }
+  /** The items for which there is memory. */
+  std::int64_t capacity() const { return this->Capacity; }
+
+  /** The first value of item `i`, first() <= i <= end(). */
+  T* at(std::int64_t i) const
+  {
+    const std::int64_t slot = i - this->Lap;
+    return this->Slots + (slot < this->Capacity ? slot : slot - this->Capacity) * this->Lanes;
+  }
+  T& operator[](std::int64_t i) const { return *this->at(i); }
+  /** The values of items [begin, end). */
+  std::span<T> range(std::int64_t begin, std::int64_t end) const
+  {
+    return { this->at(begin), static_cast<std::size_t>((end - begin) * this->Lanes) };
+  }
+
+  /** Appends items end() .. end - 1, zeroed. May move the memory. Throws Error. */
+  void extend(std::int64_t end)
+  {
+    const std::int64_t before = this->End;
+    this->extendRaw(end);
+    if (end > before)
+    {
+      std::ranges::fill(this->range(before, end), T{});
+    }
+  }
+
+  /** Like extend(), without initialising the appended items. */
+  void extendRaw(std::int64_t end)
+  {
+    if (end > this->End)
+    {
+      this->reserve(end - this->First);
+      this->End = end;
+    }
+  }
+
+  /** Releases the items below `first`; if that is beyond the end, it is the next item. */
+  void release(std::int64_t first)
+  {
+    if (first > this->End)
+    {
+      this->restart(first);
+      return;
+    }
+    this->First = std::max(this->First, first);
+    while (this->First - this->Lap >= this->Capacity && this->Capacity > 0)
+    {
+      this->Lap += this->Capacity;
+    }
+  }
+
+  /** Releases all items and keeps the memory; the next item is `next`. */
+  void restart(std::int64_t next = 0)
+  {
+    this->First = this->End = next;
+    this->Lap = this->Capacity > 0 ? next - next % this->Capacity : 0;
+  }
+
+  /** Releases all items and the memory. */
+  void clear()
+  {
+    this->Memory.clear();
+    this->Capacity = 0;
+    this->Slots = nullptr;
+    this->restart();
+  }
+
+  /** Provides capacity for `items` items. */
+  void reserve(std::int64_t items)
+  {
+    if (items > this->Capacity)
+    {
+      this->grow(std::max(items, this->Capacity + this->Capacity / 32));
+    }
+  }
+
+  /** Provides capacity for so many further items. */
+  void reserveMore(std::int64_t items) { this->reserve(this->End - this->First + items); }
+
+private:
+  void grow(std::int64_t items)
+  {
+    this->Lap = this->Capacity == 0 ? this->First : this->Lap;
+    const auto itemBytes = static_cast<std::int64_t>(sizeof(T)) * this->Lanes;
+    const std::int64_t page = MirroredMemory::PageBytes;
+    const std::int64_t granule = page / std::gcd(page, itemBytes);
+    const std::int64_t capacity = (items + granule - 1) / granule * granule;
+    const std::int64_t added = capacity - this->Capacity;
+    const std::int64_t wrapped = this->End - this->Lap - this->Capacity;
+    this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
+    if (wrapped > 0)
+    {
+      // Items at the beginning that follow the others are moved behind these, as many as fit.
+      std::byte* data = this->Memory.data();
+      const std::int64_t moved = std::min(wrapped, added);
+      std::memcpy(
+        data + this->Capacity * itemBytes, data, static_cast<std::size_t>(moved * itemBytes));
+      std::memmove(
+        data, data + moved * itemBytes, static_cast<std::size_t>((wrapped - moved) * itemBytes));
+    }
+    this->Capacity = capacity;
+    this->Slots = reinterpret_cast<T*>(this->Memory.data());
+  }
+
+  MirroredMemory Memory;
+  T* Slots = nullptr;        // position of item Lap
+  std::int64_t Lap = 0;      // at most First, First - Lap < Capacity
+  std::int64_t Capacity = 0; // items
+  std::int64_t First = 0;
+  std::int64_t End = 0;
+  int Lanes;
+};
+
+} // namespace smg

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/Reservation.h"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCore>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace smg
+{
+
+/** A symmetric matrix of the coarsest level. */
+struct CoarsestMatrix
+{
+  std::vector<Eigen::Triplet<double>> lower; ///< entries below the diagonal
+  std::vector<double> diagonal;
+  std::vector<bool> anchored; ///< per node: whether the row sum is not zero
+  double rounding = 0.0;      ///< relative error of the entries below the diagonal
+};
+
+/**
+ * The Cholesky factor of the matrix of the coarsest level. A component without an anchored node
+ * determines its solution only up to a constant: its first node is pinned to zero, and the mean of
+ * its right-hand side is subtracted.
+ *
+ * An exact matrix, definite or not, is factorised as L D L^T. If its entries are rounded, the small
+ * eigenvalues of modes that only slivers resist may be lost, so that the matrix is barely or no
+ * longer definite. Every edge is then stiffened by about that rounding, which hardly affects weakly
+ * constrained modes, and by more until the matrix is definite, which is factorised as L L^T.
+ */
+class CoarsestFactor
+{
+public:
+  /** The factor is accounted for in `pool`, from its analysis on. Throws Error above the limit, if
+   * a pivot of an exact matrix is zero, or if a rounded matrix is far from definite. */
+  void factorize(const CoarsestMatrix& matrix, Pool& pool);
+  /** Solves for one right-hand side per column. */
+  Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
+  /** The number of components without an anchored node. */
+  std::int64_t floatingComponents() const;
+
+private:
+  void findFloating(const CoarsestMatrix& matrix);
+  Eigen::SparseMatrix<double> stiffened(const CoarsestMatrix& matrix, double share) const;
+  bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
+  void project(Eigen::MatrixXd& b) const;
+
+  std::optional<Reservation> Memory;
+  Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
+  std::vector<Eigen::Index> Floating; // per node: the first node of its component, -1 if anchored
+};
+
+} // namespace smg

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Lanes.h"
+#include "Solver/Files/ScratchStream.h"
+#include "Solver/Memory/Ring.h"
+#include "Solver/Memory/SpareBuffers.h"
+#include "Solver/Multigrid/Cycle/BlocksAhead.h"
+#include "Solver/Multigrid/Cycle/RowBlock.h"
+#include "smg/Export.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace smg
+{
+
+/** The weights by which a pass accelerates the V-cycle T, which maps the iterate y_k to T(y_k). */
+struct StepWeights
+{
+  /** y_{k+1} = y_k + correction (T(y_k) - y_k) + momentum (y_k - y_{k-1}). */
+  double correction = 1.0, momentum = 0.0;
+  /** The weights of conjugate residuals; see IterateHistory. */
+  double conjugation = 0.0, length = 0.0;
+  /** Whether conjugate residuals start: z_k = y_k. */
+  bool begin = false;
+};
+
+/** Inner products of the vectors of conjugate residuals, summed over all columns. */
+struct ResidualProducts
+{
+  double aa = 0.0, aq = 0.0, qq = 0.0, za = 0.0, zq = 0.0;
+};
+
+/** The nodes at which conjugate residuals keep their vectors. */
+enum class KeptResiduals
+{
+  None,
+  Few, ///< one of as many groups as possible, where memory is short
+  Sampled,
+  All ///< for bad cells, which make the residuals of few nodes dominant
+};
+
+/**
+ * The data of the iterates of the finest level that acceleration keeps between passes: the step
+ * y_k - y_{k-1} and, for conjugate residuals, three additional vectors. In single precision, since
+ * their rounding errors vanish with the steps as the iterates converge; on disk if the level is.
+ *
+ * The iterates y_k are those whose residual a pass computes: after the sweeps before restriction.
+ *
+ * Conjugate residuals (Stiefel 1955; with a V-cycle as preconditioner, one pass a step): let z_k be
+ * the best combination of iterates so far and y_k = T(z_{k-1}). The direction added by y_k has the
+ * image a = A (y_k - z_{k-1}) = r(z_{k-1}) - r(y_k), which is made conjugate: q_k = a - conjugation
+ * q_{k-1}. Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no separate pass:
+ * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
+ * momentum. The stored vectors are z: r(z_k), q and a; their inner products yield the next weights
+ * before the next pass. If sampled, large meshes store one of up to sixteen groups of nodes, which
+ * determines the two weights of a step well enough: residuals differ between regions, so the groups
+ * are small and distributed over the mesh.
+ */
+class SMG_EXPORT IterateHistory
+{
+public:
+  /** For a level of `nodes` nodes with `columns` right-hand sides. */
+  IterateHistory(Pool& pool, std::int64_t nodes, int columns, KeptResiduals residuals)
+    : Nodes(nodes)
+    , Columns(columns)
+    , Stride(strideOf(columns))
+    , Every(sparseness(nodes, residuals))
+    , Before(pool, this->Stride)
+    , Steps(pool, this->Stride)
+    , Residuals(pool, this->Stride * Vectors)
+    , Sums(static_cast<std::size_t>(Products * this->Stride))
+    , Spare(pool)
+    , Empty(pool)
+  {
+  }
+
+  /** Of how many groups of nodes one keeps residuals; 0: none does. */
+  static std::int64_t sparseness(std::int64_t nodes, KeptResiduals residuals)
+  {
+    return residuals == KeptResiduals::Few       ? RowBlock::Groups
+           : residuals == KeptResiduals::Sampled ? sparsenessFor(nodes)
+           : residuals == KeptResiduals::All     ? 1
+                                                 : 0;
+  }
+  std::int64_t sparseness() const { return this->Every; }
+
+  /** The maximum bytes per node in memory. */
+  static std::int64_t nodeBytes(int stride, KeptResiduals residuals)
+  {
+    constexpr std::int64_t Single = sizeof(float);
+    return stride * (std::int64_t(sizeof(double)) + Single +
+                      (residuals != KeptResiduals::None ? Vectors * Single : 0));
+  }
+
+  /** Keeps the history in a scratch file in `folder`. */
+  void useScratch(const ScratchFolder& folder, IoStatistics& statistics);
+  bool keepsResiduals() const { return this->Every > 0; }
+
+  void startPass(const StepWeights& weights);
+  /** Loads the blocks up to node `end`; keep() completes them. */
+  void load(std::int64_t end);
+  /** Stores the iterate x of the nodes that load() has loaded, which are not modified yet. Other
+   * threads may access nodes below these. */
+  void keep(const Ring<double>& x);
+  /** x of nodes [begin, end), which is T(y_k), becomes y_{k+1}. */
+  void combine(const Ring<double>& x, std::int64_t begin, std::int64_t end);
+  // Levels of single precision, the coarse ones, are not accelerated.
+  void keep(const Ring<float>&) {}
+  void combine(const Ring<float>&, std::int64_t, std::int64_t) {}
+
+  /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
+   * loaded blocks. */
+  void readAhead();
+  /** Writes the blocks below `done`, whose residuals are known. Other threads may access blocks
+   * above. */
+  void write(std::int64_t done);
+  /** Releases written blocks. */
+  void release();
+  void endPass();
+
+  /** Between passes, with a scratch file: saves all that later passes need. */
+  void save(StateWriter& state);
+  void load(StateReader& state);
+
+  /** The inner products of the last pass. */
+  ResidualProducts products() const;
+
+private:
+  template <class Vectors>
+  friend class ResidualKeeper;
+
+  static constexpr int Products = 5;
+  static constexpr int Vectors = 3;
+  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
+  static constexpr std::int64_t ManyNodes = std::int64_t(1) << 23;
+
+  /** The sampling interval of groups, a power of two, so that every block has the same number of
+   * sampled groups. With one in 16, levels with fewer than ManyNodes nodes converge more slowly. */
+  static std::int64_t sparsenessFor(std::int64_t nodes)
+  {
+    if (nodes >= ManyNodes)
+    {
+      return RowBlock::Groups;
+    }
+    const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, 8);
+  }
+  /** The sampled one of `Every` groups of a block, pseudo-random to avoid correlation with a
+   * pattern of the mesh. */
+  std::int64_t sampledGroup(std::int64_t block) const
+  {
+    constexpr std::uint32_t Golden = 2654435769U;
+    return (static_cast<std::uint32_t>(block) * Golden >> 16) % this->Every;
+  }
+  /** The number of nodes below `end` with residuals: those of one of `Every` groups; none if 0. */
+  std::int64_t sampledBelow(std::int64_t end) const
+  {
+    if (this->Every == 0)
+    {
+      return 0;
+    }
+    constexpr std::int64_t Group = RowBlock::Group;
+    const std::int64_t block = end / RowBlock::Nodes;
+    const std::int64_t inBlock = end % RowBlock::Nodes;
+    const std::int64_t period = Group * this->Every;
+    const std::int64_t inPeriod = inBlock % period - this->sampledGroup(block) * Group;
+    return block * (RowBlock::Nodes / this->Every) + inBlock / period * Group +
+           std::clamp<std::int64_t>(inPeriod, 0, Group);
+  }
+  std::int64_t blockEnd(std::int64_t begin) const
+  {
+    return std::min(this->Nodes, begin + RowBlock::Nodes);
+  }
+  Buffer readBlock();
+  void loadBlock();
+  // On disk nodes have no padding.
+  const float* unpack(
+    Ring<float>& ring, std::int64_t begin, std::int64_t end, const float* packed) const;
+  void pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end);
+
+  std::int64_t Nodes;
+  int Columns;
+  int Stride;
+  std::int64_t Every; // one of this many groups of nodes keeps residuals; 0: none
+  StepWeights Weights;
+  Ring<double> Before; // y_k
+  Ring<float> Steps;
+  Ring<float> Residuals; // of those nodes: z, q and a, `Stride` values each
+  std::vector<double> Sums;
+  bool First = true;
+  std::int64_t Written = 0;
+  std::optional<ScratchStream> Stream;
+  std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
+  BlocksAhead<Buffer> Ahead;
+  std::vector<Buffer> Packages;        // blocks that keep() is to unpack
+  std::int64_t Kept = 0, Unpacked = 0; // ends of the nodes in Before and in Steps
+  SpareBuffers Spare, Empty;
+  std::vector<float> Packed;
+
+  template <class Vectors>
+  void combineLanes(const Ring<double>& x, std::int64_t begin, std::int64_t end, int lane);
+};
+
+/**
+ * Receives the residuals of y_{k+1} from restriction, in node order, for the block of a level that
+ * begins with node `first`: the `Vectors::count` values from `lane` on. Does nothing without a
+ * history that keeps residuals.
+ */
+template <class Vectors>
+class ResidualKeeper
+{
+  using Wide = typename Vectors::Vector;
+  using Single = Lanes<float, Vectors::count>;
+  using Narrow = typename Single::Vector;
+
+public:
+  ResidualKeeper(IterateHistory* history, std::int64_t first, int lane)
+  {
+    if (history && history->keepsResiduals())
+    {
+      this->Weights = history->Weights;
+      this->Stride = history->Stride;
+      this->Every = history->Every;
+      this->Sampled = history->sampledGroup(first / RowBlock::Nodes);
+      this->Kept = history->Residuals.at(history->sampledBelow(first)) + lane;
+      this->Sums = history->Sums.data() + lane;
+      for (int n = 0; n < IterateHistory::Products; ++n)
+      {
+        this->Sum[n] = Vectors::load(this->Sums + n * this->Stride);
+      }
+    }
+  }
+  ~ResidualKeeper()
+  {
+    for (int n = 0; this->Kept && n < IterateHistory::Products; ++n)
+    {
+      Vectors::store(this->Sums + n * this->Stride, this->Sum[n]);
+    }
+  }
+  ResidualKeeper(const ResidualKeeper&) = delete;
+  ResidualKeeper& operator=(const ResidualKeeper&) = delete;
+
+  /** Node first + k. */
+  void operator()(std::int64_t k, Wide residual)
+  {
+    const std::int64_t group = k / RowBlock::Group;
+    if (this->Kept && group % this->Every == this->Sampled)
+    {
+      const std::int64_t node = group / this->Every * RowBlock::Group + k % RowBlock::Group;
+      this->add(this->Kept + IterateHistory::Vectors * node * this->Stride, residual);
+    }
+  }
+
+private:
+  void add(float* at, Wide residual)
+  {
+    const StepWeights& w = this->Weights;
+    const Wide oldZ = __builtin_convertvector(Single::load(at), Wide);
+    const Wide oldQ = __builtin_convertvector(Single::load(at + this->Stride), Wide);
+    const Wide oldA = __builtin_convertvector(Single::load(at + 2 * this->Stride), Wide);
+    const Wide q = w.begin ? Wide{} : oldA - w.conjugation * oldQ;
+    const Wide z = w.begin ? residual : oldZ - w.length * q;
+    const Wide a = z - residual;
+    Single::store(at, __builtin_convertvector(z, Narrow));
+    Single::store(at + this->Stride, __builtin_convertvector(q, Narrow));
+    Single::store(at + 2 * this->Stride, __builtin_convertvector(a, Narrow));
+    this->Sum[0] += a * a;
+    this->Sum[1] += a * q;
+    this->Sum[2] += q * q;
+    this->Sum[3] += z * a;
+    this->Sum[4] += z * q;
+  }
+
+  StepWeights Weights;
+  std::int64_t Stride = 0, Every = 1, Sampled = 0;
+  float* Kept = nullptr;
+  double* Sums = nullptr;
+  Wide Sum[IterateHistory::Products] = {};
+};
+
+/** Coarse levels have single precision and are not accelerated. */
+template <int Count>
+class ResidualKeeper<Lanes<float, Count>>
+{
+public:
+  ResidualKeeper(IterateHistory*, std::int64_t, int) {}
+  void operator()(std::int64_t, typename Lanes<float, Count>::Vector) {}
+};
+
+} // namespace smg

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/IterateEnergy.h"
+#include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/LevelCursors.h"
+#include "Solver/Multigrid/Cycle/LevelWindow.h"
+#include "Solver/Multigrid/Cycle/PatchRelaxation.h"
+#include "Solver/Multigrid/Cycle/Pipeline.h"
+#include "Solver/Multigrid/Cycle/SpecialNodes.h"
+#include "Solver/Multigrid/Cycle/Transfer.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+
+namespace smg
+{
+
+/**
+ * A level in a pass: its window and its stages. Real is double on the finest level, float on the
+ * others, which only precondition. A stage may advance over a group of nodes when the stage before
+ * it has passed the largest index that the group needs; so the arithmetic is that of the in-core
+ * method, in the same order, for any window.
+ */
+template <class Real, class Relaxation>
+class Level
+{
+public:
+  using CoarseLevel = Level<float, Relaxation>;
+  friend class Level<double, Relaxation>;
+
+  Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
+    : Window(pool, resident, index, columns)
+    , At(sweeps)
+    , Squares(2 * static_cast<std::size_t>(strideOf(columns)))
+  {
+  }
+
+  LevelWindow<Real>& window() { return this->Window; }
+  const LevelCursors& cursors() const { return this->At; }
+  void setCoarse(CoarseLevel* coarse) { this->Coarse = coarse; }
+  void setFine(const LevelCursors* fine) { this->Fine = fine; }
+  /** A core level does not take part in the passes: the core cycle processes it between them. */
+  void setCore() { this->Core = true; }
+  bool core() const { return this->Core; }
+
+  void startPass(bool first)
+  {
+    this->First = first;
+    this->History = nullptr;
+    this->At.rewind();
+    std::fill(this->Squares.begin(), this->Squares.end(), Real{});
+    if (this->Energy)
+    {
+      this->Energy->startPass(first);
+    }
+    this->Window.startPass(first);
+    if (this->Core)
+    {
+      this->Window.zeroB(0, this->Window.nodes());
+    }
+  }
+
+  /** Between passes: saves all that later passes need. */
+  void save(StateWriter& state)
+  {
+    state.part("level");
+    state(this->Scale, this->Patched, this->Window);
+  }
+  void load(StateReader& state)
+  {
+    state.part("level");
+    state(this->Scale, this->Patched, this->Window);
+  }
+
+  void endPass()
+  {
+    this->Window.endPass();
+    if (this->History)
+    {
+      this->History->endPass();
+    }
+  }
+
+  /**
+   * Restriction of the next pass multiplies by `scale`, a power of two, and its prolongation
+   * divides by the previous scale: so the numbers in single precision depend neither on units nor
+   * on the size of the residual.
+   */
+  void setScale(Real scale)
+  {
+    this->Unscale = 1 / this->Scale;
+    this->Scale = scale;
+  }
+
+  /** The next prolongation adds nothing: the coarse levels have been given another right-hand side.
+   */
+  void leaveOutCorrection() { this->Scale = std::numeric_limits<Real>::infinity(); }
+
+  /** In a pass after LevelWindow::renew(), on the finest level: the state of the downward part is
+   * complete for nodes below `end`. */
+  void setRenewed(std::int64_t end) { this->At.renewed = end; }
+
+  /** On the finest level: accelerates the iterates in this pass, which has started. */
+  void setHistory(IterateHistory* history) { this->History = history; }
+  /** On the finest level: sums the energies of the iterates there; null: no. */
+  void setEnergy(IterateEnergy* energy) { this->Energy = energy; }
+
+  /** The end of the nodes from `end` on whose x is final in the upward part, for a stage that
+   * `follows` it. */
+  std::int64_t finishedUp(std::int64_t end, bool follows) const
+  {
+    const std::int64_t swept = this->At.postSweep.back().seen(follows);
+    return this->endPatched() ? this->Window.reachable(end, swept, true) : swept;
+  }
+
+  /** Adds the next block of rows while the hierarchy is built. */
+  void append(RowBlock block)
+  {
+    // Nodes of a patch may be in blocks before that of its last one.
+    const RowBlock::Header& h = block.header();
+    this->Patched = this->Patched || h.specials > 0;
+    if (this->Coarse)
+    {
+      this->Coarse->window().extendB(
+        h.parentReach[LevelWindow<Real>::groupIn(h, h.first + h.nodes - 1)] + 1);
+    }
+    this->Window.append(std::move(block));
+  }
+
+  /** Loads, here and on the coarser levels, all data that the upward part to `node` needs. */
+  void load(std::int64_t node);
+
+  /** Adds the stages of the upward part, those of coarser levels first. They finish the V-cycle as
+   * far as load() has wanted it. */
+  void addUpward(Pipeline& pipeline);
+  /** Adds the stages of the downward part, those of coarser levels last. */
+  void addDownward(Pipeline& pipeline);
+
+  /** Advances every stage of the downward part, here and on the coarser levels. */
+  void advanceDown()
+  {
+    for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
+    {
+      this->preSweep(s, true);
+    }
+    this->combine(true);
+    this->restrictDown(true);
+    if (!this->Coarse->core())
+    {
+      this->Coarse->advanceDown();
+    }
+  }
+
+  /** Shows the cursors, here and on the coarser levels, to the stages on other threads. */
+  void showProgress()
+  {
+    this->At.show();
+    if (!this->Coarse->core())
+    {
+      this->Coarse->showProgress();
+    }
+  }
+
+  /** Adds what reads ahead what load() will take next, here and on the coarser levels. It may run
+   * beside all else. */
+  void addReaders(std::vector<std::function<void()>>& tasks)
+  {
+    tasks.emplace_back([this] { this->Window.readAhead(); });
+    if (this->History)
+    {
+      tasks.emplace_back([this] { this->History->readAhead(); });
+    }
+    if (!this->Coarse->core())
+    {
+      this->Coarse->addReaders(tasks);
+    }
+  }
+
+  /** Adds what writes what the downward part has finished, here and on the coarser levels. It may
+   * run beside all else. */
+  void addWriters(std::vector<std::function<void()>>& tasks)
+  {
+    tasks.emplace_back([this] { this->writeWindow(); });
+    if (this->History)
+    {
+      tasks.emplace_back([this] { this->writeHistory(); });
+    }
+    if (!this->Coarse->core())
+    {
+      this->Coarse->addWriters(tasks);
+    }
+  }
+
+  /** Releases written data that are not needed any more. */
+  void release()
+  {
+    this->Window.release(this->At.restricted);
+    if (this->History)
+    {
+      this->History->release();
+    }
+    if (!this->Coarse->core())
+    {
+      this->Coarse->release();
+    }
+  }
+
+  /** Shows the cursors, writes what the downward part has finished, and releases data that are not
+   * needed any more. */
+  void settle()
+  {
+    this->showProgress();
+    this->write();
+    this->release();
+  }
+
+  /** Whether all nodes have passed all stages of the pass. */
+  bool finished() const { return this->At.restricted == this->Window.nodes(); }
+
+  /** Whether x of node `node`, which load() has wanted, is final in the upward part, for a stage
+   * that `follows` it. */
+  bool isFinal(std::int64_t node, bool follows) const
+  {
+    return this->Core || this->At.postSweep.back().seen(follows) > this->finalWith(node);
+  }
+
+  /** Prepares b of nodes 0 .. node for restriction: sets it to zero, once the previous V-cycle
+   * needs neither their b nor their x. Returns whether this was possible. */
+  bool prepare(std::int64_t node);
+
+  /** ||b - A x||^2 of each column, as computed by the restriction of the last pass. */
+  std::span<const Real> squares() const { return std::span(this->Squares).first(this->lanes()); }
+  /** The same of the terms A_ii x_i, on the finest level. */
+  std::span<const Real> termSquares() const
+  {
+    return std::span(this->Squares).subspan(this->lanes());
+  }
+
+  // The whole of a core level at once, with the same kernels.
+
+  void relaxDown()
+  {
+    const std::int64_t nodes = this->Window.nodes();
+    this->sweep<true>(0, nodes, this->Window.down(), true);
+    for (std::size_t s = 1; s < this->At.preSweep.size(); ++s)
+    {
+      this->sweep<false>(0, nodes, this->Window.down(), false);
+    }
+  }
+  void relaxUp()
+  {
+    for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
+    {
+      this->sweep<false>(0, this->Window.nodes(), this->Window.up(), s == 0);
+    }
+  }
+  /** Stores b - A x, with the stride of the window. */
+  void residualAll(Real* residual);
+  void restrictAll() { this->restrictTo(this->Window.nodes()); }
+  void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
+
+private:
+  void write()
+  {
+    this->writeWindow();
+    this->writeHistory();
+    if (!this->Coarse->core())
+    {
+      this->Coarse->write();
+    }
+  }
+  void writeWindow()
+  {
+    // An unfinished patch may change nodes before it.
+    this->Window.write((this->endPatched() ? this->At.restricted : this->At.combined).shown());
+  }
+  void writeHistory()
+  {
+    if (this->History)
+    {
+      this->History->write(this->At.restricted.shown());
+    }
+  }
+
+  /** About the time that stages take for a node, relative to a sweep. */
+  static constexpr double ProlongCost = 0.8, CombineCost = 0.5, RestrictCost = 1.4;
+
+  /** The end of the nodes from `cursor` on that sweep s of `sweeps` does not touch any more. */
+  std::int64_t reachable(
+    std::int64_t cursor, const std::vector<Cursor>& sweeps, std::size_t s, bool follows) const
+  {
+    return this->Window.reachable(cursor, sweeps[s].seen(follows), s == 0 && this->Patched);
+  }
+  /** Whether the last sweep of each half relaxes patches. */
+  bool endPatched() const { return this->Patched && this->At.preSweep.size() == 1; }
+
+  std::size_t lanes() const { return this->Squares.size() / 2; }
+
+  using One = Lanes<Real, 1>;
+  using Four = Lanes<Real, 4>;
+
+  // The upward part (LevelUp.txx).
+
+  std::int64_t finalWith(std::int64_t node) const;
+  void load(int stage, std::int64_t node);
+  void prolongUp(bool follows);
+  void postSweep(std::size_t s, bool follows);
+
+  // The downward part (LevelDown.txx).
+
+  void preSweep(std::size_t s, bool follows);
+  std::int64_t firstPreSweepEnd(bool follows);
+  void combine(bool follows);
+  void restrictDown(bool follows);
+
+  // The kernels (LevelSweeps.txx).
+
+  using State = typename LevelWindow<Real>::State;
+
+  /** One sweep over nodes [begin, end); `patches`: which relaxes the nodes of a patch together. The
+   * first one of each half of a V-cycle does: what a sweep relaxes one by one, the next one need
+   * not wait for longer than for neighbours, so the window is shorter. */
+  template <bool LowerOnly>
+  void sweep(std::int64_t begin, std::int64_t end, State& state, bool patches);
+  /** Processes a special node in a sweep. */
+  template <bool LowerOnly, class Arrays>
+  void relaxSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
+    State& state, bool patches);
+  template <bool LowerOnly, class Vectors, class Arrays>
+  void relaxPatch(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
+    State& state, int lane);
+  void prolongTo(std::int64_t begin, std::int64_t end);
+  void restrictTo(std::int64_t end);
+  template <class Vectors, class Arrays>
+  void addEnergy(const RowBlock::Header& h, const Arrays& a, std::int64_t k, const Real* x,
+    const Real* b, const typename Vectors::Vector& r, int lane);
+
+  LevelWindow<Real> Window;
+  LevelCursors At;
+  std::vector<Real> Squares; // of the residual, then of its terms
+  CoarseLevel* Coarse = nullptr;
+  const LevelCursors* Fine = nullptr;
+  IterateHistory* History = nullptr;
+  IterateEnergy* Energy = nullptr;
+  Real Scale = 1;
+  Real Unscale = 1;
+  bool First = true;
+  bool Core = false;
+  bool Patched = false; // some nodes are relaxed together with later ones
+};
+
+} // namespace smg
+
+#include "Solver/Multigrid/Cycle/LevelDown.txx"
+#include "Solver/Multigrid/Cycle/LevelSweeps.txx"
+#include "Solver/Multigrid/Cycle/LevelUp.txx"

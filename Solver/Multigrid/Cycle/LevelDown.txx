@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/Level.h"
+
+// The stages of the downward part: the sweeps that begin a V-cycle, acceleration, restriction.
+
+namespace smg
+{
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::addDownward(Pipeline& pipeline)
+{
+  if (this->Core)
+  {
+    return;
+  }
+  const auto nodes = static_cast<double>(this->Window.nodes());
+  for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
+  {
+    pipeline.add(nodes, [this, s](bool follows) { this->preSweep(s, follows); });
+  }
+  pipeline.add(
+    this->History ? CombineCost * nodes : 0.0, [this](bool follows) { this->combine(follows); });
+  pipeline.add(RestrictCost * nodes, [this](bool follows) { this->restrictDown(follows); });
+  this->Coarse->addDownward(pipeline);
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::preSweep(std::size_t s, bool follows)
+{
+  Cursor& cursor = this->At.preSweep[s];
+  const std::int64_t end = s == 0 ? this->firstPreSweepEnd(follows)
+                                  : this->reachable(cursor, this->At.preSweep, s - 1, follows);
+  if (s == 0 && this->Fine)
+  {
+    this->sweep<true>(cursor, end, this->Window.down(), true);
+  }
+  else
+  {
+    this->sweep<false>(cursor, end, this->Window.down(), s == 0);
+  }
+  cursor = end;
+}
+
+/** The end of the nodes that the first sweep of the downward part may process. */
+template <class Real, class Relaxation>
+std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
+{
+  std::int64_t end = this->At.preSweep.front();
+  if (!this->Fine)
+  {
+    return this->First ? this->Window.loaded()
+           : this->Window.isApart()
+             ? this->At.renewed.seen(follows)
+             : this->reachable(end, this->At.postSweep, this->At.postSweep.size() - 1, follows);
+  }
+  // b must be complete; the upper neighbours are zero, so they need not be loaded.
+  const std::int64_t restricted = this->Fine->restricted.seen(follows);
+  while (end < this->Window.loaded())
+  {
+    const RowBlock::Header& h = this->Window.header(end);
+    if (restricted <= h.childReach[LevelWindow<Real>::groupIn(h, end)])
+    {
+      break;
+    }
+    end = LevelWindow<Real>::groupEnd(h, end);
+  }
+  return end;
+}
+
+/** Acceleration may modify a node when no sweep reads it any more. */
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::combine(bool follows)
+{
+  std::int64_t end = this->At.preSweep.back().seen(follows);
+  if (this->History)
+  {
+    end =
+      this->reachable(this->At.combined, this->At.preSweep, this->At.preSweep.size() - 1, follows);
+    this->History->combine(this->Window.x(), this->At.combined, end);
+  }
+  this->At.combined = end;
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::restrictDown(bool follows)
+{
+  const std::int64_t limit = this->Window.reachable(
+    this->At.restricted, this->At.combined.seen(follows), this->endPatched());
+  std::int64_t end = this->At.restricted;
+  while (end < limit)
+  {
+    const RowBlock::Header& h = this->Window.header(end);
+    if (!this->Coarse->prepare(h.parentReach[LevelWindow<Real>::groupIn(h, end)]))
+    {
+      break;
+    }
+    end = LevelWindow<Real>::groupEnd(h, end);
+  }
+  this->restrictTo(end);
+  this->At.restricted = end;
+}
+
+template <class Real, class Relaxation>
+bool Level<Real, Relaxation>::prepare(std::int64_t node)
+{
+  if (this->First || this->Core)
+  {
+    return true;
+  }
+  while (this->At.reset <= node)
+  {
+    const RowBlock::Header& h = this->Window.header(this->At.reset);
+    const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
+    if (this->At.postSweep.back().shown() <= h.reach(g, this->endPatched()) ||
+        this->Fine->prolonged.shown() <= h.childReach[g])
+    {
+      return false;
+    }
+    const std::int64_t end = LevelWindow<Real>::groupEnd(h, this->At.reset);
+    this->Window.zeroB(this->At.reset, end);
+    this->At.reset = end;
+  }
+  return true;
+}
+
+} // namespace smg

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/Level.h"
+
+// The stages of the upward part: prolongation and the sweeps that finish a V-cycle.
+
+namespace smg
+{
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::addUpward(Pipeline& pipeline)
+{
+  if (this->Core)
+  {
+    return;
+  }
+  this->Coarse->addUpward(pipeline);
+  const auto nodes = static_cast<double>(this->Window.nodes());
+  pipeline.add(ProlongCost * nodes, [this](bool follows) { this->prolongUp(follows); });
+  for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
+  {
+    pipeline.add(nodes, [this, s](bool follows) { this->postSweep(s, follows); });
+  }
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::load(std::int64_t node)
+{
+  const int last = static_cast<int>(this->At.postSweep.size());
+  this->load(last, node);
+  this->load(last, this->finalWith(node));
+  if (this->History)
+  {
+    this->History->load(this->Window.loaded());
+  }
+}
+
+/**
+ * The node that the last sweep of the upward part must reach for x of the loaded nodes 0 .. node to
+ * be final: if that sweep relaxes patches, the last node of one changes the others. The finest
+ * level may defer this to later steps.
+ */
+template <class Real, class Relaxation>
+std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
+{
+  if (!this->endPatched() || !this->Fine || this->Core || node < this->Window.first())
+  {
+    return node;
+  }
+  const RowBlock::Header& h = this->Window.header(node);
+  return h.reach(LevelWindow<Real>::groupIn(h, node), true);
+}
+
+/** Wants stage `stage` of the upward part to process node `node`, and loads all that it needs. */
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::load(int stage, std::int64_t node)
+{
+  std::int64_t& wanted = this->At.wanted[static_cast<std::size_t>(stage)];
+  if (this->Core || wanted > node)
+  {
+    return;
+  }
+  this->Window.load(node);
+  const RowBlock::Header& h = this->Window.header(node);
+  const auto g = LevelWindow<Real>::groupIn(h, node);
+  wanted = LevelWindow<Real>::groupEnd(h, node);
+  if (stage == 0)
+  {
+    this->Coarse->load(h.parentReach[g]);
+  }
+  else
+  {
+    this->load(stage - 1, h.reach(g, stage == 2 && this->Patched));
+  }
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::prolongUp(bool follows)
+{
+  this->Window.unpack();
+  if (this->History)
+  {
+    this->History->keep(this->Window.x());
+  }
+  const std::int64_t begin = this->At.prolonged;
+  std::int64_t end = begin;
+  while (end < this->At.wanted.front())
+  {
+    const RowBlock::Header& h = this->Window.header(end);
+    if (!this->Coarse->isFinal(h.parentReach[LevelWindow<Real>::groupIn(h, end)], follows))
+    {
+      break;
+    }
+    end = LevelWindow<Real>::groupEnd(h, end);
+  }
+  this->prolongTo(begin, end);
+  this->At.prolonged = end;
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::postSweep(std::size_t s, bool follows)
+{
+  Cursor& cursor = this->At.postSweep[s];
+  const std::int64_t ready =
+    s == 0 ? this->Window.reachable(cursor, this->At.prolonged.seen(follows), false)
+           : this->reachable(cursor, this->At.postSweep, s - 1, follows);
+  const std::int64_t end = std::min(ready, this->At.wanted[s + 1]);
+  this->sweep<false>(cursor, end, this->Window.up(), s == 0);
+  cursor = end;
+}
+
+} // namespace smg

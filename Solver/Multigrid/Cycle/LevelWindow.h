@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Lanes.h"
+#include "Solver/Files/ScratchStream.h"
+#include "Solver/Files/ScratchTraffic.h"
+#include "Solver/Memory/Ring.h"
+#include "Solver/Memory/SpareBuffers.h"
+#include "Solver/Multigrid/Cycle/BlocksAhead.h"
+#include "Solver/Multigrid/Cycle/LevelCursors.h"
+#include "Solver/Multigrid/Cycle/RowBlock.h"
+#include "Solver/Multigrid/Cycle/Transfer.h"
+#include "smg/Export.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The part of a level in memory: blocks of rows, and the state x and b with `stride` values per
+ * node. With scratch files, blocks and state are read and written as the pass proceeds; without,
+ * the whole level stays in memory, and loading, writing and releasing do nothing.
+ */
+template <class Real>
+class SMG_EXPORT LevelWindow
+{
+public:
+  /** The unknowns and the right-hand side of the nodes in memory. */
+  struct State
+  {
+    State(Pool& pool, int stride)
+      : x(pool, stride)
+      , b(pool, stride)
+    {
+    }
+    Ring<Real> x, b;
+  };
+
+  LevelWindow(Pool& pool, ResidentNodes& resident, int index, int columns)
+    : Owner(&pool)
+    , Resident(&resident)
+    , Index(index)
+    , Columns(columns)
+    , WrittenColumns(columns)
+    , Stride(strideOf(columns))
+    , Now(pool, this->Stride)
+    , SpareRows(pool)
+    , SpareState(pool)
+    , EmptyState(pool)
+  {
+  }
+
+  /** Keeps the level in scratch files in `folder`. */
+  void useScratch(const ScratchFolder& folder, ScratchTraffic& traffic);
+  /** Of a level in memory: save() keeps its rows in a scratch file in `folder`. */
+  void keepRows(const ScratchFolder& folder, ScratchTraffic& traffic);
+
+  Pool& pool() const { return *this->Owner; }
+  int columns() const { return this->Columns; }
+  int stride() const { return this->Stride; }
+  Ring<Real>& x() { return this->Now.x; }
+  Ring<Real>& b() { return this->Now.b; }
+  /** The states of the upward and the downward part of a pass: the same, except after renew(). */
+  State& up() { return this->Now; }
+  State& down() { return this->Next ? *this->Next : this->Now; }
+  /** The number of nodes of the level; during construction, those so far. */
+  std::int64_t nodes() const { return this->Nodes; }
+  std::int64_t loaded() const { return this->Loaded; }
+  /** The first node in memory; those before it have passed all stages. */
+  std::int64_t first() const { return this->FirstBlock * RowBlock::Nodes; }
+
+  /** The header of the block of node `node`, which must be loaded. */
+  const RowBlock::Header& header(std::int64_t node) const { return this->block(node).header(); }
+  static std::size_t groupIn(const RowBlock::Header& h, std::int64_t node)
+  {
+    return static_cast<std::size_t>((node - h.first) / RowBlock::Group);
+  }
+  static std::int64_t groupEnd(const RowBlock::Header& h, std::int64_t node)
+  {
+    const std::int64_t group = (node - h.first) / RowBlock::Group;
+    return h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
+  }
+  /** The end of the nodes from `cursor` on whose neighbours, and with `patched` the patches of
+   * these, are all below `done`. */
+  std::int64_t reachable(std::int64_t cursor, std::int64_t done, bool patched) const
+  {
+    while (cursor < done)
+    {
+      const RowBlock::Header& h = this->header(cursor);
+      if (h.reach(groupIn(h, cursor), patched) >= done)
+      {
+        break;
+      }
+      cursor = groupEnd(h, cursor);
+    }
+    return cursor;
+  }
+
+  void startPass(bool first);
+  void endPass();
+
+  /**
+   * Declares that the next pass is the last of one problem and the first of another one with
+   * `columns` columns and the same stride. With `apart` (finest level) the downward part has a
+   * separate state, which another stage has to fill.
+   */
+  void renew(int columns, bool apart);
+  /** Whether the downward part of this pass has a separate state. */
+  bool isApart() const { return this->Next.has_value(); }
+  /** Without scratch files: discards an aborted pass. */
+  void abandon() { this->Next.reset(); }
+  /** Without scratch files, between passes: sets the number of columns of the state. */
+  void setColumns(int columns) { this->Columns = this->WrittenColumns = columns; }
+
+  /** First pass: appends zero state for nodes below `end`. */
+  void extendState(std::int64_t end)
+  {
+    this->Now.x.extend(end);
+    this->extendB(end);
+  }
+  /** First pass: appends a zero right-hand side for nodes below `end`. */
+  void extendB(std::int64_t end)
+  {
+    const std::int64_t before = this->Now.b.end();
+    if (end > before)
+    {
+      this->Now.b.extend(end);
+      this->Resident->add(end - before);
+    }
+  }
+  /** First pass: appends the next block of rows. */
+  void append(RowBlock block);
+
+  /** Loads blocks up to node `node`; unpack() completes their state. */
+  void load(std::int64_t node);
+  /** Unpacks the state of the blocks that load() has loaded. Other threads may access blocks below
+   * these. */
+  void unpack();
+  /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
+   * loaded blocks. */
+  void readAhead();
+  /** Writes the state of the blocks below `done`. Other threads may access blocks above. */
+  void write(std::int64_t done);
+  /** Releases written data that no node from `done` on needs: rows and b, which only their node
+   * needs, and x, which its neighbours need longer. */
+  void release(std::int64_t done);
+
+  void zeroB(std::int64_t begin, std::int64_t end)
+  {
+    std::ranges::fill(this->Now.b.range(begin, end), Real{});
+  }
+
+  /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; x and b of
+   * `state` point to node 0 of the block. */
+  template <class F>
+  void forRange(std::int64_t begin, std::int64_t end, State& state, F&& f)
+  {
+    while (begin < end)
+    {
+      const RowBlock& block = this->block(begin);
+      const RowBlock::Header& h = block.header();
+      const std::int64_t stop = std::min(end, block.end());
+      const BlockRange nodes{ begin - h.first, stop - h.first };
+      Real* x = state.x.at(h.first);
+      Real* b = state.b.at(h.first);
+      block.visit<Real>([&](const auto& arrays) { f(h, arrays, nodes, x, b); });
+      begin = stop;
+    }
+  }
+
+  /** Calls f(header, arrays, k) with the block of node `node`, whose index in the block is k. */
+  template <class F>
+  void visitRow(std::int64_t node, F&& f) const
+  {
+    const RowBlock& block = this->block(node);
+    block.visit<Real>([&](const auto& arrays) { f(block.header(), arrays, node - block.first()); });
+  }
+
+  /** Between passes, after the first one: calls f(block, b) for the b of every block of
+   * RowBlock::Nodes nodes, without padding, and stores the modified b. */
+  template <class F>
+  void rewriteB(F&& f);
+
+  /** Moves the buffers of released blocks to `others` for reuse in the first pass. */
+  void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MostSpareRows); }
+
+  /** Between passes: saves all that later passes need. Of a level in memory this is its b, from
+   * which the core cycle computes x. */
+  void save(StateWriter& state);
+  void load(StateReader& state);
+
+  /** Between passes: loads the whole level, which then stays in memory. */
+  void moveToMemory();
+
+  /** Releases everything except x, for readX(). */
+  void keepSolution();
+
+  /** Reads x of nodes [first, first + count), without padding, from memory or scratch. */
+  void readX(std::int64_t first, std::int64_t count, Real* values);
+
+private:
+  /** About the number of blocks packed per step; more would waste memory. */
+  static constexpr std::size_t MostSpareRows = 4;
+
+  const RowBlock& block(std::int64_t node) const
+  {
+    return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];
+  }
+  bool finest() const { return this->Index == 0; }
+  /** A block that has been read, with its x and b without padding. */
+  struct Incoming
+  {
+    RowBlock rows;
+    Buffer state;
+  };
+  Incoming readBlock();
+  void loadBlock();
+  /**
+   * Most right-hand sides are zero away from constraints: a block of zeros takes no space on disk.
+   */
+  void readRightSide(std::span<Real> b);
+  void appendRightSide(std::span<const Real> b);
+  void pack(
+    const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const;
+  void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
+  template <class F>
+  void forBlocks(F&& f);
+  RowBlock readRows(ScratchStream& from, std::int64_t nodes);
+  void loadInMemory(StateReader& state, std::int64_t nodes);
+
+  Pool* Owner;
+  ResidentNodes* Resident;
+  int Index;
+  int Columns;        // of the state read ...
+  int WrittenColumns; // ... and of the state written
+  int Stride;
+  State Now;
+  std::optional<State> Next; // of the downward part, in a pass after renew()
+  std::deque<RowBlock> Blocks;
+  /** A released block whose x is still in memory: its end, and its largest neighbour. */
+  struct PassedBlock
+  {
+    std::int64_t end, reach;
+  };
+  std::deque<PassedBlock> Passed;
+  std::int64_t FirstBlock = 0; // index of Blocks.front() in the level
+  std::int64_t Nodes = 0;
+  std::int64_t Loaded = 0;
+  std::int64_t Written = 0;
+  bool First = true;
+
+  // Scratch files: rows are written once, x in every pass; b in the first pass (finest) or with x.
+  std::optional<ScratchStream> Rows, RightSide, Values;
+  std::optional<ScratchStream> KeptRows; // of a level in memory, written by the first save()
+  bool RowsAreKept = false;
+  std::vector<Real> Packed;
+  std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
+  BlocksAhead<Incoming> Ahead;
+  /** The state of loaded blocks, from `begin` to `end`, packed. */
+  struct Arrived
+  {
+    std::int64_t begin, end;
+    Buffer state;
+  };
+  std::vector<Arrived> Packages;
+  SpareBuffers SpareRows, SpareState, EmptyState;
+  std::int64_t CachedBlock = -1; // of readX
+};
+
+template <class Real>
+template <class F>
+void LevelWindow<Real>::rewriteB(F&& f)
+{
+  if (this->RightSide)
+  {
+    this->RightSide->startPass(true);
+  }
+  for (std::int64_t first = 0; first < this->Nodes; first += RowBlock::Nodes)
+  {
+    const std::int64_t end = std::min(this->Nodes, first + RowBlock::Nodes);
+    this->Packed.resize(static_cast<std::size_t>((end - first) * this->Columns));
+    const std::span<Real> b(this->Packed);
+    if (this->RightSide)
+    {
+      this->readRightSide(b);
+      f(first / RowBlock::Nodes, b);
+      this->appendRightSide(b);
+    }
+    else
+    {
+      this->pack(this->Now.b, this->Columns, first, end, b.data());
+      f(first / RowBlock::Nodes, b);
+      this->unpack(this->Now.b, first, end, b.data());
+    }
+  }
+  if (this->RightSide)
+  {
+    this->RightSide->endPass();
+  }
+}
+
+extern template class LevelWindow<double>;
+extern template class LevelWindow<float>;
+
+} // namespace smg

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/GaussSeidel.h"
+#include "Solver/Multigrid/Cycle/Residual.h"
+#include "Solver/Multigrid/Setup/PatchMatrix.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * b_k + sum_j w_kj x_j of node k of a block, with x_k and the nodes from `limit` on taken as zero.
+ */
+template <class Vectors, class Real, class Arrays>
+typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+  std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
+{
+  const BlockRange row = entriesOf(h, a, k);
+  auto sum = Vectors::load(b + k * stride);
+  for (std::int64_t e = row.begin; e < row.end && k + a.delta[e] < limit; ++e)
+  {
+    sum += static_cast<Real>(a.weight[e]) * Vectors::load(x + (k + a.delta[e]) * stride);
+  }
+  return sum;
+}
+
+/** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given the residuals and the inverse; x
+ * points to the last one, the others are at `distance`. LowerOnly: x was zero. */
+template <bool LowerOnly, class Vectors, class Real>
+void correctPatch(int size, const double* distance, const double* inverse,
+  const typename Vectors::Vector* residual, std::int64_t stride, Real* x)
+{
+  for (int a = 0; a < size; ++a)
+  {
+    typename Vectors::Vector sum{};
+    for (int k = 0; k < size; ++k)
+    {
+      sum += static_cast<Real>(inverse[PatchMatrix::place(a, k)]) * residual[k];
+    }
+    Real* at = x + (a + 1 < size ? static_cast<std::int64_t>(distance[a]) : 0) * stride;
+    if (!LowerOnly || a + 1 < size)
+    {
+      sum += Vectors::load(at);
+    }
+    Vectors::store(at, sum);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Cycle/Pipeline.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace smg
+{
+
+void Pipeline::add(double cost, Advance advance)
+{
+  this->Stages.push_back({ cost, std::move(advance) });
+  this->Ends.assign(1, this->Stages.size());
+}
+
+std::vector<double> Pipeline::costs() const
+{
+  std::vector<double> costs;
+  for (const Stage& stage : this->Stages)
+  {
+    costs.push_back(stage.cost);
+  }
+  return costs;
+}
+
+void Pipeline::cut(int chains)
+{
+  double total = 0.0;
+  for (const Stage& stage : this->Stages)
+  {
+    total += stage.cost;
+  }
+  // A chain has the stages whose middles lie in its share of the whole.
+  this->Ends.clear();
+  double before = 0.0;
+  int chain = 0;
+  for (std::size_t s = 0; s < this->Stages.size(); ++s)
+  {
+    const double middle = before + this->Stages[s].cost / 2;
+    const auto of = total > 0.0 ? static_cast<int>(chains * middle / total) : 0;
+    if (s > 0 && of != chain)
+    {
+      this->Ends.push_back(s);
+    }
+    chain = of;
+    before += this->Stages[s].cost;
+  }
+  this->Ends.push_back(this->Stages.size());
+}
+
+void Pipeline::cutAll()
+{
+  this->Ends.resize(this->Stages.size());
+  std::iota(this->Ends.begin(), this->Ends.end(), std::size_t(1));
+}
+
+void Pipeline::advance(int chain) const
+{
+  const std::size_t first = this->begin(chain);
+  for (std::size_t s = first; s < this->begin(chain + 1); ++s)
+  {
+    this->Stages[s].advance(s > first);
+  }
+}
+
+void Pipeline::advance() const
+{
+  for (const Stage& stage : this->Stages)
+  {
+    stage.advance(true);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/GaussSeidel.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** b_k - A_kk x_k + sum_j w_kj x_j of node k of a block. */
+struct PlainResidual
+{
+  template <class Vectors, class Real, class Arrays>
+  static typename Vectors::Vector of(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+    std::int64_t stride, const Real* x, const Real* b)
+  {
+    const BlockRange row = entriesOf(h, a, k);
+    const Real* xk = x + k * stride;
+    auto even =
+      Vectors::load(b + k * stride) - static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
+    typename Vectors::Vector odd{};
+    std::int64_t e = row.begin;
+    for (; e + 1 < row.end; e += 2)
+    {
+      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+      odd += static_cast<Real>(a.weight[e + 1]) * Vectors::load(xk + a.delta[e + 1] * stride);
+    }
+    if (e < row.end)
+    {
+      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+    }
+    return even + odd;
+  }
+};
+
+/**
+ * The same as b_k - alpha_k x_k + sum_j w_kj (x_j - x_k): the large weights of slivers multiply
+ * small differences, which reduces the rounding, and the sum over a patch does not lose alpha,
+ * which may be smaller than the rounding of the diagonal. Edges to prescribed nodes are part of
+ * alpha and b, and rounded like these.
+ */
+struct ResidualOfDifferences
+{
+  template <class Vectors, class Real, class Arrays>
+  static typename Vectors::Vector of(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+    std::int64_t stride, const Real* x, const Real* b)
+  {
+    const BlockRange row = entriesOf(h, a, k);
+    const auto xk = Vectors::load(x + k * stride);
+    auto sum = Vectors::load(b + k * stride) - static_cast<Real>(RowBlock::alphaOf(h, a, k)) * xk;
+    for (std::int64_t e = row.begin; e < row.end; ++e)
+    {
+      sum += static_cast<Real>(a.weight[e]) * (Vectors::load(x + (k + a.delta[e]) * stride) - xk);
+    }
+    return sum;
+  }
+};
+
+} // namespace smg

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/Buffer.h"
+#include "Solver/Multigrid/Cycle/BFloat16.h"
+#include "Solver/Multigrid/Cycle/WideIndex.h"
+#include "Solver/Multigrid/Setup/LevelRows.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace smg
+{
+
+/**
+ * The rows and the interpolation of up to `Nodes` consecutive nodes of a level in the format on
+ * disk, used in place without decoding. Columns are distances of 16 bits ("narrow") or, if a
+ * distance or a count does not fit, of 24 bits ("wide"; counts: 32). Each group of `Group` nodes
+ * stores the largest indices that the cursors need.
+ *
+ * The diagonals are not stored on disk: sumDiagonals() computes them from the row sums, most of
+ * which are zero, and the weights. They follow the stored data.
+ */
+class RowBlock
+{
+public:
+  static constexpr std::int64_t Nodes = 1024;
+  static constexpr std::int64_t Group = 64;
+  static constexpr std::int64_t Groups = Nodes / Group;
+
+  struct Header
+  {
+    std::int64_t first = 0;      ///< index of the first node
+    std::int64_t parentBase = 0; ///< coarse index to which parents are relative
+    std::int32_t nodes = 0;
+    std::int32_t entries = 0; ///< off-diagonals of all rows
+    std::int32_t parents = 0; ///< entries of all rows of P
+    std::int8_t wide = 0;
+    std::int8_t weightBytes = 0;
+    std::uint16_t alphaGroups = 0; ///< bit g: a row of group g has a non-zero sum
+    std::int32_t specials = 0;     ///< number of special nodes
+    std::int32_t values = 0;       ///< of patches that end here
+    std::int32_t precise = 0;      ///< weights in double precision
+    /**
+     * neighbourReach: the largest node in rows 0 .. end of the group; patchReach: that, or the last
+     * one of the patch of such a node, whose value is final only then after a sweep that relaxes
+     * patches. childReach, parentReach: the largest child and parent in these rows.
+     */
+    std::array<std::int64_t, Groups> neighbourReach{}, patchReach{}, childReach{}, parentReach{};
+    /** The begins of the entries and the parents of the groups. */
+    std::array<std::int32_t, Groups> entryStart{}, parentStart{};
+
+    /** What a stage must have finished for the next one to process the group: `patched`: that stage
+     * relaxes patches. */
+    std::int64_t reach(std::size_t group, bool patched) const
+    {
+      return (patched ? this->patchReach : this->neighbourReach)[group];
+    }
+  };
+
+  /** A node whose row has double precision, or that belongs to a patch: a few strongly coupled
+   * nodes that the first sweep of each half of a V-cycle relaxes together when it reaches the last
+   * one. */
+  struct Special
+  {
+    std::int16_t node; ///< index in the block
+    /** The number of nodes relaxed with this one, which is the last of them; 0: a node of a patch
+     * before the last. */
+    std::int16_t size;
+    /** The begin of the values of the patch: the (negative) distances of the nodes before this one,
+     * and the lower triangle of the inverse of the matrix on the patch. */
+    std::int32_t value;
+    std::int32_t precise; ///< begin of the weights of the row in double precision; -1: none
+    std::int32_t reserved;
+
+    static constexpr int valuesOf(int size) { return size - 1 + size * (size + 1) / 2; }
+  };
+  static_assert(sizeof(Special) == 16);
+
+  /**
+   * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide). An index is read
+   * in place, never from a copy.
+   *
+   * Weight is float on the finest level. On coarse levels, which only precondition, it is BFloat16;
+   * the diagonals are computed from the rounded weights, so that row sums stay exact. Blocks of
+   * coarse levels with rows whose weights nearly cancel have floats, the precision of the entries
+   * of the coarse operator (CoarseEntry); such rows of the finest level also have double precision.
+   */
+  template <class Index, class Weight>
+  struct Arrays
+  {
+    using Count =
+      std::conditional_t<std::is_same_v<Index, WideIndex>, std::uint32_t, std::uint16_t>;
+    const Weight* weight;            // per entry
+    const Index* delta;              // per entry
+    const Index* parent;             // per parent, relative to parentBase
+    const Count* entryEnd;           // per node: end of its entries, from the start of the group
+    const Count* parentEnd;          // per node: end of its parents, from the start of the group
+    const std::int8_t* parentQuanta; // per parent
+    const double* alpha;             // per node of groups with sums: the row sum
+    const Special* special;          // by ascending node
+    const double* value;             // of patches
+    const double* precise;           // of special nodes
+    const double* diagonal;          // per node
+
+    /** The same with the weights of the row of a special node in double precision, for that row
+     * only, whose entries begin at `begin`. */
+    Arrays<Index, double> ofPreciseRow(const Special& node, std::int64_t begin) const
+    {
+      return { this->precise + node.precise - begin, this->delta, this->parent, this->entryEnd,
+        this->parentEnd, this->parentQuanta, this->alpha, this->special, this->value, this->precise,
+        this->diagonal };
+    }
+  };
+
+  RowBlock() = default;
+  /** Takes the bytes of a block from packRows() or a file, with room for the diagonals. */
+  explicit RowBlock(Buffer buffer)
+    : Bytes(std::move(buffer))
+  {
+  }
+
+  const Header& header() const { return *reinterpret_cast<const Header*>(this->Bytes.data()); }
+  std::int64_t first() const { return this->header().first; }
+  std::int64_t end() const { return this->header().first + this->header().nodes; }
+
+  template <class Index, class Weight>
+  Arrays<Index, Weight> arrays() const
+  {
+    const Header& h = this->header();
+    Arrays<Index, Weight> a{};
+    const std::byte* at = this->Bytes.data() + sizeof(Header);
+    take(at, a.weight, h.entries);
+    take(at, a.delta, h.entries);
+    take(at, a.parent, h.parents);
+    take(at, a.entryEnd, h.nodes);
+    take(at, a.parentEnd, h.nodes);
+    take(at, a.parentQuanta, h.parents);
+    take(at, a.alpha, alphas(h));
+    take(at, a.special, h.specials);
+    take(at, a.value, h.values);
+    take(at, a.precise, h.precise);
+    take(at, a.diagonal, h.nodes);
+    return a;
+  }
+
+  /** Calls f(arrays) with the arrays of this block, which belongs to a level of type Real. */
+  template <class Real, class F>
+  void visit(F&& f) const
+  {
+    if (this->header().wide)
+    {
+      this->visitWeights<Real, WideIndex>(f);
+    }
+    else
+    {
+      this->visitWeights<Real, std::int16_t>(f);
+    }
+  }
+
+  /** The row sum of node k. */
+  template <class Index, class Weight>
+  static double alphaOf(const Header& h, const Arrays<Index, Weight>& a, std::int64_t k)
+  {
+    const auto group = static_cast<unsigned>(k / Group);
+    const unsigned before = h.alphaGroups & ((1U << group) - 1);
+    return h.alphaGroups >> group & 1 ? a.alpha[std::popcount(before) * Group + k % Group] : 0.0;
+  }
+
+  /** The number of nodes of groups with alphas; all groups except the last one are full. */
+  static std::int32_t alphas(const Header& h)
+  {
+    const std::int32_t room = std::popcount(h.alphaGroups) * static_cast<std::int32_t>(Group);
+    const std::int32_t last = (h.nodes - 1) / static_cast<std::int32_t>(Group);
+    const std::int32_t missing = (last + 1) * static_cast<std::int32_t>(Group) - h.nodes;
+    return room - (h.alphaGroups >> last & 1 ? missing : 0);
+  }
+
+  /** Bytes of the diagonals of this many nodes. */
+  static std::size_t diagonalBytes(std::int64_t nodes)
+  {
+    return static_cast<std::size_t>(nodes) * sizeof(double);
+  }
+
+  /** Bytes on disk of a block with this header. */
+  static std::size_t storedBytes(const Header& h)
+  {
+    const std::size_t index = h.wide ? sizeof(WideIndex) : sizeof(std::int16_t);
+    const std::size_t count = h.wide ? sizeof(std::uint32_t) : sizeof(std::uint16_t);
+    const auto nodes = static_cast<std::size_t>(h.nodes);
+    const auto entries = static_cast<std::size_t>(h.entries);
+    const auto parents = static_cast<std::size_t>(h.parents);
+    return sizeof(Header) + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
+           aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * count) +
+           aligned(parents) + static_cast<std::size_t>(h.specials) * sizeof(Special) +
+           static_cast<std::size_t>(alphas(h) + h.values + h.precise) * sizeof(double);
+  }
+
+  /** Whether these bytes may be a block of the nodes [first, first + nodes), and are as many as its
+   * counts require. */
+  static bool fits(std::span<const std::byte> stored, std::int64_t first, std::int64_t nodes)
+  {
+    Header h;
+    if (stored.size() < sizeof(h))
+    {
+      return false;
+    }
+    std::memcpy(&h, stored.data(), sizeof(h));
+    const std::array counts{ h.entries, h.parents, h.specials, h.values, h.precise };
+    return h.first == first && h.nodes == nodes && std::ranges::min(counts) >= 0 &&
+           (h.wide == 0 || h.wide == 1) &&
+           (h.weightBytes == sizeof(float) || h.weightBytes == sizeof(BFloat16)) &&
+           h.alphaGroups >> ((nodes - 1) / Group + 1) == 0 && storedBytes(h) == stored.size();
+  }
+
+  /** The part of the block stored on disk. */
+  std::span<const std::byte> stored() const
+  {
+    return this->Bytes.bytes().first(storedBytes(this->header()));
+  }
+  /** Computes the diagonals from the stored data. */
+  void sumDiagonals()
+  {
+    this->visit<float>([this](const auto& arrays) { this->sumDiagonals(arrays); });
+  }
+
+  Buffer takeBuffer() { return std::move(this->Bytes); }
+
+private:
+  template <class Real, class Index, class F>
+  void visitWeights(F&& f) const
+  {
+    if constexpr (!std::is_same_v<Real, double>)
+    {
+      if (this->header().weightBytes == sizeof(BFloat16))
+      {
+        f(this->arrays<Index, BFloat16>());
+        return;
+      }
+    }
+    f(this->arrays<Index, float>());
+  }
+
+  template <class Index, class Weight>
+  void sumDiagonals(const Arrays<Index, Weight>& a);
+
+  static std::size_t aligned(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
+
+  template <class T>
+  static void take(const std::byte*& at, const T*& array, std::int32_t count)
+  {
+    array = reinterpret_cast<const T*>(at);
+    at += aligned(static_cast<std::size_t>(count) * sizeof(T));
+  }
+
+  Buffer Bytes;
+};
+
+template <class Index, class Weight>
+void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
+{
+  const Header& h = this->header();
+  // The arrays are constant for users of a block; here they are filled.
+  auto* diagonal = const_cast<double*>(a.diagonal);
+  const double* alpha = a.alpha;
+  const Weight* weight = a.weight;
+  const Special* special = a.special;
+  const Special* lastSpecial = a.special + h.specials;
+  for (std::int32_t k = 0; k < h.nodes; ++k)
+  {
+    const auto group = static_cast<std::size_t>(k / Group);
+    double sum = h.alphaGroups >> group & 1 ? *alpha++ : 0.0;
+    const Weight* end = a.weight + h.entryStart[group] + a.entryEnd[k];
+    special += special != lastSpecial && special->node < k ? 1 : 0;
+    if (special != lastSpecial && special->node == k && special->precise >= 0)
+    {
+      for (const double* precise = a.precise + special->precise; weight < end; ++weight)
+      {
+        sum += *precise++;
+      }
+    }
+    for (; weight < end; ++weight)
+    {
+      sum += static_cast<float>(*weight);
+    }
+    diagonal[k] = usableDiagonal(sum);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
+
+#include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "smg/Error.h"
+
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+
+void reportAssembly(const AssemblyCounts& counts, Report& report)
+{
+  report.vertices = counts.vertices;
+  report.cells = counts.cells;
+  report.prescribed = counts.prescribed;
+  report.held = counts.held;
+  report.degenerate_cells = counts.degenerateCells;
+  report.coincident_cells = counts.coincidentCells;
+  report.clamped_weights = counts.clampedWeights;
+  noteUnwelded(counts.type, counts.vertices, counts.cells, report);
+  if (counts.limitedCells > 0)
+  {
+    report.notes.push_back(std::to_string(counts.limitedCells) +
+                           " cells are so flat that rounding would drown the others: their "
+                           "stiffness was scaled down, by a factor of " +
+                           scientific(counts.leastFlatness) +
+                           " at the least; there the operator is not that of finite elements");
+  }
+  if (counts.raisedRows > 0)
+  {
+    report.notes.push_back(std::to_string(counts.raisedRows) +
+                           " vertices have weights whose sum is lost in rounding: 1e-8 of "
+                           "their magnitudes holds them near their initial values; there the "
+                           "operator is not that of finite elements");
+  }
+  report.components = counts.components;
+  report.free_components = counts.freeComponents;
+  if (!std::isfinite(counts.termSquares))
+  {
+    throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
+                "sources or the screening");
+  }
+}
+
+void reportAssembly(const Assembly& assembly, const Components& components, Report& report)
+{
+  AssemblyCounts counts;
+  counts.type = assembly.cellType();
+  counts.vertices = assembly.vertices();
+  counts.cells = assembly.cells();
+  counts.prescribed = assembly.prescribed();
+  counts.held = assembly.held();
+  counts.degenerateCells = assembly.weights().degenerateCells();
+  counts.coincidentCells = assembly.weights().coincidentCells();
+  counts.clampedWeights = assembly.clampedWeights();
+  counts.limitedCells = assembly.weights().limitedCells();
+  counts.leastFlatness = assembly.weights().leastFlatness();
+  counts.raisedRows = assembly.raisedRows();
+  counts.components = components.components();
+  counts.freeComponents = components.freeComponents();
+  counts.termSquares = assembly.residual().termSquares();
+  reportAssembly(counts, report);
+}
+
+void addAssemblyNotes(Report& report, bool leavesUndetermined)
+{
+  // A deformation, whose steps have been added, raises weights by default and takes the operator
+  // for no more than a measure of details.
+  if (report.clamped_weights > 0 && report.steps.empty())
+  {
+    report.notes.push_back(
+      std::to_string(report.clamped_weights) +
+      " weights were below the floor and were raised to it: there the operator is "
+      "not that of finite elements");
+  }
+  if (report.coincident_cells > 0)
+  {
+    report.warn(std::to_string(report.coincident_cells) +
+                (report.coincident_cells == 1 ? " cell without area or volume joins"
+                                              : " cells without area or volume join") +
+                " coincident points, as a clip through points of a mesh leaves them: the mesh is "
+                "open there, unless these are merged (Clean to Grid of ParaView; smg convert "
+                "--weld)");
+  }
+  if (report.held > 0)
+  {
+    report.warn(
+      std::to_string(report.held) + (report.held == 1 ? " vertex belongs" : " vertices belong") +
+      " to no cell that has a weight, so that nothing determines the values there: they " +
+      (leavesUndetermined ? "are not numbers" : "stay as they were"));
+  }
+}
+
+} // namespace smg

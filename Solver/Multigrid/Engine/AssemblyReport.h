@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/Assembly.h"
+#include "smg/Export.h"
+#include "smg/Report.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** What an assembly counted. */
+struct AssemblyCounts
+{
+  CellType type = CellType::Triangle;
+  std::int64_t vertices = 0, cells = 0, prescribed = 0, held = 0;
+  std::int64_t degenerateCells = 0, coincidentCells = 0, clampedWeights = 0;
+  std::int64_t limitedCells = 0; ///< see WeightPolicy
+  double leastFlatness = 1.0;    ///< of these
+  std::int64_t raisedRows = 0;   ///< see Assembly
+  std::int64_t components = 0, freeComponents = 0;
+  double termSquares = 0.0; ///< see InitialResidual
+};
+
+/** Adds the counts to the report. Throws Error if sums overflowed. */
+SMG_EXPORT void reportAssembly(const AssemblyCounts& counts, Report& report);
+/** The same of an assembly. */
+SMG_EXPORT void reportAssembly(
+  const Assembly& assembly, const Components& components, Report& report);
+
+/** Adds the notes on the data of reportAssembly(), when the steps of a deformation are known;
+ * `leavesUndetermined`: see FreeComponents. */
+SMG_EXPORT void addAssemblyNotes(Report& report, bool leavesUndetermined);
+
+} // namespace smg

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/Convergence.h"
+
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace smg
+{
+namespace
+{
+
+/** A residual that exceeds the initial one by this factor will not recover. */
+constexpr double Diverged = 1e4;
+/** A residual that has not decreased by this share in so many V-cycles has stagnated; fewer are
+ * sufficient if it is of the size of the rounding of its terms. */
+constexpr double Stagnating = 0.9;
+constexpr int Patience = 60, RoundingPatience = 2;
+/** Patience is half of the allowed V-cycles if that is less, but at least this. */
+constexpr int LeastPatience = 10;
+constexpr double NearRounding = 10.0;
+
+} // namespace
+
+double roundingOf(double termSquares)
+{
+  constexpr double Rounding = 4e-16;
+  return Rounding * std::sqrt(termSquares);
+}
+
+std::string scientific(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2e", value);
+  return text;
+}
+
+Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
+  : Fixed(stopping.cycles > 0)
+  , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
+  , Rounding(first.rounding)
+  , Reference(std::max(first.norm, first.rounding))
+  , Goal(first.norm <= first.rounding ? first.rounding : stopping.tolerance * first.norm)
+{
+}
+
+void Convergence::begin(double norm, bool mayEnd)
+{
+  this->Norm = norm;
+  this->FirstNorm = std::max(this->Reference, norm);
+  this->Done = this->Converged = mayEnd && !this->Fixed && norm <= this->Goal;
+}
+
+void Convergence::add(double norm, double rounding)
+{
+  this->Rounding = std::max(this->Rounding, rounding);
+  const double relative = this->Reference > 0.0 ? norm / this->Reference : 0.0;
+  this->NormBefore = this->Norm;
+  this->Norm = norm;
+  this->Residuals.push_back(relative);
+  this->Converged = norm <= this->Goal;
+  if (!std::isfinite(norm))
+  {
+    throw Error("the numbers of the solve overflow in V-cycle " + std::to_string(this->cycles()) +
+                ", from a residual of " + scientific(this->Reference) +
+                ": coarse levels compute in single precision, up to 3e38; scale the prescribed "
+                "values, the sources or the screening");
+  }
+  if (norm > Diverged * this->FirstNorm && !this->Converged)
+  {
+    throw Error("the solve diverges (relative residual " + scientific(relative) + " after " +
+                std::to_string(this->cycles()) +
+                " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
+  }
+  if (this->Fixed)
+  {
+    this->Done = this->Converged = this->cycles() >= this->Limit;
+    return;
+  }
+  this->Note.clear();
+  if (!this->Converged)
+  {
+    this->watch(relative);
+  }
+  this->Done = this->Done || this->Converged;
+}
+
+void Convergence::watch(double relative)
+{
+  const bool rounding = this->Norm <= NearRounding * this->Rounding;
+  const int patience =
+    rounding ? RoundingPatience : std::clamp(this->Limit / 2, LeastPatience, Patience);
+  const int n = this->cycles();
+  const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
+                                     : this->FirstNorm / this->Reference;
+  if (n > patience && relative > Stagnating * before)
+  {
+    this->Done = true;
+    this->Converged = rounding;
+    this->Note =
+      rounding
+        ? "converged as far as the rounding of the numbers allows: the relative residual is " +
+            scientific(relative)
+        : "not converged: the relative residual stagnates at " + scientific(relative);
+  }
+  else if (n >= this->Limit)
+  {
+    this->Done = true;
+    this->Note = "not converged: the relative residual is " + scientific(relative) + " after " +
+                 std::to_string(n) + " V-cycles, the most allowed";
+  }
+}
+
+double Convergence::cyclesLeft(double factor) const
+{
+  return this->Norm > this->Goal && this->Goal > 0.0
+           ? std::log(this->Goal / this->Norm) / std::log(factor)
+           : 0.0;
+}
+
+void Convergence::addNotes(std::vector<std::string>& notes, const std::string& what) const
+{
+  if (!this->Note.empty())
+  {
+    notes.push_back(what + this->Note);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/ExtendedEngine.h"
+
+namespace smg
+{
+
+template class Level<double, GaussSeidel>;
+template class Level<float, GaussSeidel>;
+template class Hierarchy<GaussSeidel>;
+template class FirstPass<Extended>;
+template class Pass<GaussSeidel>;
+template class Iteration<GaussSeidel>;
+
+} // namespace smg

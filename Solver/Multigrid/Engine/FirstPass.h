@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/Assembly.h"
+#include "Solver/Core/Timer.h"
+#include "Solver/Memory/MemoryLimitError.h"
+#include "Solver/Mesh/MeshAhead.h"
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/Hierarchy.h"
+#include "Solver/Multigrid/Engine/HierarchyBuilder.h"
+#include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/** The first pass of a solve: reads the mesh, assembles the finest level, builds all others from
+ * it, relaxes and restricts, all in one sweep. */
+template <OperatorSet Operators>
+class FirstPass
+{
+public:
+  /** Every level gets a copy of the operators. The hierarchy must have no levels yet. */
+  FirstPass(
+    SolveRun& run, Hierarchy<typename Operators::Relaxation>& hierarchy, const Operators& operators)
+    : Run(run)
+    , Built(hierarchy)
+    , Set(operators)
+  {
+  }
+
+  /** Performs the pass and completes the hierarchy. `listener`: see Assembly; `furtherCoreBytes`:
+   * bytes per vertex that the caller will need in core. */
+  FirstResidual operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
+    std::int64_t furtherCoreBytes = 0);
+
+private:
+  FirstResidual run(
+    MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);
+  FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
+  void readStream(MeshAhead& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
+    HierarchyBuilder<Operators>& builder);
+  FirstResidual note(const Assembly& assembly);
+
+  SolveRun& Run;
+  Hierarchy<typename Operators::Relaxation>& Built;
+  const Operators& Set;
+};
+
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::operator()(
+  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
+{
+  SolveOptions alone = this->Run.options;
+  alone.threads = 1;
+  this->Run.expectedBytes =
+    mesh.info().span < 0 && !alone.inCore
+      ? 0
+      : expectedMemory(mesh.info(), problem.columns(), problem.weights(), alone);
+  this->Run.isAmple = permitsTasks(mesh.info(), problem, this->Run.options);
+  try
+  {
+    const FirstResidual residual = this->run(mesh, problem, listener, furtherCoreBytes);
+    this->Run.firstPassPeak = this->Run.pool.peak();
+    this->Run.valueNodes = this->Built.window().x().capacity();
+    return residual;
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw this->Run.explained(error);
+  }
+}
+
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::run(
+  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
+{
+  const Timer building;
+  const SolveOptions& options = this->Run.options;
+  const std::int64_t need = estimateMemory(mesh.info(), problem, options, furtherCoreBytes);
+  if (need > options.memoryLimit)
+  {
+    throw MemoryLimitError(need, options.memoryLimit);
+  }
+  if (this->Run.scratch)
+  {
+    this->Run.labels.useScratch(*this->Run.scratch, this->Run.traffic.add("labels"));
+  }
+  this->Built.open(mesh.info().vertices);
+  const FirstResidual residual = this->build(mesh, problem, listener);
+  if (this->Run.free.projectRightSide(this->Built.window(), this->Run.report))
+  {
+    // The coarse levels have the right-hand side before that, of a problem without a solution.
+    this->Built.finest().leaveOutCorrection();
+  }
+  this->Run.report.seconds.build = building.seconds();
+  this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
+  return residual;
+}
+
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, RowListener* listener)
+{
+  const CellType type = mesh.info().cellType;
+  AssembledRows rows(this->Run.pool, problem.columns());
+  const bool apart = this->Run.isConcurrent() && this->Run.isAmple;
+  HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
+    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);
+  Assembly assembly(
+    this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
+  this->Built.startPass(true);
+  MeshAhead blocks(mesh, this->Run.isConcurrent());
+  // On threads of their own, the stages of the assembly need room for the next block.
+  this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
+  const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
+  this->Built.endPass();
+  this->Built.close(coarsest);
+  return this->note(assembly);
+}
+
+/**
+ * In each step the next block of the mesh is assembled, every streamed level is coarsened, and the
+ * downward part of the V-cycle advances, all concurrently, each on the data of the previous steps;
+ * so are, with `apart`, the stages of the assembly.
+ */
+template <OperatorSet Operators>
+void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& assembly,
+  AssembledRows& rows, HierarchyBuilder<Operators>& builder)
+{
+  auto& finest = this->Built.finest();
+  bool more = true, waits = false;
+  std::int64_t open = 0;
+  const auto expected = static_cast<double>(std::max<std::int64_t>(1, blocks.info().vertices));
+  const auto assemble = [&]
+  {
+    if (waits || !more)
+    {
+      return;
+    }
+    const MeshBlock* block = blocks.block();
+    more = block != nullptr;
+    if (apart)
+    {
+      more ? assembly.weigh(*block) : assembly.weighRest();
+    }
+    else
+    {
+      more ? assembly.add(*block) : assembly.finish();
+    }
+  };
+  if (this->Run.recorder)
+  {
+    this->Run.recorder->startPass({});
+  }
+  std::vector<std::function<void()>> tasks{ assemble };
+  if (apart)
+  {
+    for (const auto stage : { &Assembly::connect, &Assembly::closeRows })
+    {
+      tasks.emplace_back([&, stage] { waits ? void() : (assembly.*stage)(); });
+    }
+  }
+  for (int task = 0; task < builder.tasks(); ++task)
+  {
+    tasks.emplace_back([&builder, task] { builder.advance(task); });
+  }
+  tasks.emplace_back([&finest] { finest.advanceDown(); });
+  tasks.emplace_back([&blocks] { blocks.read(); });
+  finest.addWriters(tasks);
+  LongestFirst order(static_cast<int>(tasks.size()));
+  while (!builder.complete())
+  {
+    builder.begin();
+    waits = builder.isBusy();
+    if (!waits)
+    {
+      blocks.advance();
+    }
+    if (apart && !waits)
+    {
+      assembly.beginApart(blocks.vertices());
+    }
+    finest.showProgress();
+    // The problem is queried on the caller's thread.
+    this->Run.together(order, [&](int task) { tasks[static_cast<std::size_t>(task)](); });
+    finest.release();
+    if (apart)
+    {
+      assembly.release();
+    }
+    rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
+    builder.finestRows().Ended = !more && assembly.isClosed();
+    builder.handOver();
+    this->Run.resident.add(assembly.openVertices() - open);
+    open = assembly.openVertices();
+    this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
+  }
+  finest.advanceDown();
+  finest.settle();
+  if (assembly.vertices() == 0)
+  {
+    throw Error("the mesh has no vertices");
+  }
+  this->Run.labels.finish();
+}
+
+/** Adds the data of the assembly and the levels to the report, and those for later passes to the
+ * hierarchy. */
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
+{
+  constexpr std::int64_t StiffShare = 512;
+  this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
+  Report& r = this->Run.report;
+  this->Run.components.settle();
+  reportAssembly(assembly, this->Run.components, r);
+  r.levels = this->Built.levels().sizes;
+  r.levels.front().nodes -= r.prescribed + r.held;
+  r.levels.front().nonzeros -= r.prescribed + r.held;
+  const double whole = assembly.residual().squares();
+  const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
+  // If the sources equal their mean, only the rounding of this difference of squares remains, which
+  // does not measure the residual: then that of the sources themselves is used.
+  constexpr double LeastShare = 1e-14;
+  return { std::sqrt(shifted < LeastShare * whole ? whole : shifted),
+    roundingOf(assembly.residual().termSquares()) };
+}
+
+} // namespace smg

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/FreeComponents.h"
+
+#include <cstdio>
+#include <limits>
+
+namespace smg
+{
+
+std::string incompatibilityNote(double share)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", 100.0 * share);
+  return "the sources of a component without prescribed value do not sum to zero: their mean, " +
+         std::string(text) + " % of their size, was taken from them";
+}
+
+void noteFreeComponents(Report& report)
+{
+  const std::string note =
+    std::to_string(report.free_components) + " of " + std::to_string(report.components) +
+    " components have no prescribed value: they keep the mean of their initial values";
+  if (report.free_components < report.components)
+  {
+    report.warn(note);
+    return;
+  }
+  report.notes.push_back(note);
+}
+
+void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  const bool shifts = !this->MeanShifts.empty();
+  for (std::int64_t i = 0; (shifts || this->LeavesUndetermined) && i < count; ++i)
+  {
+    const std::int64_t vertex = first + i;
+    const std::int32_t label =
+      this->Labels.block(vertex / Block).labels[static_cast<std::size_t>(vertex % Block)];
+    const auto of = values.subspan(static_cast<std::size_t>(i) * columns, columns);
+    if (label == ComponentLabels::Undetermined && this->LeavesUndetermined)
+    {
+      std::ranges::fill(of, std::numeric_limits<double>::quiet_NaN());
+    }
+    for (std::size_t k = 0; label >= 0 && shifts && k < columns; ++k)
+    {
+      of[k] -= this->MeanShifts[static_cast<std::size_t>(this->Parts.root(label)) * columns + k];
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/ComponentLabels.h"
+#include "Solver/Assembly/Components.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
+#include "smg/Report.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** The note that the sources of free components do not sum to zero; `share`: see
+ * Components::incompatibility(). */
+SMG_EXPORT std::string incompatibilityNote(double share);
+/** Notes how many components are free, as a warning if others are not. */
+SMG_EXPORT void noteFreeComponents(Report& report);
+
+/**
+ * What the equations leave open. Makes the solution of components without constraint unique:
+ * subtracts the mean of their sources, and keeps the mean of their initial values, both weighted
+ * with the lumped masses. Values that nothing determines keep the initial value or become not a
+ * number, as the problem wants. A State of the finest level provides nodes(), rewriteB() and
+ * readX(), like LevelWindow.
+ */
+class SMG_EXPORT FreeComponents
+{
+public:
+  FreeComponents(Components& components, ComponentLabels& labels, int columns)
+    : Parts(components)
+    , Labels(labels)
+    , Columns(columns)
+  {
+  }
+
+  /** A component without constraint has a solution only if its right-hand side sums to zero:
+   * otherwise subtracts the mean of the source, notes this in the report and returns true. */
+  template <class State>
+  bool projectRightSide(State& level, Report& report);
+
+  /** After the solve: prepares complete(). `report` has the counts of the assembly, and gets notes.
+   */
+  template <class State>
+  void fix(State& level, const Problem& problem, Report& report)
+  {
+    this->fixMeans(level, report);
+    this->LeavesUndetermined = report.held > 0 && !problem.keepsUndetermined();
+  }
+
+  /** Whether values that nothing determines become not a number. */
+  bool leavesUndetermined() const { return this->LeavesUndetermined; }
+
+  /** Completes the values of vertices [first, first + count). */
+  void complete(std::int64_t first, std::int64_t count, std::span<double> values);
+
+private:
+  static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
+
+  /** Calls f(place, root, weight) for the vertices of a block that belong to a free component;
+   * `place`: index in the block, `weight`: that in its means. */
+  template <class F>
+  void forFree(std::int64_t block, F&& f);
+  template <class State>
+  void fixMeans(State& level, Report& report);
+
+  Components& Parts;
+  ComponentLabels& Labels;
+  int Columns;
+  std::vector<double> MeanShifts; ///< of free components; empty if there is none
+  bool LeavesUndetermined = false;
+};
+
+template <class F>
+void FreeComponents::forFree(std::int64_t block, F&& f)
+{
+  const auto [labels, masses] = this->Labels.block(block);
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    const std::int32_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
+    if (root >= 0 && this->Parts.isFree(root))
+    {
+      f(i, root, this->Parts.weightOf(root, masses[i]));
+    }
+  }
+}
+
+template <class State>
+bool FreeComponents::projectRightSide(State& level, Report& report)
+{
+  const double share = this->Parts.incompatibility();
+  if (share == 0.0)
+  {
+    return false;
+  }
+  const std::vector<double> shifts = this->Parts.rightSideShifts();
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  level.rewriteB(
+    [&](std::int64_t block, std::span<double> b)
+    {
+      this->forFree(block,
+        [&](std::size_t i, std::int32_t root, double weight)
+        {
+          for (std::size_t k = 0; k < columns; ++k)
+          {
+            b[i * columns + k] -= weight * shifts[static_cast<std::size_t>(root) * columns + k];
+          }
+        });
+    });
+  report.removed_source = this->Parts.shiftedSums();
+  report.notes.push_back(incompatibilityNote(share));
+  return true;
+}
+
+/** Computes by how much the values of free components are to be shifted. */
+template <class State>
+void FreeComponents::fixMeans(State& level, Report& report)
+{
+  if (report.free_components == 0)
+  {
+    return;
+  }
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  std::vector<double> sums(static_cast<std::size_t>(this->Parts.labels()) * columns);
+  std::vector<double> values(static_cast<std::size_t>(Block) * columns);
+  for (std::int64_t first = 0; first < level.nodes(); first += Block)
+  {
+    level.readX(first, std::min(Block, level.nodes() - first), values.data());
+    this->forFree(first / Block,
+      [&](std::size_t i, std::int32_t root, double weight)
+      {
+        for (std::size_t k = 0; k < columns; ++k)
+        {
+          sums[static_cast<std::size_t>(root) * columns + k] += weight * values[i * columns + k];
+        }
+      });
+  }
+  this->MeanShifts = this->Parts.meanShifts(sums);
+  noteFreeComponents(report);
+}
+
+} // namespace smg

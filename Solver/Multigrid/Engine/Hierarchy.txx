@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Timer.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/Hierarchy.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::open(std::int64_t vertices)
+{
+  this->FirstCore = this->firstCoreLevel(vertices);
+  this->addFinestLevel();
+  for (int l = 1; l <= this->FirstCore; ++l)
+  {
+    this->addCoarseLevel(l, l == this->FirstCore);
+  }
+}
+
+/** The finest level in memory, from the usual sizes of levels. */
+template <class Relaxation>
+int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
+{
+  // Upper bounds of the share of lifted nodes: 0.24 to 0.43 on the finest level, 0.14 to 0.31 on
+  // coarser ones.
+  constexpr double FirstShare = 0.43, FurtherShare = 0.31;
+  // Of a surface, with all coarser levels; those of solids have fewer nodes than these bounds.
+  constexpr std::int64_t BytesPerCoreNode = 200;
+  constexpr int UnknownSize = 4;
+  if (vertices <= 0)
+  {
+    return UnknownSize;
+  }
+  const SolveOptions& options = this->Run.options;
+  const auto most =
+    static_cast<double>(std::min(options.coreNodes, options.memoryLimit / 3 / BytesPerCoreNode));
+  double nodes = FirstShare * static_cast<double>(vertices);
+  int l = 1;
+  for (; nodes > most && nodes > CoarsestNodes; ++l)
+  {
+    nodes *= FurtherShare;
+  }
+  return l;
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::addFinestLevel()
+{
+  this->Built.finest = std::make_unique<FineLevel>(
+    this->Run.pool, this->Run.resident, 0, this->Columns, this->Run.options.sweeps);
+  this->finest().setEnergy(this->Run.energy ? &*this->Run.energy : nullptr);
+  if (this->Run.scratch)
+  {
+    this->window().useScratch(*this->Run.scratch, this->Run.traffic);
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::addCoarseLevel(int l, bool core)
+{
+  auto level = std::make_unique<CoarseLevel>(
+    this->Run.pool, this->Run.resident, l, this->Columns, this->Run.options.sweeps);
+  if (core)
+  {
+    this->setCore(*level);
+  }
+  else if (this->Run.scratch)
+  {
+    level->window().useScratch(*this->Run.scratch, this->Run.traffic);
+  }
+  if (l == 1)
+  {
+    level->setFine(&this->finest().cursors());
+    this->finest().setCoarse(level.get());
+  }
+  else
+  {
+    CoarseLevel& fine = *this->Built.coarse.back();
+    level->setFine(&fine.cursors());
+    fine.setCoarse(level.get());
+  }
+  this->Built.coarse.push_back(std::move(level));
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::setCore(CoarseLevel& level)
+{
+  level.setCore();
+  if (this->Run.checkpoint)
+  {
+    level.window().keepRows(*this->Run.scratch, this->Run.traffic);
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::close(int coarsest)
+{
+  if (coarsest < this->FirstCore)
+  {
+    this->FirstCore = coarsest;
+    this->Built.coarse.resize(static_cast<std::size_t>(coarsest));
+    this->Built.coarse.back()->window().moveToMemory();
+    this->setCore(*this->Built.coarse.back());
+  }
+  this->factorize();
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::factorize()
+{
+  const Timer factorizing;
+  std::vector<CoarseLevel*> core;
+  for (std::size_t l = static_cast<std::size_t>(this->FirstCore); l <= this->Built.coarse.size();
+       ++l)
+  {
+    core.push_back(this->Built.coarse[l - 1].get());
+  }
+  this->Core.setLevels(std::move(core), this->window().nodes());
+  this->Run.report.seconds.coarse += factorizing.seconds();
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::startPass(bool first)
+{
+  this->finest().startPass(first);
+  for (auto& level : this->Built.coarse)
+  {
+    level->startPass(first);
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::endPass()
+{
+  if (!this->finest().finished())
+  {
+    throw Error("a pass ended before all nodes were done: this is a fault of the program");
+  }
+  this->finest().endPass();
+  for (auto& level : this->Built.coarse)
+  {
+    level->endPass();
+  }
+  ++this->Run.report.passes;
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::runCore()
+{
+  const Timer coarse;
+  this->Core.run();
+  this->Run.report.seconds.coarse += coarse.seconds();
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::zeroCoarse()
+{
+  for (auto& level : this->Built.coarse)
+  {
+    level->window().zeroB(0, level->window().nodes());
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::renew(int columns)
+{
+  this->window().renew(columns, true);
+  for (auto& level : this->Built.coarse)
+  {
+    level->window().renew(columns, false);
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::save(StateWriter& state)
+{
+  state.part("hierarchy");
+  const auto levels = static_cast<std::int32_t>(this->Built.coarse.size());
+  state(levels, this->FirstCore, this->SlowestAtSlivers, *this->Built.finest);
+  for (auto& level : this->Built.coarse)
+  {
+    state(*level);
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::load(StateReader& state)
+{
+  constexpr std::int32_t MostLevels = 64;
+  state.part("hierarchy");
+  std::int32_t levels = 0;
+  state(levels, this->FirstCore, this->SlowestAtSlivers);
+  state.require(this->FirstCore >= 1 && this->FirstCore <= levels && levels <= MostLevels);
+  this->addFinestLevel();
+  state(this->finest());
+  const std::int64_t vertices = this->Run.report.vertices;
+  state.require(this->window().nodes() == vertices && this->Run.labels.vertices() == vertices);
+  for (int l = 1; l <= levels; ++l)
+  {
+    this->addCoarseLevel(l, l >= this->FirstCore);
+    state(*this->Built.coarse.back());
+  }
+  this->factorize();
+}
+
+template <class Relaxation>
+double Hierarchy<Relaxation>::residualNorm() const
+{
+  const auto squares = this->Built.finest->squares();
+  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
+}
+
+template <class Relaxation>
+double Hierarchy<Relaxation>::roundingNorm() const
+{
+  const auto squares = this->Built.finest->termSquares();
+  return roundingOf(std::accumulate(squares.begin(), squares.end(), 0.0));
+}
+
+template <class Relaxation>
+LevelWindow<double> Hierarchy<Relaxation>::takeWindow()
+{
+  this->Core = {};
+  this->Built.coarse.clear();
+  this->window().keepSolution();
+  LevelWindow<double> window = std::move(this->window());
+  this->Built.finest.reset();
+  return window;
+}
+
+} // namespace smg

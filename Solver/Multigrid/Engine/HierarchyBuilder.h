@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/Level.h"
+#include "Solver/Multigrid/Cycle/RowBlockPacker.h"
+#include "Solver/Multigrid/Engine/Coarsening.h"
+#include "Solver/Multigrid/Engine/Levels.h"
+#include "smg/Report.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Builds the hierarchy while the rows of the finest level arrive. Levels below `firstCore` are
+ * built in the same sweep, window by window; those from `firstCore` on, which are in memory, after
+ * it.
+ */
+template <OperatorSet Operators>
+class HierarchyBuilder
+{
+public:
+  using Relaxation = typename Operators::Relaxation;
+  /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of the
+   * nodes of the next finer level, which has few strong edges or many stiff rows. */
+  static constexpr double StalledShare = 0.8;
+  /** The rows of the finest level that a step processes if its stages are tasks of their own. */
+  static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
+
+  /** `stiff` finds the stiff rows of each coarse level; `apart`: for several threads, the stages of
+   * each of the finest levels, where most of the work is, are tasks of their own. */
+  HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
+    StiffRows stiff, bool apart)
+    : Owner(pool)
+    , Set(std::move(operators))
+    , Built(levels)
+    , FirstCore(firstCore)
+    , ApartLevels(canRunApart<Operators> && apart ? std::min(MostApart, firstCore) : 0)
+    , Stiff(stiff)
+  {
+    this->addRows();
+    for (int l = 0; l < firstCore; ++l)
+    {
+      this->addStep();
+    }
+  }
+
+  /** The rows of the finest level, to be appended to between two steps. */
+  LevelRows& finestRows() { return *this->Rows.front(); }
+
+  /** Whether the finest level has rows enough for a step: more would take memory. */
+  bool isBusy() const
+  {
+    return this->ApartLevels > 0 && this->Steps.front()->waiting() > StepNodes;
+  }
+
+  /** Begins a step of all streamed levels. */
+  void begin()
+  {
+    std::int64_t nodes = StepNodes;
+    for (int l = 0; l < this->ApartLevels; ++l)
+    {
+      nodes = this->Steps[static_cast<std::size_t>(l)]->beginApart(nodes);
+    }
+  }
+
+  /** Number of tasks of a step, which may run on different threads: data for other levels are
+   * handed over afterwards. */
+  int tasks() const { return this->FirstCore + (ApartTasks - 1) * this->ApartLevels; }
+
+  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or some
+   * of them. */
+  void advance(int task)
+  {
+    if (task >= ApartTasks * this->ApartLevels)
+    {
+      this->advanceLevel(task - (ApartTasks - 1) * this->ApartLevels);
+      return;
+    }
+    // The longest tasks of a level first: no thread is to begin one when the others have finished.
+    const int l = task % this->ApartLevels;
+    Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
+    switch (task / this->ApartLevels)
+    {
+      case 0:
+        step.advanceInterpolation();
+        break;
+      case 1:
+        step.advanceCoarseRows();
+        break;
+      case 2:
+        step.advanceGathering();
+        break;
+      case 3:
+        step.advanceProducts();
+        break;
+      case 4:
+        step.advanceLifting();
+        break;
+      default:
+        this->pack(l);
+    }
+  }
+
+  /** Ends a step of all streamed levels: hands over rows to the next level and blocks to the
+   * windows. */
+  void handOver()
+  {
+    for (int l = 0; l < this->FirstCore; ++l)
+    {
+      Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
+      if (l < this->ApartLevels)
+      {
+        step.release();
+      }
+      step.handOver();
+      this->append(l);
+    }
+  }
+
+  /** Whether all rows of the streamed levels are in their windows. */
+  bool complete() const
+  {
+    for (int l = 0; l < this->FirstCore; ++l)
+    {
+      const auto k = static_cast<std::size_t>(l);
+      if (!this->Rows[k + 1]->Ended || this->Packed[k] < this->Rows[k]->end())
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /**
+   * Builds the core levels when the streamed ones are complete; `addLevel(l)` adds level l, called
+   * for those coarser than firstCore. Returns the coarsest level. It may be a streamed one, if that
+   * is small enough; coarser levels are not to be used.
+   */
+  template <class AddLevel>
+  int finish(AddLevel&& addLevel)
+  {
+    for (int k = 0; k < this->FirstCore; ++k)
+    {
+      this->close(k);
+    }
+    int l = 1;
+    for (;; ++l)
+    {
+      if (l >= this->FirstCore)
+      {
+        this->build(l);
+      }
+      if (this->nodes(l) <= CoarsestNodes || this->stalled(l))
+      {
+        break;
+      }
+      if (l >= this->FirstCore)
+      {
+        addLevel(l + 1);
+      }
+    }
+    this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
+    return l;
+  }
+
+private:
+  static constexpr int ApartTasks = 6; // of a level
+  static constexpr int MostApart = 3;  // levels
+
+  void advanceLevel(int l)
+  {
+    const auto k = static_cast<std::size_t>(l);
+    const std::int64_t end = this->Rows[k]->end();
+    std::int64_t& rows = this->Advanced[k];
+    // A few rows at a time: their intermediate data are released before the next ones.
+    do
+    {
+      rows = std::min(end, rows + RowBlock::Nodes);
+      this->Steps[k]->advance(rows);
+      this->pack(l);
+    } while (rows < end);
+  }
+
+  /** Builds core level l, whose rows are complete, and the rows of the next one, even if that is
+   * not used, so that the coarsest level does not depend on whether it is streamed. */
+  void build(int l)
+  {
+    this->addStep();
+    for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l);
+         end += RowBlock::Nodes)
+    {
+      this->Steps.back()->advance(end);
+      this->pack(l);
+      this->Steps.back()->handOver();
+      this->append(l);
+    }
+    this->close(l);
+  }
+
+  /** Nodes of a level whose rows are complete. */
+  std::int64_t nodes(int l) const
+  {
+    const auto k = static_cast<std::size_t>(l);
+    return k < this->Built.sizes.size() ? this->Built.sizes[k].nodes : this->Rows[k]->end();
+  }
+
+  bool stalled(int l) const
+  {
+    return static_cast<double>(this->nodes(l)) >
+           StalledShare * static_cast<double>(this->nodes(l - 1));
+  }
+
+  /** Stores the size of level l and releases its rows, which have been packed. */
+  void close(int l)
+  {
+    const auto k = static_cast<std::size_t>(l);
+    this->Built.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
+    if (k < this->Steps.size())
+    {
+      this->Steps[k].reset();
+    }
+    this->Rows[k].reset();
+    this->Buffers[k].clear();
+  }
+
+  void addRows()
+  {
+    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
+    this->Buffers.emplace_back(this->Owner);
+    this->Ready.emplace_back();
+  }
+
+  void addStep()
+  {
+    this->addRows();
+    this->Advanced.push_back(0);
+    this->Packed.push_back(0);
+    const std::size_t l = this->Steps.size();
+    this->Steps.push_back(std::make_unique<Coarsening<Operators>>(this->Owner, this->Set,
+      *this->Rows[l], *this->Rows[l + 1], this->Stiff, static_cast<int>(l) < this->ApartLevels));
+  }
+
+  /** Passes the packed blocks of level l to its window, and reuses the buffers of old ones. */
+  void append(int l)
+  {
+    if (l == 0)
+    {
+      this->append(l, *this->Built.finest);
+    }
+    else
+    {
+      this->append(l, *this->Built.coarse[static_cast<std::size_t>(l - 1)]);
+    }
+  }
+  template <class Level>
+  void append(int l, Level& level)
+  {
+    std::vector<RowBlock>& ready = this->Ready[static_cast<std::size_t>(l)];
+    for (RowBlock& block : ready)
+    {
+      level.append(std::move(block));
+    }
+    ready.clear();
+    level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
+  }
+
+  /** Packs the final blocks of level l. */
+  void pack(int l)
+  {
+    const auto k = static_cast<std::size_t>(l);
+    const LevelRows& rows = *this->Rows[k];
+    Coarsening<Operators>& step = *this->Steps[k];
+    const std::int64_t final = step.multiplied();
+    const bool ended = rows.Ended && final == rows.end();
+    std::int64_t& begin = this->Packed[k];
+    while (begin + RowBlock::Nodes <= final || (ended && begin < final))
+    {
+      const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
+      this->Ready[k].push_back(
+        packRows(this->Buffers[k], rows, &step.data(), begin, nodes, l > 0 && !this->Stiff.any()));
+      begin += nodes;
+      step.packed(begin);
+      if (l >= this->ApartLevels)
+      {
+        step.release();
+      }
+    }
+  }
+
+  Pool& Owner;
+  Operators Set;
+  Levels<Relaxation>& Built;
+  int FirstCore;
+  int ApartLevels; // whose stages are tasks
+  StiffRows Stiff;
+  std::vector<std::unique_ptr<LevelRows>> Rows;
+  std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
+  std::vector<std::int64_t> Advanced, Packed;
+  std::vector<std::vector<RowBlock>> Ready; // packed, not yet in the windows
+  std::vector<SpareBuffers> Buffers;
+};
+
+} // namespace smg

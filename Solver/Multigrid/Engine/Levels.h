@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/Level.h"
+#include "smg/Report.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace smg
+{
+
+/** Coarsening ends at a level of at most this many nodes, which is factorised. */
+inline constexpr std::int64_t CoarsestNodes = 1000;
+
+/** The levels of a multigrid: the finest one in double, the others in single precision. */
+template <class Relaxation>
+struct Levels
+{
+  std::unique_ptr<Level<double, Relaxation>> finest;
+  std::vector<std::unique_ptr<Level<float, Relaxation>>> coarse; ///< level 1, 2, ...
+  std::vector<Report::Level> sizes;
+};
+
+} // namespace smg

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/Pipeline.h"
+#include "Solver/Multigrid/Engine/Hierarchy.h"
+#include "Solver/Multigrid/Engine/SolveRun.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace smg
+{
+
+/** The bytes of the pool that a pass out of core needs in one chain, with a history of this
+ * sparseness (0: of steps alone) or without one, if there are `stride` values a node: bounds of
+ * what surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need
+ * less than the first one, down to a third of it; on slivers they need up to 1.1 times as much. */
+inline std::int64_t passBytes(
+  const SolveRun& run, int stride, std::optional<std::int64_t> sparseness)
+{
+  std::int64_t bytes = run.plainPassPeak > 0 ? run.plainPassPeak + run.plainPassPeak / 10
+                                             : run.firstPassPeak + run.firstPassPeak / 8;
+  if (sparseness)
+  {
+    // In the window, and blocks that are read ahead and written behind.
+    const std::int64_t nodes = run.valueNodes + 6 * RowBlock::Nodes;
+    const std::int64_t values = nodes * stride * std::int64_t(sizeof(double));
+    bytes += values * 5 / 4 + (*sparseness > 0 ? values * 7 / 4 / *sparseness : 0);
+  }
+  return bytes;
+}
+
+/** A pass over the levels that finishes a V-cycle and begins the next one. */
+template <class Relaxation>
+class Pass
+{
+public:
+  /** Optional further actions of a pass. */
+  struct Further
+  {
+    /** Called after loading the finest level. */
+    std::function<void()> loaded;
+    /** A stage between the upward and the downward part of the finest level. */
+    Pipeline::Advance beforeDown;
+    /** Accelerates. */
+    IterateHistory* history = nullptr;
+    /** Takes as little memory as it can. */
+    bool inOneChain = false;
+  };
+
+  Pass(SolveRun& run, Hierarchy<Relaxation>& hierarchy)
+    : Run(run)
+    , Levels(hierarchy)
+  {
+  }
+
+  /** Performs a pass, after the part of the core levels; `scale` is the approximate size of its
+   * residuals. */
+  void operator()(double scale, const Further& further = {});
+
+  /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are in
+   * the finest window. */
+  void begin();
+
+private:
+  void setScale(double typical);
+  void stream(const Further& further);
+  Pipeline stages(const Further& further, int chains);
+  struct Schedule
+  {
+    std::int64_t step; ///< nodes of the finest level
+    int chains;
+  };
+  Schedule schedule(const Further& further) const;
+  std::int64_t chainsFor(std::int64_t step, const IterateHistory* history) const;
+
+  SolveRun& Run;
+  Hierarchy<Relaxation>& Levels;
+};
+
+template <class Relaxation>
+void Pass<Relaxation>::operator()(double scale, const Further& further)
+{
+  try
+  {
+    this->Levels.runCore();
+    this->Levels.startPass(false);
+    this->Levels.finest().setHistory(further.history);
+    this->setScale(scale / std::sqrt(static_cast<double>(this->Levels.window().nodes())));
+    this->stream(further);
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw this->Run.explained(error);
+  }
+  this->Levels.endPass();
+}
+
+/** Restriction scales numbers of this size to about 1. */
+template <class Relaxation>
+void Pass<Relaxation>::setScale(double typical)
+{
+  this->Levels.finest().setScale(
+    typical > DBL_MIN && typical < DBL_MAX ? std::exp2(-std::ilogb(typical)) : 1.0);
+}
+
+template <class Relaxation>
+void Pass<Relaxation>::stream(const Further& further)
+{
+  auto& finest = this->Levels.finest();
+  const Schedule schedule = this->schedule(further);
+  const std::int64_t step = schedule.step;
+  const Pipeline stages = this->stages(further, schedule.chains);
+  std::vector<std::function<void()>> files;
+  finest.addReaders(files);
+  finest.addWriters(files);
+  const std::int64_t nodes = finest.window().nodes();
+  const int chains = stages.chains();
+  LongestFirst order(chains + static_cast<int>(files.size()));
+  for (std::int64_t begin = 0; begin < nodes; begin += step)
+  {
+    const std::int64_t last = std::min(nodes, begin + step) - 1;
+    finest.load(last);
+    if (further.loaded)
+    {
+      further.loaded();
+    }
+    // Nodes are written when all stages have finished them a step ago.
+    finest.showProgress();
+    this->Run.together(order,
+      [&](int task)
+      {
+        if (task < chains)
+        {
+          stages.advance(task);
+        }
+        else
+        {
+          files[static_cast<std::size_t>(task - chains)]();
+        }
+      });
+    finest.release();
+    this->Run.progress.update(static_cast<double>(last) / static_cast<double>(nodes));
+  }
+  // The upward part is finished before the downward part can be.
+  stages.advance();
+  finest.showProgress();
+  stages.advance();
+  finest.settle();
+}
+
+/** The stages of the pass, in chains. */
+template <class Relaxation>
+Pipeline Pass<Relaxation>::stages(const Further& further, int chains)
+{
+  Pipeline stages;
+  this->Levels.finest().addUpward(stages);
+  if (further.beforeDown)
+  {
+    stages.add(static_cast<double>(this->Levels.window().nodes()), further.beforeDown);
+  }
+  this->Levels.finest().addDownward(stages);
+  if (StepRecorder* recorder = this->Run.recorder)
+  {
+    recorder->startPass(stages.costs());
+    stages.cutAll();
+    return stages;
+  }
+  stages.cut(chains);
+  return stages;
+}
+
+/** The length of the steps and the number of chains that the threads need, as far as the memory
+ * suffices. */
+template <class Relaxation>
+auto Pass<Relaxation>::schedule(const Further& further) const -> Schedule
+{
+  const std::int64_t usual = this->Run.options.blockNodes;
+  if (further.inOneChain)
+  {
+    return { usual, 1 };
+  }
+  const std::int64_t wanted = Pipeline::chainsFor(this->Run.scheduled);
+  const std::int64_t longer = Pipeline::stepFor(this->Run.scheduled, usual);
+  const std::int64_t step = this->chainsFor(longer, further.history) < wanted ? usual : longer;
+  const std::int64_t chains = this->chainsFor(step, further.history);
+  return { step, static_cast<int>(std::clamp(chains, std::int64_t(1), wanted)) };
+}
+
+/** The number of chains for which the memory suffices: each takes a step's nodes. In core all nodes
+ * are in memory anyway. */
+template <class Relaxation>
+std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, const IterateHistory* history) const
+{
+  constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
+  if (!this->Run.scratch)
+  {
+    return std::numeric_limits<std::int64_t>::max();
+  }
+  const std::optional<std::int64_t> sparseness =
+    history ? std::optional(history->sparseness()) : std::nullopt;
+  // The pass that two problems share has the values of both.
+  const std::int64_t first = this->Run.firstPassPeak;
+  const std::int64_t need =
+    std::max(first + first / 16, passBytes(this->Run, this->Levels.window().stride(), sparseness));
+  const std::int64_t room = this->Run.pool.limit() - need;
+  return room / (NodeBytes * std::min(step, this->Levels.window().nodes()));
+}
+
+template <class Relaxation>
+void Pass<Relaxation>::begin()
+{
+  this->Levels.zeroCoarse();
+  this->Levels.startPass(true);
+  auto& finest = this->Levels.finest();
+  finest.setScale(1.0);
+  finest.advanceDown();
+  finest.settle();
+  this->Levels.endPass();
+}
+
+} // namespace smg

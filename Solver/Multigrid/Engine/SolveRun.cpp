@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/SolveRun.h"
+
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
+#include "Solver/Multigrid/Engine/ReportState.h"
+
+#include "Solver/Files/Checksum.h"
+#include "Solver/Files/ScratchAccount.h"
+
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace smg
+{
+namespace
+{
+
+/** The number of threads that a pass is scheduled for, given the requested one; 0: one per core. */
+int scheduledThreads(int wanted)
+{
+  // A pass has about that many stages of similar length.
+  constexpr int Most = 16;
+  return std::min(Most, wanted > 0 ? wanted : tbb::info::default_concurrency());
+}
+
+} // namespace
+
+SolveRun::SolveRun(int columns, const SolveOptions& solveOptions)
+  : options(solveOptions)
+  , progress(solveOptions.progress)
+  , pool(solveOptions.memoryLimit)
+  , components(columns, &this->pool)
+  , labels(this->components)
+  , free(this->components, this->labels, columns)
+  , scheduled(scheduledThreads(solveOptions.threads))
+  , threads(std::min(this->scheduled, tbb::info::default_concurrency()))
+{
+  if (!solveOptions.checkpoint.folder.empty())
+  {
+    this->scratch.emplace(KeptFolder{ solveOptions.checkpoint.folder }, solveOptions.scratchLimit);
+  }
+  else if (!solveOptions.inCore)
+  {
+    this->scratch.emplace(solveOptions.scratch, solveOptions.scratchLimit);
+  }
+}
+
+void SolveRun::beginReport()
+{
+  this->Wall = {};
+  this->CpuAtStart = processSeconds();
+}
+
+void SolveRun::finishReport()
+{
+  Report& r = this->report;
+  addAssemblyNotes(r, this->free.leavesUndetermined());
+  r.peak_nodes = this->resident.peak;
+  r.pool_bytes_peak = this->pool.peak();
+  r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());
+  r.scratch_bytes_peak = this->scratch ? this->scratch->account().peak() : 0;
+  r.bytes_read = this->traffic.bytesRead();
+  r.bytes_written = this->traffic.bytesWritten();
+  r.bytes_by_kind.clear();
+  for (const auto& [name, level, statistics] : this->traffic.kinds())
+  {
+    r.bytes_by_kind.push_back({ name, level, statistics.bytesRead, statistics.bytesWritten });
+  }
+  r.seconds.io_wait = this->traffic.waitSeconds();
+  r.seconds.total = this->seconds();
+  r.cpu_seconds = processSeconds() - this->CpuAtStart;
+  r.threads = this->threads.max_concurrency();
+}
+
+namespace
+{
+
+std::string exact(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+std::string hashOf(const std::string& text)
+{
+  return std::to_string(checksum(std::as_bytes(std::span(text))));
+}
+
+/** The options that a result may depend on. */
+std::vector<Checkpoint::Item> itemsOf(const SolveOptions& options)
+{
+  return { { "mesh", hashOf(options.checkpoint.mesh) },
+    { "problem", hashOf(options.checkpoint.problem) }, { "operator set", options.operators },
+    { "number of sweeps", std::to_string(options.sweeps) },
+    { "tolerance", exact(options.tolerance) },
+    { "largest number of V-cycles", std::to_string(options.maxCycles) },
+    { "acceleration", std::to_string(static_cast<int>(options.acceleration)) },
+    { "memory limit", std::to_string(options.memoryLimit) },
+    { "size of core levels", std::to_string(options.coreNodes) } };
+}
+
+} // namespace
+
+bool SolveRun::resume(std::vector<Checkpoint::Item> subject, Parts kept)
+{
+  if (this->options.checkpoint.folder.empty())
+  {
+    return false;
+  }
+  std::vector<Checkpoint::Item> items = itemsOf(this->options);
+  std::move(subject.begin(), subject.end(), std::back_inserter(items));
+  this->checkpoint.emplace(*this->scratch, std::move(items));
+  this->Kept = std::move(kept);
+  std::optional<StateReader> state = this->checkpoint->open(this->pool);
+  if (!state)
+  {
+    return false;
+  }
+  this->load(*state);
+  const int passes = this->report.passes;
+  this->report.resumed_passes = passes;
+  this->report.notes.push_back(
+    "continued after pass " + std::to_string(passes) + ", the last one that the checkpoint has");
+  return true;
+}
+
+void SolveRun::endPass(double residual)
+{
+  Report::Pass pass{ residual, this->seconds(), this->traffic.bytesRead(),
+    this->traffic.bytesWritten(), this->pool.peak() };
+  for (const Report::Pass& before : this->report.by_pass)
+  {
+    pass.seconds -= before.seconds;
+    pass.read -= before.read;
+    pass.written -= before.written;
+  }
+  this->report.by_pass.push_back(pass);
+  if (this->checkpoint)
+  {
+    this->checkpoint->save(this->report.passes, [this](StateWriter& state) { this->save(state); });
+  }
+}
+
+void SolveRun::save(StateWriter& state)
+{
+  Report& r = this->report;
+  r.seconds.total = this->seconds();
+  r.cpu_seconds = processSeconds() - this->CpuAtStart;
+  r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());
+  ReportState<StateWriter> reported{ r };
+  const std::int64_t peak = this->pool.peak();
+  state.part("run");
+  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
+    this->plainPassPeak, this->valueNodes, this->components, this->labels);
+  this->Kept.save(state);
+  state.part("counts");
+  const std::uint64_t kinds = this->traffic.kinds().size();
+  state(this->resident, kinds);
+  for (const auto& [name, level, statistics] : this->traffic.kinds())
+  {
+    const std::array<std::int64_t, 3> counts{ statistics.bytesRead, statistics.bytesWritten,
+      statistics.waitNanoseconds };
+    state(name, level, counts);
+  }
+}
+
+void SolveRun::load(StateReader& state)
+{
+  ReportState<StateReader> reported{ this->report };
+  std::int64_t peak = 0;
+  this->labels.useScratch(*this->scratch, this->traffic.add("labels"));
+  state.part("run");
+  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
+    this->plainPassPeak, this->valueNodes, this->components, this->labels);
+  this->pool.raisePeak(peak);
+  this->SecondsBefore = this->report.seconds.total;
+  this->CpuAtStart -= this->report.cpu_seconds;
+  this->Kept.load(state);
+  // Last, since the other parts have counted nodes and added files.
+  state.part("counts");
+  std::uint64_t kinds = 0;
+  state(this->resident, kinds);
+  for (; kinds > 0; --kinds)
+  {
+    std::string name;
+    int level = 0;
+    std::array<std::int64_t, 3> counts{};
+    state(name, level, counts);
+    IoStatistics& statistics = this->traffic.of(name, level);
+    statistics.bytesRead += counts[0];
+    statistics.bytesWritten += counts[1];
+    statistics.waitNanoseconds += counts[2];
+  }
+  state.finish();
+}
+
+} // namespace smg

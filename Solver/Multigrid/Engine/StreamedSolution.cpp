@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/StreamedSolution.h"
+
+#include "Solver/Multigrid/Engine/VertexRange.h"
+
+#include <utility>
+
+namespace smg
+{
+
+StreamedSolution::StreamedSolution(std::unique_ptr<SolveRun> run, LevelWindow<double> window)
+  : Run(std::move(run))
+  , Window(std::move(window))
+{
+}
+
+void StreamedSolution::read(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  checkVertexRange(
+    first, count, values.size() / static_cast<std::size_t>(this->columns()), this->vertices());
+  this->Window.readX(first, count, values.data());
+  this->Run->free.complete(first, count, values);
+}
+
+void StreamedSolution::removeCheckpoint()
+{
+  if (this->Run->checkpoint)
+  {
+    this->Run->checkpoint->discard();
+  }
+}
+
+} // namespace smg

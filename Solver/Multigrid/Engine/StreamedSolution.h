@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Cycle/LevelWindow.h"
+#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "smg/Export.h"
+#include "smg/Solve.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace smg
+{
+
+/** The result of a solve: the values of the finest level, on disk or in memory. */
+class SMG_EXPORT StreamedSolution final : public Solution
+{
+public:
+  /** `window` was created in `run` and holds only the solution. */
+  StreamedSolution(std::unique_ptr<SolveRun> run, LevelWindow<double> window);
+
+  std::int64_t vertices() const override { return this->Run->report.vertices; }
+  int columns() const override { return this->Window.columns(); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
+  void removeCheckpoint() override;
+  const Report& report() const override { return this->Run->report; }
+
+private:
+  std::unique_ptr<SolveRun> Run; // outlives the window, whose memory it accounts for
+  LevelWindow<double> Window;
+};
+
+} // namespace smg

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/MonotoneRing.h"
+#include "Solver/Memory/RaggedRing.h"
+#include "Solver/Multigrid/Setup/RowEntry.h"
+#include "Solver/Multigrid/Setup/StrongestWeight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace smg
+{
+
+/** The diagonal for divisions, given the sum of alpha and the weights. */
+inline double usableDiagonal(double sum)
+{
+  // The only node of a component without constraint: any correction is correct, and this diagonal
+  // makes it zero.
+  constexpr double Isolated = 1e20;
+  return sum > 0.0 ? sum : Isolated;
+}
+
+/** The diagonal of a row whose sum is alpha; `precise`: its weights in double precision, if any. */
+inline double diagonalOf(
+  std::span<const RowEntry> row, double alpha, std::span<const double> precise = {})
+{
+  double sum = alpha;
+  if (!precise.empty())
+  {
+    for (const double weight : precise)
+    {
+      sum += weight;
+    }
+    return usableDiagonal(sum);
+  }
+  for (const RowEntry& entry : row)
+  {
+    sum += entry.weight();
+  }
+  return usableDiagonal(sum);
+}
+
+/** A row without its entries; see LevelRows::close(). */
+struct ClosedRow
+{
+  std::int64_t size;
+  double alpha;
+  std::int64_t childReach;
+  bool stiff;
+  std::size_t precise; ///< weights in double precision
+};
+
+/** The rows of a level's matrix while the level is built, in node order: entries by ascending
+ * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum. */
+class LevelRows
+{
+public:
+  explicit LevelRows(Pool& pool)
+    : Entries(pool)
+    , Precise(pool)
+    , Alpha(pool)
+    , Strongest(pool)
+    , Reach(pool, 0)
+    , ChildReach(pool, -1)
+  {
+  }
+
+  /** The first row in memory. */
+  std::int64_t first() const { return this->Entries.first(); }
+  /** The end of the rows appended so far; all of them are final. */
+  std::int64_t end() const { return this->Entries.end(); }
+  /** Whether no row follows. */
+  bool Ended = false;
+
+  std::span<const RowEntry> row(std::int64_t i) const
+  {
+    return { this->Entries.row(i), static_cast<std::size_t>(this->Entries.size(i)) };
+  }
+  /** The weights of row i in double precision, if they were given. */
+  std::span<const double> precise(std::int64_t i) const
+  {
+    if (i >= this->Precise.end())
+    {
+      return {};
+    }
+    return { this->Precise.row(i), static_cast<std::size_t>(this->Precise.size(i)) };
+  }
+  double diagonal(std::int64_t i) const
+  {
+    return diagonalOf(this->row(i), this->alpha(i), this->precise(i));
+  }
+  /** The sum of the magnitudes of the weights of row i. */
+  float magnitudes(std::int64_t i) const
+  {
+    float sum = 0.0F;
+    for (const RowEntry& entry : this->row(i))
+    {
+      sum += std::fabs(entry.weight());
+    }
+    return sum;
+  }
+  double alpha(std::int64_t i) const { return this->Alpha[i]; }
+  /** The largest weight of row i, 0 if there is none. */
+  float strongest(std::int64_t i) const { return this->Strongest[i].weight(); }
+  /** Whether row i is stiff. */
+  bool stiff(std::int64_t i) const { return this->Strongest[i].stiff(); }
+  /** The largest node index that occurs in rows 0 .. i, at least i. */
+  std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
+  /** The last node of the finer level that interpolates from a node 0 .. i; -1 on level 0. */
+  std::int64_t childReach(std::int64_t i) const { return this->ChildReach[i]; }
+  /** Entries of all rows so far, diagonals included. */
+  std::int64_t nonzeros() const { return this->Nonzeros; }
+
+  /** Returns room for at most `size` entries of the next row. */
+  RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
+
+  /** Ends the row begun by open(). `childReach` is that of this node alone; `stiff`: see StiffRows;
+   * `precise`: its weights in double precision, or none. */
+  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
+    std::span<const double> precise = {})
+  {
+    const ClosedRow row{ size, alpha, childReach, stiff, precise.size() };
+    this->close({ &row, 1 }, this->Entries.opened(), precise.data());
+  }
+
+  /** Appends rows with these entries, and precise weights where they have any; returns the end of
+   * the entries. */
+  const RowEntry* append(
+    std::span<const ClosedRow> rows, const RowEntry* entries, const double* precise)
+  {
+    std::int64_t size = 0;
+    for (const ClosedRow& row : rows)
+    {
+      size += row.size;
+    }
+    RowEntry* out = this->open(size);
+    std::copy_n(entries, size, out);
+    this->close(rows, out, precise);
+    return entries + size;
+  }
+
+  /** The largest i (at most end()) such that the nodes below i occur in rows below `done` only. */
+  std::int64_t unreached(std::int64_t from, std::int64_t done) const
+  {
+    std::int64_t i = from;
+    while (i < this->end() && this->Reach[i] < done)
+    {
+      ++i;
+    }
+    return i;
+  }
+
+  /** Releases rows below `row`, and reach() below `reach`; if both are beyond the end, `row` is the
+   * next row. */
+  void release(std::int64_t row, std::int64_t reach)
+  {
+    this->Entries.release(row);
+    this->Precise.release(row);
+    this->Alpha.release(row);
+    this->Strongest.release(row);
+    this->ChildReach.release(row);
+    this->Reach.release(std::min(row, reach));
+  }
+
+private:
+  /** Ends rows whose entries are in the open one. */
+  void close(std::span<const ClosedRow> rows, const RowEntry* entry, const double* precise)
+  {
+    const std::int64_t begin = this->end();
+    const std::int64_t end = begin + static_cast<std::int64_t>(rows.size());
+    this->Alpha.extendRaw(end);
+    this->Strongest.extendRaw(end);
+    this->Reach.reserve(end - begin);
+    this->ChildReach.reserve(end - begin);
+    double* alpha = this->Alpha.at(begin);
+    StrongestWeight* strongest = this->Strongest.at(begin);
+    std::int64_t i = begin;
+    for (const ClosedRow& row : rows)
+    {
+      float largest = 0.0F;
+      for (std::int64_t e = 0; e < row.size; ++e)
+      {
+        largest = std::max(largest, entry[e].weight());
+      }
+      const std::int64_t last = row.size > 0 ? i + std::max(0, entry[row.size - 1].delta()) : i;
+      this->Entries.close(row.size);
+      *alpha++ = row.alpha;
+      *strongest++ = { largest, row.stiff };
+      this->Reach.append(last);
+      this->ChildReach.append(row.childReach);
+      this->keep({ precise, row.precise });
+      this->Nonzeros += row.size + 1;
+      entry += row.size;
+      precise += row.precise;
+      ++i;
+    }
+  }
+
+  /** Stores the precise weights of the last row; rows after the last one with any take no room. */
+  void keep(std::span<const double> precise)
+  {
+    if (precise.empty())
+    {
+      return;
+    }
+    while (this->Precise.end() + 1 < this->end())
+    {
+      this->Precise.open(0);
+      this->Precise.close(0);
+    }
+    std::ranges::copy(precise, this->Precise.open(static_cast<std::int64_t>(precise.size())));
+    this->Precise.close(static_cast<std::int64_t>(precise.size()));
+  }
+
+  RaggedRing<RowEntry> Entries;
+  RaggedRing<double> Precise;
+  Ring<double> Alpha;
+  Ring<StrongestWeight> Strongest;
+  MonotoneRing Reach, ChildReach;
+  std::int64_t Nonzeros = 0;
+};
+
+} // namespace smg

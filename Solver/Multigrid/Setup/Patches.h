@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/RaggedRing.h"
+#include "Solver/Memory/Ring.h"
+#include "Solver/Multigrid/Setup/LevelRows.h"
+#include "Solver/Multigrid/Setup/PatchMatrix.h"
+#include "smg/Export.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * A few nodes of a level that are coupled so strongly that they must be relaxed together: the
+ * stiffness of a sliver is nearly of rank one, so that one of its vertices alone can hardly move.
+ */
+struct Patch
+{
+  static constexpr int Most = PatchMatrix::Most;
+
+  std::int64_t first;
+  std::int32_t size;
+  std::int32_t offset[Most]; ///< of the members from the first one, ascending
+  std::uint32_t matrix;      ///< low 32 bits of the number of its matrix in PatchMatrices
+
+  std::int64_t member(int k) const { return this->first + this->offset[k]; }
+  std::int64_t last() const { return this->member(this->size - 1); }
+};
+
+/** The level's matrix on the members of a patch, whose rows exist. */
+SMG_EXPORT PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch);
+
+/** The matrices of complete patches, by ascending first nodes. */
+class PatchMatrices
+{
+public:
+  explicit PatchMatrices(Pool& pool)
+    : Triangles(pool)
+    , First(pool)
+  {
+  }
+
+  /** Appends the matrix of a patch, whose rows exist; returns its entries. */
+  std::int64_t append(const LevelRows& rows, Patch& patch)
+  {
+    const std::int64_t size = PatchMatrix::entriesOf(patch.size);
+    const std::int64_t number = this->Triangles.end();
+    std::copy_n(matrixOf(rows, patch).entry, size, this->Triangles.open(size));
+    this->Triangles.close(size);
+    this->First.extendRaw(number + 1);
+    this->First[number] = patch.first;
+    patch.matrix = static_cast<std::uint32_t>(number);
+    return size;
+  }
+
+  /** The lower triangle, by rows, of the matrix of a patch. */
+  const double* of(const Patch& patch) const
+  {
+    const std::int64_t first = this->Triangles.first();
+    return this->Triangles.row(first + (patch.matrix - static_cast<std::uint32_t>(first)));
+  }
+
+  /** Provides room for so many matrices of so many entries in all: until they are appended, or
+   * isFull(), other threads may read earlier ones. */
+  void reserve(std::int64_t matrices, std::int64_t entries)
+  {
+    this->Triangles.reserve(matrices, entries);
+    this->First.reserveMore(matrices);
+  }
+  bool isFull() { return !this->Triangles.hasRoom(PatchMatrix::Entries); }
+
+  /** Releases the matrices of patches whose first node is below `node`. */
+  void release(std::int64_t node)
+  {
+    std::int64_t number = this->First.first();
+    while (number < this->First.end() && this->First[number] < node)
+    {
+      ++number;
+    }
+    this->First.release(number);
+    this->Triangles.release(number);
+  }
+
+private:
+  RaggedRing<double> Triangles;
+  Ring<std::int64_t> First; ///< the first nodes
+};
+
+/**
+ * Finds the patches of a level as its rows arrive: with node j, the patches of j and of each lower
+ * neighbour i with a coupling |a_ij| / sqrt(a_ii a_jj) above StrongAlone, or above Strong if the
+ * weights of row i or j cancel, become one, the strongest first, if that has room and lies within
+ * a ring or two of its first node. What moves together must be in one patch: a cluster of ten
+ * vertices of which two lie in another one converges as slowly as without.
+ */
+class SMG_EXPORT Patches
+{
+public:
+  /** From 0.4 on patches of marching tetrahedra lack a vertex, below 0.3 those of refined
+   * tetrahedra are full of others; windows grow as it falls. */
+  static constexpr double Strong = 0.35;
+  /** Without slivers patches save nothing below this, and need up to an eighth more memory. */
+  static constexpr double StrongAlone = 0.5;
+
+  explicit Patches(Pool& pool)
+    : Number(pool)
+    , Of(pool)
+    , Diagonals(pool)
+  {
+  }
+
+  /** Adds the next node, whose row and those before it exist. */
+  void add(const LevelRows& rows);
+
+  /** Provides room for so many more nodes, and for some patches: other threads may read earlier
+   * ones while nodes are added, until isFull(). */
+  void reserve(std::int64_t nodes)
+  {
+    this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
+    this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
+    this->Room = this->Of.end() + std::max(LeastMorePatches, nodes / 4);
+    this->Of.reserve(this->Room + 1 - this->Of.first()); // a number may be left out
+  }
+  bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
+
+  /** Patches lie within so many rings of their first node: 1 or 2. Clusters of solids need 2; on
+   * surfaces these need up to an eighth more memory for few V-cycles. To be set at the begin. */
+  void setRings(int rings) { this->Rings = rings; }
+
+  /** The patch of node i, or null; complete after all nodes within these rings of its first one. */
+  const Patch* of(std::int64_t i) const
+  {
+    const std::uint32_t number = this->Number[i];
+    return number == Alone ? nullptr : &this->patch(number);
+  }
+  /** The patch that begins at node i, complete, or null. */
+  Patch* beginningAt(std::int64_t i)
+  {
+    const std::uint32_t number = this->Number[i];
+    Patch* patch = number == Alone ? nullptr : &this->patch(number);
+    return patch && patch->first == i ? patch : nullptr;
+  }
+  /** The last node of the patch of node i, or i. */
+  std::int64_t last(std::int64_t i) const
+  {
+    const Patch* patch = this->of(i);
+    return patch ? patch->last() : i;
+  }
+  /** The last node of the patches of node i and its neighbours. */
+  std::int64_t lastAround(const LevelRows& rows, std::int64_t i) const
+  {
+    std::int64_t last = this->last(i);
+    for (const RowEntry& entry : rows.row(i))
+    {
+      last = std::max(last, this->last(i + entry.delta()));
+    }
+    return last;
+  }
+  /** The diagonal of row i. */
+  float diagonal(std::int64_t i) const { return this->Diagonals[i]; }
+
+  /** Releases the nodes below `node` and the patches that end there; if `node` is beyond the end,
+   * it is the next node. */
+  void release(std::int64_t node);
+
+private:
+  static constexpr std::uint32_t Alone = 0;
+
+  /** The square of the coupling of the next node with a lower one, times the next one's diagonal.
+   */
+  struct Coupling
+  {
+    double square;
+    std::int64_t node;
+  };
+  static constexpr std::int64_t LeastMorePatches = 256;
+
+  /** The patch of a number, given that less than 2^32 patches are in memory. */
+  Patch& patch(std::uint32_t number) const
+  {
+    const std::int64_t first = this->Of.first();
+    return this->Of[first + (number - static_cast<std::uint32_t>(first))];
+  }
+  void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
+
+  Ring<std::uint32_t> Number; // by node: low 32 bits of the number of its patch, or Alone
+  Ring<Patch> Of;             // by number; none whose low 32 bits are Alone
+  Ring<float> Diagonals;      // by node
+  int Rings = 1;
+  std::int64_t Room = -1; // end of the patches for which there is room; -1: not known
+};
+
+} // namespace smg

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/Reservation.h"
+#include "Solver/Multigrid/Setup/LevelRows.h"
+#include "Solver/Multigrid/Setup/RowEntries.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** Rows made by one thread, which are moved to the rows of the level between two steps, when no
+ * thread accesses these. */
+class RowBatch
+{
+public:
+  /** `further`: bytes that the owner keeps with each row, accounted for here. */
+  explicit RowBatch(Pool& pool, std::int64_t further = 0)
+    : Further(further)
+    , Memory(pool)
+  {
+  }
+
+  /** Room for at most `size` entries of the next row. */
+  RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
+
+  /** Ends the row begun by open(); see LevelRows::close. */
+  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
+    std::span<const double> precise = {})
+  {
+    this->Entries.close(size);
+    this->Closed.push_back({ size, alpha, childReach, stiff, precise.size() });
+    this->Precise.insert(this->Precise.end(), precise.begin(), precise.end());
+    if (this->Closed.size() % Group == 0)
+    {
+      this->account();
+    }
+  }
+  /** Whether it has more memory than is kept for the next rows. */
+  bool isLarge() const { return this->Memory.bytes() > 0; }
+
+  /** Appends the rows to `rows` and forgets them. */
+  void moveTo(LevelRows& rows)
+  {
+    const RowEntry* entry = this->Entries.data();
+    const double* precise = this->Precise.data();
+    for (std::span<const ClosedRow> left = this->Closed; !left.empty();)
+    {
+      // Rows of a group are contiguous, which may leave some room before the end of the memory.
+      const auto group = left.first(std::min(Group, left.size()));
+      left = left.subspan(group.size());
+      entry = rows.append(group, entry, precise);
+      for (const ClosedRow& row : group)
+      {
+        precise += row.precise;
+      }
+    }
+    this->Closed.clear();
+    this->Precise.clear();
+    this->Entries.clear();
+    if (this->isLarge())
+    {
+      this->Entries = {};
+      this->Precise = {};
+      this->Closed = {};
+      this->Memory.resize(0);
+    }
+  }
+
+private:
+  static constexpr std::size_t Group = 64;
+
+  void account()
+  {
+    const std::int64_t bytes =
+      this->Entries.bytes() +
+      static_cast<std::int64_t>(
+        this->Precise.capacity() * sizeof(double) + this->Closed.capacity() * sizeof(ClosedRow)) +
+      this->Further * static_cast<std::int64_t>(this->Closed.size());
+    this->Memory.resize(accountedBytes(bytes));
+  }
+
+  RowEntries<RowEntry> Entries;
+  std::vector<double> Precise;
+  std::vector<ClosedRow> Closed;
+  std::int64_t Further;
+  Reservation Memory;
+};
+
+} // namespace smg

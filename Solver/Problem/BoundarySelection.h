@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/BoundaryFacets.h"
+#include "Solver/Problem/Selection.h"
+#include "Solver/Problem/VertexSetFile.h"
+
+#include <optional>
+
+namespace smg
+{
+
+/** The vertices of the boundary, determined by a previous reading of the stream: a vertex precedes
+ * the cells that could close the facets around it. Cells and facets are selected by their corners;
+ * that some cell has all of its corners on the boundary is not required. */
+class BoundarySelection : public Selection
+{
+public:
+  BoundarySelection(DataPlace place, const std::string& key, const MeshColumns& columns)
+    : Selection(place, key, columns)
+  {
+  }
+
+  bool needsPreparing() const override { return !this->Vertices; }
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  void endPreparing(MeshParts* parts) override;
+  VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
+  /** As endPreparing(), but a mesh without a boundary is no error. Returns the number of vertices.
+   */
+  std::int64_t finish(MeshParts* parts = nullptr);
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
+  std::string predicate() const override { return "is on a boundary: the mesh is closed"; }
+
+private:
+  /** The open vertices during preparation. */
+  struct Window
+  {
+    explicit Window(const MeshColumns& columns)
+      : facets(columns.memory(), columns.cellType())
+      , marks(columns.memory())
+    {
+    }
+
+    BoundaryFacets facets;
+    FacetSet inner;                 ///< interior facets with only one cell in the stream
+    OpenValues<std::uint8_t> marks; ///< 1: on the boundary
+    std::int64_t vertices = 0, written = 0;
+  };
+
+  /** Marks the vertices of boundary facets. */
+  auto marker();
+  void write(std::int64_t finalized);
+
+  std::optional<Window> Open;
+  std::optional<VertexSetFile> Vertices;
+};
+
+} // namespace smg

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/MeshColumns.h"
+
+#include "Solver/Core/OneLine.h"
+#include "Solver/Mesh/OriginalNumbers.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr PoolUse SelectionMemory{ "finding the selected parts of the mesh",
+  "raise the memory limit, or convert the mesh with the order bfs" };
+
+const ColumnSpec* find(const std::vector<ColumnSpec>& specs, const std::string& name)
+{
+  const auto found = std::ranges::find(specs, name, &ColumnSpec::name);
+  return found == specs.end() ? nullptr : &*found;
+}
+
+/** For example "'Normals' (3), 'PhysicalTag'". */
+std::string listOf(const std::vector<ColumnSpec>& specs)
+{
+  std::string list;
+  for (const ColumnSpec& spec : specs)
+  {
+    list += (list.empty() ? "'" : ", '") + spec.name + '\'';
+    list += spec.components == 1 ? "" : " (" + std::to_string(spec.components) + ')';
+  }
+  return list.empty() ? "none" : list;
+}
+
+std::vector<std::string> withNumbers(std::vector<std::string> names, bool isNeeded,
+  const std::vector<ColumnSpec>& specs, const ColumnSpec& numbers)
+{
+  if (isNeeded && findColumn(specs, numbers) >= 0 &&
+      std::ranges::find(names, numbers.name) == names.end())
+  {
+    names.push_back(numbers.name);
+  }
+  return names;
+}
+
+} // namespace
+
+const Column& NamedColumn::in(const MeshBlock& block) const
+{
+  const bool ofCells = this->owner == ColumnOwner::Cells;
+  const std::vector<Column>& columns = ofCells ? block.cellColumns : block.vertexColumns;
+  const auto found = std::ranges::find_if(
+    columns, [this](const Column& column) { return column.spec.name == this->name; });
+  if (found == columns.end())
+  {
+    throw Error(std::string("The mesh is read without the column '") + this->name + "' of its " +
+                (ofCells ? "cells" : "vertices") + ", which the problem needs.");
+  }
+  return *found;
+}
+
+MeshColumns::MeshColumns(const StreamInfo& mesh, std::string description, Pool* memory)
+  : Info(mesh)
+  , Description(std::move(description))
+  , Own(memory ? nullptr
+               : std::make_unique<Pool>(std::numeric_limits<std::int64_t>::max(), SelectionMemory))
+  , Memory(memory ? memory : this->Own.get())
+{
+}
+
+bool MeshColumns::isOfCells(const std::string& name, ColumnOwner preferred) const
+{
+  return find(this->Info.cellColumns, name) &&
+         (preferred == ColumnOwner::Cells || !find(this->Info.vertexColumns, name));
+}
+
+NamedColumn MeshColumns::require(
+  const std::string& name, ColumnOwner preferred, const std::string& key)
+{
+  const bool ofCells = this->isOfCells(name, preferred);
+  const ColumnSpec* spec = find(ofCells ? this->Info.cellColumns : this->Info.vertexColumns, name);
+  if (!spec)
+  {
+    this->fail(key, "the mesh has no column '" + name + "'; its vertices have " +
+                      listOf(this->Info.vertexColumns) + ", its cells " +
+                      listOf(this->Info.cellColumns));
+  }
+  std::vector<std::string>& needed = ofCells ? this->Cells : this->Vertices;
+  if (std::ranges::find(needed, name) == needed.end())
+  {
+    needed.push_back(name);
+  }
+  return { name, ofCells ? ColumnOwner::Cells : ColumnOwner::Vertices, spec->components };
+}
+
+std::vector<std::string> MeshColumns::vertexColumns() const
+{
+  return withNumbers(this->Vertices, this->NeedsIds || !this->Vertices.empty(),
+    this->Info.vertexColumns, OriginalIdSpec);
+}
+
+std::vector<std::string> MeshColumns::cellColumns() const
+{
+  return withNumbers(this->Cells, this->NeedsCellIds || !this->Cells.empty(),
+    this->Info.cellColumns, OriginalCellIdSpec);
+}
+
+const Column* MeshColumns::ids(const MeshBlock& block) const
+{
+  const std::ptrdiff_t place = findColumn(block.vertexColumns, OriginalIdSpec);
+  if (place < 0 && this->NeedsIds && findColumn(this->Info.vertexColumns, OriginalIdSpec) >= 0)
+  {
+    throw Error(this->Description + ": the mesh is read without its column " + OriginalIdName +
+                ", which the regions of vertices need.");
+  }
+  return place < 0 ? nullptr : &block.vertexColumns[static_cast<std::size_t>(place)];
+}
+
+std::string MeshColumns::vertexName(const MeshBlock& block, std::size_t i) const
+{
+  return "vertex " + nameOfRow(block.vertexColumns, OriginalIdSpec, block.firstVertex, i);
+}
+
+std::string MeshColumns::cellName(const MeshBlock& block, std::size_t c) const
+{
+  return "cell " + nameOfRow(block.cellColumns, OriginalCellIdSpec, block.firstCell, c);
+}
+
+void MeshColumns::fail(const std::string& key, const std::string& sentence) const
+{
+  throw Error(oneLine(this->Description + ": " + key + ": " + sentence + '.'));
+}
+
+} // namespace smg

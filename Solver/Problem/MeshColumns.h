@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/Pool.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** The owner of a column: vertices or cells. */
+enum class ColumnOwner
+{
+  Vertices,
+  Cells
+};
+
+/** A column of a mesh that a problem description names. */
+struct NamedColumn
+{
+  std::string name;
+  ColumnOwner owner = ColumnOwner::Vertices;
+  int components = 1;
+
+  /** The column in a block; throws Error if the mesh source does not deliver it. */
+  const Column& in(const MeshBlock& block) const;
+};
+
+/** The columns of a mesh that a problem description names: finds them, collects those that the mesh
+ * source must deliver, reports errors, and accounts for the memory of their values. */
+class SMG_EXPORT MeshColumns
+{
+public:
+  /** `description` is the name of the description in error messages: its file. `memory`: see
+   * memory(); null: a pool of its own, without a limit at first. */
+  MeshColumns(const StreamInfo& mesh, std::string description, Pool* memory = nullptr);
+  MeshColumns(const MeshColumns&) = delete;
+  MeshColumns& operator=(const MeshColumns&) = delete;
+
+  CellType cellType() const { return this->Info.cellType; }
+  /** Accounts for what selections and values keep of open vertices. */
+  Pool& memory() const { return *this->Memory; }
+
+  /** Whether `name` refers to a column of the cells, if columns of `preferred` take precedence. */
+  bool isOfCells(const std::string& name, ColumnOwner preferred) const;
+
+  /** Finds a column and requests its delivery. If there is none, throws Error, which names the
+   * place `key` of the description and the existing columns. */
+  NamedColumn require(const std::string& name, ColumnOwner preferred, const std::string& key);
+  /** Requests the original indices of the vertices, if any. */
+  void requireIds() { this->NeedsIds = true; }
+  /** The same for the cells. */
+  void requireCellIds() { this->NeedsCellIds = true; }
+
+  /** The columns that the mesh source must deliver: the required ones and, if there are any, the
+   * original indices, for error messages. */
+  std::vector<std::string> vertexColumns() const;
+  std::vector<std::string> cellColumns() const;
+
+  /** The column of the original indices of the vertices; null: the stream indices are used. */
+  const Column* ids(const MeshBlock& block) const;
+  /** The name of vertex `i` or cell `c` of the block in messages. */
+  std::string vertexName(const MeshBlock& block, std::size_t i) const;
+  std::string cellName(const MeshBlock& block, std::size_t c) const;
+
+  /** Throws Error: "DESCRIPTION: KEY: SENTENCE." */
+  [[noreturn]] void fail(const std::string& key, const std::string& sentence) const;
+
+private:
+  StreamInfo Info;
+  std::string Description;
+  std::unique_ptr<Pool> Own;
+  Pool* Memory;
+  std::vector<std::string> Vertices, Cells; ///< names of the required columns
+  bool NeedsIds = false, NeedsCellIds = false;
+};
+
+} // namespace smg

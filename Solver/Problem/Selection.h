@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/MeshColumns.h"
+#include "Solver/Problem/MeshParts.h"
+#include "Solver/Problem/OpenValues.h"
+#include "smg/Region.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace smg
+{
+
+class VertexSetFile;
+
+/** The entities of the mesh on which a datum is defined. */
+enum class DataPlace
+{
+  Vertices,
+  Cells,
+  Facets ///< boundary facets; selections treat all facets
+};
+
+/** A range of the cells of a block with their `corners`. */
+struct CellRange
+{
+  const MeshBlock& block;
+  std::size_t first; ///< index in the block
+  std::span<const std::int64_t> corners;
+};
+
+/** The selection of a part of the mesh (see Where), block by block of the stream. Blocks are passed
+ * in order; the first block restarts it. */
+class Selection
+{
+public:
+  /** Creates the selection; null: everywhere. `place` are the selected entities, `key` is the place
+   * in the description. Throws Error if the mesh has no such column or the region is invalid. */
+  static std::unique_ptr<Selection> make(const Where& where, DataPlace place, ColumnOwner preferred,
+    const std::string& key, MeshColumns& columns);
+  virtual ~Selection() = default;
+
+  /** Whether the stream must be read before the selection can be evaluated. */
+  virtual bool needsPreparing() const { return false; }
+  /**
+   * To be called with all blocks of the stream, followed by endPreparing(): determines data that
+   * requires the whole stream, and whether anything is selected. Scratch files are created in
+   * `scratch`.
+   */
+  virtual void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
+  /** Throws Error, which names the place in the description, if nothing is selected. `parts`: those
+   * of the mesh, if the stream is only one of them; else null. */
+  virtual void endPreparing(MeshParts* parts);
+
+  /** The selected vertices, after endPreparing(), if that has determined them; else null. */
+  virtual VertexSetFile* preparedVertices() { return nullptr; }
+
+  /** To be called with each block in order, before the methods below. */
+  void startBlock(const MeshBlock& block);
+  /** For the vertices of the current block: 1 where selected, else 0. */
+  std::span<const std::uint8_t> atVertices() const { return this->Current; }
+  /** For cells of the current block: 1 where selected, else 0. */
+  virtual void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const;
+  /** For the facets of cells: bit k of `selected` is that of the facet opposite to corner k. */
+  virtual void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const;
+
+protected:
+  Selection(DataPlace place, std::string key, const MeshColumns& columns)
+    : Columns(columns)
+    , Place(place)
+    , Key(std::move(key))
+    , Open(columns.memory())
+  {
+  }
+
+  /** Sets `selected`, initially zero, to 1 at the selected vertices of the block. */
+  virtual void select(const MeshBlock& block, std::span<std::uint8_t> selected) = 0;
+  /** The predicate of a selected item for messages, for example "is in this region". */
+  virtual std::string predicate() const { return "is selected"; }
+  /** What the mesh, if it is not in parts, has instead, as the end of such a message. */
+  virtual std::string instead() const { return {}; }
+
+  const MeshColumns& Columns;
+  DataPlace Place;
+  std::string Key;
+  std::int64_t Count = 0; ///< of selected items, during preparation
+
+private:
+  OpenValues<std::uint8_t> Open;
+  std::int64_t Finalized = 0; ///< of the previous block
+  std::span<const std::uint8_t> Current;
+};
+
+} // namespace smg

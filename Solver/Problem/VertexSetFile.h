@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Files/ScratchStream.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** A set of the vertices of a mesh stream in an unnamed scratch file, one bit per vertex. */
+class VertexSetFile
+{
+public:
+  /** `folder`: empty: the system's temporary folder. */
+  explicit VertexSetFile(const std::filesystem::path& folder);
+
+  /** Adds the next vertices: 1 for those of the set, else 0. */
+  void append(std::span<const std::uint8_t> selected);
+  /** To be called after the last one. */
+  void finish();
+
+  /** Restarts at the first vertex. */
+  void rewind();
+  /** Reads the values passed to append() for the next vertices. */
+  void read(std::span<std::uint8_t> selected);
+  /** Whether the set has a vertex; fast for vertices close to the one before. rewind() must precede
+   * the next read(). */
+  bool contains(std::int64_t vertex);
+
+private:
+  static constexpr std::size_t BlockBytes = std::size_t(64) << 10;
+
+  IoStatistics Statistics;
+  ScratchStream Stream;
+  std::vector<std::byte> Bits; ///< of the current block
+  std::size_t Next = 0;        ///< index of the next vertex in it
+  std::int64_t Loaded = -1;    ///< the block that contains() has read
+};
+
+} // namespace smg
