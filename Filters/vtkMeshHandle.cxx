@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshHandle.h"
 
-#include "Filters/Regions/vtkHandleDelivery.h"
+#include "Filters/Regions/vtkHandleArrays.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Error.h"
 

@@ -2,7 +2,7 @@
 #include "Filters/vtkStreamingMeshDeformation.h"
 
 #include "Filters/Pieces/vtkCoarserPreview.h"
-#include "Filters/Processes/vtkDistributedDeformation.h"
+#include "Filters/Processes/vtkDistributedTasks.h"
 #include "Filters/Regions/vtkHandleArrays.h"
 #include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/vtkDeformationTask.h"

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshPreview.h"
 
-#include "Filters/Pieces/vtkInputStamp.h"
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "IO/Preview/StreamPreview.h"
-#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
-#include "IO/vtkPieceNames.h"
 #include "IO/vtkPieceStream.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"

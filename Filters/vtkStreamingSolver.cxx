@@ -2,7 +2,6 @@
 #include "Filters/vtkStreamingSolver.h"
 
 #include "Filters/Tasks/vtkSolveEstimate.h"
-#include "Filters/Tasks/vtkSolveTables.h"
 #include "Filters/vtkSolverRequests.h"
 
 #include "vtkDemandDrivenPipeline.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshPieceData.h"
 
-#include "IO/Mesh/AttributeNames.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
-#include "IO/vtkPieceNames.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

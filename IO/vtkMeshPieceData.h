@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vtkStreamingMultigridIOModule.h" // For export macro
-
+#include "IO/Mesh/Columns.h"
 #include "smg/MeshSource.h"
 #include "smg/VsmReader.h"
+
+#include "vtkStreamingMultigridIOModule.h"
 
 #include <cstdint>
 
@@ -31,5 +32,15 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t pointsBehind(vtkPointSet& mesh);
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t cellsBehind(vtkPointSet& mesh);
 /** Whether the mesh is a preview of tetrahedra that consists of triangles of their surface. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isSurfaceOfSolid(vtkPointSet& mesh);
+
+/** Field arrays of a preview: 1, and the counts of the mesh that it represents. */
+inline constexpr const char* PreviewName = "Preview";
+inline constexpr const char* FullNumberOfPointsName = "FullNumberOfPoints";
+inline constexpr const char* FullNumberOfCellsName = "FullNumberOfCells";
+
+/** Field array of a preview of a reader, for which streamed requests return the mesh itself.
+ * ParaView selects the writer by its unusual number of components. */
+inline constexpr const char* PreviewOfReaderName = "PreviewOfReader";
+inline constexpr int PreviewOfReaderComponents = 17;
 
 } // namespace smg

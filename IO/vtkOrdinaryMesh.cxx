@@ -2,10 +2,8 @@
 #include "IO/vtkOrdinaryMesh.h"
 
 #include "IO/Formats/Vtk/VtkCell.h"
-#include "IO/vtkComplaints.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
-#include "IO/vtkPieceNames.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"

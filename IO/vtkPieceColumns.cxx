@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceColumns.h"
 
-#include "IO/vtkPieceNames.h"
+#include "IO/Mesh/Columns.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
+#include "smg/MeshSource.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataArraySelection.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
@@ -162,6 +165,42 @@ void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows
     std::memcpy(to, from + row * size, size);
     to += size;
   }
+}
+
+namespace
+{
+
+bool isSelectable(const ColumnSpec& column)
+{
+  return column.name != CellFlagsName && !isContractArray(column.name);
+}
+
+} // namespace
+
+void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns)
+{
+  for (const ColumnSpec& column : columns)
+  {
+    if (isSelectable(column) && !selection.ArrayExists(column.name.c_str()))
+    {
+      selection.AddArray(column.name.c_str());
+    }
+  }
+}
+
+std::vector<std::string> chosenColumns(
+  vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns)
+{
+  std::vector<std::string> names;
+  for (const ColumnSpec& column : columns)
+  {
+    if (column.name == CellFlagsName ||
+        (isSelectable(column) && selection.ArrayIsEnabled(column.name.c_str())))
+    {
+      names.push_back(column.name);
+    }
+  }
+  return names;
 }
 
 } // namespace smg

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vtkStreamingMultigridIOModule.h" // For export macro
-
 #include "smg/Column.h"
+
+#include "vtkStreamingMultigridIOModule.h"
 
 #include <cstdint>
 #include <optional>
@@ -38,5 +38,23 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT void requireArrays(
 /** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void copyColumn(vtkDataSetAttributes& arrays,
   std::span<const std::int64_t> rows, const std::string& where, Column& column);
+
+} // namespace smg
+
+class vtkDataArraySelection;
+
+namespace smg
+{
+
+/**
+ * Adds the columns to a selection as selected; existing entries do not change. The marks of
+ * degenerate and duplicate cells, and the arrays of the piece contract, are part of every piece and
+ * cannot be selected.
+ */
+void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns);
+
+/** The names of the selected columns, and of those marks. */
+std::vector<std::string> chosenColumns(
+  vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns);
 
 } // namespace smg

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceFiles.h"
 
-#include "IO/Formats/Vtk/VtkXml.h"
+#include "IO/Formats/Vtk/VtkXmlFile.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchFolder.h"
-#include "Solver/Files/WholeFile.h"
 #include "smg/Error.h"
 
 #include "vtkCellData.h"

@@ -4,7 +4,7 @@
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkFailures.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"

@@ -5,10 +5,10 @@
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Jobs/Blending/BlendProblem.h"
 #include "Solver/Jobs/Blending/BlendedValues.h"
-#include "Solver/Memory/MemoryLimitError.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Problem/ClippedValues.h"
+#include "Solver/Problem/MeshColumns.h"
 #include "smg/Error.h"
 
 #include <algorithm>

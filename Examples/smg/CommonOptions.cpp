@@ -2,11 +2,10 @@
 #include "CommonOptions.h"
 
 #include "IO/Conversion/JobEstimate.h"
-#include "IO/Files/Suffix.h"
+#include "IO/Files/FileNames.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchAccount.h"
-#include "Solver/Files/WholeFile.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/Suffix.h"
+#include "IO/Files/FileNames.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Error.h"
 #include "smg/Export.h"

@@ -4,7 +4,7 @@
 #include "ProgressBar.h"
 
 #include "IO/Formats/MeshFile.h"
-#include "IO/Formats/Vsm/CheckVsm.h"
+#include "IO/Formats/Vsm/VsmFile.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>

@@ -10,7 +10,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Files/ScratchAccount.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 
 #include <algorithm>
 #include <chrono>

@@ -5,7 +5,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/Formats/WriteRestored.h"
+#include "IO/Formats/WriteFiles.h"
 #include "smg/WriteMesh.h"
 
 #include <algorithm>

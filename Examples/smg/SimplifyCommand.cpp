@@ -8,7 +8,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/Simplification/SimplifyEstimate.h"
+#include "IO/Simplification/SimplifiedMesh.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"
 #include "smg/Simplify.h"

@@ -19,7 +19,7 @@
 #include "HtmlReport/Page.h"
 #include "Interrupt.h"
 
-#include "Solver/Core/OneLine.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <malloc.h>

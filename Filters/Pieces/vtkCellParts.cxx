@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Pieces/vtkCellParts.h"
 
-#include "Filters/Pieces/vtkCopiedRows.h"
-#include "IO/Formats/Vtk/VtkCellParts.h"
+#include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCells.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Pieces/vtkCoarserPreview.h"
 
-#include "Filters/Pieces/vtkCopiedRows.h"
-#include "IO/Preview/CoarserSurface.h"
+#include "Filters/Pieces/vtkCellParts.h"
+#include "IO/Preview/StreamPreview.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceCells.h"
-#include "IO/vtkPieceNames.h"
 #include "Solver/Core/DisjointSets.h"
 
 #include "vtkFieldData.h"

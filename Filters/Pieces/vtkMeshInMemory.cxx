@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Pieces/vtkMeshInMemory.h"
 
-#include "Filters/Pieces/OneBlockSource.h"
+#include "Filters/Pieces/vtkPieceBlock.h"
 #include "IO/vtkPieceCells.h"
 #include "smg/Error.h"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Pieces/vtkPieceBlock.h"
 
-#include "Filters/Pieces/OneBlockSource.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"

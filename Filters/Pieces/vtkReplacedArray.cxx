@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Pieces/vtkReplacedArray.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -67,6 +68,13 @@ std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   }
   mesh.GetPointData()->AddArray(after);
   return static_cast<std::size_t>(after->GetNumberOfComponents());
+}
+
+int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise)
+{
+  vtkDataArray* array = mesh.GetPointData()->GetArray(name.c_str());
+  array = array ? array : mesh.GetCellData()->GetArray(name.c_str());
+  return array ? array->GetNumberOfComponents() : otherwise;
 }
 
 } // namespace smg

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkStringArray.h"
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,5 +21,36 @@ namespace smg
  * number of components of the array. */
 std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   const std::vector<double>& values, std::size_t first, std::size_t stride);
+
+} // namespace smg
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/**
+ * The number of components of the point or cell array of that name; `otherwise` if there is none.
+ */
+int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise);
+
+/** The texts in the field array `name` of a mesh; null if there is none. */
+inline vtkStringArray* fieldTexts(vtkPointSet& mesh, const char* name)
+{
+  return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(name));
+}
+
+/** Appends to a copy of them, as other meshes may share the array. */
+inline void appendFieldText(vtkPointSet& mesh, const char* name, const std::string& text)
+{
+  vtkNew<vtkStringArray> texts;
+  if (vtkStringArray* before = fieldTexts(mesh, name))
+  {
+    texts->DeepCopy(before);
+  }
+  texts->SetName(name);
+  texts->InsertNextValue(text);
+  mesh.GetFieldData()->AddArray(texts);
+}
 
 } // namespace smg

@@ -3,7 +3,6 @@
 
 #include "Filters/Processes/vtkProcessParts.h"
 #include "IO/vtkMeshPieceData.h"
-#include "Solver/Distributed/FreeMemory.h"
 #include "Solver/Distributed/PartMemory.h"
 #include "Solver/Distributed/Team.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // In place of the functions for several processes where MPI or hypre is missing.
-#include "Filters/Processes/vtkDistributedDeformation.h"
-#include "Filters/Processes/vtkDistributedPoisson.h"
+#include "Filters/Processes/vtkDistributedTasks.h"
 #include "Filters/Processes/vtkMemoryVerdict.h"
 
 #include "smg/Error.h"

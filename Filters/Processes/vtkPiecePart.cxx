@@ -3,11 +3,10 @@
 
 #include "Filters/Processes/StreamNumbers.h"
 #include "IO/Mesh/Columns.h"
-#include "IO/Mesh/ReservedNames.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

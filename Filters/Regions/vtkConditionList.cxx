@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkConditionList.h"
 
-#include "Filters/Pieces/vtkFieldTexts.h"
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 #include "smg/DescriptionFiles.h"
 

@@ -1,15 +1,211 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkPointRegion.h"
 
+#include "Filters/Pieces/vtkCellParts.h"
+#include "Filters/Pieces/vtkMeshInMemory.h"
 #include "Filters/Regions/vtkRegionPoints.h"
-#include "Filters/Regions/vtkSelectedPoints.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPieceCells.h"
+#include "IO/vtkPieceStream.h"
+#include "smg/Error.h"
 
 #include "vtkPointSet.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
 namespace smg
 {
+namespace
+{
+
+std::vector<std::int64_t> numbersOfPoints(vtkPointSet& mesh)
+{
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(mesh.GetNumberOfPoints()));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+} // namespace
+
+void DisplayedRegion::set(const PointRegionSettings& settings)
+{
+  this->Last.reset();
+  this->Asked = settings;
+  this->Ids = SoughtIds(settings.ids);
+}
+
+const HeldPoints& DisplayedRegion::hold(vtkPointSet& mesh, const PieceRequest& request,
+  const std::vector<double>& places, const RegionContext& context)
+{
+  return this->Last.of(request, context.stamp(), [&] { return this->find(mesh, places, context); });
+}
+
+HeldPoints DisplayedRegion::find(
+  vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const
+{
+  switch (this->Asked.kind)
+  {
+    case PointRegionSettings::Kind::Selection:
+      return this->holdSelected(mesh, context);
+    case PointRegionSettings::Kind::Ids:
+      return isPreview(mesh) ? this->holdNear(mesh, places, context) : this->holdIds(mesh, context);
+    default:
+      return this->holdNear(mesh, this->Asked.points, context);
+  }
+}
+
+HeldPoints DisplayedRegion::holdSelected(vtkPointSet& mesh, const RegionContext& context) const
+{
+  const std::vector<std::int64_t> points = selectPoints(mesh, context);
+  if (this->Asked.radius > 0.0 || (this->Asked.rings > 0 && !isPreview(mesh)))
+  {
+    return this->holdNear(mesh, positionsOf(mesh, points), context);
+  }
+  return heldByIds(numbersOfPoints(mesh), SoughtIds(points));
+}
+
+HeldPoints DisplayedRegion::holdIds(vtkPointSet& mesh, const RegionContext& context) const
+{
+  const std::vector<std::int64_t> ids = idsOf(mesh, this->Asked);
+  if (this->Asked.isSoughtById())
+  {
+    return heldByIds(ids, this->Ids);
+  }
+  PlacesOfIds places(this->Asked.ids, this->Ids);
+  places.seek(mesh, ids);
+  checkIds(this->Ids, places.isFound());
+  return this->holdNear(mesh, places.positions(), context);
+}
+
+HeldPoints DisplayedRegion::holdNear(
+  vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const
+{
+  std::optional<CellParts> parts; // of the same points
+  if (!hasSimplices(mesh))
+  {
+    parts.emplace(mesh, "");
+  }
+  const MeshInMemory whole(parts ? parts->mesh() : mesh);
+  // Edges of a preview are not those of the mesh.
+  const int rings = isPreview(mesh) ? 0 : this->Asked.rings;
+  PointProjection projection(
+    places, { std::max(0.0, this->Asked.radius), rings }, whole.cellType());
+  MeshBlock block;
+  whole.source()->next(block);
+  projection.add(block);
+  projection.finish(context.progress);
+  warnOfDistant(projection, isPreview(mesh) ? meanEdgeLength(whole) : 0.0, context);
+  std::vector<std::int64_t> indices(static_cast<std::size_t>(mesh.GetNumberOfPoints()), -1);
+  for (std::int64_t vertex = 0; vertex < whole.vertices(); ++vertex)
+  {
+    indices[whole.points()[vertex]] = vertex;
+  }
+  return heldByProjection(mesh, indices, projection);
+}
+
+void StreamedRegion::set(const PointRegionSettings& settings)
+{
+  this->OnMesh.reset();
+  this->Places.reset();
+  this->Asked = settings;
+  this->Ids = SoughtIds(settings.ids);
+}
+
+const std::vector<double>& StreamedRegion::placesOfIds(const RegionContext& context)
+{
+  if (this->Places && this->Places->stamp == context.stamp())
+  {
+    return this->Places->positions;
+  }
+  PlacesOfIds places(this->Asked.ids, this->Ids);
+  PieceStream stream(context.mesh, { .given = this->Asked.pieces }, {});
+  MeshBlock block;
+  while (vtkPointSet* piece = stream.nextPiece(block))
+  {
+    places.seek(*piece, idsOf(*piece, this->Asked));
+    context.progress.update(stream.fraction());
+  }
+  checkIds(this->Ids, places.isFound());
+  this->Places = Located{ context.stamp(), places.positions() };
+  return this->Places->positions;
+}
+
+void StreamedRegion::find(const RegionContext& context)
+{
+  if (this->OnMesh && this->OnMesh->stamp == context.stamp())
+  {
+    return;
+  }
+  Found found;
+  double radius = std::max(0.0, this->Asked.radius);
+  std::vector<double> places = this->Asked.points;
+  if (this->Asked.kind == PointRegionSettings::Kind::Ids)
+  {
+    places = this->placesOfIds(context);
+  }
+  else if (this->Asked.kind == PointRegionSettings::Kind::Selection)
+  {
+    places = this->selectedPlaces(context, radius, found);
+  }
+  if (!places.empty())
+  {
+    PieceStream stream(context.mesh, { .given = this->Asked.pieces }, {});
+    found.projection.emplace(
+      places, PointProjection::Influence{ radius, this->Asked.rings }, stream.info().cellType);
+    MeshBlock block;
+    while (stream.next(block))
+    {
+      found.projection->add(block);
+      context.progress.update(stream.fraction());
+    }
+    found.projection->finish(context.progress);
+    warnOfDistant(*found.projection, 0.0, context);
+  }
+  // Only here: requesting pieces may itself update modification times of the pipeline.
+  found.stamp = context.stamp();
+  this->OnMesh = std::move(found);
+}
+
+HeldPoints StreamedRegion::hold(vtkPointSet& piece) const
+{
+  const std::vector<std::int64_t> ids = globalIdsOf(piece, "The input");
+  return this->OnMesh->projection ? heldByProjection(piece, ids, *this->OnMesh->projection)
+                                  : heldByIds(ids, this->OnMesh->ids);
+}
+
+std::vector<double> StreamedRegion::selectedPlaces(
+  const RegionContext& context, double& radius, Found& found) const
+{
+  auto* displayed = vtkPointSet::SafeDownCast(context.input.update(0, 1, false));
+  const bool isPreview = smg::isPreview(*displayed);
+  if (!isPreview && hasSeveralProcesses() && isByNumber(*context.selection))
+  {
+    throw Error("The selection of the region is by numbers in the pieces of several processes: "
+                "select by GlobalIds, or use Ids.");
+  }
+  const std::vector<std::int64_t> points = selectPoints(*displayed, context);
+  if (isPreview && this->Asked.radius < 0.0)
+  {
+    // Balls of this radius around the corners of triangles with this edge length leave no gap.
+    radius = meanEdgeLength(MeshInMemory(*displayed)) / std::sqrt(3.0);
+  }
+  if (!isPreview && radius == 0.0 && this->Asked.rings == 0)
+  {
+    const std::vector<std::int64_t> ids = globalIdsOf(*displayed, "The input");
+    std::vector<std::int64_t> selected;
+    for (const std::int64_t point : points)
+    {
+      selected.push_back(ids[point]);
+    }
+    found.ids = SoughtIds(selected);
+    return {};
+  }
+  return positionsOf(*displayed, points);
+}
 
 bool PointRegion::set(const PointRegionSettings& settings)
 {
@@ -82,6 +278,39 @@ void PointRegion::checkHolders(const std::vector<char>& isHolding) const
   {
     checkIds(this->Ids, isHolding);
   }
+}
+
+PlacesOfIds::PlacesOfIds(const std::vector<std::int64_t>& ids, const SoughtIds& sought)
+  : Ids(ids)
+  , Sought(sought)
+  , Positions(3 * ids.size())
+  , IsFound(ids.size(), 0)
+{
+}
+
+void PlacesOfIds::seek(vtkPointSet& piece, std::span<const std::int64_t> idsOfPoints)
+{
+  for (std::size_t i = 0; i < idsOfPoints.size(); ++i)
+  {
+    const std::int64_t number = this->Sought.numberOf(idsOfPoints[i]);
+    if (number >= 0)
+    {
+      piece.GetPoint(static_cast<vtkIdType>(i), this->Positions.data() + 3 * number);
+      this->IsFound[number] = 1;
+    }
+  }
+}
+
+std::vector<double> PlacesOfIds::positions() const
+{
+  std::vector<double> positions;
+  positions.reserve(this->Positions.size());
+  for (const std::int64_t id : this->Ids)
+  {
+    const auto first = this->Positions.begin() + 3 * this->Sought.numberOf(id);
+    positions.insert(positions.end(), first, first + 3);
+  }
+  return positions;
 }
 
 } // namespace smg

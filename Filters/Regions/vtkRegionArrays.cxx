@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkRegionArrays.h"
 
-#include "Filters/Pieces/vtkFieldTexts.h"
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "smg/Error.h"
 
 #include "vtkNew.h"

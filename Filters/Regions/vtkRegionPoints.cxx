@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkRegionPoints.h"
 
-#include "Filters/Regions/EdgeLength.h"
-#include "Filters/Regions/vtkSelectedPoints.h"
+#include "Filters/Regions/RegionSettings.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"
 #include "smg/Error.h"
 
 #include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkExtractSelection.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
+#include "vtkSmartPointer.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <numeric>
 #include <sstream>
+#include <string>
 
 namespace smg
 {
@@ -104,6 +114,144 @@ void warnOfDistant(const PointProjection& projection, double slack, const Region
            << " from it, where the diagonal of its bounds is " << diagonal
            << "; the nearest points of the mesh are held.";
   to.warn(sentence.str());
+}
+
+namespace
+{
+
+/** vtkExtractSelection aborts the program on unknown content. */
+void check(vtkSelection& selection)
+{
+  if (selection.GetNumberOfNodes() == 0)
+  {
+    throw Error("The selection of the region is empty: select something on its input and copy the "
+                "active selection.");
+  }
+  for (unsigned int i = 0; i < selection.GetNumberOfNodes(); ++i)
+  {
+    vtkSelectionNode* node = selection.GetNode(i);
+    const int content = node->GetContentType();
+    if (content == vtkSelectionNode::QUERY || content == vtkSelectionNode::USER)
+    {
+      throw Error(
+        "The selection of the region is a query, which only ParaView can evaluate: freeze "
+        "it in Find Data, so that it becomes one of ids, and copy it again; in a script use "
+        "IDSelectionSource, SelectSurfacePoints or Region Ids.");
+    }
+    const int field = node->GetFieldType();
+    if (field != vtkSelectionNode::POINT && field != vtkSelectionNode::CELL)
+    {
+      throw Error("The selection of the region is of neither points nor cells: select some.");
+    }
+  }
+}
+
+/** Whether a node of the selection has one of the content types. */
+bool hasContent(vtkSelection& selection, std::initializer_list<int> kinds)
+{
+  for (unsigned int i = 0; i < selection.GetNumberOfNodes(); ++i)
+  {
+    const int content = selection.GetNode(i)->GetContentType();
+    if (std::find(kinds.begin(), kinds.end(), content) != kinds.end())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void sortOnce(std::vector<std::int64_t>& numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/** Whether the selection is the union of its nodes. */
+bool isUnion(vtkSelection& selection)
+{
+  const std::string expression = selection.GetExpression();
+  bool isUnion = expression.find_first_of("!&^") == std::string::npos;
+  for (unsigned int i = 0; i < selection.GetNumberOfNodes() && !expression.empty(); ++i)
+  {
+    isUnion = isUnion && expression.find(selection.GetNodeNameAtIndex(i)) != std::string::npos;
+  }
+  return isUnion;
+}
+
+/** The list of a node of the selection that consists of GlobalIds of points only. */
+vtkDataArray* globalIdsOfPoints(vtkSelectionNode& node)
+{
+  vtkInformation* properties = node.GetProperties();
+  const auto isSet = [properties](vtkInformationIntegerKey* key)
+  { return properties->Has(key) && properties->Get(key) != 0; };
+  const bool namesPoints =
+    node.GetContentType() == vtkSelectionNode::GLOBALIDS &&
+    node.GetFieldType() == vtkSelectionNode::POINT && !isSet(vtkSelectionNode::INVERSE()) &&
+    !isSet(vtkSelectionNode::CONTAINING_CELLS()) && !isSet(vtkSelectionNode::CONNECTED_LAYERS());
+  auto* list = namesPoints ? vtkDataArray::SafeDownCast(node.GetSelectionList()) : nullptr;
+  return list && list->GetNumberOfComponents() == 1 ? list : nullptr;
+}
+
+} // namespace
+
+std::optional<std::vector<std::int64_t>> selectedGlobalIds(vtkSelection& selection)
+{
+  if (!isUnion(selection))
+  {
+    return std::nullopt;
+  }
+  std::vector<std::int64_t> ids;
+  for (unsigned int i = 0; i < selection.GetNumberOfNodes(); ++i)
+  {
+    vtkDataArray* list = globalIdsOfPoints(*selection.GetNode(i));
+    if (!list)
+    {
+      return std::nullopt;
+    }
+    for (vtkIdType k = 0; k < list->GetNumberOfTuples(); ++k)
+    {
+      // As an integer: a double cannot represent all 64-bit integers.
+      ids.push_back(list->GetVariantValue(k).ToTypeInt64());
+    }
+  }
+  if (ids.empty())
+  {
+    return std::nullopt;
+  }
+  sortOnce(ids);
+  return ids;
+}
+
+std::vector<std::int64_t> selectedPoints(vtkPointSet& mesh, vtkSelection& selection)
+{
+  check(selection);
+  // A copy, so that the pipeline of the mesh is not affected.
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
+  copy->ShallowCopy(&mesh);
+  vtkNew<vtkExtractSelection> extract;
+  extract->SetInputDataObject(0, copy);
+  extract->SetInputDataObject(1, &selection);
+  extract->Update();
+  auto* selected = vtkDataSet::SafeDownCast(extract->GetOutputDataObject(0));
+  vtkDataArray* numbers =
+    selected ? selected->GetPointData()->GetArray("vtkOriginalPointIds") : nullptr;
+  std::vector<std::int64_t> points;
+  for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
+  {
+    points.push_back(static_cast<std::int64_t>(numbers->GetTuple1(i)));
+  }
+  sortOnce(points);
+  return points;
+}
+
+bool isByNumber(vtkSelection& selection)
+{
+  return hasContent(selection, { vtkSelectionNode::INDICES });
+}
+
+bool isByValue(vtkSelection& selection)
+{
+  return hasContent(selection, { vtkSelectionNode::THRESHOLDS, vtkSelectionNode::VALUES });
 }
 
 } // namespace smg

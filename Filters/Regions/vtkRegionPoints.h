@@ -2,12 +2,12 @@
 #pragma once
 
 #include "Filters/Pieces/vtkMeshInMemory.h"
-#include "Filters/Regions/PointRegionSettings.h"
-#include "Filters/Regions/SoughtIds.h"
-#include "Filters/Regions/vtkRegionContext.h"
+#include "Filters/Regions/RegionSettings.h"
+#include "Filters/Regions/vtkHeldPoints.h"
 #include "Solver/Jobs/Projection/PointProjection.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 class vtkPointSet;
@@ -34,5 +34,31 @@ void checkIds(const SoughtIds& ids, const std::vector<char>& isFound);
 
 /** Warns of points whose distance from the mesh exceeds 1 % of its diagonal plus `slack`. */
 void warnOfDistant(const PointProjection& projection, double slack, const RegionContext& to);
+
+} // namespace smg
+
+class vtkPointSet;
+class vtkSelection;
+
+namespace smg
+{
+
+/**
+ * The indices of the selected points of the mesh, or of the points of its selected cells, in
+ * ascending order, as extracted by vtkExtractSelection. Throws Error if the selection is empty, or
+ * is of a kind that VTK alone cannot evaluate (a query).
+ */
+std::vector<std::int64_t> selectedPoints(vtkPointSet& mesh, vtkSelection& selection);
+
+/**
+ * The GlobalIds in the selection, in ascending order; none if the selection has any other content.
+ */
+std::optional<std::vector<std::int64_t>> selectedGlobalIds(vtkSelection& selection);
+
+/** Whether a node of the selection depends on the indices of points or cells in the data. */
+bool isByNumber(vtkSelection& selection);
+
+/** Whether a node of the selection depends on array values. */
+bool isByValue(vtkSelection& selection);
 
 } // namespace smg

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "smg/Report.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,5 +45,11 @@ struct SolveSummary
    * empty. */
   std::string where() const;
 };
+
+/**
+ * Reads the values of the vertices `ids`, in any order, to `values` (solution.columns() each), in
+ * few calls in ascending order of the solution. Throws Error if an id is not one of its vertices.
+ */
+void readValues(Solution& solution, std::span<const std::int64_t> ids, std::span<double> values);
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkBlendTask.h"
 
-#include "Filters/Pieces/vtkStoredBlock.h"
+#include "Filters/Pieces/vtkPieceBlock.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"

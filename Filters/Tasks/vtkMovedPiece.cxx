@@ -2,8 +2,8 @@
 #include "Filters/Tasks/vtkMovedPiece.h"
 
 #include "Filters/Tasks/DeformedVertices.h"
-#include "IO/Mesh/SinglePrecision.h"
-#include "IO/Results/CellNormals.h"
+#include "IO/Mesh/Columns.h"
+#include "IO/Results/VertexNormals.h"
 #include "IO/vtkPieceCells.h"
 
 #include "vtkCellData.h"

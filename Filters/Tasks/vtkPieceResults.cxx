@@ -2,8 +2,8 @@
 #include "Filters/Tasks/vtkPieceResults.h"
 
 #include "Filters/Pieces/vtkPieceBlock.h"
-#include "Solver/Jobs/Results/HeldSolution.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
@@ -13,8 +13,10 @@
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
+#include <string>
 
 namespace smg
 {
@@ -82,6 +84,66 @@ void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
   {
     addArray(output, FluxName, problem.columns, results.flux());
   }
+}
+
+std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
+{
+  if (!vtkPolyData::SafeDownCast(&preview))
+  {
+    return "the boundary of a solid's preview is not that of the mesh";
+  }
+  if (!task.problem.flux.empty() || !task.problem.robin.empty())
+  {
+    return "the preview has open edges that the mesh has not, where flux and exchange would act";
+  }
+  try
+  {
+    if (preview.GetNumberOfCells() > 0)
+    {
+      const PieceBlock mesh(preview, namedColumns(task.problem));
+      DescribedProblem(task.problem, mesh.info())
+        .prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
+    }
+    return {};
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+}
+
+SolveSummary solveOnPreview(
+  vtkPointSet& preview, const PoissonTask& task, std::vector<double>& values)
+{
+  task.check();
+  values.clear();
+  const PieceBlock mesh(preview, namedColumns(task.problem));
+  DescribedProblem problem(task.problem, mesh.info());
+  problem.prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
+  SolveOptions options = task.options;
+  options.inCore = true;
+  options.checkpoint = {};
+  options.again = [&mesh] { return mesh.source(); };
+  const std::unique_ptr<Solution> solution = solve(*mesh.source(), problem, options);
+  values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
+  solution->read(0, mesh.info().vertices, values);
+
+  Report report = solution->report();
+  ProblemResults results(mesh.info(), problem, *solution);
+  results.add(mesh.block());
+  results.finish(report);
+  const std::vector<Column>& columns = mesh.block().vertexColumns;
+  if (const std::ptrdiff_t ids = findColumn(columns, OriginalIdSpec); ids >= 0)
+  {
+    const auto numbers = columns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+    renumberExtremes(
+      report, [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+  }
+  report.notes.push_back(
+    "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
+    " vertices: it approximates that on the full mesh, which is solved on when "
+    "it is saved, or with Solve: Full Mesh");
+  return SolveSummary::of(report, problem.columns());
 }
 
 } // namespace smg

@@ -2,7 +2,7 @@
 #include "Filters/Tasks/vtkPreviewDoubt.h"
 
 #include "Filters/Pieces/vtkCoarserPreview.h"
-#include "Solver/Core/GroupedDigits.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include "vtkPointSet.h"

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Pieces/vtkInputStamp.h"
 #include "Filters/Pieces/vtkPieceRequest.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/vtkSolutionExchange.h"
+#include "IO/vtkPieceInput.h"
+
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -38,6 +45,62 @@ private:
    * only, which may be asked for the same once more, alone.
    */
   bool HasStreamed = false;
+};
+
+/** Updates the input to a requested piece. Throws InputFailed. */
+inline vtkSmartPointer<vtkPointSet> bring(
+  PieceInput& input, const PieceRequest& request, const SolutionExchange& exchange)
+{
+  vtkSmartPointer<vtkPointSet> piece =
+    vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+  if (!exchange.isParallel())
+  {
+    return piece;
+  }
+  // Process 0 will request other pieces, and a repeated request for this one may need all
+  // processes.
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(piece->NewInstance());
+  copy->ShallowCopy(piece);
+  return copy;
+}
+
+/** The solution at the points of one piece, kept with the request and the stamp of its input. */
+class PieceSolve
+{
+public:
+  bool isEmpty() const { return this->Summary.report.empty(); }
+  /** Whether there is a solution for this. */
+  bool isFor(const PieceRequest& request, const InputStamp& stamp) const
+  {
+    return !this->isEmpty() && this->Piece == request.Piece && this->Pieces == request.Pieces &&
+           this->MadeFor == stamp;
+  }
+
+  /** Keeps the values at the points of a piece. */
+  void hold(const SolveSummary& summary, std::vector<double> values)
+  {
+    this->Summary = summary;
+    this->Values = std::move(values);
+  }
+
+  /** Sets what the solution is for. */
+  void setStamp(const PieceRequest& request, const InputStamp& stamp)
+  {
+    this->Piece = request.Piece;
+    this->Pieces = request.Pieces;
+    this->MadeFor = stamp;
+  }
+
+  void release() { *this = {}; }
+
+  const std::vector<double>& values() const { return this->Values; }
+  const SolveSummary& summary() const { return this->Summary; }
+
+private:
+  SolveSummary Summary; ///< without a report: there is no solution
+  std::vector<double> Values;
+  int Piece = 0, Pieces = 0;
+  InputStamp MadeFor;
 };
 
 } // namespace smg

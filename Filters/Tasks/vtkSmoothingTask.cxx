@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkSmoothingTask.h"
 
-#include "Filters/Pieces/vtkStoredBlock.h"
+#include "Filters/Pieces/vtkPieceBlock.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/DeformedVertices.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkMeshPieceData.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkSolutionExchange.h"
 
-#include "Filters/Tasks/SolutionValues.h"
+#include "Filters/Tasks/SolveSummary.h"
 #include "smg/Error.h"
 
 #include "vtkCommunicator.h"

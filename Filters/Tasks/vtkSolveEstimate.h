@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/vtkStreamedTask.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "smg/Solve.h"
@@ -45,5 +46,19 @@ std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const Solv
 /** The processor time of that, in seconds; none if it is not known. */
 std::optional<double> solveSeconds(
   vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options);
+
+} // namespace smg
+
+class vtkTable;
+
+namespace smg
+{
+
+/** Fills a table with a row for each pass of a solve: what it left and what it cost, for charts.
+ * `memoryLimit` in bytes. */
+void fillPasses(const SolveSummary& summary, std::int64_t memoryLimit, vtkTable& table);
+
+/** Fills a table with the sentence that a view is to show, "" if there is nothing to say. */
+void fillText(const SolveSummary& summary, vtkTable& table);
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkStreamedSolve.h"
 
-#include "Filters/Tasks/SolutionValues.h"
+#include "Filters/Tasks/SolveSummary.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Pieces/vtkInputStamp.h"
+#include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/vtkStreamedTask.h"
-#include "IO/vtkPieceCount.h"
 #include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"

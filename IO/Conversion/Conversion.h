@@ -4,7 +4,7 @@
 #include "IO/External/Workspace.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
-#include "IO/Mesh/MeshPart.h"
+#include "IO/Mesh/Format.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"

@@ -8,10 +8,10 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Formats/Vsm/VsmBytes.h"
-#include "IO/Mesh/RowBytes.h"
-#include "Solver/Core/ByteText.h"
+#include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Jobs/Estimate/Costs.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

@@ -5,7 +5,11 @@
 #include "IO/Import/RawMesh.h"
 #include "IO/Order/Assembly/StreamAssembly.h"
 #include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Files/Folder.h"
+#include "smg/Convert.h"
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 
 namespace smg
@@ -43,5 +47,44 @@ private:
   Conversion& Owner;
   std::optional<Checkpoint> States;
 };
+
+/** A report on a conversion, for StateWriter and StateReader. */
+struct ConversionReportState
+{
+  ConversionReport& report;
+
+  template <class State>
+  void exchange(State& state)
+  {
+    ConversionReport& r = this->report;
+    state.part("report");
+    state(r.order, r.time_steps, r.partitions, r.vertices, r.cells, r.isolated_vertices,
+      r.merged_points, r.degenerate_cells, r.duplicate_cells, r.dropped_cells,
+      r.triangulated_polygons, r.split_cells, r.higher_order_cells, r.inverted_cells, r.components,
+      r.boundary_edges, r.nonmanifold_edges, r.nonmanifold_vertices, r.keeps_numbers, r.width,
+      r.span, r.mean_width, r.pool_bytes_peak, r.rss_bytes_peak, r.scratch_bytes_read,
+      r.scratch_bytes_written, r.pages, r.page_loads, r.cpu_seconds, r.seconds, r.notes);
+  }
+};
+
+/** A mesh file converted in the folder of a checkpoint. */
+struct CheckpointedConversion
+{
+  std::filesystem::path mesh;       ///< the .vsm file
+  std::shared_ptr<FolderLock> lock; ///< of the folder, as long as the mesh is used
+  ConversionReport report;
+};
+
+/**
+ * Converts a mesh file to a .vsm file in the folder ConversionOptions::checkpoint, unless the same
+ * conversion has been completed there. Throws Error as convert(), and if the folder has another
+ * conversion or computation, other files, or is in use; then it is left as it is.
+ */
+CheckpointedConversion convertInCheckpoint(
+  const std::filesystem::path& in, const ConversionOptions& options);
+
+/** Throws Error if a folder has a conversion of convertInCheckpoint(), which another command is to
+ * continue. */
+void requireNoConversionIn(const std::filesystem::path& folder);
 
 } // namespace smg

@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
-
 #include "IO/Conversion/CompressedStream.h"
 #include "IO/Conversion/Conversion.h"
-#include "IO/Conversion/ConvertMesh.h"
-#include "IO/Conversion/CopyStream.h"
+#include "IO/Conversion/ConversionEstimate.h"
+#include "IO/Conversion/ConversionStages.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/Formats/WriteRestored.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
+#include "IO/Formats/WriteFiles.h"
+#include "IO/Import/RawMesh.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/Weld.h"
+#include "IO/Order/Assembly/CellFlagger.h"
+#include "IO/Order/Assembly/LayoutSource.h"
+#include "IO/Order/LayOut.h"
+#include "IO/Order/Search/TakeIsolated.h"
+#include "Solver/Core/Progress.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
+
+/** Sorts a mesh into a stream order with scratch files and writes it. Throws like convert(). */
+void convertMesh(Conversion& conversion);
+
+/** Writes a stream in its order, block by block, with the flags of its degenerate and duplicate
+ * cells. Throws like convert(). */
+void copyStream(Conversion& conversion);
+
+/** Renames a column of the mesh that has the name of the original indices but another type (as in
+ * formats without such integers), with a sentence in `notes`. */
+void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes);
+
+/** Whether the mesh already has columns of original indices. */
+bool isNumbered(const RawMesh& mesh);
 
 namespace
 {
@@ -82,6 +114,306 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   report.cpu_seconds = processSeconds() - cpu;
   report.rss_bytes_peak = peakResidentBytes();
   return report;
+}
+
+namespace
+{
+
+constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
+
+/**
+ * Rejects meshes that certainly do not fit on the disk, if the file states the size of the mesh.
+ */
+void checkSaidRoom(const Conversion& conversion)
+{
+  if (conversion.inputKind() == MeshFileKind::Unknown)
+  {
+    return;
+  }
+  const bool throughVsm = kindOfOutput(conversion.out()) != MeshFileKind::Vsm;
+  const ConversionEstimate estimate =
+    estimateConversion(conversion.in(), conversion.options(), throughVsm);
+  if (estimate.counted)
+  {
+    checkScratchRoom(conversion.scratch(), estimate.scratch_bytes);
+  }
+}
+
+/** What is known of a parsed mesh: cells instead of elements. */
+StreamInfo infoOf(const RawMesh& mesh)
+{
+  StreamInfo info;
+  info.cellType = mesh.cellType;
+  info.vertices = mesh.vertices;
+  info.cells = mesh.cells;
+  info.doublePositions = mesh.doublePositions;
+  for (const RawColumn& column : mesh.vertexColumns)
+  {
+    info.vertexColumns.push_back(column.spec);
+  }
+  for (const RawColumn& column : mesh.elementColumns)
+  {
+    info.cellColumns.push_back(column.spec);
+  }
+  return info;
+}
+
+RawMesh readInput(Conversion& conversion)
+{
+  Workspace& space = conversion.workspace();
+  space.beginPart(0.15, Unknown);
+  if (!conversion.isStream())
+  {
+    return importMesh(conversion.in(), space,
+      { conversion.options().cells, conversion.progress(), conversion.part() });
+  }
+  return readStream(*conversion.openStream().source(), conversion.in().string(), space);
+}
+
+void noteImport(const ImportCounts& file, ConversionReport& report)
+{
+  report.dropped_cells = file.droppedCells;
+  report.triangulated_polygons = file.triangulatedPolygons;
+  report.split_cells = file.splitCells;
+  report.higher_order_cells = file.higherOrderCells;
+  report.merged_points = file.mergedPoints;
+  report.time_steps = file.timeSteps;
+  report.partitions = file.partitions;
+  for (const std::string& name : file.droppedColumns)
+  {
+    report.notes.push_back(
+      "The column " + inQuotes(name) + " was left out, since its name is reserved or used twice.");
+  }
+  report.notes.insert(report.notes.end(), file.notes.begin(), file.notes.end());
+}
+
+void noteLayout(const LayOutCounts& counts, const StreamLayout& layout, ConversionReport& report)
+{
+  report.components = counts.mesh.components;
+  report.boundary_edges = counts.mesh.boundaryEdges;
+  report.nonmanifold_edges = counts.mesh.nonManifoldEdges;
+  report.nonmanifold_vertices = counts.mesh.nonManifoldVertices;
+  report.pages = counts.pages.pages;
+  report.page_loads = counts.pages.loads;
+  report.degenerate_cells = layout.degenerateCells;
+  report.duplicate_cells = layout.duplicateCells;
+  report.notes.insert(report.notes.end(), counts.notes.begin(), counts.notes.end());
+}
+
+void importInput(Conversion& conversion, RawMesh& mesh)
+{
+  Workspace& space = conversion.workspace();
+  ConversionReport& report = conversion.report();
+  mesh = readInput(conversion);
+  checkOutput(conversion.out(), mesh.cellType);
+  checkScratchRoom(conversion.scratch(), scratchBytes(infoOf(mesh), conversion.options()),
+    space.traffic().bytesWritten);
+  const std::optional<double>& weld = conversion.options().weld;
+  // Merged points no longer belong to a cell.
+  report.isolated_vertices -= weld ? weldPoints(mesh, *weld, space) : 0;
+  freeNumberNames(mesh, report.notes);
+  report.keeps_numbers = isNumbered(mesh);
+  report.seconds.import = conversion.lap();
+}
+
+void layOutInput(Conversion& conversion, const RawMesh& mesh, StreamLayout& layout)
+{
+  ConversionReport& report = conversion.report();
+  LayOutCounts counts;
+  layout = layOut(mesh, conversion.options().order, conversion.workspace(), counts, 0.75);
+  report.isolated_vertices += counts.mesh.isolatedVertices;
+  noteImport(mesh.counts, report);
+  noteLayout(counts, layout, report);
+  report.inverted_cells = mesh.cellType == CellType::Tetrahedron ? layout.invertedCells : -1;
+  report.seconds.order = conversion.lap();
+}
+
+/** Opens the input again where it has been imported by an earlier program. */
+void openAgain(Conversion& conversion)
+{
+  if (conversion.isStream())
+  {
+    const std::int64_t isolated = conversion.report().isolated_vertices;
+    conversion.openStream();
+    conversion.report().isolated_vertices = isolated;
+  }
+}
+
+} // namespace
+
+void convertMesh(Conversion& conversion)
+{
+  Workspace& space = conversion.workspace();
+  RawMesh mesh(space);
+  StreamLayout layout(space);
+  ConversionStages stages(conversion);
+  const ConversionStages::Stage done = stages.load(mesh, layout);
+  if (done < ConversionStages::Imported)
+  {
+    checkSaidRoom(conversion);
+    importInput(conversion, mesh);
+    stages.save(ConversionStages::Imported, mesh, layout);
+  }
+  else
+  {
+    openAgain(conversion);
+    checkOutput(conversion.out(), mesh.cellType);
+  }
+  if (done < ConversionStages::LaidOut)
+  {
+    layOutInput(conversion, mesh, layout);
+    stages.save(ConversionStages::LaidOut, mesh, layout);
+  }
+  space.beginPart(1.0, Unknown);
+  LayoutSource source(mesh, layout, space);
+  conversion.write(source,
+    [&](VsmWriter& writer)
+    {
+      takeIsolatedVertices(mesh, layout, space,
+        [&writer](const IsolatedVertices& vertices)
+        { writer.isolated(vertices.ids, vertices.positions, vertices.columns); });
+      // Those of a stream are already stored separately, by their indices in the original file.
+      if (const VsmReader* const stream = conversion.stream())
+      {
+        copyIsolated(stream->path(), source.info(), writer);
+      }
+    });
+  stages.discard();
+}
+
+namespace
+{
+
+const ColumnSpec FlagsSpec{ CellFlagsName, ScalarType::UInt8, 1 };
+
+/** Passes all blocks of the stream with these cell columns to `use`, and reports progress. */
+template <class Use>
+void forEachBlock(Conversion& conversion, const VsmReader& reader,
+  const std::vector<std::string>& columns, Use&& use)
+{
+  Progress reported(conversion.progress());
+  const std::unique_ptr<MeshSource> source = reader.source({}, columns);
+  for (MeshBlock block; source->next(block);)
+  {
+    use(block);
+    reported.update(
+      static_cast<double>(block.firstCell) / static_cast<double>(reader.info().cells));
+  }
+}
+
+/** Counts the flags of the cells of the stream. */
+void countFlags(Conversion& conversion, const VsmReader& reader)
+{
+  ConversionReport& report = conversion.report();
+  forEachBlock(conversion, reader, { CellFlagsName },
+    [&report](const MeshBlock& block)
+    {
+      for (const std::uint8_t flags : block.cellColumns[0].as<std::uint8_t>())
+      {
+        report.degenerate_cells += (flags & DegenerateCell) != 0 ? 1 : 0;
+        report.duplicate_cells += (flags & DuplicateCell) != 0 ? 1 : 0;
+      }
+    });
+}
+
+/** Counts the degenerate and duplicate cells of the stream, unless that needs too much memory. */
+void findFlags(Conversion& conversion, const VsmReader& reader)
+{
+  const StreamInfo& info = reader.info();
+  ConversionReport& report = conversion.report();
+  if (info.span > conversion.memory() / CellFlagger::BytesPerVertex)
+  {
+    report.degenerate_cells = report.duplicate_cells = -1;
+    report.notes.push_back("The order of the stream is too poor (span " +
+                           std::to_string(info.span) +
+                           ") to look for degenerate and duplicate cells within the memory limit.");
+    return;
+  }
+  CellFlagger flagger(info.cellType);
+  forEachBlock(
+    conversion, reader, {}, [&flagger](const MeshBlock& block) { flagger.flags(block); });
+  report.degenerate_cells = flagger.degenerateCells();
+  report.duplicate_cells = flagger.duplicateCells();
+}
+
+std::unique_ptr<MeshSource> withFlags(std::unique_ptr<MeshSource> source, CellType cellType)
+{
+  return std::make_unique<AddedColumn>(std::move(source), AddedColumn::Cells, FlagsSpec,
+    [flagger = CellFlagger(cellType)](const MeshBlock& block, Column& column) mutable
+    { std::memcpy(column.bytes.data(), flagger.flags(block).data(), column.bytes.size()); });
+}
+
+} // namespace
+
+void copyStream(Conversion& conversion)
+{
+  Workspace& space = conversion.workspace();
+  ConversionReport& report = conversion.report();
+  constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
+  space.beginPart(0.4, Unknown);
+  const VsmReader& reader = conversion.openStream();
+  checkOutput(conversion.out(), reader.info().cellType);
+  report.seconds.import = conversion.lap();
+
+  const bool flagged = findColumn(reader.info().cellColumns, FlagsSpec) >= 0;
+  space.beginPart(0.6, Unknown);
+  flagged ? countFlags(conversion, reader) : findFlags(conversion, reader);
+  report.seconds.order = conversion.lap();
+
+  std::unique_ptr<MeshSource> source = reader.source();
+  if (!flagged && (report.degenerate_cells > 0 || report.duplicate_cells > 0))
+  {
+    source = withFlags(std::move(source), reader.info().cellType);
+  }
+  space.beginPart(1.0, Unknown);
+  conversion.write(
+    *source, [&](VsmWriter& writer) { copyIsolated(reader.path(), source->info(), writer); });
+}
+
+namespace
+{
+
+void freeName(
+  std::vector<RawColumn>& columns, const std::string& name, std::vector<std::string>& notes)
+{
+  const auto isNamed = [&columns](const std::string& candidate)
+  {
+    return std::ranges::any_of(
+      columns, [&candidate](const RawColumn& column) { return column.spec.name == candidate; });
+  };
+  for (RawColumn& column : columns)
+  {
+    if (column.spec.name == name && column.spec != ColumnSpec{ name, ScalarType::Int64, 1 })
+    {
+      int number = 1;
+      while (isNamed(name + ('_' + std::to_string(number))))
+      {
+        ++number;
+      }
+      column.spec.name += '_' + std::to_string(number);
+      notes.push_back("The column " + inQuotes(name) + " of the input is called " +
+                      inQuotes(column.spec.name) + ", since " + inQuotes(name) +
+                      " says the places in the input itself.");
+    }
+  }
+}
+
+} // namespace
+
+void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes)
+{
+  freeName(mesh.vertexColumns, OriginalIdName, notes);
+  freeName(mesh.elementColumns, OriginalCellIdName, notes);
+}
+
+bool isNumbered(const RawMesh& mesh)
+{
+  const auto has = [](const std::vector<RawColumn>& columns, const ColumnSpec& numbers)
+  {
+    return std::ranges::any_of(
+      columns, [&numbers](const RawColumn& column) { return column.spec == numbers; });
+  };
+  return has(mesh.vertexColumns, OriginalIdSpec) || has(mesh.elementColumns, OriginalCellIdSpec);
 }
 
 } // namespace smg

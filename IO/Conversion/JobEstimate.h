@@ -5,10 +5,12 @@
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/Convert.h"
 #include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
@@ -93,5 +95,10 @@ struct SMG_EXPORT JobEstimate
   /** As a JSON object with the names above. */
   std::string json(int indent = 2) const;
 };
+
+/** About the most bytes of scratch files at once while RestoredMesh sorts the mesh of a .vsm file
+ * in a workspace of `memory` bytes, and a file of this suffix is written of it. `mesh` has the
+ * columns of that file. */
+std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix);
 
 } // namespace smg

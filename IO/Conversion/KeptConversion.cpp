@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/KeptConversion.h"
 
-#include "IO/Files/Suffix.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/SystemCalls.h"

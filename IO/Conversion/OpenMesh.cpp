@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
 
-#include "IO/Conversion/CheckpointedConversion.h"
+#include "IO/Conversion/ConversionStages.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Files/ScratchFolder.h"

@@ -2,7 +2,6 @@
 #include "smg/DescriptionFiles.h"
 
 #include "IO/Description/ParseWhere.h"
-#include "IO/Description/WeightsName.h"
 
 #include <algorithm>
 #include <array>

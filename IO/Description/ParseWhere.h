@@ -2,10 +2,14 @@
 #pragma once
 
 #include "IO/Description/JsonNode.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
 #include "smg/Region.h"
 
 #include <array>
 #include <initializer_list>
+#include <optional>
+#include <string_view>
 
 namespace smg
 {
@@ -24,5 +28,16 @@ Where parseWhere(const JsonNode& object, bool everywhere = false);
 
 /** Throws Error unless the value is an object with no other keys than WhereKeys and these. */
 void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> keys);
+
+/** The weights named `cotangent` (or `raw-cotangent`), `clamped` and `uniform`; none for other
+ * names. */
+SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
+
+/** The member `weights` of an object, if any. Throws Error. */
+std::optional<Weights> parseWeights(const JsonNode& object);
+
+/** The keys of a problem file. */
+inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "screening",
+  "source", "field", "initial", "dirichlet", "flux", "robin", "soft", "outputs" };
 
 } // namespace smg

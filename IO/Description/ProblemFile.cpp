@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Description/ProblemKeys.h"
-#include "smg/DescriptionFiles.h"
-
 #include "IO/Description/ParseWhere.h"
-#include "IO/Description/WeightsName.h"
-#include "Solver/Problem/ValueRules.h"
+#include "Solver/Problem/ValueOnMesh.h"
+#include "smg/DescriptionFiles.h"
 
 namespace smg
 {
@@ -192,6 +189,36 @@ ProblemDescription readProblemText(
 {
   const nlohmann::json json = readJsonText(text, name);
   return parseProblem(JsonNode(json, name), defaults);
+}
+
+namespace
+{
+
+std::vector<Where> parsePlaces(const JsonNode& node)
+{
+  std::vector<Where> places;
+  const std::vector<JsonNode> objects =
+    node.value().is_array() ? node.elements() : std::vector{ node };
+  for (const JsonNode& object : objects)
+  {
+    object.requireObject(WhereKeys);
+    places.push_back(parseWhere(object));
+  }
+  return places;
+}
+
+} // namespace
+
+std::vector<Where> readPlacesFile(const std::filesystem::path& path)
+{
+  const nlohmann::json json = readJsonFile(path.string());
+  return parsePlaces(JsonNode(json, path.string()));
+}
+
+std::vector<Where> readPlacesText(const std::string& text, const std::string& name)
+{
+  const nlohmann::json json = readJsonText(text, name);
+  return parsePlaces(JsonNode(json, name));
 }
 
 } // namespace smg

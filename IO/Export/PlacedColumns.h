@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Export/RestoredChunks.h"
-#include "IO/Files/InQuotes.h"
+#include "IO/Export/Restorers.h"
+#include "IO/Files/FileNames.h"
 
 #include <algorithm>
 #include <cstddef>

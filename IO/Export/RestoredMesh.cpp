@@ -2,7 +2,7 @@
 #include "IO/Export/RestoredMesh.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Export/ElementRestorer.h"
-#include "IO/Export/RestoredChunks.h"
-#include "IO/Export/VertexRestorer.h"
+#include "IO/Export/Restorers.h"
 #include "IO/External/Relabelling.h"
 #include "IO/External/Workspace.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/BlockFile.h"
 
-#include "IO/External/BlockFileLayout.h"
 #include "IO/External/Codec.h"
 #include "IO/External/ReadAhead.h"
 #include "Solver/Files/Checksum.h"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/BlockFile.h"
 
-#include "IO/External/BlockFileLayout.h"
 #include "IO/External/Codec.h"
-#include "IO/External/OrderedJobs.h"
-#include "IO/External/WriteBehind.h"
+#include "IO/External/ReadAhead.h"
+#include "IO/External/Workers.h"
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/BucketFile.h"
 
-#include "Solver/Files/StateWriter.h"
+#include "Solver/Files/State.h"
 
 #include <algorithm>
 #include <cassert>

@@ -3,8 +3,7 @@
 
 #include "IO/External/Workspace.h"
 #include "Solver/Files/CheckedFile.h"
-#include "Solver/Files/StateReader.h"
-#include "Solver/Files/StateWriter.h"
+#include "Solver/Files/State.h"
 #include "Solver/Memory/Buffer.h"
 #include "smg/Export.h"
 

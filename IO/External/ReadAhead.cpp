@@ -1,10 +1,81 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/ReadAhead.h"
 
+#include "smg/Error.h"
+
+#include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
 
 namespace smg
 {
+
+namespace
+{
+
+constexpr std::size_t StackBytes = std::size_t(512) << 10;
+
+/** Blocks signals, which are for the threads of the program: a thread inherits the mask of its
+ * creator. */
+class BlockedSignals
+{
+public:
+  BlockedSignals()
+  {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &this->Before);
+  }
+  ~BlockedSignals() { pthread_sigmask(SIG_SETMASK, &this->Before, nullptr); }
+  BlockedSignals(const BlockedSignals&) = delete;
+  BlockedSignals& operator=(const BlockedSignals&) = delete;
+
+private:
+  sigset_t Before{};
+};
+
+} // namespace
+
+IoThread::~IoThread()
+{
+  this->join();
+}
+
+void IoThread::start(std::function<void()> body)
+{
+  this->Body = std::move(body);
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, StackBytes);
+  const BlockedSignals blocked;
+  const int error = pthread_create(
+    &this->Thread, &attributes,
+    [](void* self) -> void*
+    {
+      static_cast<IoThread*>(self)->Body();
+      return nullptr;
+    },
+    this);
+  pthread_attr_destroy(&attributes);
+  if (error != 0)
+  {
+    throw Error(
+      "A thread for disk work cannot be started: " + std::generic_category().message(error) + ".");
+  }
+  this->Started = true;
+}
+
+void IoThread::join()
+{
+  if (std::exchange(this->Started, false))
+  {
+    pthread_join(this->Thread, nullptr);
+  }
+}
 
 ReadAhead::ReadAhead(const FileDescriptor& file)
   : File(file)
@@ -140,6 +211,119 @@ void ReadAhead::run()
     const int error = this->File.tryRead(offset, bytes);
     lock.lock();
     range->state = error == 0 ? State::Ready : State::Failed;
+    this->Changed.notify_all();
+  }
+}
+
+WriteBehind::WriteBehind(const FileDescriptor& file, std::int64_t offset, std::size_t bytes)
+  : File(file)
+  , Offset(offset)
+{
+  for (Chunk& chunk : this->Ring)
+  {
+    chunk.bytes.resize(std::max<std::size_t>(bytes / Chunks, 1));
+  }
+  this->Ring[0].offset = offset;
+}
+
+WriteBehind::~WriteBehind()
+{
+  {
+    const std::lock_guard lock(this->Mutex);
+    this->Stop = true;
+  }
+  this->Changed.notify_all();
+  this->Thread.join();
+}
+
+template <class Condition>
+void WriteBehind::waitUntil(std::unique_lock<std::mutex>& lock, Condition condition)
+{
+  if (!condition())
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    this->Changed.wait(lock, condition);
+    this->Waited += std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count();
+  }
+}
+
+void WriteBehind::put(std::span<const std::byte> bytes)
+{
+  this->Offset += static_cast<std::int64_t>(bytes.size());
+  while (!bytes.empty())
+  {
+    Chunk& chunk = this->Ring[this->Current];
+    const std::size_t n = std::min(bytes.size(), chunk.bytes.size() - chunk.used);
+    std::memcpy(chunk.bytes.data() + chunk.used, bytes.data(), n);
+    chunk.used += n;
+    bytes = bytes.subspan(n);
+    if (chunk.used == chunk.bytes.size())
+    {
+      this->handOver();
+    }
+  }
+}
+
+void WriteBehind::handOver()
+{
+  if (!this->Thread.isStarted())
+  {
+    this->Thread.start([this] { this->run(); });
+  }
+  const std::int64_t next =
+    this->Ring[this->Current].offset + std::int64_t(this->Ring[this->Current].used);
+  {
+    std::unique_lock lock(this->Mutex);
+    // Waking the thread for several chunks reduces wake-ups; one chunk remains to be filled.
+    if (++this->Full >= Chunks - 1)
+    {
+      this->Changed.notify_all();
+    }
+    this->waitUntil(lock, [this] { return this->Full < Chunks; });
+  }
+  this->Current = (this->Current + 1) % Chunks;
+  this->Ring[this->Current].used = 0;
+  this->Ring[this->Current].offset = next;
+}
+
+void WriteBehind::flush()
+{
+  if (this->Ring[this->Current].used > 0)
+  {
+    this->handOver();
+  }
+  std::unique_lock lock(this->Mutex);
+  this->Changed.notify_all();
+  this->waitUntil(lock, [this] { return this->Full == 0; });
+}
+
+int WriteBehind::failed()
+{
+  const std::lock_guard lock(this->Mutex);
+  return this->FirstError;
+}
+
+void WriteBehind::run()
+{
+  int next = 0;
+  std::unique_lock lock(this->Mutex);
+  for (;;)
+  {
+    this->Changed.wait(lock, [this] { return this->Full > 0 || this->Stop; });
+    if (this->Stop)
+    {
+      return;
+    }
+    if (this->FirstError == 0)
+    {
+      const Chunk& chunk = this->Ring[next];
+      lock.unlock();
+      const int error = this->File.tryWrite(chunk.offset, std::span(chunk.bytes).first(chunk.used));
+      lock.lock();
+      this->FirstError = error;
+    }
+    next = (next + 1) % Chunks;
+    this->Full--;
     this->Changed.notify_all();
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/RowTable.h"
+#include "IO/External/BucketFile.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -11,6 +12,54 @@
 
 namespace smg
 {
+
+/**
+ * A table of rows of bytes, out of core: put() rows by their numbers in any order, then read() them
+ * by ascending number. They are distributed to buckets for ranges of numbers that fit the memory.
+ */
+class RowTable
+{
+public:
+  /** For numbers in [0, count), with rows of `rowBytes` bytes, at least 1. The rows of a bucket use
+   * at most `memory` bytes of the pool; the write buffers a third of that, at most 4 MiB. */
+  RowTable(Workspace& workspace, std::int64_t count, std::size_t rowBytes, std::int64_t memory);
+
+  std::int64_t count() const { return this->Count; }
+  std::size_t rowBytes() const { return this->RowBytes; }
+
+  /** The last row of a number replaces earlier ones. */
+  void put(std::uint32_t number, std::span<const std::byte> row)
+  {
+    const int bucket = static_cast<int>(number / this->Range);
+    this->Buckets.put(bucket, number);
+    this->Buckets.append(bucket, row);
+  }
+
+  /** Releases the write buffers; to be called after the last put(). */
+  void close() { this->Buckets.close(); }
+
+  /** The number of rows of a bucket. */
+  std::uint32_t range() const { return this->Range; }
+  int buckets() const { return this->Buckets.buckets(); }
+  bool hasRows(int bucket) const { return this->Buckets.bytes(bucket) > 0; }
+
+  /**
+   * The rows of the numbers from `first` on, below count(), to the end of its bucket, at most
+   * `most`. To be called after close(); valid until the next call. Missing rows have all bits set.
+   */
+  std::span<const std::byte> read(std::int64_t first, std::int64_t most = INT64_MAX);
+
+private:
+  void load(int bucket);
+
+  Workspace& Space;
+  std::int64_t Count;
+  std::size_t RowBytes;
+  std::uint32_t Range;
+  BucketFile Buckets;
+  Buffer Rows; ///< of the current bucket
+  int Loaded = -1;
+};
 
 /** A number that stands for none. */
 inline constexpr std::uint32_t NoIndex = std::numeric_limits<std::uint32_t>::max();

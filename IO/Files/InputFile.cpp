@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace smg
@@ -61,6 +62,21 @@ void InputFile::passed(std::size_t bytes)
 void InputFile::fail(std::size_t offset, const std::string& sentence) const
 {
   throw Error(this->Name + ", byte " + std::to_string(offset) + ": " + sentence);
+}
+
+std::filesystem::path nearbyFile(
+  const std::filesystem::path& folder, const std::filesystem::path& name)
+{
+  std::error_code error;
+  const std::filesystem::path root = std::filesystem::canonical(folder / ".", error);
+  const std::filesystem::path file =
+    error ? std::filesystem::path{} : std::filesystem::weakly_canonical(root / name, error);
+  if (error || name.is_absolute() ||
+      std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first != root.end())
+  {
+    return {};
+  }
+  return file;
 }
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/TextNumbers.h"
 
-#include "IO/Files/InQuotes.h"
+#include "IO/Files/FileNames.h"
 
 #include <fast_float/fast_float.h>
 

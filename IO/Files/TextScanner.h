@@ -1,18 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/CharacterKinds.h"
-#include "IO/Files/InQuotes.h"
+#include "IO/External/Workers.h"
+#include "IO/External/Workspace.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Files/WordsAhead.h"
+#include "Solver/Memory/Pool.h"
 
+#include <fast_float/fast_float.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace smg
 {
+
+/** What the characters of a text are for. */
+class CharacterKinds
+{
+public:
+  enum Kind : std::uint8_t
+  {
+    Letter, ///< of a word
+    Blank,
+    LineEnd,
+    Comment ///< begins one up to the end of the line, also directly after a word
+  };
+
+  /** A carriage return counts as a blank. `comment`: 0: no comments. */
+  explicit CharacterKinds(char comment)
+  {
+    for (const unsigned char c : { ' ', '\t', '\r', '\f', '\v' })
+    {
+      this->Kinds[c] = Blank;
+    }
+    this->Kinds['\n'] = LineEnd;
+    if (comment)
+    {
+      this->Kinds[static_cast<unsigned char>(comment)] = Comment;
+    }
+  }
+
+  Kind operator()(char c) const { return this->Kinds[static_cast<unsigned char>(c)]; }
+
+private:
+  std::array<Kind, 256> Kinds{};
+};
+
+/** A word of a text block, as a number if it is one. */
+struct TextWord
+{
+  enum Kind : std::uint8_t
+  {
+    Other,
+    Integer, ///< which is the same as a double
+    Real     ///< finite
+  };
+
+  std::uint32_t begin;  ///< in the block
+  std::uint32_t length; ///< bytes
+  std::uint32_t line;   ///< the line ends of the block before it
+  Kind kind;
+  union
+  {
+    std::int64_t integer;
+    double real;
+  };
+};
+
+/** Text up to a line's end, and the words at its begin: all of them, unless they are very many. */
+struct TextBlock
+{
+  std::vector<char> text;
+  std::vector<TextWord> words;
+};
+
+/**
+ * The lines of a text in blocks, whose words other threads find and convert to numbers while the
+ * owner takes the blocks before them.
+ */
+class WordsAhead
+{
+public:
+  static constexpr std::size_t BlockBytes = std::size_t(64) << 10;
+
+  /** Whether there are threads and memory for it. */
+  static bool isPossible(const Workspace& workspace)
+  {
+    return workspace.itemsAtOnce(MemoryBytes) > 1;
+  }
+
+  /** From `offset` on, which is not inside of a word or a comment. The file must outlive it; its
+   * window moves. */
+  WordsAhead(InputFile& file, Workspace& workspace, CharacterKinds kinds, std::size_t offset);
+
+  /** The next block, valid until the next call; null at the end of the file, or where the rest of
+   * a line is longer than a block. Throws Error, Cancelled. */
+  const TextBlock* next();
+
+private:
+  /** The maximum number of words that are found in a block: as lines of a mesh have. */
+  static constexpr std::size_t MostWords = BlockBytes / 4;
+  static constexpr std::int64_t MemoryBytes = BlockBytes + MostWords * sizeof(TextWord);
+
+  static void findWords(TextBlock& block, const CharacterKinds& kinds);
+  /** Reads the text of the next block; returns whether there is one. */
+  bool read();
+
+  InputFile& File;
+  std::size_t Offset;
+  const std::int64_t AtOnce; ///< blocks
+  Reservation Reserved;
+  TextBlock Current;
+  OrderedJobs<TextBlock> Blocks;
+};
 
 /** The byte order mark that some editors write at the begin of UTF-8 texts. */
 inline constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
@@ -133,5 +244,69 @@ private:
   const TextWord* Next = nullptr;
   const TextWord* WordsEnd = nullptr;
 };
+
+/** The parsers do not accept a leading plus sign, which occurs in files. */
+inline const char* afterPlus(std::string_view word)
+{
+  return word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
+}
+
+/** A whole word as an integer, if it is one of 64 bits. */
+inline std::optional<std::int64_t> parseInteger(std::string_view word)
+{
+  const char* end = word.data() + word.size();
+  std::int64_t value = 0;
+  const auto result = std::from_chars(afterPlus(word), end, value);
+  return !word.empty() && result.ec == std::errc() && result.ptr == end ? std::optional(value)
+                                                                        : std::nullopt;
+}
+
+/** A whole word as a finite number, if it is one. */
+inline std::optional<double> parseFinite(std::string_view word)
+{
+  const char* end = word.data() + word.size();
+  double value = 0.0;
+  const auto result = fast_float::from_chars(afterPlus(word), end, value);
+  const bool isNumber = !word.empty() && result.ec == std::errc() && result.ptr == end;
+  return isNumber && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+// Functions to detect text formats by their first bytes.
+
+inline constexpr std::string_view Blanks = " \t\r\f\v\n";
+
+inline bool isBlank(char c)
+{
+  return Blanks.find(c) != std::string_view::npos;
+}
+
+/** The text without a byte order mark. */
+inline std::string_view withoutMark(std::string_view text)
+{
+  return text.substr(text.starts_with(ByteOrderMark) ? ByteOrderMark.size() : 0);
+}
+
+/** The text from its first non-blank character on. */
+inline std::string_view trimmed(std::string_view text)
+{
+  return text.substr(std::min(text.find_first_not_of(Blanks), text.size()));
+}
+
+/** The text without byte order mark, from its first non-blank character on. */
+inline std::string_view textStart(std::string_view bytes)
+{
+  return trimmed(withoutMark(bytes));
+}
+
+/** The same from the first line on that is not a comment (beginning with #). */
+inline std::string_view textAfterComments(std::string_view bytes)
+{
+  std::string_view text = textStart(bytes);
+  while (text.starts_with('#'))
+  {
+    text = trimmed(text.substr(std::min(text.find('\n'), text.size())));
+  }
+  return text;
+}
 
 } // namespace smg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/FormatTable.h"
 
+#include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
-#include "IO/Files/Suffix.h"
 #include "IO/Formats/Gmsh/GmshFormat.h"
 #include "IO/Formats/Medit/MeditFormat.h"
 #include "IO/Formats/Obj/ObjFormat.h"
@@ -11,7 +11,7 @@
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
-#include "IO/Formats/Vsm/VsmFileFormat.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 #include "smg/Error.h"

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "IO/Import/RawMeshBuilder.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 
 namespace smg
 {
@@ -59,5 +62,80 @@ void appendAs(std::span<const double> numbers, ImportColumn& column)
   }
   column.append(std::as_bytes(std::span(tuple).first(size)));
 }
+
+/** A column of labels, one integer each, which is omitted if all have the default value. */
+class LabelColumn
+{
+public:
+  LabelColumn(
+    RawMeshBuilder& builder, ImportColumn::Of of, const char* name, std::int64_t usual = 0)
+    : Column(builder, of, { name, ScalarType::Int64, 1 })
+    , Usual(usual)
+  {
+  }
+
+  void add(std::int64_t label)
+  {
+    this->Column.append(std::as_bytes(std::span(&label, 1)));
+    this->Used = this->Used || label != this->Usual;
+  }
+  /** To be called after the last one. */
+  void finish()
+  {
+    if (!this->Used)
+    {
+      this->Column.drop();
+    }
+  }
+
+private:
+  ImportColumn Column;
+  std::int64_t Usual;
+  bool Used = false; ///< whether any differs from the default
+};
+
+/** The error of a format that needs the counts of a stream first, which turn out to be others. */
+inline std::string otherCounts(const std::string& file, const StreamInfo& info)
+{
+  return file + ": the mesh stream does not have the " + std::to_string(info.vertices) +
+         " vertices and " + std::to_string(info.cells) +
+         " cells of its info: write it to a .vsm file first.";
+}
+
+/**
+ * The column `Colors` from the numbers after the vertices or the faces of a text file, three or
+ * four each. The first colour that is not black determines the type: integers up to 255, at least
+ * one of them above 1, are bytes; others are single precision numbers up to 1. If colours differ in
+ * type, there is no column, with a note.
+ */
+class TextColors
+{
+public:
+  TextColors(RawMeshBuilder& builder, ImportColumn::Of of)
+    : Builder(builder)
+    , Owners(of)
+  {
+  }
+
+  /** Adds the numbers of the next vertex or face, which has no colour unless there are three or
+   * four. */
+  void add(std::span<const double> numbers);
+  /** To be called after the last one. */
+  void finish();
+
+private:
+  void begin(std::int64_t black, bool bytes);
+  bool fits(std::span<const double> numbers) const;
+  void append(std::span<const double> numbers);
+  void drop();
+
+  RawMeshBuilder& Builder;
+  ImportColumn::Of Owners;
+  std::optional<ImportColumn> Column;
+  bool Bytes = false;
+  std::size_t Components = 0; ///< of the first; 0: none
+  std::int64_t Owned = 0;     ///< vertices or faces so far
+  bool Dropped = false;
+};
 
 } // namespace smg

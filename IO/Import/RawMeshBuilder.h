@@ -4,6 +4,7 @@
 #include "IO/External/Relabelling.h"
 #include "IO/Import/RawMesh.h"
 #include "smg/Convert.h"
+#include "smg/MeshSource.h"
 
 #include <array>
 #include <cstddef>
@@ -159,5 +160,12 @@ private:
   std::vector<std::uint8_t> DroppedVertexColumns, DroppedElementColumns;
   std::optional<Relabelling> Numbers;
 };
+
+/**
+ * Reads a mesh stream as a raw mesh: vertices are numbered by their stream indices, elements are
+ * the cells. All columns are read except CellFlags, which are computed from the cells. Throws
+ * Error, which names the stream `name`.
+ */
+RawMesh readStream(MeshSource& source, const std::string& name, Workspace& workspace);
 
 } // namespace smg

@@ -3,7 +3,7 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
 #include <array>

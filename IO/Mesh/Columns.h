@@ -2,9 +2,16 @@
 #pragma once
 
 #include "smg/Column.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
@@ -41,5 +48,79 @@ inline void clearTuples(std::vector<Column>& columns)
     column.bytes.clear();
   }
 }
+
+// Names of columns with a known meaning, from files of any format.
+
+/** Three components: normals, of vertices or of cells. */
+inline constexpr const char* NormalsName = "Normals";
+/** Three or four components: red, green, blue and alpha; bytes, or numbers from 0 to 1. */
+inline constexpr const char* ColorsName = "Colors";
+/** Two components, of vertices. */
+inline constexpr const char* TextureCoordinatesName = "TextureCoordinates";
+/** An integer, of vertices or of cells: the label in Medit files. */
+inline constexpr const char* ReferenceName = "Reference";
+/** Integers of cells: the physical group and the entity of the geometry in Gmsh files. */
+inline constexpr const char* PhysicalTagName = "PhysicalTag";
+inline constexpr const char* GeometricalTagName = "GeometricalTag";
+/** Any number of components, of vertices or of cells: the attributes in TetGen files. */
+inline constexpr const char* AttributeName = "Attribute";
+/** An integer, of vertices: the boundary marker in TetGen files. */
+inline constexpr const char* MarkerName = "Marker";
+
+/** Whether a column holds normals, of any type. */
+inline bool isNormals(const ColumnSpec& spec)
+{
+  return spec.name == NormalsName && spec.components == 3;
+}
+
+/** Point array, uint8: 1 where no later piece uses the point. */
+inline constexpr const char* StreamFinalizedName = "StreamFinalized";
+/** Point GlobalIds: stream indices. */
+inline constexpr const char* GlobalIdsName = "GlobalIds";
+/** Point array, uint8, of VTK: DUPLICATEPOINT where an earlier piece owns the point. */
+inline constexpr const char* GhostTypeName = "vtkGhostType";
+
+/** Whether an array of this name belongs to the piece contract, not to the mesh. */
+constexpr bool isContractArray(std::string_view name)
+{
+  return name == StreamFinalizedName || name == GlobalIdsName || name == GhostTypeName;
+}
+
+/** Whether no attribute of a mesh can have this name: an array of the piece contract, or a table or
+ * column of the container itself (VsmFormat.h). */
+constexpr bool isReservedColumn(std::string_view name)
+{
+  constexpr std::array<std::string_view, 3> own{ "Position", "LastCell", "Corners" };
+  return isContractArray(name) || std::find(own.begin(), own.end(), name) != own.end();
+}
+
+/** Bytes of a tuple of each of the columns, and `more`. */
+inline std::int64_t rowBytes(const std::vector<ColumnSpec>& columns, std::int64_t more = 0)
+{
+  for (const ColumnSpec& column : columns)
+  {
+    more += static_cast<std::int64_t>(column.tupleBytes());
+  }
+  return more;
+}
+
+/** Bytes of the coordinates of a vertex. */
+inline std::int64_t positionBytes(const StreamInfo& mesh)
+{
+  return 3 * static_cast<std::int64_t>(mesh.doublePositions ? sizeof(double) : sizeof(float));
+}
+
+/** Bytes of all columns of a mesh. */
+inline std::int64_t columnBytes(const StreamInfo& mesh)
+{
+  return mesh.vertices * rowBytes(mesh.vertexColumns) + mesh.cells * rowBytes(mesh.cellColumns);
+}
+
+/**
+ * The position of vertex `vertex` in the single precision of `what`, a file or mesh. Throws Error,
+ * which names both, if a coordinate is too large for it or not finite.
+ */
+SMG_EXPORT std::array<float, 3> singlePrecision(
+  std::span<const double, 3> position, std::int64_t vertex, const std::string& what);
 
 } // namespace smg

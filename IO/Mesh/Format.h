@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Mesh/MeshPart.h"
 #include "Solver/Core/Progress.h"
 #include "smg/MeshSource.h"
 #include "smg/WriteMesh.h"
@@ -17,6 +16,18 @@
 
 namespace smg
 {
+
+/** The part to read of a file with several time steps or partitions; both from 0. */
+struct MeshPart
+{
+  std::int64_t timeStep = 0; ///< a mesh without time steps is step 0
+  /** Of the time step; none: all partitions, joined. */
+  std::optional<std::int64_t> partition;
+};
+
+/** For files without time steps and partitions: throws Error, which begins with the name of the
+ * file, if `part` requests one. */
+void checkIsWhole(const MeshPart& part, const std::string& name);
 
 class InputFile;
 class RawMeshBuilder;

@@ -4,6 +4,8 @@
 #include "IO/Order/Search/AxisOrder.h"
 #include "IO/Order/Search/FirstUseOrder.h"
 #include "IO/Order/Search/SpectralOrder.h"
+#include "smg/Convert.h"
+#include "smg/Error.h"
 
 #include <optional>
 #include <utility>
@@ -69,6 +71,25 @@ StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace
   workspace.beginPart(progressEnd, bytesFor(mesh, AssemblyBytes));
   return assembleStream(
     mesh, std::move(*vertices), keep ? CellSequence::AsFiled : CellSequence::Sorted, workspace);
+}
+
+StreamOrder streamOrder(std::string_view name)
+{
+  for (const StreamOrder order :
+    { StreamOrder::BreadthFirst, StreamOrder::Axis, StreamOrder::Keep, StreamOrder::Spectral })
+  {
+    if (name == nameOf(order))
+    {
+      return order;
+    }
+  }
+  throw Error("There is no order '" + std::string(name) + "': choose bfs, spectral, axis or keep.");
+}
+
+std::string_view nameOf(StreamOrder order)
+{
+  constexpr std::string_view names[] = { "bfs", "axis", "keep", "spectral" };
+  return names[static_cast<int>(order)];
 }
 
 } // namespace smg

@@ -3,7 +3,7 @@
 
 #include "IO/Import/RawMesh.h"
 #include "IO/Order/Assembly/StreamAssembly.h"
-#include "IO/Order/Pages/MeshCounts.h"
+#include "IO/Order/Pages/OrderedVertices.h"
 #include "IO/Order/Search/BreadthFirstOrder.h"
 #include "smg/Convert.h"
 

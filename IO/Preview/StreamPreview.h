@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -30,5 +32,22 @@ SMG_EXPORT MeshPiece makePreview(MeshSource& mesh,
 
 /** The error message for an empty preview of a mesh that is not empty. */
 SMG_EXPORT std::string emptyPreview(std::int64_t maximumPoints);
+
+/** Triangles between some of the vertices of a surface. */
+struct CoarserSurface
+{
+  std::vector<std::int64_t> vertices; ///< their numbers in the surface, ascending
+  std::vector<std::int64_t> corners;  ///< places in `vertices`, three a triangle
+};
+
+/**
+ * Simplifies a surface in memory by edge collapse, as StreamSimplifier does at its end.
+ * @param points x, y, z of each vertex
+ * @param corners three a triangle
+ * @param locked of each vertex: not 0 for one that stays
+ * @param most so many vertices are left, besides the locked ones
+ */
+SMG_EXPORT CoarserSurface coarserSurface(std::span<const double> points,
+  std::span<const std::int64_t> corners, std::span<const std::uint8_t> locked, std::int64_t most);
 
 } // namespace smg

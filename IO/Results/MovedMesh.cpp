@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/MovedMesh.h"
 
-#include "IO/Results/CellNormals.h"
 #include "IO/Results/MovedPoints.h"
 #include "IO/Results/VertexNormals.h"
 #include "Solver/Mesh/AddedColumn.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Results/MovedVertices.h"
 
-#include "IO/Mesh/AttributeNames.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/RowSort.h"
+#include "IO/External/ExternalSort.h"
 #include "Solver/Core/Progress.h"
 #include "smg/MeshSource.h"
 

@@ -3,8 +3,7 @@
 
 #include "IO/Results/SourceAhead.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
-#include "Solver/Jobs/Results/RenumberExtremes.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/OrderedJobs.h"
 #include "IO/External/Workers.h"
 #include "smg/MeshSource.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Simplification/SurfacePart.h"
+#include "IO/Simplification/SurfaceParts.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Conversion/JobEstimate.h"
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/Simplify.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <unordered_map>
 
@@ -39,5 +43,15 @@ private:
   /** Numbers in this stream of vertices that later parts may have. */
   std::unordered_map<std::int64_t, std::int64_t> Numbers;
 };
+
+/** Throws Error unless simplify() can write a file of this name. */
+SMG_EXPORT void checkSimplifiedPath(const std::filesystem::path& path);
+
+/** What simplify() of `mesh` to the file `out` is expected to cost; without a number of vertices at
+ * most, for a result as large as the mesh. Of `conversion` the folder for scratch files counts.
+ * Throws Error if the options are not those of a simplification. */
+SMG_EXPORT JobEstimate simplifyEstimate(const EstimatedInput& mesh,
+  const std::filesystem::path& out, const SimplifyOptions& options,
+  const ConversionOptions& conversion);
 
 } // namespace smg

@@ -1,13 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Simplification/OpenFaces.h"
 #include "smg/MeshSource.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <unordered_map>
 
 namespace smg
 {
+
+/**
+ * Finds the outer surface of a stream of tetrahedra: the faces of exactly one tetrahedron. A face
+ * is kept as long as all of its vertices may still be used, so memory is bounded by the window of
+ * the stream.
+ */
+class OpenFaces
+{
+public:
+  using Face = std::array<std::int64_t, 3>;
+
+  /** Adds the four faces of a tetrahedron, by the stream indices of its corners. */
+  void add(std::span<const std::int64_t, 4> corners);
+
+  /** Passes each open face with a vertex below `finalized`, oriented outwards, to `outer`, and
+   * releases it. */
+  void closeBelow(std::int64_t finalized, const std::function<void(const Face&)>& outer);
+
+  std::size_t size() const { return this->Open.size(); }
+
+private:
+  struct Hash
+  {
+    std::size_t operator()(const Face& face) const;
+  };
+  /** From the sorted corners to the corners in outward order. */
+  std::unordered_map<Face, Face, Hash> Open;
+};
 
 /**
  * The outer surface of a stream of tetrahedra as a stream of triangles, oriented outwards, with all

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/OrderedJobs.h"
+#include "IO/External/Workers.h"
 #include "IO/Simplification/EdgeCollapse.h"
 #include "IO/Simplification/SurfaceParts.h"
 #include "Solver/Checkpoint/Checkpoint.h"

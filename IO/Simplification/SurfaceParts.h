@@ -1,18 +1,103 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Simplification/SurfacePart.h"
 #include "Solver/Problem/OpenValues.h"
+#include "smg/Column.h"
 #include "smg/MeshSource.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace smg
 {
+
+/** The weighted sum of the squared distances of a point from planes (Garland and Heckbert, Surface
+ * simplification using quadric error metrics, 1997): x' A x + 2 b' x + c. */
+struct Quadric
+{
+  std::array<double, 6> a{}; ///< xx, yy, zz, xy, xz, yz
+  std::array<double, 3> b{};
+  double c = 0.0;
+  double weight = 0.0;
+
+  /** Adds the plane through a point with this unit normal. */
+  void addPlane(const double* normal, const double* point, double w)
+  {
+    const double x = normal[0], y = normal[1], z = normal[2];
+    const double d = -(x * point[0] + y * point[1] + z * point[2]);
+    this->add({ { w * x * x, w * y * y, w * z * z, w * x * y, w * x * z, w * y * z },
+      { w * d * x, w * d * y, w * d * z }, w * d * d, w });
+  }
+
+  void add(const Quadric& other)
+  {
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+      this->a[k] += other.a[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->b[k] += other.b[k];
+    }
+    this->c += other.c;
+    this->weight += other.weight;
+  }
+
+  /** The weighted mean of the squared distances of the point. */
+  double squaredDistance(const double* p) const
+  {
+    const double x = p[0], y = p[1], z = p[2];
+    const double sum = this->a[0] * x * x + this->a[1] * y * y + this->a[2] * z * z +
+                       2.0 * (this->a[3] * x * y + this->a[4] * x * z + this->a[5] * y * z) +
+                       2.0 * (this->b[0] * x + this->b[1] * y + this->b[2] * z) + this->c;
+    return this->weight > 0.0 ? std::fabs(sum) / this->weight : 0.0;
+  }
+};
+
+/** Triangles of a surface with their vertices, in a numbering of their own. */
+struct SurfacePart
+{
+  std::vector<std::int64_t> ids; ///< stream indices of the vertices, each once
+  std::vector<double> points;    ///< x, y, z of each vertex
+  /** Of each vertex: the planes of the triangles that were there and at vertices that have
+   * collapsed onto it, for points relative to `origin`. */
+  std::vector<Quadric> quadrics;
+  std::array<double, 3> origin{};
+  /** Of each vertex, with quadrics: not 0 if those of its boundary edges may be missing. */
+  std::vector<std::uint8_t> lacksBoundary;
+  std::vector<std::byte> rows;        ///< of each vertex, its tuples of all columns one by one
+  std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
+
+  std::size_t vertices() const { return this->ids.size(); }
+  std::size_t triangles() const { return this->corners.size() / 3; }
+  /** The bytes of the row of a vertex. */
+  std::size_t rowBytes() const
+  {
+    return this->ids.empty() ? 0 : this->rows.size() / this->vertices();
+  }
+
+  /** Appends a vertex of another surface, without its quadric. */
+  void addVertex(const SurfacePart& from, std::size_t vertex);
+  /** Appends the position and the tuples of a vertex to these. */
+  void copyVertex(
+    std::size_t vertex, std::vector<double>& positions, std::span<Column> columns) const;
+  /** Some triangles of this surface with their vertices, without quadrics. */
+  SurfacePart extract(const std::vector<std::uint32_t>& some) const;
+  /** Removes the vertices that no triangle uses; the others keep their order. */
+  void dropUnusedVertices();
+
+  template <class State>
+  void exchange(State& state)
+  {
+    state(this->ids, this->points, this->quadrics, this->origin, this->lacksBoundary, this->rows,
+      this->corners);
+  }
+};
 
 /** Consecutive triangles of a stream. */
 struct StreamPart

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/AssembledRows.h"
 #include "Solver/Assembly/CellAssembly.h"
-#include "Solver/Assembly/EdgeTargets.h"
-#include "Solver/Assembly/FinalVertices.h"
+#include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/NeighbourReach.h"
 #include "Solver/Assembly/RowAssembly.h"
-#include "Solver/Assembly/RowListener.h"
-#include "Solver/Assembly/WeighedCells.h"
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Setup/StiffRows.h"
 #include "smg/Export.h"

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Assembly/Components.h"
-#include "Solver/Assembly/OpenComponents.h"
+#include "Solver/Assembly/Edges.h"
+#include "Solver/Assembly/Loads.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Assembly/RowLoads.h"
-#include "Solver/Assembly/WeighedCells.h"
-#include "Solver/Assembly/WeightPolicy.h"
-#include "Solver/Assembly/WeightedEdges.h"
+#include "Solver/Assembly/ProblemCells.h"
 #include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -20,6 +17,29 @@
 
 namespace smg
 {
+
+/** A cell that connects its corners, with the weights of its edges, which are 0 if it is flat. */
+struct WeighedCell
+{
+  std::int64_t corners[4]; ///< 3 of a triangle
+  CellWeights weights;
+  double scale; ///< see WeightPolicy::scale()
+};
+
+/** Consecutive cells of a mesh stream that connect their corners. */
+struct WeighedCells
+{
+  std::vector<WeighedCell> cells;
+  std::int64_t vertices = 0;  ///< the end of those that the stream has had so far
+  std::int64_t finalized = 0; ///< no later cell uses a vertex below
+
+  /** Forgets all. */
+  void clear()
+  {
+    this->cells.clear();
+    this->vertices = this->finalized = 0;
+  }
+};
 
 /** What cells contribute to their vertices and edges, summed for open vertices: weights, masses,
  * loads and components. Assembly makes rows of it in stream order. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/OpenVertices.h"
 
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/ProblemFacets.h"
 
-#include "Solver/Assembly/CellFacets.h"
-#include "Solver/Assembly/FlatCells.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Assembly/Elements.h"
+#include "Solver/Assembly/Facets.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/CellWeights.h"
 #include "smg/Error.h"
 

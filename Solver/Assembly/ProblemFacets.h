@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/BoundaryFacet.h"
-#include "Solver/Assembly/OpenFacets.h"
+#include "Solver/Assembly/Facets.h"
 #include "Solver/Assembly/OpenVertices.h"
 #include "smg/Problem.h"
 

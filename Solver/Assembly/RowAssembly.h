@@ -1,21 +1,163 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/AssembledRows.h"
 #include "Solver/Assembly/Components.h"
-#include "Solver/Assembly/FinalVertices.h"
-#include "Solver/Assembly/InitialResidual.h"
+#include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Assembly/RowListener.h"
+#include "Solver/Core/Lanes.h"
+#include "Solver/Memory/Ring.h"
+#include "Solver/Multigrid/Cycle/LevelWindow.h"
+#include "Solver/Multigrid/Setup/LevelRows.h"
+#include "Solver/Multigrid/Setup/RowBatch.h"
 #include "Solver/Multigrid/Setup/StiffRows.h"
 #include "smg/Problem.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace smg
 {
+
+/** Rows of the finest level with their right-hand sides and initial values, which pass from
+ * Assembly to the level between two steps. */
+struct AssembledRows
+{
+  AssembledRows(Pool& pool, int columns)
+    : rows(pool, 2 * columns * static_cast<std::int64_t>(sizeof(double)))
+  {
+  }
+
+  RowBatch rows;
+  std::vector<double> x, b; ///< `columns` per row
+  /** The scale of the weights of the problem relative to finite elements with K = 1, at the first
+   * weighted cell. */
+  double weightScale = 1.0;
+
+  void moveTo(LevelRows& level, LevelWindow<double>& window, int columns)
+  {
+    const std::int64_t begin = level.end();
+    const bool isLarge = this->rows.isLarge();
+    this->rows.moveTo(level);
+    const std::int64_t end = level.end();
+    window.extendState(end);
+    pad(this->x.data(), columns, end - begin, window.x().at(begin));
+    pad(this->b.data(), columns, end - begin, window.b().at(begin));
+    this->x.clear();
+    this->b.clear();
+    if (isLarge)
+    {
+      this->x.shrink_to_fit();
+      this->b.shrink_to_fit();
+    }
+  }
+};
+
+/** What the rows of consecutive vertices without missing cells are made of, besides the data of
+ * OpenVertices: the edges, and the contributions of sources, screening and boundary. */
+class FinalVertices
+{
+public:
+  struct Vertex
+  {
+    std::size_t end; ///< of its edges in `neighbours`
+    double alpha;    ///< contribution to the diagonal
+    double mass;
+    std::int64_t reach; ///< the largest neighbour of this and all earlier vertices
+    float scale;        ///< see OpenVertices
+    std::int32_t label; ///< of a component to count the vertex for, if it is an unknown; or -1
+  };
+
+  std::int64_t first = 0; ///< the first vertex
+  std::vector<Vertex> vertices;
+  std::vector<RowNeighbour> neighbours; ///< of each vertex, in ascending order
+  std::vector<double> targets;          ///< `columns` per neighbour; empty without edge targets
+  std::vector<double> loads;            ///< `columns` per vertex: contribution to b
+
+  std::int64_t end() const
+  {
+    return this->first + static_cast<std::int64_t>(this->vertices.size());
+  }
+  /** Where the edges of vertex number k begin. */
+  std::size_t begin(std::size_t k) const { return k == 0 ? 0 : this->vertices[k - 1].end; }
+  /** The memory that it has. */
+  std::int64_t bytes() const
+  {
+    return static_cast<std::int64_t>(
+      this->vertices.capacity() * sizeof(Vertex) +
+      this->neighbours.capacity() * sizeof(RowNeighbour) +
+      (this->targets.capacity() + this->loads.capacity()) * sizeof(double));
+  }
+  /** Forgets all; the next vertex is `next`. */
+  void clear(std::int64_t next)
+  {
+    this->first = next;
+    this->vertices.clear();
+    this->neighbours.clear();
+    this->targets.clear();
+    this->loads.clear();
+  }
+};
+
+/** A completed row of the finest level. */
+struct AssembledRow
+{
+  std::int64_t vertex;
+  const RowEntry* entries;
+  std::span<const double> weights; ///< of the entries
+  double diagonal;
+};
+
+/** The residual b - A x_0 of the initial values, summed up row by row. */
+class InitialResidual
+{
+public:
+  /** `values`: x_0 of a vertex and its neighbours when its row is added. */
+  explicit InitialResidual(const Ring<double>& values)
+    : Values(values)
+    , OfRow(static_cast<std::size_t>(values.lanes()))
+  {
+  }
+
+  /** Adds a row, whose residual counts as `share` (see commonShare()); returns its residual, a
+   * number per column. */
+  std::span<const double> add(const AssembledRow& row, std::span<const double> b, double share);
+
+  /** ||b - A x_0||^2 with the shares. */
+  double squares() const { return this->Squares; }
+  /** The sum of the squares of its terms b_i and A_ii x_i. */
+  double termSquares() const { return this->TermSquares; }
+
+private:
+  const Ring<double>& Values;
+  std::vector<double> OfRow;
+  double Squares = 0.0, TermSquares = 0.0;
+};
+
+/**
+ * Receives, vertex by vertex, the data of the mesh that the rows of the finest level do not store.
+ */
+class RowListener
+{
+public:
+  virtual ~RowListener() = default;
+
+  /** Rows follow of vertices for which the problem has been asked before, perhaps while it is asked
+   * for others on another thread; that is not so during this call. */
+  virtual void begin() {}
+  /** The next vertex, which is free, has an edge to the constrained vertex index + delta. */
+  virtual void link(std::int32_t delta, float weight) = 0;
+  /** The next edge of the row of the next vertex has this target d_ij, one value per column. Called
+   * only if the problem has edge targets; `target` is valid during the call. */
+  virtual void target(const double* /*target*/) {}
+  /** The contribution of the source and the constrained neighbours to b of the next vertex, one
+   * value per column; b itself if the vertex is not an unknown. `sum` is valid during the call. */
+  virtual void constraint(const double* /*sum*/) {}
+  /** The next vertex is complete. `point` is its position, `reach` the largest neighbour of this
+   * and all earlier vertices. */
+  virtual void close(const double* point, std::int64_t reach) = 0;
+};
 
 /** Makes a row of the finest level, its right-hand side and initial value from the data of the
  * vertex and its neighbours. */

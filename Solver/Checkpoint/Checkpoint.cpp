@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Checkpoint/Checkpoint.h"
 
-#include "Solver/Checkpoint/StateFront.h"
 #include "Solver/Core/SystemCalls.h"
-#include "Solver/Files/FolderLock.h"
+#include "Solver/Files/Folder.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Files/Checksum.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchFolder.h"
-#include "Solver/Files/StateReader.h"
-#include "Solver/Files/StateWriter.h"
+#include "Solver/Files/State.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/Export.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
@@ -71,5 +74,28 @@ private:
   std::string Name;
   int Last = 1; // the slot of the last state
 };
+
+/** The first bytes of the file of a state, see Checkpoint. */
+struct StateFront
+{
+  static constexpr std::string_view Magic = "SMGSTATE";
+  static constexpr std::uint32_t OrderMark = 0x01020304;
+  static constexpr std::uint32_t Version = 6;
+
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t order;
+  std::int64_t steps;
+  std::int64_t bytes;
+  std::uint64_t checksum;      ///< of the bytes
+  std::uint64_t frontChecksum; ///< of all bytes before this one
+
+  std::uint64_t expectedChecksum() const
+  {
+    return smg::checksum(
+      std::as_bytes(std::span(this, 1)).first(offsetof(StateFront, frontChecksum)));
+  }
+};
+static_assert(sizeof(StateFront) == 48);
 
 } // namespace smg

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "smg/Export.h"
+
 #include <cstddef>
 #include <dirent.h>
+#include <string>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -40,5 +42,8 @@ struct SystemCalls
 
 /** The table of this process. It may change only while no file is used. */
 SMG_EXPORT SystemCalls& systemCalls() noexcept;
+
+/** What the system says of an error number, and what a user can do about it. */
+std::string systemError(int errorNumber);
 
 } // namespace smg

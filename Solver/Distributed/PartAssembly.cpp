@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/PartAssembly.h"
 
-#include "Solver/Assembly/CommonShare.h"
-#include "Solver/Assembly/EdgeWeightError.h"
-#include "Solver/Assembly/OpenEdges.h"
-#include "Solver/Assembly/RowShortfall.h"
-#include "Solver/Distributed/CheckShared.h"
-#include "Solver/Distributed/PartNames.h"
-#include "Solver/Distributed/SharedEdges.h"
-#include "Solver/Distributed/SharedFacets.h"
+#include "Solver/Assembly/Edges.h"
+#include "Solver/Assembly/RowSums.h"
+#include "Solver/Distributed/CheckPart.h"
+#include "Solver/Distributed/SharedElements.h"
 
 #include <algorithm>
 #include <cmath>

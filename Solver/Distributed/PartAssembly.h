@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Assembly/CellAssembly.h"
-#include "Solver/Assembly/EdgeTargets.h"
+#include "Solver/Assembly/Edges.h"
 #include "Solver/Distributed/HypreObjects.h"
 #include "Solver/Distributed/SharedComponents.h"
 #include "Solver/Distributed/SharedVertices.h"

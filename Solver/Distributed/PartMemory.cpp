@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/PartMemory.h"
 
-#include "Solver/Core/ByteText.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <HYPRE_utilities.h>
 
+#include <algorithm>
+#include <fstream>
 #include <limits>
+#include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -36,6 +41,118 @@ void checkPartMemory(std::int64_t vertices, std::int64_t cells, int columns, std
                 mebibytes(limit) +
                 ": raise the memory limit, use more processes, or use the streaming engine");
   }
+}
+
+namespace
+{
+
+using Path = std::filesystem::path;
+
+/** The number after a word at the begin of a line of a file. */
+std::optional<std::int64_t> numberAfter(const Path& file, std::string_view word)
+{
+  std::ifstream lines(file);
+  for (std::string key; lines >> key;
+       lines.ignore(std::numeric_limits<std::streamsize>::max(), '\n'))
+  {
+    std::int64_t number = 0;
+    if (key == word && lines >> number)
+    {
+      return number;
+    }
+  }
+  return {};
+}
+
+/** The number that a file begins with; none if it is "max". */
+std::optional<std::int64_t> numberIn(const Path& file)
+{
+  std::int64_t number = 0;
+  return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;
+}
+
+/** The names of the files of a version of control groups. */
+struct GroupFiles
+{
+  const char *limit, *usage, *cached;
+};
+constexpr GroupFiles Version1{ "memory.limit_in_bytes", "memory.usage_in_bytes",
+  "total_inactive_file" };
+constexpr GroupFiles Version2{ "memory.max", "memory.current", "inactive_file" };
+
+/** What the limit of one control group leaves; none: it has no limit. */
+std::optional<std::int64_t> freeOfGroup(const Path& folder, const GroupFiles& files)
+{
+  const std::optional<std::int64_t> limit = numberIn(folder / files.limit);
+  const std::optional<std::int64_t> usage = numberIn(folder / files.usage);
+  if (!limit || !usage)
+  {
+    return {};
+  }
+  const std::int64_t cached = numberAfter(folder / "memory.stat", files.cached).value_or(0);
+  return std::max<std::int64_t>(*limit - *usage + cached, 0);
+}
+
+/** The least that the limits of a control group and of those that contain it leave. In a container
+ * the group may be seen as the root of all. */
+std::int64_t freeOfGroups(const Path& mount, Path group, const GroupFiles& files)
+{
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  while (true)
+  {
+    least = std::min(least, freeOfGroup(mount / group, files).value_or(least));
+    if (group.empty())
+    {
+      return least;
+    }
+    group = group.parent_path();
+  }
+}
+
+/** What the control groups of this process leave: a line of the file is ID:CONTROLLERS:/GROUP. */
+std::int64_t freeOfGroups(const Path& root)
+{
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::ifstream lines(root / "proc/self/cgroup");
+  for (std::string line; std::getline(lines, line);)
+  {
+    std::istringstream parts(line);
+    std::string id, controllers, group;
+    std::getline(parts, id, ':');
+    std::getline(parts, controllers, ':');
+    std::getline(parts, group);
+    const Path relative = Path(group).relative_path();
+    if (controllers.empty())
+    {
+      least = std::min(least, freeOfGroups(root / "sys/fs/cgroup", relative, Version2));
+    }
+    else if ((',' + controllers + ',').find(",memory,") != std::string::npos)
+    {
+      least = std::min(least, freeOfGroups(root / "sys/fs/cgroup/memory", relative, Version1));
+    }
+  }
+  return least;
+}
+
+} // namespace
+
+std::int64_t freeMemory(const std::filesystem::path& root)
+{
+  const std::optional<std::int64_t> kibibytes = numberAfter(root / "proc/meminfo", "MemAvailable:");
+  return kibibytes ? std::min(*kibibytes << 10, freeOfGroups(root)) : 0;
+}
+
+double freeMemoryOfProcess(Team& team)
+{
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(
+    team.communicator(), MPI_COMM_TYPE_SHARED, team.rank(), MPI_INFO_NULL, &machine);
+  int processes = 1;
+  MPI_Comm_size(machine, &processes);
+  MPI_Comm_free(&machine);
+  double share = static_cast<double>(freeMemory()) / processes;
+  team.least({ &share, 1 });
+  return share;
 }
 
 } // namespace smg

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Distributed/Team.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>
+#include <filesystem>
 
 namespace smg
 {
@@ -20,5 +22,19 @@ SMG_EXPORT std::int64_t mostPartVertices();
 
 /** Throws Error if partMemory() is more than the limit. */
 void checkPartMemory(std::int64_t vertices, std::int64_t cells, int columns, std::int64_t limit);
+
+/**
+ * The memory that this process and those of its control group can still have without swapping,
+ * bytes; 0: not known. That is the free memory of the machine, or what the limits of the control
+ * groups leave, which queueing systems and containers set (memory.max of version 2,
+ * memory.limit_in_bytes of version 1): files that these groups have in the page cache count as
+ * free.
+ * @param root the folder in which /proc and /sys are
+ */
+SMG_EXPORT std::int64_t freeMemory(const std::filesystem::path& root = "/");
+
+/** The smallest share of the free memory of its machine that a process can have, over all
+ * machines, bytes. Called on all processes. */
+SMG_EXPORT double freeMemoryOfProcess(Team& team);
 
 } // namespace smg

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
+
 #include <dirent.h>
 #include <filesystem>
+#include <memory>
 
 namespace smg
 {
@@ -33,5 +36,44 @@ private:
 /** Removes a folder with its content, as far as possible. Symbolic links are removed, not followed.
  */
 void removeFolder(const char* folder) noexcept;
+
+/** A temporary name beside a file, unique unless a terminated program left a file with it. */
+std::filesystem::path temporaryName(const std::filesystem::path& path);
+/** Locks a temporary file as long as it is open, so that no other program removes it as abandoned.
+ * False if one has. */
+bool lockTemporary(int file) noexcept;
+/** Removes the temporary files beside `path` whose programs were killed: those without a lock.
+ * Where the file system has no locks, none. */
+void removeAbandonedTemporaries(const std::filesystem::path& path);
+
+/**
+ * The lock of a folder, by which one program at a time uses it. Within the program it can be held
+ * by several parts, which work on the folder one after another; one at a time uses it.
+ */
+class SMG_EXPORT FolderLock
+{
+public:
+  /** Locks an existing folder, or shares the lock that this program has. Throws Error if another
+   * program has it, or the folder cannot be opened or locked. */
+  static std::shared_ptr<FolderLock> acquire(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  /** The descriptor of the folder. */
+  int folder() const { return this->Folder; }
+  /** Begins to use the folder. Throws Error if another part of the program does, like acquire(). */
+  void use(const std::filesystem::path& folder);
+  void endUse() noexcept;
+
+private:
+  explicit FolderLock(int folder)
+    : Folder(folder)
+  {
+  }
+
+  int Folder;
+  bool IsUsed = false;
+};
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/ScratchAccount.h"
 
-#include "Solver/Core/ByteText.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
 #include <mutex>

@@ -2,7 +2,7 @@
 #include "Solver/Files/ScratchBlocks.h"
 
 #include "Solver/Files/Checksum.h"
-#include "Solver/Files/WaitClock.h"
+#include "Solver/Files/IoStatistics.h"
 
 namespace smg
 {

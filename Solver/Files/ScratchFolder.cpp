@@ -3,7 +3,6 @@
 
 #include "Solver/Core/SystemCalls.h"
 #include "Solver/Files/Folder.h"
-#include "Solver/Files/FolderLock.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "smg/Error.h"
 

@@ -2,7 +2,7 @@
 #include "Solver/Files/ScratchStream.h"
 
 #include "Solver/Files/Checksum.h"
-#include "Solver/Files/WaitClock.h"
+#include "Solver/Files/IoStatistics.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <string>

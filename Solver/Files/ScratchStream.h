@@ -4,8 +4,7 @@
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchFolder.h"
-#include "Solver/Files/StateReader.h"
-#include "Solver/Files/StateWriter.h"
+#include "Solver/Files/State.h"
 #include "smg/Export.h"
 
 #include <cstddef>

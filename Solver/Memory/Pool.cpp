@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Memory/Pool.h"
 
-#include "Solver/Core/ByteText.h"
-#include "Solver/Memory/MemoryLimitError.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
 #include <limits>

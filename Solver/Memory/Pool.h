@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Error.h"
 #include "smg/Export.h"
+
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <string>
 
@@ -63,5 +67,97 @@ private:
  * 0 if unknown, also "about ... MiB usually suffice". */
 SMG_EXPORT std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed,
   const PoolUse& use = SolveMemory, std::int64_t usual = 0);
+
+/** The error of a memory limit that is too low. */
+class SMG_EXPORT MemoryLimitError : public Error
+{
+public:
+  /** `usual`: bytes that suffice as a rule for such an operation, 0 if unknown. */
+  MemoryLimitError(std::int64_t needed, std::int64_t allowed, const PoolUse& use = SolveMemory,
+    std::int64_t usual = 0)
+    : Error(memoryLimitSentence(needed, allowed, use, usual))
+    , Needed(needed)
+    , Allowed(allowed)
+    , Usual(usual)
+    , Use(use)
+  {
+  }
+
+  /** The same error of an operation that is expected to need so many bytes, 0 if unknown. The part
+   * that failed may be any of many. */
+  MemoryLimitError expecting(std::int64_t bytes) const
+  {
+    if (bytes == 0)
+    {
+      return *this;
+    }
+    const std::int64_t sufficient = plus(bytes, bytes / 2); // measured: up to 1.3 times as many
+    return { this->Needed, this->Allowed, this->Use,
+      std::max(sufficient, plus(this->Needed, this->Needed / 4)) };
+  }
+
+  /** The error of an operation that holds `own` bytes beside the part that failed, all of it within
+   * the limit `allowed`. */
+  MemoryLimitError inside(std::int64_t own, std::int64_t allowed) const
+  {
+    const std::int64_t usual = this->Usual > 0 ? plus(this->Usual, own) : 0;
+    return { plus(this->Needed, own), allowed, this->Use, usual };
+  }
+
+private:
+  /** The sum, at most the largest number. */
+  static std::int64_t plus(std::int64_t a, std::int64_t b)
+  {
+    constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
+    return std::min(a, Most - b) + b;
+  }
+
+  std::int64_t Needed, Allowed, Usual;
+  PoolUse Use;
+};
+
+/** What is made of a block of the stream is not accounted for up to so many bytes, a constant that
+ * blocks of usual streams do not reach; more of it is, where very many vertices become final at
+ * once. */
+inline constexpr std::int64_t UnaccountedBytes = std::int64_t(4) << 20;
+
+constexpr std::int64_t accountedBytes(std::int64_t bytes)
+{
+  return std::max<std::int64_t>(0, bytes - UnaccountedBytes);
+}
+
+/** Memory that another class uses, accounted for in a pool. */
+class Reservation
+{
+public:
+  explicit Reservation(Pool& pool, std::int64_t bytes = 0)
+    : Owner(pool)
+    , Bytes(bytes)
+  {
+    pool.acquire(bytes);
+  }
+  ~Reservation() { this->Owner.release(this->Bytes); }
+  Reservation(const Reservation&) = delete;
+  Reservation& operator=(const Reservation&) = delete;
+
+  std::int64_t bytes() const { return this->Bytes; }
+  /** Accounts for so many bytes instead. Above the limit, throws Error and changes nothing. */
+  void resize(std::int64_t bytes)
+  {
+    if (bytes > this->Bytes)
+    {
+      this->Owner.acquire(bytes - this->Bytes);
+    }
+    else if (bytes < this->Bytes)
+    {
+      this->Owner.release(this->Bytes - bytes);
+    }
+    this->Bytes = bytes;
+  }
+
+private:
+  Pool& Owner;
+  std::int64_t Bytes;
+};
 
 } // namespace smg

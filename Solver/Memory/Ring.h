@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Memory/MirroredMemory.h"
+#include "Solver/Memory/Pool.h"
+#include "smg/Export.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -12,6 +14,44 @@
 
 namespace smg
 {
+
+/**
+ * Memory that is mapped three times in a row: accesses beyond an end of the middle image wrap
+ * around to the other end, so that the neighbourhood of an item of a ring buffer is accessed
+ * without a wrap test. A page counts as resident once for each image in which it is touched:
+ * accesses should start in the middle image, so that most pages count once.
+ */
+class SMG_EXPORT MirroredMemory
+{
+public:
+  static constexpr std::size_t PageBytes = 4096;
+
+  explicit MirroredMemory(Pool& pool)
+    : Owner(&pool)
+  {
+  }
+  ~MirroredMemory() { this->clear(); }
+  MirroredMemory(MirroredMemory&& other) noexcept;
+  MirroredMemory& operator=(MirroredMemory&& other) noexcept;
+
+  /** The middle image. */
+  std::byte* data() const { return this->Data; }
+  std::size_t size() const { return this->Size; }
+
+  /** Grows to `bytes`, a multiple of PageBytes. The content keeps its offsets; the address may
+   * change. Throws Error. */
+  void grow(std::size_t bytes);
+  void clear();
+
+private:
+  void map(std::size_t bytes);
+  void unmap();
+
+  Pool* Owner;
+  std::byte* Data = nullptr;
+  std::size_t Size = 0;
+  int Descriptor = -1;
+};
 
 /**
  * The part [first, end) in memory of an unbounded array of items, each of `lanes` values of T.
@@ -146,6 +186,60 @@ private:
   std::int64_t First = 0;
   std::int64_t End = 0;
   int Lanes;
+};
+
+/**
+ * A window of a non-decreasing sequence of 64-bit indices, stored by their low 32 bits: all values
+ * in memory are within 2^31 of the last one at the last call of release(), or of the first one
+ * after it if none was left, which determines the high bits. So a thread may append while others
+ * read earlier values, if there is room.
+ */
+class MonotoneRing
+{
+public:
+  explicit MonotoneRing(Pool& pool, std::int64_t before)
+    : Low(pool)
+    , Last(before)
+    , Near(before)
+  {
+  }
+
+  std::int64_t end() const { return this->Low.end(); }
+  /** The last value, or the initial one if there is none. */
+  std::int64_t last() const { return this->Last; }
+
+  std::int64_t operator[](std::int64_t i) const
+  {
+    return this->Near +
+           static_cast<std::int32_t>(this->Low[i] - static_cast<std::uint32_t>(this->Near));
+  }
+
+  /** Appends `value`, or the last one if that is larger. */
+  void append(std::int64_t value)
+  {
+    const std::int64_t i = this->end();
+    this->Last = std::max(this->Last, value);
+    if (i == this->Low.first())
+    {
+      this->Near = this->Last;
+    }
+    this->Low.extendRaw(i + 1);
+    this->Low[i] = static_cast<std::uint32_t>(this->Last);
+  }
+
+  /** Provides room for so many more values. */
+  void reserve(std::int64_t more) { this->Low.reserve(this->end() - this->Low.first() + more); }
+
+  /** Releases the values below `first`; if that is beyond the end, it is the next one. */
+  void release(std::int64_t first)
+  {
+    this->Low.release(first);
+    this->Near = this->Last;
+  }
+
+private:
+  Ring<std::uint32_t> Low;
+  std::int64_t Last, Near;
 };
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Cycle/Relaxation.h"
+#include "Solver/Multigrid/Cycle/GaussSeidel.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
 #include "smg/MeshSource.h"
 
@@ -25,7 +25,7 @@ namespace smg
  *   o.multiply(data, i)             coarse operator in three steps: row i of A P,
  *   o.gather(data, c)               row c of P^T A P,
  *   o.sparsify(data, c)             and its sparsification
- *   O::Relaxation                   see Solver/Multigrid/Cycle/Relaxation.h
+ *   O::Relaxation                   see Solver/Multigrid/Cycle/GaussSeidel.h
  *   o.patchRings()                  optional: see Patches::setRings()
  *   O::Apart                        optional, the type O itself: see canRunApart
  *

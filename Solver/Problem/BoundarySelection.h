@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/BoundaryFacets.h"
+#include "Solver/Assembly/Facets.h"
 #include "Solver/Problem/Selection.h"
 #include "Solver/Problem/VertexSetFile.h"
 

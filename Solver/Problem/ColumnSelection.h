@@ -1,12 +1,85 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/ColumnTest.h"
+#include "Solver/Problem/MeshColumns.h"
 #include "Solver/Problem/Selection.h"
-#include "Solver/Problem/TagValues.h"
+#include "Solver/Problem/VertexSetFile.h"
+#include "smg/Column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 namespace smg
 {
+
+/** Tests a column of one number for a value, or for values other than 0. */
+struct ColumnTest
+{
+  NamedColumn column;
+  std::optional<double> value; ///< none: any value other than 0
+
+  /** Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0.
+   * Returns the index of the first NaN in a mask, or the size of `selected`. */
+  std::size_t apply(const Column& values, std::size_t first, std::span<std::uint8_t> selected) const
+  {
+    std::size_t valid = selected.size();
+    dispatch(values.spec.type,
+      [&]<class T>(T)
+      {
+        const std::span<const T> numbers = values.as<T>().subspan(first);
+        for (std::size_t i = 0; i < selected.size(); ++i)
+        {
+          const auto number = static_cast<double>(numbers[i]);
+          selected[i] = (this->value ? number == this->valueAs<T>() : number != 0.0) ? 1 : 0;
+          valid = !this->value && std::isnan(number) ? std::min(valid, i) : valid;
+        }
+      });
+    return valid;
+  }
+
+  /** The value in the precision of T: 0.1 in single precision is another number. */
+  template <class T>
+  double valueAs() const
+  {
+    return std::is_same_v<T, float> ? static_cast<double>(static_cast<float>(*this->value))
+                                    : *this->value;
+  }
+
+  /** The predicate of a selected item, for messages. */
+  std::string predicate() const
+  {
+    return (this->value ? "has this tag in '" : "has a value other than 0 in '") +
+           this->column.name + "'";
+  }
+};
+
+/** The values of a column until the one that is sought is found: what to name if it never is. */
+class TagValues
+{
+public:
+  /** Adds a part of the column, where `selected` is 1 at the value that is sought. */
+  void add(const Column& column, std::span<const std::uint8_t> selected);
+
+  /** For example ": its values are 1, 2 and 5", the smallest 10 of many, or only the range of more
+   * than 1000; empty if the value was found or there is none. */
+  std::string text() const;
+
+private:
+  static constexpr std::size_t Most = 1000;
+
+  void add(double value);
+
+  bool Found = false;
+  std::vector<double> Values; ///< ascending; if there are more than Most, the first and the last
+  bool IsRange = false;       ///< whether there are more
+  bool IsSingle = false;      ///< whether the column has single precision
+};
 
 /** The selection by a column of the vertices. */
 class ColumnSelection : public Selection
@@ -41,6 +114,46 @@ protected:
 private:
   ColumnTest Test;
   TagValues Tags; ///< during preparation
+};
+
+/** The selection by a column of the cells: cells, their vertices and their facets. In a stream,
+ * vertices precede their cells: a previous reading determines the selected vertices. */
+class CellSelection : public Selection
+{
+public:
+  CellSelection(
+    ColumnTest test, DataPlace place, const std::string& key, const MeshColumns& columns)
+    : Selection(place, key, columns)
+    , Test(std::move(test))
+    , Marks(columns.memory())
+  {
+  }
+
+  bool needsPreparing() const override
+  {
+    return this->Place == DataPlace::Vertices && !this->Vertices;
+  }
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  void endPreparing(MeshParts* parts) override;
+  VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
+
+  void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const override;
+  void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
+  std::string predicate() const override
+  {
+    return (this->Place == DataPlace::Cells ? "" : "is of a cell that ") + this->Test.predicate();
+  }
+  std::string instead() const override { return this->Test.value ? this->Tags.text() : ""; }
+
+private:
+  ColumnTest Test;
+  TagValues Tags;                        ///< during preparation
+  std::optional<VertexSetFile> Vertices; ///< of the selected cells, if requested
+  OpenValues<std::uint8_t> Marks;        ///< of open vertices, during preparation
+  std::int64_t Marked = 0, Written = 0;  ///< vertices read, and written to the file
 };
 
 } // namespace smg

@@ -21,4 +21,7 @@ SMG_EXPORT std::set<std::string> namedColumns(const ProblemDescription& problem)
  * have the solution 0. */
 SMG_EXPORT bool isPosed(const ProblemDescription& problem);
 
+/** A text that is another one if anything in the description is, for CheckpointOptions::problem. */
+SMG_EXPORT std::string textOf(const ProblemDescription& problem);
+
 } // namespace smg

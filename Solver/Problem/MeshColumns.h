@@ -2,9 +2,13 @@
 #pragma once
 
 #include "Solver/Memory/Pool.h"
+#include "smg/Column.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/Report.h"
+#include "smg/Solve.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -80,5 +84,29 @@ private:
   std::vector<std::string> Vertices, Cells; ///< names of the required columns
   bool NeedsIds = false, NeedsCellIds = false;
 };
+
+/** Whether a number of an integer column may have lost digits when it became this double: its
+ * magnitude is 2^53 or more. */
+inline bool isInexact(ScalarType type, double number)
+{
+  constexpr double LeastInexact = 9007199254740992.0;
+  const bool isInteger = type != ScalarType::Float32 && type != ScalarType::Float64;
+  return isInteger && std::fabs(number) >= LeastInexact;
+}
+
+/** What prevents a computation with this number of a column, as the end of "the column ..."; null:
+ * nothing. */
+inline const char* flawOf(ScalarType type, double number)
+{
+  return !std::isfinite(number) ? "is not a finite number"
+         : isInexact(type, number)
+           ? "has an integer of 2^53 or more, which double precision cannot hold exactly,"
+           : nullptr;
+}
+
+/** Counts the values that become the smallest or largest number of the type of their column since
+ * they are, rounded, beyond it: sets Report::clipped, and adds a note if there are any. The
+ * components of `columns` are the columns of the solution, one after the other. */
+void countClipped(Solution& solution, const std::vector<ColumnSpec>& columns, Report& report);
 
 } // namespace smg

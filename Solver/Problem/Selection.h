@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/Facets.h"
 #include "Solver/Problem/MeshColumns.h"
-#include "Solver/Problem/MeshParts.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Region.h"
 
@@ -11,9 +11,36 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace smg
 {
+
+class OpenFacets;
+
+/**
+ * A mesh in parts, each of them known to one process, which numbers its vertices for itself: what a
+ * selection must know of the other parts. All processes call each function, in the same order.
+ */
+class MeshParts
+{
+public:
+  virtual ~MeshParts() = default;
+
+  /** Replaces each number by its sum over all parts. */
+  virtual void sum(std::span<std::int64_t> counts) = 0;
+  /** Marks the vertices of the part that any part marks with 1. */
+  virtual void join(std::span<std::uint8_t> marks) = 0;
+  /**
+   * Given the vertex of the part that is nearest to each point, or -1, and their distances: finds
+   * the nearest vertex of all parts, the first one in stream order of several. It replaces those
+   * given, with -1 where the part does not have it.
+   */
+  virtual void nearest(std::span<double> distances, std::span<std::int64_t> vertices) = 0;
+  /** The facets that have one cell in the part, but more in all parts. `facets` are those of the
+   * cells of the part. */
+  virtual FacetSet innerFacets(const OpenFacets& facets) = 0;
+};
 
 class VertexSetFile;
 
@@ -93,6 +120,25 @@ private:
   OpenValues<std::uint8_t> Open;
   std::int64_t Finalized = 0; ///< of the previous block
   std::span<const std::uint8_t> Current;
+};
+
+/** The vertices in a region. */
+class RegionSelection : public Selection
+{
+public:
+  RegionSelection(
+    const Region& region, DataPlace place, const std::string& key, MeshColumns& columns);
+
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  void endPreparing(MeshParts* parts) override;
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
+  std::string predicate() const override { return "is in this region"; }
+
+private:
+  Region Selected;
+  std::vector<std::int64_t> Found; ///< how often the mesh has each vertex of the region
 };
 
 } // namespace smg

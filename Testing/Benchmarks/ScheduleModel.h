@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/LongestFirst.h"
-#include "Solver/Multigrid/Engine/StepRecorder.h"
+#include "Solver/Core/RunAll.h"
+#include "Solver/Multigrid/Engine/SolveRun.h"
 
 #include <vector>
 

@@ -3,7 +3,6 @@
 
 #include "Solver/Core/DisjointSets.h"
 #include "Solver/Multigrid/Cycle/CoreCycle.h"
-#include "Solver/Multigrid/Cycle/CoreIteration.h"
 #include "Testing/Benchmarks/LevelsInCore.h"
 #include "Testing/Support/TestMeshes.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/Team.h"
-#include "Solver/Jobs/Results/HeldSolution.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Testing/Distributed/PartOfMesh.h"
 #include "Testing/Solver/WaveProblem.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Distributed/FreeMemory.h"
+#include "Solver/Distributed/PartMemory.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Distributed/SharedCells.h"
+#include "Solver/Distributed/SharedElements.h"
 #include "Testing/Distributed/PartOfMesh.h"
 #include "Testing/Solver/EllipticTesting.h"
 

@@ -32,7 +32,7 @@ REPORT = DISK + "/report.json"
 SCRATCH = DISK + "/scratch"
 CUTS = 45  # of a command in each build
 FOUND = re.compile(r"found a checkpoint after (?:pass|stage) (\d+) in")
-# Of a complete state, see Solver/Checkpoint/StateFront.h: its steps are at byte 16.
+# Of a complete state, see Solver/Checkpoint/Checkpoint.h: its steps are at byte 16.
 STATE = struct.Struct("=16xq")
 
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Checkpoint/Checkpoint.h"
-#include "Solver/Checkpoint/StateFront.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Testing/Fuzzing/EditedState.h"
 #include "Testing/Fuzzing/SmallSolve.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/EditedState.h"
 
-#include "Solver/Checkpoint/StateFront.h"
-#include "Solver/Files/StateWriter.h"
+#include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Files/State.h"
 
 #include <algorithm>
 #include <cstring>

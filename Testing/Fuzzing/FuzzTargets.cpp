@@ -3,8 +3,8 @@
 
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Gmsh/GmshFormat.h"
-#include "IO/Formats/Importer.h"
 #include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Obj/ObjFormat.h"
 #include "IO/Formats/Off/OffFormat.h"
 #include "IO/Formats/Ply/PlyFormat.h"

@@ -2,7 +2,7 @@
 #include "Testing/Fuzzing/MeshChecks.h"
 
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Formats/Vsm/CheckVsm.h"
+#include "IO/Formats/Vsm/VsmFile.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "smg/VsmReader.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/SealedVsm.h"
 
-#include "IO/External/BlockFileLayout.h"
+#include "IO/External/BlockFile.h"
 #include "Solver/Files/Checksum.h"
 #include "smg/Error.h"
 

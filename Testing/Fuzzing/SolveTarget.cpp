@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/BlockFileLayout.h"
+#include "IO/External/BlockFile.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Preview/PreviewPiece.h"
 #include "Testing/Fuzzing/SealedVsm.h"

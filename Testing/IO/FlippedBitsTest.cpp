@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/ExternalSort.h"
 #include "IO/External/PagedArray.h"
-#include "IO/External/RowTable.h"
-#include "IO/Order/Search/SearchQueue.h"
+#include "IO/External/Relabelling.h"
+#include "IO/Order/Search/PagedSearch.h"
 #include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/Pages/HilbertCurve.h"
+#include "IO/Order/Pages/EdgeMetric.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Importer.h"
+#include "IO/Formats/MeshFile.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/Combinations.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
-#include "IO/Mesh/AttributeNames.h"
 #include "IO/Mesh/Columns.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/HdfFile.h"

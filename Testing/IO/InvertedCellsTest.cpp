@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Results/InvertedCells.h"
-
 #include "IO/Results/MovedPoints.h"
+
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TestMeshes.h"

@@ -5,7 +5,7 @@
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Order/Search/FirstUseOrder.h"
 #include "IO/Order/Search/TakeIsolated.h"
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Memory/Pool.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/VsmReader.h"

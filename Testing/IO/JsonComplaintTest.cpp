@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Description/JsonComplaint.h"
+#include "IO/Description/JsonNode.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/PagedArray.h"
 #include "IO/External/Relabelling.h"
-#include "IO/Order/Assembly/PlacedCells.h"
-#include "IO/Order/Pages/VertexLinks.h"
+#include "IO/Order/Assembly/StreamAssembly.h"
 #include "IO/Order/Pages/VertexStar.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"

@@ -2,7 +2,7 @@
 #include "smg/MovedMesh.h"
 
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/Mesh/AttributeNames.h"
+#include "IO/Mesh/Columns.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/PrecisionSource.h"

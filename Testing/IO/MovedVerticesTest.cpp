@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Results/MovedVertices.h"
 
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/StreamMesh.h"

@@ -3,7 +3,7 @@
 
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Order/Pages/GroupPages.h"
-#include "IO/Order/Pages/UsedVertices.h"
+#include "IO/Order/Pages/RankedVertices.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/Error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/ParallelSort.h"
+#include "IO/External/ExternalSort.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>

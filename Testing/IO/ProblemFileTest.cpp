@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Description/ProblemKeys.h"
+#include "IO/Description/ParseWhere.h"
 #include "smg/DescriptionFiles.h"
 
-#include "IO/Description/ParseWhere.h"
 #include "Testing/IO/RegionFileFixture.h"
 #include "Testing/Support/DescribedMesh.h"
 #include "Testing/Support/SolveMesh.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Mesh/ReservedNames.h"
+#include "IO/Mesh/Columns.h"
 
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/MeshText.h"

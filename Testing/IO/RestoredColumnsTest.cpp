@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Importer.h"
+#include "IO/Formats/MeshFile.h"
 #include "Testing/IO/RestoredMeshFixture.h"
 #include "Testing/Support/ColumnValues.h"
 #include "Testing/Support/RawMeshReading.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/WriteRestored.h"
+#include "IO/Formats/WriteFiles.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/MeshOfFile.h"
 #include "Testing/Support/FileMesh.h"

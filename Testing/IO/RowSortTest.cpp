@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/RowSort.h"
+#include "IO/External/ExternalSort.h"
 
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/TemporaryFolder.h"

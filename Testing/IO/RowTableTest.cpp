@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/RowTable.h"
+#include "IO/External/Relabelling.h"
 
 #include "Testing/Support/TemporaryFolder.h"
 

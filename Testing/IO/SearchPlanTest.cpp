@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Search/SearchPlan.h"
 
-#include "IO/Order/Search/AxisEnds.h"
 #include "IO/Order/Search/SourcePlan.h"
 #include "Testing/Support/InCorePages.h"
 

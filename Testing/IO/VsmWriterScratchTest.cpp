@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/StreamStatistics.h"
+#include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Files/ScratchFolder.h"

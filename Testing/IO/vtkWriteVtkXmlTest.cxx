@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vtk/WriteVtkXml.h"
+#include "IO/Formats/Vtk/VtkXmlFile.h"
 
 #include "Testing/Support/PrecisionSource.h"
 #include "Testing/Support/TemporaryFolder.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/CellWeights.h"
-#include "Solver/Assembly/FlatCells.h"
+#include "Solver/Assembly/Elements.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <Eigen/Dense>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/SystemCalls.h"
-#include "Solver/Files/FolderLock.h"
+#include "Solver/Files/Folder.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Testing/Support/ErrorMessage.h"

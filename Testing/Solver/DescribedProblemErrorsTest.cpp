@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Solve.h"
 

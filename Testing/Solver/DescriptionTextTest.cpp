@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/DescriptionText.h"
+#include "Solver/Problem/ComposeDescriptions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Cycle/WideIndex.h"
-#include "Solver/Multigrid/Setup/CoarseEntry.h"
+#include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
-#include "Solver/Multigrid/Setup/RowEntry.h"
+#include "Solver/Multigrid/Setup/GatheredRows.h"
+#include "Solver/Multigrid/Setup/LevelRows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Engine/Chebyshev.h"
-#include "Solver/Multigrid/Engine/ConjugateResiduals.h"
+#include "Solver/Multigrid/Engine/Acceleration.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <Eigen/Core>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Assembly/AssembledRows.h"
 #include "Solver/Assembly/CellAssembly.h"
 #include "Solver/Assembly/RowAssembly.h"
-#include "Solver/Memory/MonotoneRing.h"
 #include "Solver/Memory/RaggedRing.h"
+#include "Solver/Memory/Ring.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TestMeshes.h"
 

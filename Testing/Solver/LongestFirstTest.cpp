@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Core/LongestFirst.h"
+#include "Solver/Core/RunAll.h"
 
 #include <gtest/gtest.h>
 

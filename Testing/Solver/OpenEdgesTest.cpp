@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Assembly/OpenEdges.h"
+#include "Solver/Assembly/Edges.h"
 #include "Solver/Core/Timer.h"
 #include "Testing/Support/TestMeshes.h"
 

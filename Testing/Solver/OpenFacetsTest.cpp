@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Assembly/OpenFacets.h"
+#include "Solver/Assembly/Facets.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>

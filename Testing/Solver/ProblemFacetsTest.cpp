@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/ProblemFacets.h"
-#include "Solver/Assembly/OpenFacets.h"
+#include "Solver/Assembly/Facets.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/NotNumbers.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Assembly/FlatCells.h"
-#include "Solver/Assembly/RowShortfall.h"
+#include "Solver/Assembly/Elements.h"
+#include "Solver/Assembly/RowSums.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "smg/CellWeights.h"
 

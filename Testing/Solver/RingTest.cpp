@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Memory/MonotoneRing.h"
+#include "Solver/Memory/Ring.h"
 #include "Solver/Memory/RaggedRing.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/TestMeshes.h"

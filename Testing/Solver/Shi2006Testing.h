@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Shi2006/CoarseOperator.h"
-#include "Solver/Shi2006/FinestRows.h"
-#include "Solver/Shi2006/Lifting.h"
-#include "Solver/Shi2006/RightSideTransfer.h"
+#include "Solver/Shi2006/EdgeOperators.h"
+#include "Solver/Shi2006/Shi2006.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <Eigen/Dense>

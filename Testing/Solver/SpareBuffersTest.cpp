@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Memory/SpareBuffers.h"
+#include "Solver/Memory/Buffer.h"
 
 #include <gtest/gtest.h>
 

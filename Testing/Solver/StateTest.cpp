@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Files/StateReader.h"
-#include "Solver/Files/StateWriter.h"
+#include "Solver/Files/State.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"

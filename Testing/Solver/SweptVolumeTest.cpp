@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Jobs/Fairing/SweptVolume.h"
+#include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Testing/Solver/SmoothTesting.h"
 
 #include <gtest/gtest.h>

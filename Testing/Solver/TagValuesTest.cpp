@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/TagValues.h"
+#include "Solver/Problem/ColumnSelection.h"
 #include "Testing/Support/StreamMesh.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Importer.h"
+#include "IO/Formats/MeshFile.h"
 #include "IO/Import/RawMesh.h"
 #include "smg/Column.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/BlockFileLayout.h"
+#include "IO/External/BlockFile.h"
 #include "Solver/Files/Checksum.h"
 
 #include <cstddef>

@@ -2,11 +2,9 @@
 #include "OnProcesses.h"
 #include "PieceFiles.h"
 
-#include "IO/Mesh/AttributeNames.h"
 #include "IO/Mesh/Columns.h"
-#include "IO/Mesh/SinglePrecision.h"
-#include "IO/Results/InvertedCells.h"
-#include "IO/Results/NormalSums.h"
+#include "IO/Results/MovedPoints.h"
+#include "IO/Results/VertexNormals.h"
 #include "smg/Deform.h"
 #include "smg/DescribedHandles.h"
 #include "smg/MovedMesh.h"

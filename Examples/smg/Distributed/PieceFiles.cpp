@@ -3,12 +3,10 @@
 
 #include "ReadPart.h"
 
-#include "IO/Files/Suffix.h"
-#include "IO/Formats/Vtk/VtkXml.h"
-#include "IO/Formats/Vtk/WriteVtkXml.h"
-#include "IO/Mesh/ReservedNames.h"
+#include "IO/Files/FileNames.h"
+#include "IO/Formats/Vtk/VtkXmlFile.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Files/FileDescriptor.h"
-#include "Solver/Files/WholeFile.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 

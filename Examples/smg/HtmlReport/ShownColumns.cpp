@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HtmlReport/ShownColumns.h"
 
-#include "IO/Mesh/AttributeNames.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Preview.h"
 
 #include <algorithm>

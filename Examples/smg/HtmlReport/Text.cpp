@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HtmlReport/Text.h"
 
-#include "Solver/Core/GroupedDigits.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
 #include <cmath>

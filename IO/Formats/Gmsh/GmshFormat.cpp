@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Gmsh/GmshFormat.h"
 
-#include "IO/Files/TextStart.h"
+#include "IO/Export/PlacedColumns.h"
+#include "IO/Export/RestoredMesh.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Files/TextOutput.h"
+#include "IO/Files/TextScanner.h"
+#include "IO/Formats/Gmsh/GmshInput.h"
+#include "IO/Formats/Gmsh/GmshSections.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/Columns.h"
+
+#include <array>
+#include <string>
 
 namespace smg
 {
@@ -28,5 +39,413 @@ const Format GmshFormat{
   .bytes = bytesOfGmsh,
   .restore = writeRestoredGmsh,
 };
+
+namespace
+{
+
+/** Reads the sections of a Gmsh file. */
+class GmshReader
+{
+public:
+  GmshReader(InputFile& file, RawMeshBuilder& builder)
+    : Input(file, &builder.workspace())
+    , Builder(builder)
+    , Nodes(builder.workspace())
+    , Tags(builder)
+  {
+  }
+
+  void read()
+  {
+    try
+    {
+      for (std::string name = this->Input.sectionName(); !name.empty();
+           name = this->Input.sectionName())
+      {
+        this->readSection(name);
+      }
+      this->Tags.finish();
+    }
+    catch (const MeshError& error)
+    {
+      this->Input.fail(error.what());
+    }
+  }
+
+private:
+  void readSection(const std::string& name)
+  {
+    const std::string end = "$End" + name.substr(1);
+    if (name == "$MeshFormat")
+    {
+      this->Input.readFormat();
+      this->Input.endSection(end);
+      return;
+    }
+    const bool hasGroups = name == "$Entities" && this->Input.hasBlocks();
+    if (name == "$PartitionedEntities")
+    {
+      this->Builder.note("The mesh is partitioned: the physical groups of its parts are not read.");
+    }
+    if (name != "$Nodes" && name != "$Elements" && !hasGroups)
+    {
+      this->Input.skipSection(end);
+      return;
+    }
+    if (!this->Input.hasFormat())
+    {
+      this->Input.fail("the section $MeshFormat is missing");
+    }
+    if (hasGroups)
+    {
+      this->Tags.readEntities(this->Input);
+    }
+    else
+    {
+      name == "$Nodes" ? this->readNodeSection() : this->readElementSection();
+    }
+    this->Input.endNumbers();
+    this->Input.endSection(end);
+  }
+
+  void readNodeSection()
+  {
+    if (this->HasNodes)
+    {
+      this->Input.fail("there are two sections $Nodes");
+    }
+    this->HasNodes = true;
+    this->Input.hasBlocks() ? this->readNodeBlocks() : this->readNodes();
+    this->Nodes.finish();
+    if (auto numbers = this->Nodes.takeNumbers())
+    {
+      this->Builder.relabelCorners(std::move(*numbers));
+    }
+  }
+
+  void readElementSection()
+  {
+    if (!this->HasNodes)
+    {
+      this->Input.fail("the elements come before the nodes");
+    }
+    if (this->Input.hasBlocks())
+    {
+      this->readElementBlocks();
+    }
+    else
+    {
+      this->Input.isBinary() ? this->readElementGroups() : this->readElements();
+    }
+  }
+
+  void readPoint()
+  {
+    std::array<double, 3> point{};
+    for (double& coordinate : point)
+    {
+      coordinate = this->Input.number("a coordinate of a node");
+    }
+    this->Builder.vertex(point[0], point[1], point[2]);
+  }
+
+  void readNodes()
+  {
+    const std::int64_t nodes = this->Input.lineCount("the number of nodes", 8, 28);
+    this->Input.beginNumbers();
+    for (std::int64_t i = 0; i < nodes; ++i)
+    {
+      this->Nodes.add(this->Input.integer("the tag of a node"));
+      this->readPoint();
+    }
+  }
+
+  void readNodeBlocks()
+  {
+    this->Input.beginNumbers();
+    const std::int64_t blocks = this->Input.count("the number of blocks", 8, 20);
+    const std::int64_t nodes = this->Input.count("the number of nodes", 8, 32);
+    this->Input.longInteger("the least tag");
+    this->Input.longInteger("the largest tag");
+    for (std::int64_t block = 0; block < blocks; ++block)
+    {
+      this->readNodeBlock();
+    }
+    this->checkSum(this->Nodes.count(), nodes, "nodes");
+  }
+
+  void readNodeBlock()
+  {
+    const std::int64_t dimension = this->Input.integer("the dimension of an entity");
+    this->Input.integer("the tag of an entity");
+    const std::int64_t parametric = this->Input.integer("whether there are parameters");
+    if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
+    {
+      this->Input.fail("a block of nodes begins with its dimension, 0 to 3, its tag, and whether "
+                       "there are parameters, 0 or 1");
+    }
+    const std::int64_t nodes = this->Input.count("the number of nodes of a block", 8, 32);
+    for (std::int64_t i = 0; i < nodes; ++i)
+    {
+      this->Nodes.add(this->Input.longInteger("the tag of a node"));
+    }
+    for (std::int64_t i = 0; i < nodes; ++i)
+    {
+      this->readPoint();
+      for (std::int64_t k = 0; k < dimension * parametric; ++k)
+      {
+        this->Input.number("a parameter of a node");
+      }
+    }
+  }
+
+  /** Elements of version 2, as text: each with its type. */
+  void readElements()
+  {
+    const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
+    for (std::int64_t i = 0; i < elements; ++i)
+    {
+      this->Input.integer("the tag of an element");
+      const GmshElementType type = this->readType();
+      const std::int64_t tags = this->Input.count("the number of tags", 2, 4);
+      this->readTags(tags);
+      this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
+    }
+  }
+
+  /** Elements of version 2, binary: one header for a number of elements of the same type. */
+  void readElementGroups()
+  {
+    const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
+    this->Input.beginNumbers();
+    for (std::int64_t done = 0; done < elements;)
+    {
+      const GmshElementType type = this->readType();
+      const std::int64_t group = this->Input.integer("the number of elements of a group");
+      const std::int64_t tags = this->Input.integer("the number of tags");
+      this->Input.checkCount(tags, "the number of tags", sizeof(std::int32_t));
+      this->Input.checkCount(group, "the number of elements of a group",
+        sizeof(std::int32_t) * static_cast<std::size_t>(1 + tags + type.nodes));
+      if (group < 1 || group > elements - done)
+      {
+        this->Input.fail("a group has " + std::to_string(group) + " elements, but there are " +
+                         std::to_string(elements - done) + " left");
+      }
+      for (std::int64_t i = 0; i < group; ++i)
+      {
+        this->Input.integer("the tag of an element");
+        this->readTags(tags);
+        this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
+      }
+      done += group;
+    }
+  }
+
+  void readElementBlocks()
+  {
+    this->Input.beginNumbers();
+    const std::int64_t blocks = this->Input.count("the number of blocks", 8, 20);
+    const std::int64_t elements = this->Input.count("the number of elements", 4, 16);
+    const std::int64_t before = this->Builder.elements();
+    this->Input.longInteger("the least tag");
+    this->Input.longInteger("the largest tag");
+    for (std::int64_t block = 0; block < blocks; ++block)
+    {
+      const std::int64_t dimension = this->Input.integer("the dimension of an entity");
+      const std::int64_t entity = this->Input.integer("the tag of an entity");
+      const std::int64_t group = this->Tags.groupOf(dimension, entity);
+      const GmshElementType type = this->readType();
+      const std::int64_t count = this->Input.count("the number of elements of a block", 4, 16);
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        this->Input.longInteger("the tag of an element");
+        this->Tags.add(group, entity);
+        this->readElement(type, [this] { return this->Input.longInteger("a node of an element"); });
+      }
+    }
+    this->checkSum(this->Builder.elements() - before, elements, "elements");
+  }
+
+  GmshElementType readType()
+  {
+    const std::int64_t number = this->Input.integer("the type of an element");
+    const GmshElementType type = gmshElementType(number);
+    if (type.nodes == 0)
+    {
+      this->Input.fail("elements of type " + std::to_string(number) + " are not known");
+    }
+    return type;
+  }
+
+  /** The tags of an element of version 2: a physical group, an entity, and others. */
+  void readTags(std::int64_t tags)
+  {
+    std::array<std::int64_t, 2> first{ GmshTags::NoGroup, GmshTags::FirstEntity };
+    for (std::int64_t k = 0; k < tags; ++k)
+    {
+      const std::int64_t tag = this->Input.integer("a tag of an element");
+      if (k < 2)
+      {
+        first[static_cast<std::size_t>(k)] = tag;
+      }
+    }
+    this->Tags.add(first[0], first[1]);
+  }
+
+  void readElement(GmshElementType type, const auto& readTag)
+  {
+    std::array<std::int64_t, 8> corners{};
+    const std::size_t count = type.corners();
+    for (std::size_t k = 0; k < type.nodes; ++k)
+    {
+      const std::int64_t tag = readTag();
+      if (k < count)
+      {
+        corners[k] = this->Nodes.corner(tag);
+        if (corners[k] < 0)
+        {
+          this->Input.fail(
+            "the element names node " + std::to_string(tag) + ", which is not there");
+        }
+      }
+    }
+    addGmshElement(this->Builder, type, std::span(corners).first(count));
+  }
+
+  void checkSum(std::int64_t found, std::int64_t promised, const std::string& things)
+  {
+    if (found != promised)
+    {
+      this->Input.fail("the blocks have " + std::to_string(found) + ' ' + things +
+                       ", but the section says " + std::to_string(promised));
+    }
+  }
+
+  GmshInput Input;
+  RawMeshBuilder& Builder;
+  GmshNodes Nodes;
+  GmshTags Tags;
+  bool HasNodes = false;
+};
+
+} // namespace
+
+void importGmsh(InputFile& file, RawMeshBuilder& builder)
+{
+  GmshReader(file, builder).read();
+}
+
+namespace
+{
+
+/** Types of elements in Gmsh. */
+enum GmshType
+{
+  GmshTriangle = 2,
+  GmshQuadrilateral = 3,
+  GmshTetrahedron = 4
+};
+
+/** Numbers elements from 1 and writes them with their tags. */
+class GmshElements
+{
+public:
+  GmshElements(TextOutput& out, CellType cellType, PlacedColumns& columns)
+    : Out(out)
+    , CellKind(cellType)
+    , Group(columns.integerOfElements({ PhysicalTagName, ReferenceName }))
+    , Entity(columns.integerOfElements({ GeometricalTagName }))
+  {
+  }
+
+  void write(const RestoredElements& elements)
+  {
+    elements.forEach([&](std::span<const std::int64_t> corners, std::size_t element)
+      { this->write(elements, element, corners); });
+  }
+
+private:
+  void write(
+    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
+  {
+    if (this->CellKind == CellType::Tetrahedron)
+    {
+      this->write(elements, element, GmshTetrahedron, corners);
+    }
+    else if (corners.size() == 4)
+    {
+      this->write(elements, element, GmshQuadrilateral, corners);
+    }
+    else
+    {
+      forEachFanTriangle(corners,
+        [&](const auto& triangle) { this->write(elements, element, GmshTriangle, triangle); });
+    }
+  }
+
+  void write(const RestoredElements& elements, std::size_t element, GmshType type,
+    std::span<const std::int64_t> corners)
+  {
+    // Two tags, which Gmsh requires.
+    this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2";
+    this->Out.tuple(elements.columns, this->Group, element, " 0");
+    this->Out.tuple(elements.columns, this->Entity, element, " 1");
+    for (const std::int64_t corner : corners)
+    {
+      this->Out << ' ' << corner + 1;
+    }
+    this->Out << '\n';
+  }
+
+  TextOutput& Out;
+  CellType CellKind;
+  std::ptrdiff_t Group, Entity; ///< columns
+  std::int64_t Count = 0;
+};
+
+} // namespace
+
+WriteNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path& path)
+{
+  TextOutput out(path);
+  const RestoredInfo& info = mesh.info();
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << info.vertices << '\n';
+  for (RestoredVertices vertices; mesh.next(vertices);)
+  {
+    const std::span<const double> positions = vertices.positions;
+    for (std::int64_t i = 0; i < vertices.count(); ++i)
+    {
+      out << vertices.first + i + 1 << ' ';
+      out.position(positions.subspan(static_cast<std::size_t>(3 * i), 3), info.doublePositions);
+      out << '\n';
+    }
+  }
+  // All cells of the stream, except for one of the two triangles of each quadrilateral.
+  out << "$EndNodes\n$Elements\n" << info.cells - info.quadrilaterals << '\n';
+  PlacedColumns columns(info);
+  GmshElements writer(out, info.cellType, columns);
+  for (RestoredElements elements; mesh.next(elements);)
+  {
+    writer.write(elements);
+  }
+  out << "$EndElements\n";
+  out.finish();
+  WriteNotes notes = columns.leftOut(".msh");
+  if (info.cellType == CellType::Triangle && info.mostCorners > 4)
+  {
+    notes.emplace_back("Polygons of more than four corners are written as triangles.");
+  }
+  return notes;
+}
+
+std::int64_t bytesOfGmsh(const MeshToWrite& written)
+{
+  constexpr double TypeAndTags = 8; // as "4 2 0 1 "
+  const StreamInfo& mesh = written.mesh;
+  return textBytes(mesh.vertices,
+           numberCharacters(mesh.vertices) + positionCharacters(mesh.doublePositions)) +
+         textBytes(mesh.cells, numberCharacters(mesh.cells) + TypeAndTags +
+                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices));
+}
 
 } // namespace smg

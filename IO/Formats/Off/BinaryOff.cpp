@@ -3,8 +3,7 @@
 
 #include "IO/Files/ByteOrder.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Off/OffAttributes.h"
-#include "IO/Import/TextColors.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Import/TriangleRuns.h"
 
 #include <array>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Ply/PlyFormat.h"
 
-#include "IO/Files/TextStart.h"
-#include "IO/Formats/Ply/PlyPlan.h"
-#include "IO/Formats/Ply/PlyRecords.h"
+#include "IO/Files/TextScanner.h"
+#include "IO/Formats/Ply/PlyHeader.h"
 #include "IO/Formats/Ply/WritePly.h"
 
 #include <vector>

@@ -4,7 +4,9 @@
 #include "IO/Files/InputFile.h"
 #include "smg/Column.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,5 +62,58 @@ struct PlyHeader
 
 /** Reads and checks the header. Throws Error naming the line. */
 PlyHeader readPlyHeader(InputFile& file);
+
+/** The operation for the next property of a record, or the next ones. */
+struct PlyStep
+{
+  enum Kind
+  {
+    Skip,       ///< skips `count` numbers
+    Coordinate, ///< a coordinate, along axis `place`
+    Attribute,  ///< goes to byte `place` of the record's attributes
+    SkipList,   ///< skips a list
+    Corners     ///< the list of a cell's vertices
+  };
+  Kind kind = Skip;
+  ScalarType type = ScalarType::Float32;
+  ScalarType lengthType = ScalarType::UInt8; ///< of a list
+  std::size_t place = 0;
+  std::int64_t count = 1;
+};
+
+/** The bytes of a tuple of a column in the attributes of a record. */
+struct PlyTuple
+{
+  int column = 0;
+  std::size_t begin = 0;
+  std::size_t bytes = 0;
+};
+
+/** How the records of an element are read. */
+struct PlyPlan
+{
+  std::vector<PlyStep> steps;
+  std::vector<PlyTuple> tuples;
+  std::size_t attributeBytes = 0;
+};
+
+/** The kind of the records of an element. */
+enum class PlyRole
+{
+  Vertices,
+  Cells,
+  Others
+};
+
+/**
+ * Compiles the properties of an element. Attributes become columns: nx ny nz are `Normals`, red
+ * green blue (alpha) are `Colors`. `addColumn` returns the number of a column, or -1 to omit it;
+ * without it there are none.
+ */
+PlyPlan planOf(const PlyElement& element, PlyRole role,
+  const std::function<int(const ColumnSpec&)>& addColumn = {});
+
+/** The property of this name that is a number; null if there is none. */
+const PlyProperty* findNumber(const PlyElement& element, std::string_view name);
 
 } // namespace smg

@@ -3,7 +3,6 @@
 #include "IO/Formats/Ply/PlyCursor.h"
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "IO/Formats/Ply/PlyPlan.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Import/TriangleRuns.h"
 #include "smg/Error.h"

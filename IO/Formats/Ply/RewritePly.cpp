@@ -4,8 +4,8 @@
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Ply/PlyCursor.h"
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "IO/Formats/Ply/PlyRecords.h"
-#include "IO/Mesh/SinglePrecision.h"
+#include "IO/Formats/Ply/WritePly.h"
+#include "IO/Mesh/Columns.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/BinaryStreamReader.h"
 
-#include "IO/Formats/Streams/BinaryStreamHeader.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -123,6 +123,235 @@ void BinaryStreamReader::readCell(const std::byte* element, StreamEvent& event)
     event.corners[k] = vertex;
     event.finalMask |= final ? 1U << k : 0U;
   }
+}
+
+namespace
+{
+
+/** The beginning of a file that is invalid in the byte order in which it is read. */
+class Nonsense
+{
+};
+
+/** The same, perhaps only since it has more comments than are read. */
+class TooLong : public Nonsense
+{
+};
+
+/** Reads numbers from a file in one byte order. */
+class Cursor
+{
+public:
+  Cursor(const FileDescriptor& file, std::int64_t offset, std::endian order)
+    : File(file)
+    , Offset(offset)
+    , Order(order)
+  {
+  }
+
+  template <class T>
+  T take()
+  {
+    std::byte bytes[4];
+    this->bytes(bytes);
+    return numberAt<T>(bytes, this->Order);
+  }
+
+  bool takeFlag()
+  {
+    std::byte flag[1];
+    this->bytes(flag);
+    if (flag[0] > std::byte{ 1 })
+    {
+      throw Nonsense();
+    }
+    return flag[0] == std::byte{ 1 };
+  }
+
+  std::string takeText(std::int32_t length)
+  {
+    if (length < 0 || length > this->File.size() - this->Offset)
+    {
+      throw Nonsense();
+    }
+    this->TextBytes += static_cast<std::int64_t>(sizeof(std::string)) + length;
+    if (this->TextBytes > StreamFileHeader::MostCommentBytes)
+    {
+      throw TooLong();
+    }
+    std::string text(length, '\0');
+    this->bytes(std::as_writable_bytes(std::span(text)));
+    return text;
+  }
+
+  void skip(std::int64_t count) { this->Offset += count; }
+  std::int64_t offset() const { return this->Offset; }
+
+private:
+  void bytes(std::span<std::byte> to)
+  {
+    if (this->File.readSome(this->Offset, to) != to.size())
+    {
+      throw Nonsense();
+    }
+    this->Offset += static_cast<std::int64_t>(to.size());
+  }
+
+  const FileDescriptor& File;
+  std::int64_t Offset;
+  std::endian Order;
+  std::int64_t TextBytes = 0;
+};
+
+void takeBounds(Cursor& cursor, StreamFileHeader& header)
+{
+  std::array<double, 6> bounds{};
+  for (int upper = 0; upper < 2; upper++)
+  {
+    for (int axis = 0; axis < 3; axis++)
+    {
+      bounds[2 * axis + upper] = cursor.take<float>();
+    }
+    cursor.skip(4 * header.vertexFloats);
+  }
+  if (std::all_of(bounds.begin(), bounds.end(), [](double x) { return std::isfinite(x); }))
+  {
+    header.bounds = bounds;
+  }
+}
+
+BinaryStreamHeader readAs(const FileDescriptor& file, StreamFormat format, std::endian order)
+{
+  BinaryStreamHeader result;
+  StreamFileHeader& header = result.header;
+  header.format = format;
+  result.order = order;
+  Cursor cursor(file, 4, order);
+  const auto comments = cursor.take<std::int32_t>();
+  if (comments < 0 || comments > file.size() / 4)
+  {
+    throw Nonsense();
+  }
+  for (std::int32_t i = 0; i < comments; i++)
+  {
+    header.comments.push_back(cursor.takeText(cursor.take<std::int32_t>()));
+  }
+  header.vertices = cursor.take<std::int32_t>();
+  header.cells = cursor.take<std::int32_t>();
+  if (format == StreamFormat::Svb)
+  {
+    const auto floats = cursor.take<std::int32_t>();
+    header.vertexInts = cursor.take<std::int32_t>();
+    // A vertex has four words.
+    if (floats < 3 || floats > 4 || header.vertexInts < 0 || floats + header.vertexInts > 4)
+    {
+      throw Nonsense();
+    }
+    header.vertexFloats = floats - 3;
+  }
+  if (cursor.takeFlag())
+  {
+    takeBounds(cursor, header);
+  }
+  if (header.vertexInts > 0 && cursor.takeFlag())
+  {
+    cursor.skip(2 * 4 * header.vertexInts);
+  }
+  const std::int64_t elementBytes = 4 * cornersOf(cellTypeOf(format));
+  const std::int64_t most = (file.size() - cursor.offset()) / elementBytes;
+  if (header.vertices < -1 || header.cells < -1 || header.vertices > most || header.cells > most)
+  {
+    throw Nonsense();
+  }
+  result.bodyOffset = cursor.offset();
+  return result;
+}
+
+/** Whether the elements of the first block can be valid. */
+bool firstBlockMakesSense(const FileDescriptor& file, const BinaryStreamHeader& begin)
+{
+  const int corners = cornersOf(cellTypeOf(begin.header.format));
+  const int elementBytes = 4 * corners;
+  std::byte block[4 + BinaryBlockElements * 16];
+  const std::size_t bytes = file.readSome(begin.bodyOffset, block);
+  const std::int64_t most = file.size() / elementBytes;
+  if (bytes < 4)
+  {
+    return false;
+  }
+  const auto kinds = numberAt<std::uint32_t>(block, begin.order);
+  const std::byte* element = block + 4;
+  for (int k = 0; k < BinaryBlockElements && element + elementBytes <= block + bytes; k++)
+  {
+    for (int j = 0; j < corners; j++)
+    {
+      const std::byte* word = element + 4 * std::ptrdiff_t(j);
+      if ((kinds >> k & 1) != 0)
+      {
+        const auto x = numberAt<float>(word, begin.order);
+        if (j < 3 &&
+            (!std::isfinite(x) || (x != 0 && (std::abs(x) < 1e-30F || std::abs(x) > 1e30F))))
+        {
+          return false;
+        }
+      }
+      else if (const auto index = numberAt<std::int32_t>(word, begin.order);
+               index == 0 || index > most || index < -most)
+      {
+        return false;
+      }
+    }
+    element += elementBytes;
+  }
+  return true;
+}
+
+} // namespace
+
+BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamFormat format)
+{
+  std::byte first[4] = {};
+  const std::size_t there = file.readSome(0, first);
+  const std::string name = file.path().string();
+  if (there < sizeof(first))
+  {
+    throw Error(name + ": byte " + std::to_string(there) + ": the file ends in its header.");
+  }
+  if (first[1] > std::byte{ 1 } || first[2] != std::byte{} || first[3] != std::byte{})
+  {
+    throw Error(name + ": byte 1: the header of a " + std::string(nameOf(format)) +
+                " file goes on otherwise: this is another format, or the file is damaged.");
+  }
+  const bool saysBig = first[1] == std::byte{ 1 };
+  std::vector<BinaryStreamHeader> candidates;
+  bool isTooLong = false;
+  for (const bool isBig : { saysBig, !saysBig })
+  {
+    try
+    {
+      candidates.push_back(readAs(file, format, isBig ? std::endian::big : std::endian::little));
+    }
+    catch (const TooLong&)
+    {
+      isTooLong = true;
+    }
+    catch (const Nonsense&)
+    {
+    }
+  }
+  if (candidates.empty() && isTooLong)
+  {
+    throw Error(name + ": byte 4: the comments of the header have more than 1 MiB, which is more "
+                       "than is read: remove some of them, if the file is not damaged.");
+  }
+  if (candidates.empty())
+  {
+    throw Error(name + ": byte 4: the header makes no sense in either byte order: the file is "
+                       "truncated or damaged.");
+  }
+  const bool useOther = candidates.size() == 2 && !firstBlockMakesSense(file, candidates[0]) &&
+                        firstBlockMakesSense(file, candidates[1]);
+  return candidates[useOther ? 1 : 0];
 }
 
 } // namespace smg

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/ByteOrder.h"
 #include "IO/Formats/Streams/StreamFile.h"
+#include "Solver/Files/FileDescriptor.h"
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -33,5 +36,27 @@ private:
   std::size_t Left = 0;                         ///< how many these are
   std::int64_t Element = -1, ElementOffset = 0; ///< the last one: its number and place
 };
+
+/** First bytes of the binary formats. */
+constexpr std::uint8_t SmbVersion = 0;
+constexpr std::uint8_t SvbVersion = 4;
+
+/** Elements of a full block of the binary formats. */
+constexpr int BinaryBlockElements = 32;
+
+/** The beginning of a SMB or SVB file, and the byte order of its data. */
+struct BinaryStreamHeader
+{
+  StreamFileHeader header;
+  std::endian order = std::endian::native; ///< of the bytes of the data
+  std::int64_t bodyOffset = 0;             ///< place of the first block
+};
+
+/**
+ * Reads the beginning of a SMB or SVB file. The byte for the byte order is unreliable, since some
+ * programs write a wrong one. Therefore the order is the one in which the header and the first
+ * block are valid; if both are, the byte decides. Throws Error.
+ */
+BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamFormat format);
 
 } // namespace smg

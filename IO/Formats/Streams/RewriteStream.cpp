@@ -4,7 +4,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
-#include "IO/Mesh/SinglePrecision.h"
+#include "IO/Mesh/Columns.h"
 
 #include <algorithm>
 #include <limits>

@@ -7,7 +7,7 @@
 #include "IO/Formats/Streams/StreamAssembler.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
-#include "IO/Mesh/SinglePrecision.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"

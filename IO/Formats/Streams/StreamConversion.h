@@ -3,7 +3,7 @@
 
 #include "IO/External/BlockFile.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

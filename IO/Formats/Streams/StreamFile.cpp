@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/StreamFile.h"
 
-#include "IO/Files/Suffix.h"
-#include "IO/Files/Tokens.h"
-#include "IO/Formats/Streams/BinaryStreamHeader.h"
+#include "IO/Files/FileNames.h"
+#include "IO/Files/SequentialInput.h"
 #include "IO/Formats/Streams/BinaryStreamReader.h"
 #include "IO/Formats/Streams/TextStreamReader.h"
 #include "smg/Error.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Files/SequentialOutput.h"
+#include "IO/Formats/Streams/BinaryStreamReader.h"
 #include "IO/Formats/Streams/StreamFile.h"
 
 #include <array>
@@ -79,5 +80,59 @@ protected:
 /** Begins a file. Throws Error for counts beyond the 31 bits that the formats have. */
 std::unique_ptr<StreamFileWriter> createStreamFile(
   std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style = {});
+
+/** Writes SMB and SVB. */
+class BinaryStreamWriter : public StreamFileWriter
+{
+public:
+  BinaryStreamWriter(
+    std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style);
+
+  void vertex(std::span<const float, 3> position, std::span<const float> floats,
+    std::span<const std::int32_t> ints) override;
+  void cell(std::span<const std::int64_t> corners, unsigned finalMask,
+    std::span<const std::int32_t> ints) override;
+
+private:
+  void complete() override;
+  void writeHeader();
+  void writeFlag(bool flag);
+  template <class T>
+  void write(T value);
+  template <class T>
+  void addWord(T value);
+  void endElement(bool isVertex);
+  void flushBlock();
+
+  bool Swapped;
+  std::size_t ElementWords;
+  std::uint32_t Kinds = 0;
+  int Elements = 0;
+  std::size_t Words = 0; ///< of the block
+  std::array<std::uint32_t, 4 * BinaryBlockElements> Block{};
+};
+
+/** Writes SMA and SVA. */
+class TextStreamWriter : public StreamFileWriter
+{
+public:
+  TextStreamWriter(
+    std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style);
+
+  void vertex(std::span<const float, 3> position, std::span<const float> floats,
+    std::span<const std::int32_t> ints) override;
+  void cell(std::span<const std::int64_t> corners, unsigned finalMask,
+    std::span<const std::int32_t> ints) override;
+  void finalization(std::int64_t vertex) override;
+
+private:
+  void writeHeader();
+  void writeBounds(const char* key, bool upper);
+  void add(float value);
+  void add(std::int64_t value);
+  void endLine();
+
+  std::string Line;
+};
 
 } // namespace smg

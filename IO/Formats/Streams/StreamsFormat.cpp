@@ -2,7 +2,7 @@
 #include "IO/Formats/Streams/StreamsFormat.h"
 
 #include "IO/Files/InputFile.h"
-#include "IO/Files/TextBytes.h"
+#include "IO/Files/TextOutput.h"
 #include "IO/Formats/Streams/StreamAssembler.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"

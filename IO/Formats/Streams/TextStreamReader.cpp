@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/TextStreamReader.h"
 
-#include "IO/Files/InQuotes.h"
+#include "IO/Files/FileNames.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/Tokens.h"
+#include "IO/Files/SequentialInput.h"
 #include "IO/Formats/Streams/StreamFile.h"
 
 #include <cstdint>

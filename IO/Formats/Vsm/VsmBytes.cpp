@@ -2,7 +2,7 @@
 #include "IO/Formats/Vsm/VsmBytes.h"
 
 #include "IO/Formats/Vsm/VsmFile.h"
-#include "IO/Mesh/RowBytes.h"
+#include "IO/Mesh/Columns.h"
 
 #include <cmath>
 #include <string_view>

@@ -1,16 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/VsmFile.h"
 
-#include "IO/Formats/Vsm/IsolatedWriter.h"
+#include "IO/External/BlockFile.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
+#include "IO/Formats/Vsm/VsmBuffers.h"
+#include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
 
 namespace smg
 {
+
+RowReader::RowReader(BlockFileReader& file, int table, int column)
+  : File(&file)
+  , Table(table)
+  , Column(column)
+  , TupleBytes(file.tables()[table].columns[column].tupleBytes())
+{
+}
+
+void RowReader::load(std::int64_t block)
+{
+  if (block != this->Block)
+  {
+    this->Block = -1;
+    this->Bytes.resize(this->File->columnBytes(this->Table, block, this->Column));
+    this->File->read(this->Table, block, this->Column, this->Bytes);
+    this->Block = block;
+  }
+}
+
+void RowReader::read(std::int64_t first, std::int64_t count, std::byte* values)
+{
+  while (count > 0)
+  {
+    const std::int64_t block = this->File->blockOf(this->Table, first);
+    this->load(block);
+    const std::int64_t begin = first - this->File->firstRow(this->Table, block);
+    const std::int64_t n = std::min(count, this->File->blockRows(this->Table, block) - begin);
+    std::memcpy(values, this->Bytes.data() + begin * this->TupleBytes, n * this->TupleBytes);
+    values += n * this->TupleBytes;
+    first += n;
+    count -= n;
+  }
+}
+
+void RowReader::gather(std::span<const std::int64_t> rows, std::byte* values)
+{
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+  for (const std::int64_t row : rows)
+  {
+    if (row < begin || row >= end)
+    {
+      const std::int64_t block = this->File->blockOf(this->Table, row);
+      this->load(block);
+      begin = this->File->firstRow(this->Table, block);
+      end = begin + this->File->blockRows(this->Table, block);
+    }
+    std::memcpy(values, this->Bytes.data() + (row - begin) * this->TupleBytes, this->TupleBytes);
+    values += this->TupleBytes;
+  }
+}
 
 VsmFile::VsmFile(const std::filesystem::path& path, IoStatistics* statistics)
   : Blocks(path, statistics)
@@ -234,6 +291,46 @@ int VsmFile::vertexColumn(const std::string& name) const
 int VsmFile::cellColumn(const std::string& name) const
 {
   return this->find(this->Info.cellColumns, name, "cell");
+}
+
+namespace
+{
+
+/** Reads a block as a whole, which checks it. */
+void readBlock(BlockFileReader& file, int table, std::int64_t block, std::vector<std::byte>& bytes)
+{
+  const auto columns =
+    static_cast<int>(file.tables()[static_cast<std::size_t>(table)].columns.size());
+  for (int column = 0; column < columns; ++column)
+  {
+    bytes.resize(file.columnBytes(table, block, column));
+    file.read(table, block, column, bytes);
+  }
+}
+
+} // namespace
+
+std::int64_t checkVsm(const std::filesystem::path& path, const ProgressFunction& progress)
+{
+  BlockFileReader file(path);
+  const auto tables = static_cast<int>(file.tables().size());
+  std::int64_t blocks = 0;
+  for (int table = 0; table < tables; ++table)
+  {
+    blocks += file.blocks(table);
+  }
+  Progress reported(progress);
+  std::vector<std::byte> bytes;
+  std::int64_t done = 0;
+  for (int table = 0; table < tables; ++table)
+  {
+    for (std::int64_t block = 0; block < file.blocks(table); ++block)
+    {
+      readBlock(file, table, block, bytes);
+      reported.update(static_cast<double>(++done) / static_cast<double>(blocks));
+    }
+  }
+  return blocks;
 }
 
 } // namespace smg

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "IO/External/BlockFile.h"
-#include "IO/Formats/Vsm/RowReader.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
+#include "Solver/Core/Progress.h"
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -14,6 +16,30 @@
 
 namespace smg
 {
+
+/** Reads rows of a column of a block file, independent of its blocks. Keeps the last block, so that
+ * rows in ascending order read each block once. */
+class RowReader
+{
+public:
+  RowReader(BlockFileReader& file, int table, int column);
+
+  std::size_t tupleBytes() const { return this->TupleBytes; }
+
+  /** Reads the rows [first, first + count). */
+  void read(std::int64_t first, std::int64_t count, std::byte* values);
+  /** Reads the rows `rows`, in ascending order. */
+  void gather(std::span<const std::int64_t> rows, std::byte* values);
+
+private:
+  void load(std::int64_t block);
+
+  BlockFileReader* File;
+  int Table, Column;
+  std::size_t TupleBytes;
+  std::int64_t Block = -1;
+  std::vector<std::byte> Bytes; ///< of that block
+};
 
 /** An open .vsm file: its verified header, and the decoding of its blocks. */
 class VsmFile
@@ -64,5 +90,14 @@ private:
   std::vector<std::byte> Packed;
   std::vector<std::uint64_t> Numbers;
 };
+
+/**
+ * Reads a whole .vsm file, unlike all other operations, and verifies the checksum of every column
+ * of every block.
+ * @return the number of blocks
+ * @throws Error naming the file, the table and the block if one is wrong; Cancelled
+ */
+SMG_EXPORT std::int64_t checkVsm(
+  const std::filesystem::path& path, const ProgressFunction& progress = {});
 
 } // namespace smg

@@ -2,13 +2,10 @@
 #include "IO/Formats/Vsm/VsmWriter.h"
 
 #include "IO/External/PagedArray.h"
-#include "IO/Formats/Vsm/IsolatedWriter.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
-#include "IO/Formats/Vsm/PositionBuffer.h"
-#include "IO/Formats/Vsm/RowBuffer.h"
-#include "IO/Formats/Vsm/StreamStatistics.h"
+#include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "IO/Mesh/ReservedNames.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>

@@ -3,6 +3,7 @@
 
 #include "IO/External/BlockFile.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "IO/Mesh/Format.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
@@ -53,5 +54,8 @@ WrittenVsm writeVsm(
  */
 SMG_EXPORT void copyIsolated(
   const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);
+
+/** The container of this library. */
+extern const Format VsmFileFormat;
 
 } // namespace smg

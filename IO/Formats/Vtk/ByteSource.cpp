@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <string>
-#include <string_view>
-
 #include <lz4.h>
 #include <lzma.h>
+#include <string>
+#include <string_view>
 #include <zlib.h>
 
 namespace smg

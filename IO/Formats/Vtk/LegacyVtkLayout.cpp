@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/LegacyVtkLayout.h"
 
-#include "IO/Files/InQuotes.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
 
 #include <limits>

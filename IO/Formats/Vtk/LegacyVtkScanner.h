@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Vtk/VtkArray.h"
+#include "IO/Formats/Vtk/ByteSource.h"
 
 #include <cstddef>
 #include <cstdint>

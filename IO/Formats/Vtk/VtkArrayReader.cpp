@@ -2,7 +2,7 @@
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 
 #include "IO/Files/ByteOrder.h"
-#include "IO/Files/InQuotes.h"
+#include "IO/Files/FileNames.h"
 #include "smg/Error.h"
 
 #include <algorithm>

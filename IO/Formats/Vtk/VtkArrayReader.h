@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/RowsAhead.h"
+#include "IO/External/MergeSort.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextNumbers.h"
 #include "IO/Formats/Vtk/ByteSource.h"
-#include "IO/Formats/Vtk/VtkArray.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 
-#include "IO/Files/InQuotes.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/Formats/Vtk/VtkCellReader.h"
-#include "IO/Formats/Vtk/VtkFiles.h"
-#include "IO/Formats/Vtk/VtkPointMerger.h"
-#include "IO/Formats/Vtk/VtkTuples.h"
-#include "IO/Mesh/AttributeNames.h"
-#include "IO/Mesh/ReservedNames.h"
-#include "Solver/Memory/Reservation.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Mesh/Columns.h"
+#include "Solver/Memory/Pool.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,13 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkXmlFile.h"
 
-#include "IO/Files/Suffix.h"
+#include "IO/Export/RestoredMesh.h"
+#include "IO/Files/FileNames.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Import/ImportColumn.h"
+#include "IO/Mesh/Columns.h"
+#include "Solver/Core/Progress.h"
+#include "smg/Error.h"
 
 #include <bit>
+#include <cctype>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace smg
 {
+
+InlineArray::InlineArray(ColumnSpec spec, std::int64_t tuples)
+  : Spec(std::move(spec))
+  , Bytes(tuples * static_cast<std::int64_t>(this->Spec.tupleBytes()))
+{
+}
+
+std::string InlineArray::tag() const
+{
+  return "<DataArray type=\"" + vtkXmlTypeName(this->Spec.type) + "\" Name=\"" +
+         xmlEscaped(this->Spec.name) + "\" NumberOfComponents=\"" +
+         std::to_string(this->Spec.components) + "\" format=\"binary\">\n";
+}
+
+std::int64_t InlineArray::begin(PositionedFile& file, std::int64_t at)
+{
+  const auto bytes = static_cast<std::uint64_t>(this->Bytes);
+  this->At = at;
+  this->append(file, std::as_bytes(std::span(&bytes, 1)));
+  this->finish(file);
+  return this->At + Base64Encoder::encodedSize(this->Bytes);
+}
+
+void InlineArray::append(PositionedFile& file, std::span<const std::byte> bytes)
+{
+  std::string text;
+  this->Encoder.append(bytes, text);
+  this->write(file, text);
+}
+
+void InlineArray::finish(PositionedFile& file)
+{
+  std::string text;
+  this->Encoder.finish(text);
+  this->write(file, text);
+}
+
+void InlineArray::write(PositionedFile& file, const std::string& text)
+{
+  file.write(this->At, std::as_bytes(std::span(text)));
+  this->At += static_cast<std::int64_t>(text.size());
+}
 
 namespace
 {
@@ -142,6 +193,100 @@ void VtkXmlFile::finish()
     array->finish(this->File);
   }
   this->File.finish();
+}
+
+std::string vtkXmlTypeName(ScalarType type)
+{
+  std::string name(nameOf(type));
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name[0] == 'U' ? "UI" + name.substr(2) : name;
+}
+
+std::string xmlEscaped(const std::string& text)
+{
+  std::string result;
+  for (const char c : text)
+  {
+    switch (c)
+    {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+void writeVtkXml(
+  MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
+{
+  const StreamInfo& info = source.info();
+  if (info.cellType == CellType::Tetrahedron && lowerSuffix(path) == ".vtp")
+  {
+    throw Error(path.string() + ": a .vtp file holds no tetrahedra: choose .vtu.");
+  }
+  Progress reported(progress);
+  const auto corners = static_cast<std::uint32_t>(cornersOf(info.cellType));
+  VtkXmlFile file(path, { info.cellType, info.doublePositions, info.vertices, info.cells,
+                          info.cells * corners, info.vertexColumns, info.cellColumns });
+  std::int64_t vertices = 0, cells = 0;
+  std::vector<std::uint32_t> sizes;
+  for (MeshBlock block; source.next(block);)
+  {
+    file.appendPoints(block.positions, block.vertexColumns);
+    sizes.assign(block.corners.size() / corners, corners);
+    file.appendCells(block.corners, sizes, block.cellColumns);
+    vertices += block.vertices();
+    cells += static_cast<std::int64_t>(sizes.size());
+    const auto end =
+      static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size()) / corners;
+    reported.update(end / static_cast<double>(info.cells));
+  }
+  if (vertices != info.vertices || cells != info.cells)
+  {
+    throw Error(otherCounts(path.string(), info));
+  }
+  file.finish();
+}
+
+WriteNotes writeRestoredVtkXml(RestoredMesh& mesh, const std::filesystem::path& path)
+{
+  const RestoredInfo& info = mesh.info();
+  VtkXmlFile file(path, { info.cellType, info.doublePositions, info.vertices, info.elements,
+                          info.corners, info.vertexColumns, info.elementColumns });
+  for (RestoredVertices vertices; mesh.next(vertices);)
+  {
+    file.appendPoints(vertices.positions, vertices.columns);
+  }
+  for (RestoredElements elements; mesh.next(elements);)
+  {
+    file.appendCells(elements.corners, elements.sizes, elements.columns);
+  }
+  file.finish();
+  return {};
+}
+
+std::int64_t bytesOfVtkXml(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  const std::int64_t typeBytes = written.suffix.text == ".vtp" ? 0 : 1;
+  const std::int64_t numbers = cornersOf(mesh.cellType) + 1;
+  const std::int64_t bytes =
+    mesh.vertices * rowBytes(mesh.vertexColumns, positionBytes(mesh)) +
+    mesh.cells *
+      rowBytes(mesh.cellColumns, numbers * std::int64_t(sizeof(std::int64_t)) + typeBytes);
+  return bytes / 3 * 4; // base64
 }
 
 } // namespace smg

@@ -1,19 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/PositionedFile.h"
-#include "IO/Formats/Vtk/InlineArray.h"
+#include "IO/Files/Base64.h"
+#include "IO/Files/SequentialOutput.h"
+#include "Solver/Core/Progress.h"
 #include "smg/Column.h"
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace smg
 {
+
+/**
+ * An array of a VTK XML file that is written in parts at its position within its element: its
+ * number of bytes as UInt64, then its bytes, each a unit of base64. At most two bytes of the data
+ * are buffered.
+ */
+class InlineArray
+{
+public:
+  /** An array of `tuples` tuples. */
+  InlineArray(ColumnSpec spec, std::int64_t tuples);
+
+  /** The start tag of the element of the array. */
+  std::string tag() const;
+
+  /** Writes the number of bytes at this position of the file; returns the end of the array. */
+  std::int64_t begin(PositionedFile& file, std::int64_t at);
+
+  /** Writes the next tuples. Throws Error. */
+  void append(PositionedFile& file, std::span<const std::byte> bytes);
+
+  /** Writes the last characters after all tuples. Throws Error. */
+  void finish(PositionedFile& file);
+
+private:
+  void write(PositionedFile& file, const std::string& text);
+
+  ColumnSpec Spec;
+  std::int64_t Bytes;
+  std::int64_t At = 0; ///< position of the next characters
+  Base64Encoder Encoder;
+};
 
 /** What a VTK XML file is to hold. */
 struct VtkXmlContent
@@ -66,5 +101,21 @@ private:
   std::vector<std::int64_t> CellEnds;
   std::vector<std::uint8_t> CellKinds;
 };
+
+/** The name of a scalar type in VTK's XML files: "Int8", "UInt8" ... "Float64". */
+SMG_EXPORT std::string vtkXmlTypeName(ScalarType type);
+
+/** The text with the characters that mean something in XML written as entities. */
+SMG_EXPORT std::string xmlEscaped(const std::string& text);
+
+/**
+ * Writes a mesh stream, which says its numbers of vertices and cells, as one VTK XML file: .vtp for
+ * triangles, .vtu for triangles or tetrahedra, with all columns as point and cell data, points in
+ * stream order (see VtkXmlFile.h). The data are written as they come, in the memory of a few
+ * blocks.
+ * @throws Error if the file cannot be written; Cancelled. Nothing is left of the file then.
+ */
+SMG_EXPORT void writeVtkXml(
+  MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
 
 } // namespace smg

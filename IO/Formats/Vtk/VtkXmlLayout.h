@@ -2,7 +2,9 @@
 #pragma once
 
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/Vtk/ByteSource.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 
 #include <cstdint>
 
@@ -17,5 +19,32 @@ namespace smg
  * data
  */
 void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t mostBytes);
+
+/** How the arrays of a file are written that are no text, as its root says. */
+struct VtkXmlEncoding
+{
+  std::endian byteOrder = std::endian::little;
+  int headerBytes = 4;
+  VtkCompression compression = VtkCompression::None;
+};
+
+/** Throws Error if the compressor is not known. */
+VtkXmlEncoding vtkXmlEncoding(const InputFile& file, const XmlTag& root);
+
+/**
+ * The array of a tag <DataArray>; how many values it has is not known yet. One that is appended has
+ * the encoding Raw and begins so many bytes behind the appended data's first. Throws Error.
+ */
+VtkArray vtkXmlArray(
+  const InputFile& file, const XmlTag& tag, ScalarType type, const VtkXmlEncoding& encoding);
+
+/** The count that an attribute of a tag is, 0 if it is missing. Throws Error if it is none. */
+std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* name);
+
+/**
+ * The tag <VTKFile>, which comes first. Throws Error if it does not, or if the file does not end
+ * with its closing tag.
+ */
+XmlTag vtkXmlRoot(InputFile& file, XmlTags& tags);
 
 } // namespace smg

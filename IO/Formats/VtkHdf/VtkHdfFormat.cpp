@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 
-#include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
-#include "IO/Mesh/RowBytes.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
+#include <dlfcn.h>
 
 namespace smg
 {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -44,5 +45,17 @@ private:
   std::int64_t Degenerate = 0;
   std::int64_t Duplicates = 0;
 };
+
+/**
+ * Whether a triangle or tetrahedron is degenerate: a corner is repeated, or its area or volume is
+ * zero but for rounding (1e-14 of what its longest edge allows).
+ * @param corners 3 or 4 indices
+ * @param points the coordinates of these corners
+ */
+bool isDegenerate(
+  std::span<const std::int64_t> corners, std::span<const std::array<double, 3>> points);
+
+/** Six times the volume of a tetrahedron; negative if its corners are in the other order. */
+double orientedVolume(const std::array<std::array<double, 3>, 4>& points);
 
 } // namespace smg

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Assembly/StreamAssembly.h"
 
-#include "IO/Order/Assembly/CellShapes.h"
 #include "IO/Order/Assembly/CellWindow.h"
-#include "IO/Order/Assembly/PlacedCells.h"
 
 #include <array>
 #include <span>

@@ -3,7 +3,7 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "IO/Order/Pages/RawMeshPass.h"
+#include "IO/Order/Pages/RankedVertices.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>

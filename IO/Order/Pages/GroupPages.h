@@ -2,10 +2,8 @@
 #pragma once
 
 #include "IO/Order/Pages/CellGroups.h"
-#include "IO/Order/Pages/GroupStars.h"
 #include "IO/Order/Pages/PageBuilder.h"
 #include "IO/Order/Pages/RankedVertices.h"
-#include "IO/Order/Pages/VertexLinks.h"
 #include "IO/Order/Pages/VertexStar.h"
 
 #include <cstdint>

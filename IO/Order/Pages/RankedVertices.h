@@ -3,14 +3,82 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "IO/Order/Pages/RawMeshPass.h"
-#include "IO/Order/Pages/UsedVertices.h"
+#include "IO/External/Workspace.h"
+#include "IO/Import/RawMesh.h"
+#include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace smg
 {
+
+/** Passes all of `numbers` to `take`, in consecutive ranges, each a multiple of `count`. */
+template <class Take>
+void forEachStretch(const RecordFile<std::uint32_t>& numbers, std::size_t count, Take&& take)
+{
+  const std::size_t most = (std::size_t(16) << 10) / count * count;
+  std::vector<std::uint32_t> stretch;
+  RecordFile<std::uint32_t>::Reader reader(numbers);
+  for (std::int64_t left = numbers.size(); left > 0;
+       left -= static_cast<std::int64_t>(stretch.size()))
+  {
+    stretch.resize(std::min(most, static_cast<std::size_t>(left)));
+    reader.next(stretch);
+    take(std::span<const std::uint32_t>(stretch));
+  }
+}
+
+/** Passes the vertices of the mesh to `take`: the number, and the three coordinates as `Real`. */
+template <class Real, class Take>
+void forEachVertex(const RawMesh& mesh, Take&& take)
+{
+  constexpr std::size_t bytes = 3 * sizeof(Real);
+  BucketFile::Reader reader(mesh.positions);
+  std::uint32_t vertex = 0;
+  for (auto stretch = reader.next(bytes); !stretch.empty(); stretch = reader.next(bytes))
+  {
+    const Real* position = reinterpret_cast<const Real*>(stretch.data());
+    for (std::size_t i = 0; i < stretch.size() / bytes; ++i)
+    {
+      take(vertex++, position + 3 * i);
+    }
+  }
+}
+
+/** Determines which vertices of a mesh are in a cell: a bit per vertex, for as many vertices at a
+ * time as the memory permits, with a pass over the cells each time. */
+class UsedVertices
+{
+public:
+  /** The bits use at most `memory` bytes. Mesh and workspace must outlive this object. */
+  UsedVertices(const RawMesh& mesh, Workspace& workspace, std::int64_t memory);
+
+  /**
+   * Vertices should be queried in ascending order: a step back may require a pass over the cells.
+   */
+  bool contains(std::uint32_t vertex)
+  {
+    if (std::int64_t(vertex) - this->First >= this->Range || vertex < this->First)
+    {
+      this->load(vertex);
+    }
+    const auto place = static_cast<std::uint32_t>(vertex - this->First);
+    return (this->words()[place / 64] >> place % 64 & 1) != 0;
+  }
+
+private:
+  void load(std::uint32_t vertex);
+  std::uint64_t* words() const { return reinterpret_cast<std::uint64_t*>(this->Bits.data()); }
+
+  const RawMesh& Mesh;
+  std::int64_t Range;
+  std::int64_t First; ///< the first vertex of the bits
+  Buffer Bits;
+};
 
 /** A vertex in the order of the ranks. */
 template <class Real>

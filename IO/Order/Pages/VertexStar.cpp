@@ -144,4 +144,109 @@ std::size_t VertexStar::visit(std::uint32_t vertex, std::span<const std::uint32_
   return this->Found;
 }
 
+VertexLinks::VertexLinks(
+  Workspace& workspace, const CellGroups& groups, int group, std::size_t corners)
+  : Range(groups.range(group))
+  , Corners(corners)
+  , Begins(workspace.pool(), static_cast<std::size_t>(this->Range.size() + 1) * 8)
+{
+  const auto count = static_cast<std::size_t>(this->Range.size());
+  const auto first = static_cast<std::uint32_t>(this->Range.begin);
+  std::uint64_t* begins = this->begins();
+  std::fill_n(begins, count + 1, 0);
+  groups.forEach(group,
+    [&](std::span<const std::uint32_t> cell)
+    {
+      for (const std::uint32_t rank : cell)
+      {
+        const std::uint32_t place = rank - first;
+        if (place < count)
+        {
+          ++begins[place];
+        }
+      }
+    });
+  std::uint64_t sum = 0;
+  for (std::size_t place = 0; place <= count; ++place)
+  {
+    const std::uint64_t link = begins[place] * (corners - 1);
+    this->Largest = std::max(this->Largest, static_cast<std::size_t>(link));
+    begins[place] = sum;
+    sum += link;
+  }
+}
+
+std::int64_t VertexLinks::size(RankRange part) const
+{
+  const std::uint64_t* begins = this->begins() - this->Range.begin;
+  return static_cast<std::int64_t>(begins[part.end] - begins[part.begin]);
+}
+
+void VertexLinks::load(Workspace& workspace, const CellGroups& groups, int group)
+{
+  this->Ranks = Buffer(workspace.pool(), static_cast<std::size_t>(this->bytes()));
+  const auto count = static_cast<std::size_t>(this->Range.size());
+  const auto first = static_cast<std::uint32_t>(this->Range.begin);
+  std::uint64_t* begins = this->begins();
+  std::uint32_t* ranks = this->ranks();
+  groups.forEach(group,
+    [&](std::span<const std::uint32_t> cell)
+    {
+      for (std::size_t k = 0; k < cell.size(); ++k)
+      {
+        const std::uint32_t place = cell[k] - first;
+        if (place < count)
+        {
+          for (std::size_t other = 0; other < cell.size(); ++other)
+          {
+            if (other != k)
+            {
+              ranks[begins[place]++] = cell[other];
+            }
+          }
+        }
+      }
+    });
+  // Each offset has moved to the position of the next one.
+  std::copy_backward(begins, begins + count, begins + count + 1);
+  begins[0] = 0;
+}
+
+GroupStars::GroupStars(
+  Workspace& workspace, const CellGroups& groups, int group, std::size_t corners)
+  : Range(groups.range(group))
+  , Ends(workspace.pool(), static_cast<std::size_t>(this->Range.size() + 1) * sizeof(std::uint64_t))
+{
+  this->Counts.boundaryEdges = this->Counts.nonManifoldEdges = 0;
+  this->Counts.nonManifoldVertices = 0;
+  VertexLinks links(workspace, groups, group, corners);
+  links.load(workspace, groups, group);
+  VertexStar star(workspace, this->Range, links.largest());
+  this->Ranks = Buffer(workspace.pool(), static_cast<std::size_t>(links.bytes()));
+  const std::span ranks(
+    reinterpret_cast<std::uint32_t*>(this->Ranks.data()), static_cast<std::size_t>(links.size()));
+  auto* ends = reinterpret_cast<std::uint64_t*>(this->Ends.data());
+  std::uint64_t end = *ends = 0;
+  for (std::int64_t rank = this->Range.begin; rank < this->Range.end; ++rank)
+  {
+    const auto vertex = static_cast<std::uint32_t>(rank);
+    end += star.visit(vertex, links.of(vertex), corners, ranks.subspan(end));
+    *++ends = end;
+    if (corners == 3)
+    {
+      addCounts(star, this->Counts);
+    }
+  }
+}
+
+std::int64_t GroupStars::mostBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners)
+{
+  const auto links = static_cast<std::int64_t>(corners * (corners - 1)) * cells;
+  // Both have ends, links and neighbours have ranks; a buffer is rounded up, a reader has a chunk.
+  return 2 * (vertices + 1) * std::int64_t(sizeof(std::uint64_t)) +
+         2 * links * std::int64_t(sizeof(std::uint32_t)) +
+         VertexStar::bytes(vertices, static_cast<std::size_t>(links)) +
+         std::int64_t(BucketFile::ChunkBytes) + 1024;
+}
+
 } // namespace smg

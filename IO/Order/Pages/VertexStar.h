@@ -3,6 +3,7 @@
 
 #include "IO/External/Workspace.h"
 #include "IO/Order/Pages/CellGroups.h"
+#include "IO/Order/Pages/OrderedVertices.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <cstddef>
@@ -69,6 +70,83 @@ private:
   std::uint32_t Begin = 0; ///< grows, so that slots of earlier vertices need not be cleared
   std::uint32_t Found = 0, Outside = 0;
   std::int64_t Boundary = 0, NonManifold = 0, Fans = 0;
+};
+
+/**
+ * The links of a range of vertices: for each of the cells around a vertex the ranks of the cell's
+ * other corners, that is, the edges opposite to it in triangles, or the faces in tetrahedra.
+ */
+class VertexLinks
+{
+public:
+  /** Counts the cells around each vertex of the range, all of which are in the group. */
+  VertexLinks(Workspace& workspace, const CellGroups& groups, int group, std::size_t corners);
+
+  /** The number of ranks in the links of the vertices of a part of the range. */
+  std::int64_t size(RankRange part) const;
+  std::int64_t size() const { return this->size(this->Range); }
+  /** The number of ranks in the largest link. */
+  std::size_t largest() const { return this->Largest; }
+  /** Bytes that load() allocates. */
+  std::int64_t bytes() const { return this->size() * std::int64_t(sizeof(std::uint32_t)); }
+
+  /** Collects the links. */
+  void load(Workspace& workspace, const CellGroups& groups, int group);
+
+  std::span<const std::uint32_t> of(std::uint32_t vertex) const
+  {
+    const std::size_t place = vertex - static_cast<std::uint32_t>(this->Range.begin);
+    const std::uint64_t* begins = this->begins();
+    return { this->ranks() + begins[place],
+      static_cast<std::size_t>(begins[place + 1] - begins[place]) };
+  }
+
+private:
+  std::uint64_t* begins() const { return reinterpret_cast<std::uint64_t*>(this->Begins.data()); }
+  std::uint32_t* ranks() const { return reinterpret_cast<std::uint32_t*>(this->Ranks.data()); }
+
+  RankRange Range;
+  std::size_t Corners;
+  std::size_t Largest = 0;
+  Buffer Begins; ///< of the links, and the end of the last
+  Buffer Ranks;
+};
+
+/** Adds what is around a vertex of triangles to the counts. */
+inline void addCounts(const VertexStar& star, MeshCounts& counts)
+{
+  counts.boundaryEdges += star.boundaryEdges();
+  counts.nonManifoldEdges += star.nonManifoldEdges();
+  counts.nonManifoldVertices += star.fans() > 1;
+}
+
+/** The neighbours of the vertices of a group of cells, and the counts of triangles around them. */
+class GroupStars
+{
+public:
+  GroupStars(Workspace& workspace, const CellGroups& groups, int group, std::size_t corners);
+
+  /** An upper bound of its memory in bytes while it is made, for a group of so many vertices and
+   * cells. */
+  static std::int64_t mostBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners);
+
+  RankRange range() const { return this->Range; }
+  /** The neighbours of a vertex of the range, see VertexStar::visit(). */
+  std::span<const std::uint32_t> neighbours(std::uint32_t vertex) const
+  {
+    const auto* ends = reinterpret_cast<const std::uint64_t*>(this->Ends.data()) +
+                       (vertex - static_cast<std::uint32_t>(this->Range.begin));
+    return { reinterpret_cast<const std::uint32_t*>(this->Ranks.data()) + ends[0],
+      static_cast<std::size_t>(ends[1] - ends[0]) };
+  }
+  /** Of triangles: boundary and non-manifold edges and vertices; 0 for others. */
+  const MeshCounts& counts() const { return this->Counts; }
+
+private:
+  RankRange Range;
+  Buffer Ends; ///< of the neighbours of each vertex, after a 0
+  Buffer Ranks;
+  MeshCounts Counts;
 };
 
 } // namespace smg

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Search/AxisOrder.h"
 
-#include "IO/Order/Search/ScalarOrder.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>

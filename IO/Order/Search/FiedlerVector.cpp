@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Search/FiedlerVector.h"
 
-#include "IO/Order/Search/ConjugateIteration.h"
-
 #include <Eigen/Dense>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -71,6 +70,195 @@ std::vector<double> fiedlerVector(const WeightedGraph& graph, const std::functio
     return std::vector<double>(graph.nodes(), 0.0);
   }
   return solve(graph, poll);
+}
+
+namespace
+{
+
+constexpr int MostIterations = 300;
+/** The iteration ends when the eigenvalue decreases by less than this share twice in succession. */
+constexpr double LeastGain = 1e-5;
+/** With fewer nodes the time of an iteration is negligible. */
+constexpr std::uint32_t PolledNodes = 4096;
+
+double plainDot(const std::vector<double>& a, const std::vector<double>& b)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += a[i] * b[i];
+  }
+  return sum;
+}
+
+void add(std::vector<double>& to, double factor, const std::vector<double>& values)
+{
+  for (std::size_t i = 0; i < to.size(); ++i)
+  {
+    to[i] += factor * values[i];
+  }
+}
+
+void scale(std::vector<double>& values, double factor)
+{
+  for (double& value : values)
+  {
+    value *= factor;
+  }
+}
+
+} // namespace
+
+ConjugateIteration::ConjugateIteration(const WeightedGraph& graph, std::vector<double> start)
+  : Graph(graph)
+  , Diagonal(graph.nodes(), 0.0)
+{
+  for (std::uint32_t i = 0; i < graph.nodes(); ++i)
+  {
+    this->Mass += graph.masses[i];
+    graph.forEachEdge(i, [&](std::uint32_t, float weight) { this->Diagonal[i] += weight; });
+  }
+  this->Current.values = std::move(start);
+  for (Direction* direction : { &this->Current, &this->Residual, &this->Previous })
+  {
+    direction->values.resize(graph.nodes());
+    direction->image.resize(graph.nodes());
+  }
+}
+
+double ConjugateIteration::dot(const std::vector<double>& a, const std::vector<double>& b) const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += this->Graph.masses[i] * a[i] * b[i];
+  }
+  return sum;
+}
+
+void ConjugateIteration::removeMean(std::vector<double>& values) const
+{
+  double mean = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    mean += this->Graph.masses[i] * values[i];
+  }
+  mean /= this->Mass;
+  for (double& value : values)
+  {
+    value -= mean;
+  }
+}
+
+void ConjugateIteration::applyLaplacian(
+  const std::vector<double>& values, std::vector<double>& image) const
+{
+  for (std::uint32_t i = 0; i < this->Graph.nodes(); ++i)
+  {
+    double sum = this->Diagonal[i] * values[i];
+    this->Graph.forEachEdge(
+      i, [&](std::uint32_t other, float weight) { sum -= weight * values[other]; });
+    image[i] = sum;
+  }
+}
+
+bool ConjugateIteration::normalise(Direction& direction) const
+{
+  const double square = this->dot(direction.values, direction.values);
+  if (!(square > 0) || !std::isfinite(square))
+  {
+    return false;
+  }
+  scale(direction.values, 1 / std::sqrt(square));
+  scale(direction.image, 1 / std::sqrt(square));
+  return true;
+}
+
+bool ConjugateIteration::orthogonalise(Direction& direction, const Direction& against) const
+{
+  const double factor = this->dot(direction.values, against.values);
+  // Of a nearly parallel direction, only rounding errors would remain.
+  if (!(1 - factor * factor > 1e-12))
+  {
+    return false;
+  }
+  add(direction.values, -factor, against.values);
+  add(direction.image, -factor, against.image);
+  return this->normalise(direction);
+}
+
+bool ConjugateIteration::residual(double eigenvalue)
+{
+  for (std::uint32_t i = 0; i < this->Graph.nodes(); ++i)
+  {
+    const double r =
+      this->Current.image[i] - eigenvalue * this->Graph.masses[i] * this->Current.values[i];
+    this->Residual.values[i] = r / this->Diagonal[i];
+  }
+  this->removeMean(this->Residual.values);
+  this->applyLaplacian(this->Residual.values, this->Residual.image);
+  return this->normalise(this->Residual) && this->orthogonalise(this->Residual, this->Current);
+}
+
+double ConjugateIteration::minimise(bool withPrevious)
+{
+  const std::array<Direction*, 3> space{ &this->Current, &this->Residual, &this->Previous };
+  const int count = withPrevious ? 3 : 2;
+  Eigen::MatrixXd matrix(count, count);
+  for (int i = 0; i < count; ++i)
+  {
+    for (int j = 0; j < count; ++j)
+    {
+      matrix(i, j) = plainDot(space[std::size_t(i)]->values, space[std::size_t(j)]->image);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  const Eigen::VectorXd least = solver.eigenvectors().col(0);
+  const double previous = withPrevious ? least(2) : 0;
+  for (const auto part : { &Direction::values, &Direction::image })
+  {
+    // The step without its component along the current vector is the next conjugate direction.
+    scale(this->Previous.*part, previous);
+    add(this->Previous.*part, least(1), this->Residual.*part);
+    scale(this->Current.*part, least(0));
+    add(this->Current.*part, 1, this->Previous.*part);
+  }
+  return solver.eigenvalues()(0);
+}
+
+std::vector<double> ConjugateIteration::run(const std::function<void()>& poll)
+{
+  const bool isPolled = poll && this->Graph.nodes() >= PolledNodes;
+  this->removeMean(this->Current.values);
+  this->applyLaplacian(this->Current.values, this->Current.image);
+  if (!this->normalise(this->Current))
+  {
+    return std::move(this->Current.values);
+  }
+  double eigenvalue = plainDot(this->Current.values, this->Current.image);
+  bool withPrevious = false;
+  int idle = 0;
+  for (int iteration = 0; iteration < MostIterations && idle < 2; ++iteration)
+  {
+    if (isPolled)
+    {
+      poll();
+    }
+    if (!this->residual(eigenvalue))
+    {
+      break;
+    }
+    withPrevious = withPrevious && this->normalise(this->Previous) &&
+                   this->orthogonalise(this->Previous, this->Current) &&
+                   this->orthogonalise(this->Previous, this->Residual);
+    const double before = eigenvalue;
+    eigenvalue = this->minimise(withPrevious);
+    withPrevious = true;
+    idle = eigenvalue > before * (1 - LeastGain) ? idle + 1 : 0;
+    this->normalise(this->Current);
+  }
+  this->removeMean(this->Current.values);
+  return std::move(this->Current.values);
 }
 
 } // namespace smg

@@ -3,7 +3,6 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "IO/External/RowTable.h"
 
 #include <algorithm>
 #include <cstring>

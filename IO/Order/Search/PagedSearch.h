@@ -1,20 +1,153 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/Workspace.h"
 #include "IO/Order/Pages/OrderedVertices.h"
 #include "IO/Order/Pages/PageCache.h"
 #include "IO/Order/Pages/VertexPages.h"
-#include "IO/Order/Search/SearchQueue.h"
-#include "IO/Order/Search/VisitedBits.h"
+#include "Solver/Files/CheckedFile.h"
+#include "Solver/Memory/Buffer.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
 
 namespace smg
 {
+
+/** A first-in first-out queue of any length in a fixed amount of memory: its front and its back are
+ * in memory, the rest is in a scratch file. */
+class SearchQueue
+{
+public:
+  /** The workspace must outlive the queue. */
+  SearchQueue(Workspace& workspace, std::size_t bytes);
+
+  std::int64_t size() const { return this->Size; }
+
+  /** Throws Error if the disk is full. */
+  void push(std::uint32_t value)
+  {
+    if (this->BackEnd == this->Half)
+    {
+      this->spill();
+    }
+    reinterpret_cast<std::uint32_t*>(this->Back.data())[this->BackEnd++] = value;
+    ++this->Size;
+  }
+  /** Of a non-empty queue. */
+  std::uint32_t pop()
+  {
+    if (this->FrontBegin == this->FrontEnd)
+    {
+      this->refill();
+    }
+    --this->Size;
+    return reinterpret_cast<const std::uint32_t*>(this->Front.data())[this->FrontBegin++];
+  }
+
+  void clear();
+
+private:
+  void spill();
+  void refill();
+  void turn();
+
+  Workspace& Space;
+  std::size_t Half; ///< values in a half of the memory
+  Buffer Front, Back;
+  std::size_t FrontBegin = 0, FrontEnd = 0, BackEnd = 0;
+  std::int64_t Size = 0;
+  CheckedFile File;
+  std::int64_t FileBegin = 0; ///< of the values in the file that were not read
+};
+
+/** A bit for each of a number of ranks. Clearing is cheap if few are set. */
+class VisitedBits
+{
+public:
+  VisitedBits(Workspace& workspace, std::int64_t count)
+    : Count(count)
+    , Bits(workspace.pool(), bytesFor(count))
+    , Changed(workspace)
+  {
+    this->Changed.reserve(MostRemembered);
+    std::memset(this->Bits.data(), 0, this->Bits.size());
+  }
+
+  static std::size_t bytesFor(std::int64_t count) { return std::size_t(count + 63) / 64 * 8; }
+
+  /** Sets a bit; returns whether it was not set before. */
+  bool set(std::uint32_t rank)
+  {
+    std::uint64_t& word = this->words()[rank / 64];
+    const std::uint64_t bit = std::uint64_t(1) << (rank % 64);
+    if (word & bit)
+    {
+      return false;
+    }
+    if (word == 0)
+    {
+      this->remember(rank / 64);
+    }
+    word |= bit;
+    return true;
+  }
+
+  bool isSet(std::uint32_t rank) const
+  {
+    return (this->words()[rank / 64] >> (rank % 64) & 1) != 0;
+  }
+
+  void clear()
+  {
+    if (this->Changed.size() == MostRemembered)
+    {
+      std::memset(this->Bits.data(), 0, this->Bits.size());
+    }
+    for (const std::uint32_t word : this->Changed.all())
+    {
+      this->words()[word] = 0;
+    }
+    this->Changed.clear();
+  }
+
+  /** The first rank from `rank` on whose bit is not set; the number of ranks if there is none. */
+  std::int64_t firstUnset(std::int64_t rank) const
+  {
+    while (rank < this->Count)
+    {
+      const std::uint64_t unset = ~this->words()[rank / 64] >> (rank % 64);
+      if (unset != 0)
+      {
+        return std::min(this->Count, rank + std::countr_zero(unset));
+      }
+      rank = (rank / 64 + 1) * 64;
+    }
+    return this->Count;
+  }
+
+private:
+  static constexpr std::size_t MostRemembered = 16384;
+
+  std::uint64_t* words() const { return reinterpret_cast<std::uint64_t*>(this->Bits.data()); }
+  void remember(std::uint32_t word)
+  {
+    if (this->Changed.size() < MostRemembered)
+    {
+      this->Changed.push(word);
+    }
+  }
+
+  std::int64_t Count;
+  Buffer Bits;
+  /** Words with bits set, up to a limit. */
+  GrowingArray<std::uint32_t> Changed;
+};
 
 /** A vertex from which a breadth-first search starts when it has reached a level. */
 struct SearchSource

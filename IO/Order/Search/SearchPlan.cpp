@@ -2,7 +2,6 @@
 #include "IO/Order/Search/SearchPlan.h"
 
 #include "IO/External/Relabelling.h"
-#include "IO/Order/Search/AxisEnds.h"
 #include "IO/Order/Search/SourcePlan.h"
 
 #include <algorithm>

@@ -83,4 +83,14 @@ std::int64_t sourcePlanMemory(std::size_t samples, int threads);
 std::vector<SourcePlan> planSources(
   const SourceDistances& distances, std::int64_t vertices, Workspace& workspace);
 
+/**
+ * Which of a number of points are at the ends of their two longest principal axes: four sets, less
+ * than that if an axis has no extent.
+ * @param points x, y, z each
+ * @param chosen which of them count, at least one
+ * @return sets of at least two of the chosen points
+ */
+std::vector<std::vector<std::uint32_t>> axisEnds(
+  std::span<const float> points, std::span<const std::uint32_t> chosen);
+
 } // namespace smg

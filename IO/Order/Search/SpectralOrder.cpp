@@ -5,8 +5,7 @@
 #include "IO/Order/Search/AxisOrder.h"
 #include "IO/Order/Search/FiedlerVector.h"
 #include "IO/Order/Search/PatchGraph.h"
-#include "IO/Order/Search/ScalarOrder.h"
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Memory/Pool.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Search/TakeIsolated.h"
 
-#include "IO/Order/Pages/UsedVertices.h"
-#include "Solver/Mesh/OriginalNumbers.h"
+#include "IO/Order/Pages/RankedVertices.h"
+#include "Solver/Mesh/AddedColumn.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,14 +1,261 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Blending/BlendProblem.h"
 
-#include "Solver/Assembly/CellGradients.h"
+#include "Solver/Assembly/Elements.h"
+#include "Solver/Problem/MeshColumns.h"
+#include "smg/CellWeights.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
+#include <string>
 
 namespace smg
 {
+
+namespace
+{
+
+constexpr const char* Key = "columns";
+
+} // namespace
+
+BlendedColumns::BlendedColumns(
+  const BlendDescription& description, const StreamInfo& mesh, MeshColumns& columns)
+  : Columns(columns)
+{
+  if (description.columns.empty())
+  {
+    columns.fail(Key, "must name at least one column of the vertices");
+  }
+  for (const std::string& name : description.columns)
+  {
+    this->add(name, description, mesh);
+  }
+  if (this->Components > BlendDescription::MostComponents)
+  {
+    columns.fail(Key, "have " + std::to_string(this->Components) +
+                        " components together; at most " +
+                        std::to_string(BlendDescription::MostComponents) +
+                        " are blended at once: blend them one after the other");
+  }
+}
+
+void BlendedColumns::add(
+  const std::string& name, const BlendDescription& description, const StreamInfo& mesh)
+{
+  const NamedColumn column = this->Columns.require(name, ColumnOwner::Vertices, Key);
+  if (column.owner == ColumnOwner::Cells)
+  {
+    this->Columns.fail(
+      Key, "'" + name + "' is a column of the cells; only columns of the vertices are blended");
+  }
+  if (name == OriginalIdName || name == description.patch)
+  {
+    this->Columns.fail(Key, "'" + name + "' numbers " +
+                              (name == description.patch ? "the patches" : "the vertices") +
+                              " and cannot be blended");
+  }
+  if (std::ranges::find(this->Specs, name, &ColumnSpec::name) != this->Specs.end())
+  {
+    this->Columns.fail(Key, "name '" + name + "' twice");
+  }
+  this->Named.push_back(column);
+  this->Specs.push_back(*std::ranges::find(mesh.vertexColumns, name, &ColumnSpec::name));
+  this->Components += column.components;
+}
+
+void BlendedColumns::read(const MeshBlock& block, std::span<double> values) const
+{
+  const auto stride = static_cast<std::size_t>(this->Components);
+  std::size_t first = 0;
+  for (const NamedColumn& named : this->Named)
+  {
+    const Column& column = named.in(block);
+    const auto components = static_cast<std::size_t>(named.components);
+    dispatch(column.spec.type,
+      [&]<class T>(T)
+      {
+        const std::span<const T> numbers = column.as<T>();
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+        {
+          const auto number = static_cast<double>(numbers[k]);
+          if (const char* flaw = flawOf(column.spec.type, number))
+          {
+            this->Columns.fail(Key, "'" + named.name + "' " + flaw + " at " +
+                                      this->Columns.vertexName(block, k / components));
+          }
+          values[k / components * stride + first + k % components] = number;
+        }
+      });
+    first += components;
+  }
+}
+
+PatchGradients::PatchGradients(const VertexStorage& storage, Pool& open, CellType type, int columns)
+  : Type(type)
+  , Columns(static_cast<std::size_t>(columns))
+  , File(storage, 1 + 3 * columns)
+  , Points(open, 3)
+  , Sums(open, 1 + 3 * columns)
+  , Known(open, 1 + 3 * columns)
+{
+}
+
+void PatchGradients::add(const MeshBlock& block, const PatchedValues& values)
+{
+  std::ranges::copy(block.positions, this->Points.append(block.vertices()).begin());
+  std::ranges::fill(this->Sums.append(block.vertices()), 0.0);
+  this->Vertices += block.vertices();
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  const Column* flags = block.flags(); // cells that have them have no weight
+  for (std::size_t c = 0; corners * c < block.corners.size(); ++c)
+  {
+    const auto cell = std::span(block.corners).subspan(corners * c, corners);
+    if (values.inOnePatch(cell) && (!flags || flags->value(c) == 0))
+    {
+      this->addCell(cell, values);
+    }
+  }
+  this->append(block.finalized);
+  this->Points.release(block.finalized);
+  this->Sums.release(block.finalized);
+}
+
+void PatchGradients::addCell(std::span<const std::int64_t> corners, const PatchedValues& values)
+{
+  const double* point[4] = {};
+  const double* value[4] = {};
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    point[k] = this->Points.at(corners[k]);
+    value[k] = values.at(corners[k]);
+  }
+  const double measure = cellWeights(this->Type, point).measure;
+  if (measure == 0.0)
+  {
+    return;
+  }
+  const CellGradients gradients(this->Type, point);
+  for (std::size_t column = 0; column < this->Columns; ++column)
+  {
+    const Vector gradient = gradients.of(this->Type, value, static_cast<int>(column));
+    for (const std::int64_t corner : corners)
+    {
+      double* sum = this->Sums.at(corner) + 1 + 3 * column;
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        sum[d] += measure * gradient[d];
+      }
+    }
+  }
+  for (const std::int64_t corner : corners)
+  {
+    *this->Sums.at(corner) += measure;
+  }
+}
+
+/** Appends the vertices below `end` to the file. */
+void PatchGradients::append(std::int64_t end)
+{
+  if (end > this->Written)
+  {
+    const std::size_t lanes = 1 + 3 * this->Columns;
+    this->File.append(
+      { this->Sums.at(this->Written), static_cast<std::size_t>(end - this->Written) * lanes });
+    this->Written = end;
+  }
+}
+
+void PatchGradients::finish()
+{
+  this->append(this->Vertices);
+  this->Points.restart();
+  this->Sums.restart();
+}
+
+void PatchGradients::startBlock(const MeshBlock& block)
+{
+  if (block.firstVertex == 0)
+  {
+    this->Known.restart();
+    this->Finalized = 0;
+  }
+  this->Known.release(this->Finalized);
+  this->Finalized = block.finalized;
+  if (block.vertices() > 0)
+  {
+    this->File.read(
+      block.firstVertex, block.vertices(), this->Known.append(block.vertices()).data());
+  }
+}
+
+void PatchGradients::average(
+  std::span<const std::int64_t> corners, std::vector<double>& gradients) const
+{
+  gradients.assign(3 * this->Columns, 0.0);
+  double measure = 0.0;
+  for (const std::int64_t corner : corners)
+  {
+    const double* sum = this->Known.at(corner);
+    measure += sum[0];
+    std::transform(gradients.begin(), gradients.end(), sum + 1, gradients.begin(), std::plus<>());
+  }
+  if (measure > 0.0)
+  {
+    std::ranges::for_each(gradients, [measure](double& number) { number /= measure; });
+  }
+}
+
+SeamSteps::SeamSteps(const std::vector<ColumnSpec>& columns)
+{
+  for (const ColumnSpec& column : columns)
+  {
+    this->Components.push_back(column.components);
+  }
+  this->Steps.resize(
+    static_cast<std::size_t>(std::accumulate(this->Components.begin(), this->Components.end(), 0)));
+}
+
+void SeamSteps::add(std::span<const std::int64_t> corners, const PatchedValues& values)
+{
+  if (values.inOnePatch(corners))
+  {
+    return;
+  }
+  ++this->Cells;
+  for (std::size_t j = 1; j < corners.size(); ++j)
+  {
+    for (std::size_t i = 0; i < j; ++i)
+    {
+      if (values.inOnePatch(corners[i], corners[j]))
+      {
+        continue;
+      }
+      ++this->Edges;
+      const double* a = values.at(corners[i]);
+      const double* b = values.at(corners[j]);
+      for (std::size_t k = 0; k < this->Steps.size(); ++k)
+      {
+        this->Steps[k] = std::max(this->Steps[k], std::fabs(a[k] - b[k]));
+      }
+    }
+  }
+}
+
+std::vector<double> SeamSteps::largest() const
+{
+  std::vector<double> largest;
+  auto step = this->Steps.begin();
+  for (const int components : this->Components)
+  {
+    largest.push_back(*std::max_element(step, step + components));
+    step += components;
+  }
+  return largest;
+}
 
 BlendProblem::BlendProblem(const BlendDescription& description, const StreamInfo& mesh)
   : OfMesh(mesh, "blend")

@@ -2,22 +2,107 @@
 #pragma once
 
 #include "Solver/Core/Vector.h"
-#include "Solver/Files/VertexFile.h"
-#include "Solver/Jobs/Blending/BlendedColumns.h"
-#include "Solver/Jobs/Blending/PatchGradients.h"
-#include "Solver/Jobs/Blending/PatchedValues.h"
-#include "Solver/Jobs/Blending/SeamSteps.h"
+#include "Solver/Files/CheckedFile.h"
+#include "Solver/Jobs/Blending/PatchLabels.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/MeshColumns.h"
+#include "Solver/Problem/OpenValues.h"
 #include "smg/Blend.h"
+#include "smg/Column.h"
+#include "smg/MeshSource.h"
 #include "smg/Problem.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace smg
 {
+
+/** The vertex columns of a mesh that are blended. */
+class BlendedColumns
+{
+public:
+  /** Checks the names. Throws Error. */
+  BlendedColumns(const BlendDescription& description, const StreamInfo& mesh, MeshColumns& columns);
+
+  const std::vector<ColumnSpec>& specs() const { return this->Specs; }
+  /** The components of all columns. */
+  int components() const { return this->Components; }
+
+  /** Reads the values of the vertices of a block. Throws Error if one is not finite. */
+  void read(const MeshBlock& block, std::span<double> values) const;
+
+private:
+  void add(const std::string& name, const BlendDescription& description, const StreamInfo& mesh);
+
+  MeshColumns& Columns;
+  std::vector<NamedColumn> Named;
+  std::vector<ColumnSpec> Specs;
+  int Components = 0;
+};
+
+/**
+ * The gradients of the original values around the vertices of a mesh stream: of each vertex the sum
+ * over its cells that lie in one patch, times their areas or volumes. They are found in one reading
+ * of the mesh, kept in a file, and read in later readings.
+ */
+class PatchGradients
+{
+public:
+  /** `open` accounts for open vertices. */
+  PatchGradients(const VertexStorage& storage, Pool& open, CellType type, int columns);
+
+  /** Adds a block, whose vertices `values` has begun with. */
+  void add(const MeshBlock& block, const PatchedValues& values);
+  /** To be called after the last block. */
+  void finish();
+
+  /** Reads the gradients of the vertices of the next block; the first block restarts it. */
+  void startBlock(const MeshBlock& block);
+  /** Sets the gradients of a cell, x, y, z for each column, to the mean over the cells around its
+   * corners, weighted by area or volume; 0 if there is none. */
+  void average(std::span<const std::int64_t> corners, std::vector<double>& gradients) const;
+
+private:
+  void addCell(std::span<const std::int64_t> corners, const PatchedValues& values);
+  void append(std::int64_t end);
+
+  CellType Type;
+  std::size_t Columns;
+  VertexFile File; ///< of each vertex the size of its cells, and the sum of the gradients
+  OpenValues<double> Points, Sums;
+  OpenValues<double> Known;               ///< sums that were read again
+  std::int64_t Vertices = 0, Written = 0; ///< read, and in the file
+  std::int64_t Finalized = 0;             ///< of the previous block that was read again
+};
+
+/** The largest difference of each column, over its components, between the ends of edges that are
+ * not in one patch. */
+class SeamSteps
+{
+public:
+  /** The components of `columns`, one after the other, are the values of a vertex. */
+  explicit SeamSteps(const std::vector<ColumnSpec>& columns);
+
+  /** Takes the edges of a cell. */
+  void add(std::span<const std::int64_t> corners, const PatchedValues& values);
+
+  /** The number of edges between patches; an edge counts once for each of its cells. */
+  std::int64_t edges() const { return this->Edges; }
+  /** The number of cells that are not in one patch. */
+  std::int64_t cells() const { return this->Cells; }
+  /** One for each column; 0 without such edges. */
+  std::vector<double> largest() const;
+
+private:
+  std::vector<int> Components; ///< of each column
+  std::vector<double> Steps;   ///< of each component
+  std::int64_t Edges = 0, Cells = 0;
+};
 
 /**
  * The problem of blend() for the correction v = u - c: -div(grad v - r) + s v = 0, where r is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Blending/PatchLabels.h"
 
-#include "Solver/Problem/ColumnNumbers.h"
+#include "Solver/Problem/MeshColumns.h"
 
 #include <algorithm>
 #include <cmath>

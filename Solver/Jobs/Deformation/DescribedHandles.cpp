@@ -1,10 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedHandles.h"
+#include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Problem/NearestSelection.h"
+#include "Solver/Problem/Selection.h"
+#include "Solver/Problem/ValueOnMesh.h"
+#include "smg/Deform.h"
+#include "smg/DeformationDescription.h"
+#include "smg/Error.h"
 
-#include "Solver/Jobs/Deformation/HandlesOnMesh.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace smg
 {
+
+/** The implementation of DescribedHandles: the handles of a description, resolved on a mesh. */
+class HandlesOnMesh : public Handles
+{
+public:
+  /** Like DescribedHandles. */
+  HandlesOnMesh(
+    const DeformationDescription& description, const StreamInfo& mesh, const std::string& name);
+  HandlesOnMesh(const HandlesOnMesh&) = delete;
+  HandlesOnMesh& operator=(const HandlesOnMesh&) = delete;
+
+  /** The columns that the mesh source must deliver. */
+  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
+  std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
+
+  /** Like DescribedHandles::prepare(). */
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
+  void preparePart(
+    MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit);
+  /** Null: the stream was the whole mesh. */
+  void endPreparing(MeshParts* parts);
+
+  /** Throws Error, which names the column and the vertex, if a number is not finite. */
+  void at(const MeshBlock& block, VertexHandles& handles) override;
+  std::int64_t bytes() const override { return this->OfMesh.memory().used(); }
+
+  /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
+   * later ones, and a deformation without motion. Null: the blocks were the whole mesh. */
+  std::vector<std::string> notes(MeshParts* parts) const;
+
+private:
+  /** The values of a handle at each vertex. */
+  struct Values
+  {
+    ValueOnMesh target, rotation, logScale;
+    std::vector<std::array<double, 3>> targets; ///< one for each nearest vertex, or none
+  };
+  struct Handle
+  {
+    std::unique_ptr<Selection> where;          ///< null: everywhere
+    const NearestSelection* nearest = nullptr; ///< the same, of targets
+    std::optional<NamedColumn> mask;           ///< which selects and counts
+    HandleMotion motion;                       ///< if there are no values
+    std::optional<Values> values;
+    std::string key;
+    std::int64_t following = 0; ///< vertices so far not held by a later handle
+    bool moves = false;         ///< whether one that follows it is moved, rotated or scaled, so far
+  };
+
+  Handle compile(const HandleDescription& handle, const std::string& key);
+  /** Adds the targets of nearest vertices. */
+  void compileTargets(const HandleDescription& description,
+    const std::vector<std::array<double, 3>>& targets, Handle& handle);
+  /** Starts a block; returns whether the handle holds each of its vertices. */
+  std::span<const std::uint8_t> startBlock(Handle& handle, const MeshBlock& block);
+  /** Sets the values of the handle at the `held` vertices of the block. */
+  void hold(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
+    VertexHandles& to) const;
+  void setMotion(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
+    VertexHandles& to) const;
+  void setValues(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
+    VertexHandles& to) const;
+
+  MeshColumns OfMesh;
+  std::vector<Handle> All;
+  std::vector<std::uint8_t> Everywhere; ///< 1 at each vertex of a block
+  std::vector<Handle*> Followed;        ///< the handle of each vertex of a block; null: free
+};
 
 DescribedHandles::DescribedHandles(
   const DeformationDescription& description, const StreamInfo& mesh, const std::string& name)
@@ -59,6 +142,278 @@ std::vector<std::string> DescribedHandles::notes() const
 std::vector<std::string> DescribedHandles::notes(MeshParts& parts) const
 {
   return this->OnMesh->notes(&parts);
+}
+
+namespace
+{
+
+constexpr double MostHandles = std::numeric_limits<std::uint8_t>::max();
+
+ValueRules vectorRules(bool positions)
+{
+  return { .components = { 3 }, .positions = positions };
+}
+
+/** Whether the handles move held vertex `i`, or prescribe a rotation or scale. */
+bool moves(const MeshBlock& block, std::size_t i, const VertexHandles& handles)
+{
+  const double* point = block.positions.data() + 3 * i;
+  const double* turn = handles.rotation.data() + 3 * i;
+  return !std::equal(point, point + 3, handles.target.data() + 3 * i) ||
+         std::any_of(turn, turn + 3, [](double number) { return number != 0.0; }) ||
+         handles.logScale[i] != 0.0;
+}
+
+} // namespace
+
+HandlesOnMesh::HandlesOnMesh(
+  const DeformationDescription& description, const StreamInfo& mesh, const std::string& name)
+  : OfMesh(mesh, name)
+{
+  for (std::size_t k = 0; k < description.handles.size(); ++k)
+  {
+    this->All.push_back(
+      this->compile(description.handles[k], "handles[" + std::to_string(k) + "]"));
+  }
+}
+
+HandlesOnMesh::Handle HandlesOnMesh::compile(
+  const HandleDescription& description, const std::string& key)
+{
+  Handle handle;
+  handle.key = key;
+  handle.where = Selection::make(
+    description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region", this->OfMesh);
+  const auto* mask = std::get_if<ColumnMask>(&description.where);
+  if (mask && !this->OfMesh.isOfCells(mask->column, ColumnOwner::Vertices))
+  {
+    handle.mask = this->OfMesh.require(mask->column, ColumnOwner::Vertices, key + ".region.mask");
+  }
+  if (const auto* values = std::get_if<HandleDescription::Values>(&description.motion))
+  {
+    const auto valueOf = [&](const DataValue& value, const ValueRules& rules, const char* member)
+    { return ValueOnMesh(value, DataPlace::Vertices, rules, key + member, this->OfMesh); };
+    handle.values.emplace(Values{ valueOf(values->target, vectorRules(true), ".target"),
+      valueOf(values->rotation, vectorRules(false), ".rotation"),
+      valueOf(values->logScale, { .components = { 1 } }, ".logScale"), {} });
+    if (!values->targets.empty())
+    {
+      this->compileTargets(description, values->targets, handle);
+    }
+  }
+  else
+  {
+    handle.motion = std::get<HandleMotion>(description.motion);
+    handle.moves = !handle.motion.isIdentity();
+  }
+  return handle;
+}
+
+void HandlesOnMesh::compileTargets(const HandleDescription& description,
+  const std::vector<std::array<double, 3>>& targets, Handle& handle)
+{
+  const auto* nearest = std::get_if<NearestVertices>(&description.where);
+  if (!nearest || nearest->points.size() != targets.size())
+  {
+    const std::string points =
+      nearest ? "the region " + std::to_string(nearest->points.size()) : "the region no nearest";
+    this->OfMesh.fail(handle.key + ".target", "has " + std::to_string(targets.size()) +
+                                                " positions, " + points +
+                                                " points: give one position for each");
+  }
+  for (const std::array<double, 3>& target : targets)
+  {
+    if (!std::ranges::all_of(target, [](double number) { return std::isfinite(number); }))
+    {
+      this->OfMesh.fail(handle.key + ".target", "must have finite coordinates");
+    }
+  }
+  handle.nearest = dynamic_cast<const NearestSelection*>(handle.where.get());
+  handle.values->targets = targets;
+}
+
+std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const MeshBlock& block)
+{
+  if (handle.values)
+  {
+    handle.values->target.startBlock(block);
+    handle.values->rotation.startBlock(block);
+    handle.values->logScale.startBlock(block);
+  }
+  if (!handle.where)
+  {
+    this->Everywhere.assign(static_cast<std::size_t>(block.vertices()), 1);
+    return this->Everywhere;
+  }
+  if (handle.where->needsPreparing())
+  {
+    throw Error("What " + handle.key +
+                " holds is known only when the mesh has been read once before: call "
+                "DescribedHandles::prepare().");
+  }
+  handle.where->startBlock(block);
+  return handle.where->atVertices();
+}
+
+void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
+{
+  this->Followed.assign(static_cast<std::size_t>(block.vertices()), nullptr);
+  for (Handle& handle : this->All)
+  {
+    const std::span<const std::uint8_t> held = this->startBlock(handle, block);
+    this->hold(handle, block, held, handles);
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      this->Followed[i] = held[i] ? &handle : this->Followed[i];
+    }
+  }
+  for (std::size_t i = 0; i < this->Followed.size(); ++i)
+  {
+    if (Handle* handle = this->Followed[i])
+    {
+      ++handle->following;
+      handle->moves = handle->moves || (handle->values && moves(block, i, handles));
+    }
+  }
+}
+
+void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
+  std::span<const std::uint8_t> held, VertexHandles& to) const
+{
+  const Column* counts = handle.mask ? &handle.mask->in(block) : nullptr;
+  for (std::size_t i = 0; i < held.size(); ++i)
+  {
+    if (held[i])
+    {
+      const double count = counts ? std::max(1.0, std::ceil(counts->value(i))) : 1.0;
+      to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
+    }
+  }
+  handle.values ? this->setValues(handle, block, held, to)
+                : this->setMotion(handle, block, held, to);
+}
+
+void HandlesOnMesh::setMotion(const Handle& handle, const MeshBlock& block,
+  std::span<const std::uint8_t> held, VertexHandles& to) const
+{
+  for (std::size_t i = 0; i < held.size(); ++i)
+  {
+    if (held[i])
+    {
+      const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
+      std::ranges::copy(handle.motion.apply(point), to.target.data() + 3 * i);
+      std::ranges::copy(handle.motion.rotation(), to.rotation.data() + 3 * i);
+      to.logScale[i] = handle.motion.logScale();
+    }
+  }
+}
+
+void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
+  std::span<const std::uint8_t> held, VertexHandles& to) const
+{
+  const Values& values = *handle.values;
+  const auto set = [&](const ValueOnMesh& value, std::vector<double>& numbers)
+  {
+    const ValueOnMesh::InBlock given = value.in(block);
+    const auto components = static_cast<std::size_t>(value.components());
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      double* of = numbers.data() + i * components;
+      if (held[i])
+      {
+        given.atVertex(i, of);
+        if (!std::all_of(of, of + components, [](double number) { return std::isfinite(number); }))
+        {
+          this->OfMesh.fail(handle.key, value.name() + " is not a finite number at " +
+                                          this->OfMesh.vertexName(block, i) + ", which is held");
+        }
+      }
+    }
+  };
+  if (handle.nearest)
+  {
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      if (held[i])
+      {
+        const std::size_t point =
+          handle.nearest->pointOf(block.firstVertex + static_cast<std::int64_t>(i));
+        std::ranges::copy(values.targets[point], to.target.data() + 3 * i);
+      }
+    }
+  }
+  else
+  {
+    set(values.target, to.target);
+  }
+  set(values.rotation, to.rotation);
+  set(values.logScale, to.logScale);
+}
+
+void HandlesOnMesh::prepare(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
+{
+  this->preparePart(mesh, scratch, memoryLimit);
+  this->endPreparing(nullptr);
+}
+
+void HandlesOnMesh::preparePart(
+  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
+{
+  this->OfMesh.memory().setLimit(memoryLimit);
+  forCheckedBlocks(
+    part,
+    [&](const MeshBlock& block)
+    {
+      for (Handle& handle : this->All)
+      {
+        if (handle.where)
+        {
+          handle.where->prepare(block, scratch);
+        }
+      }
+    },
+    true);
+}
+
+void HandlesOnMesh::endPreparing(MeshParts* parts)
+{
+  for (Handle& handle : this->All)
+  {
+    if (handle.where)
+    {
+      handle.where->endPreparing(parts);
+    }
+  }
+  this->OfMesh.memory().setLimit(INT64_MAX); // that of a deformation counts from now on
+}
+
+std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
+{
+  std::vector<std::int64_t> following, moving;
+  for (const Handle& handle : this->All)
+  {
+    following.push_back(handle.following);
+    moving.push_back(handle.following > 0 && handle.moves ? 1 : 0);
+  }
+  if (parts)
+  {
+    parts->sum(following);
+    parts->sum(moving);
+  }
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < following.size(); ++k)
+  {
+    if (following[k] == 0)
+    {
+      notes.push_back(this->All[k].key + " holds nothing that a later handle does not hold.");
+    }
+  }
+  if (std::ranges::count(moving, 0) == std::ssize(moving))
+  {
+    notes.emplace_back("No handle moves anything: OUT is IN.");
+  }
+  return notes;
 }
 
 } // namespace smg

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Solver/Jobs/Deformation/DeformationEngine.h"
-#include "Solver/Jobs/Deformation/HandleChecks.h"
+#include "Solver/Jobs/Deformation/RotationProblem.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/Pass.h"
-#include "Solver/Multigrid/Engine/VertexRange.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Deformation/PositionStep.h"
 
-#include "Solver/Multigrid/Cycle/SpecialNodes.h"
+#include "Solver/Multigrid/Cycle/PatchRelaxation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Jobs/Deformation/Frame.h"
 #include "Solver/Jobs/Deformation/RestShape.h"
+#include "Solver/Jobs/Deformation/RotationProblem.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 
 #include <cstdint>

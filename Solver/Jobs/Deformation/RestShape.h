@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/RowListener.h"
+#include "Solver/Assembly/RowAssembly.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 

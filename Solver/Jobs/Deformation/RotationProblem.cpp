@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Deformation/RotationProblem.h"
 
-#include "Solver/Jobs/Deformation/HandleChecks.h"
+#include "smg/Error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace smg
 {
@@ -31,6 +33,42 @@ void RotationProblem::conditions(const MeshBlock& block, VertexConditions& condi
       this->TakeTarget(i, this->At.target.data() + 3 * k);
     }
     this->Shared += this->At.mask[k] > 1 ? 1 : 0;
+  }
+}
+
+void checkSize(const VertexHandles& handles, std::int64_t vertices)
+{
+  const auto n = static_cast<std::size_t>(vertices);
+  if (handles.mask.size() != n || handles.target.size() != 3 * n ||
+      handles.rotation.size() != 3 * n || handles.logScale.size() != n)
+  {
+    throw Error("the handles of " + std::to_string(handles.mask.size()) +
+                " vertices were given for " + std::to_string(n) +
+                ": a mask, a target, a rotation and a scale are needed for each");
+  }
+}
+
+void checkHeld(const VertexHandles& handles, std::size_t k, std::int64_t i)
+{
+  // Beyond this, the coarse levels, which have single precision, overflow.
+  constexpr double LargestLogScale = 46.0; // a scale of 1e20
+  const auto finite = [k](const std::vector<double>& v)
+  { return std::isfinite(v[3 * k]) && std::isfinite(v[3 * k + 1]) && std::isfinite(v[3 * k + 2]); };
+  const double logScale = handles.logScale[k];
+  const char* wrong = !finite(handles.target)     ? "target"
+                      : !finite(handles.rotation) ? "rotation"
+                      : !std::isfinite(logScale)  ? "scale"
+                                                  : nullptr;
+  if (wrong)
+  {
+    throw Error(std::string("the ") + wrong + " that a handle gives to vertex " +
+                std::to_string(i) + " is not a finite number");
+  }
+  if (std::fabs(logScale) > LargestLogScale)
+  {
+    throw Error("the scale that a handle gives to vertex " + std::to_string(i) +
+                " is e to the power of " + std::to_string(logScale) +
+                ": use one between 1e-20 and 1e20");
   }
 }
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 
+#include "Solver/Assembly/Elements.h"
 #include "smg/Error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
 
 namespace smg
 {
@@ -28,6 +33,202 @@ ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
                 " vertices, is too long for distances: convert the mesh with the order bfs");
   }
   return plan;
+}
+
+namespace
+{
+
+template <class T>
+std::span<T> valuesIn(const Buffer& buffer, std::int64_t count)
+{
+  return { reinterpret_cast<T*>(buffer.data()), static_cast<std::size_t>(count) };
+}
+
+} // namespace
+
+void ChunkWriter::CellList::add(Pool& pool, const std::uint32_t* corners, std::size_t count)
+{
+  const std::size_t bytes = count * sizeof(*corners);
+  if (this->Used + bytes > this->Memory.size())
+  {
+    constexpr std::size_t First = 4096;
+    this->Memory.grow(pool, std::max(First, this->Used + this->Used / 4 + bytes));
+  }
+  std::memcpy(this->Memory.data() + this->Used, corners, bytes);
+  this->Used += bytes;
+}
+
+ChunkWriter::ChunkWriter(ChunkedMesh& to, DistanceSources& sources, Pool& pool)
+  : To(to)
+  , From(sources)
+  , Owner(pool)
+  , Points(pool, 3)
+  , Marks(pool)
+  , Numbers(pool)
+{
+}
+
+void ChunkWriter::add(const MeshBlock& block)
+{
+  this->addVertices(block);
+  const auto corners = static_cast<std::size_t>(cornersOf(this->To.plan.cellType));
+  const Column* flags = block.flags();
+  const std::size_t cells = block.corners.size() / corners;
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    const std::int64_t* cell = block.corners.data() + c * corners;
+    // Those without area or volume take part: the surface may hang together by them alone.
+    const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
+    if (!isDistinctCell(cell, static_cast<int>(corners), flag))
+    {
+      ++this->Skipped;
+    }
+    else
+    {
+      this->addCell(cell);
+    }
+  }
+  this->Cells += static_cast<std::int64_t>(cells);
+  const std::int64_t length = this->To.plan.length;
+  while (this->To.firstOf(this->To.count()) + length <= block.finalized)
+  {
+    this->writeChunk(length);
+  }
+}
+
+void ChunkWriter::addVertices(const MeshBlock& block)
+{
+  const std::int64_t first = block.firstVertex;
+  const std::int64_t end = first + block.vertices();
+  this->Points.extendRaw(end);
+  std::ranges::copy(block.positions, this->Points.at(first));
+  this->Marks.extend(end);
+  if (this->To.plan.sources)
+  {
+    this->Numbers.extendRaw(end);
+  }
+  const std::span<const std::uint8_t> isSource = this->From.verticesAt(block);
+  for (std::size_t i = 0; i < isSource.size(); ++i)
+  {
+    const std::int64_t vertex = first + static_cast<std::int64_t>(i);
+    if (isSource[i])
+    {
+      this->Marks[vertex] = Dirty;
+      ++this->SourceCount;
+    }
+    if (this->To.plan.sources)
+    {
+      this->Numbers[vertex] = isSource[i] ? this->From.numberOf(block, i) : -1;
+    }
+  }
+}
+
+void ChunkWriter::addCell(const std::int64_t* corners)
+{
+  const ChunkPlan& plan = this->To.plan;
+  const int count = cornersOf(plan.cellType);
+  const auto [low, high] = std::minmax_element(corners, corners + count);
+  if (*high - *low > plan.span)
+  {
+    throw Error("the mesh stream is not valid: a cell uses the vertices " + std::to_string(*low) +
+                " and " + std::to_string(*high) + ", but its span is said to be " +
+                std::to_string(plan.span) + ": convert the mesh again");
+  }
+  std::uint32_t local[4];
+  int sources = 0;
+  for (int k = 0; k < count; ++k)
+  {
+    local[k] = plan.local(corners[k]);
+    sources += this->Marks[corners[k]] & Dirty;
+  }
+  const std::int64_t chunk = *high / plan.length;
+  const bool crosses = *low / plan.length != chunk;
+  for (int k = 0; k < count && (crosses || sources > 1); ++k)
+  {
+    std::uint8_t& mark = this->Marks[corners[k]];
+    mark |= sources > 1 && (mark & Dirty) != 0 ? Straight : 0;
+    mark |= !crosses ? 0 : corners[k] / plan.length == chunk ? ReachesBack : ReachesOn;
+  }
+  const auto open = static_cast<std::size_t>(chunk - this->To.count());
+  if (open >= this->Open.size())
+  {
+    this->Open.resize(open + 1);
+  }
+  OpenCells& cells = this->Open[open];
+  (crosses ? cells.crossing : cells.inner).add(this->Owner, local, static_cast<std::size_t>(count));
+}
+
+void ChunkWriter::writeChunk(std::int64_t count)
+{
+  const std::int64_t chunk = this->To.count();
+  const std::int64_t first = this->To.firstOf(chunk);
+  const std::int64_t cellBytes =
+    cornersOf(this->To.plan.cellType) * std::int64_t(sizeof(std::uint32_t));
+  this->Row.grow(this->Owner, static_cast<std::size_t>(3 * count) * sizeof(double));
+  this->writePositions(chunk, first, count);
+  this->writeState(chunk, first, count);
+  OpenCells cells;
+  if (!this->Open.empty())
+  {
+    cells = std::move(this->Open.front());
+    this->Open.pop_front();
+  }
+  const auto inner = cells.inner.bytes(), crossing = cells.crossing.bytes();
+  this->To.mesh.write(chunk * ChunkedMesh::MeshParts + ChunkedMesh::InnerCells, inner);
+  this->To.mesh.write(chunk * ChunkedMesh::MeshParts + ChunkedMesh::CrossingCells, crossing);
+  const auto dirty = std::ranges::count_if(
+    this->Marks.range(first, first + count), [](std::uint8_t mark) { return (mark & Dirty) != 0; });
+  this->To.chunks.push_back({ static_cast<std::int64_t>(inner.size()) / cellBytes,
+    static_cast<std::int64_t>(crossing.size()) / cellBytes, dirty });
+  this->Points.release(first + count);
+  this->Marks.release(first + count);
+  this->Numbers.release(first + count);
+}
+
+void ChunkWriter::writePositions(std::int64_t chunk, std::int64_t first, std::int64_t count)
+{
+  const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::Positions;
+  const std::span<double> points = this->Points.range(first, first + count);
+  if (!this->To.plan.singlePositions)
+  {
+    this->To.mesh.write(index, std::as_bytes(points));
+    return;
+  }
+  const std::span<float> single = valuesIn<float>(this->Row, 3 * count);
+  std::ranges::transform(
+    points, single.begin(), [](double coordinate) { return static_cast<float>(coordinate); });
+  this->To.mesh.write(index, std::as_bytes(single));
+}
+
+void ChunkWriter::writeState(std::int64_t chunk, std::int64_t first, std::int64_t count)
+{
+  const std::int64_t index = chunk * ChunkedMesh::StateParts;
+  const std::span<std::uint8_t> marks = this->Marks.range(first, first + count);
+  this->To.state.write(index + ChunkedMesh::Flags, std::as_bytes(marks));
+  if (std::ranges::none_of(marks, [](std::uint8_t mark) { return (mark & Dirty) != 0; }))
+  {
+    return;
+  }
+  const std::span<double> distances = valuesIn<double>(this->Row, count);
+  std::ranges::transform(marks, distances.begin(),
+    [](std::uint8_t mark)
+    { return (mark & Dirty) != 0 ? 0.0 : std::numeric_limits<double>::infinity(); });
+  this->To.state.write(index + ChunkedMesh::Distances, std::as_bytes(distances));
+  if (this->To.plan.sources)
+  {
+    this->To.state.write(
+      index + ChunkedMesh::Sources, std::as_bytes(this->Numbers.range(first, first + count)));
+  }
+}
+
+void ChunkWriter::finish()
+{
+  const std::int64_t end = this->Points.end();
+  while (this->To.firstOf(this->To.count()) < end)
+  {
+    this->writeChunk(std::min(this->To.plan.length, end - this->To.firstOf(this->To.count())));
+  }
+  this->To.vertices = end;
 }
 
 } // namespace smg

@@ -2,6 +2,11 @@
 #include "Solver/Jobs/Distance/DistanceRun.h"
 
 #include "Solver/Files/ScratchAccount.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace smg
 {
@@ -30,6 +35,113 @@ void DistanceRun::finishReport()
   r.seconds.total = this->Wall.seconds();
   r.seconds.solve = r.seconds.total - r.seconds.build;
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
+}
+
+DistanceSolution::DistanceSolution(std::unique_ptr<DistanceRun> run, std::shared_ptr<void> files,
+  std::vector<StoredColumn> columns, std::int64_t vertices, std::int64_t chunkVertices)
+  : Run(std::move(run))
+  , Files(std::move(files))
+  , Columns(std::move(columns))
+  , Vertices(vertices)
+  , ChunkVertices(std::min(chunkVertices, vertices))
+{
+  int widest = 0;
+  for (const StoredColumn& column : this->Columns)
+  {
+    this->Components += column.components;
+    widest = std::max(widest, column.components);
+  }
+  const auto bytes = [this](int components)
+  {
+    return static_cast<std::size_t>(this->ChunkVertices) * static_cast<std::size_t>(components) *
+           sizeof(double);
+  };
+  this->Values = Buffer(this->Run->pool, bytes(this->Components));
+  this->Stored = Buffer(this->Run->pool, bytes(widest));
+}
+
+void DistanceSolution::read(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  const auto components = static_cast<std::size_t>(this->Components);
+  checkVertexRange(first, count, values.size() / components, this->Vertices);
+  const std::int64_t end = first + count;
+  while (first < end)
+  {
+    this->load(first / this->ChunkVertices);
+    const std::int64_t begin = this->Chunk * this->ChunkVertices;
+    const std::int64_t part = std::min(end, begin + this->ChunkVertices) - first;
+    const auto* from = reinterpret_cast<const double*>(this->Values.data()) +
+                       static_cast<std::size_t>(first - begin) * components;
+    const std::size_t numbers = static_cast<std::size_t>(part) * components;
+    std::copy_n(from, numbers, values.begin());
+    values = values.subspan(numbers);
+    first += part;
+  }
+}
+
+void DistanceSolution::load(std::int64_t chunk)
+{
+  if (chunk == this->Chunk)
+  {
+    return;
+  }
+  this->Chunk = -1;
+  const std::int64_t count =
+    std::min(this->ChunkVertices, this->Vertices - chunk * this->ChunkVertices);
+  int first = 0;
+  for (const StoredColumn& column : this->Columns)
+  {
+    this->loadColumn(column, chunk, count, first);
+    first += column.components;
+  }
+  this->Chunk = chunk;
+}
+
+void DistanceSolution::loadColumn(
+  const StoredColumn& column, std::int64_t chunk, std::int64_t count, int first)
+{
+  const std::int64_t index = chunk * column.stride + column.offset;
+  const std::int64_t all = count * column.components;
+  const bool isStored = column.file->bytes(index) > 0;
+  const auto copy = [&]<class T>(const T* stored)
+  {
+    if (isStored)
+    {
+      column.file->read(
+        index, this->Stored.bytes().first(static_cast<std::size_t>(all) * sizeof(T)));
+    }
+    auto* to = reinterpret_cast<double*>(this->Values.data()) + first;
+    for (std::int64_t i = 0; i < all; ++i)
+    {
+      to[i / column.components * this->Components + i % column.components] =
+        isStored ? static_cast<double>(stored[i]) : column.fallback;
+    }
+  };
+  const std::byte* stored = this->Stored.data();
+  column.type == StoredColumn::Type::Float64 ? copy(reinterpret_cast<const double*>(stored))
+  : column.type == StoredColumn::Type::Int64 ? copy(reinterpret_cast<const std::int64_t*>(stored))
+                                             : copy(reinterpret_cast<const float*>(stored));
+}
+
+void DistanceSolution::summarize()
+{
+  Report::Distance& summary = *this->Run->report.distance;
+  double sum = 0;
+  std::int64_t finite = 0;
+  for (std::int64_t v = 0; v < this->Vertices; ++v)
+  {
+    this->load(v / this->ChunkVertices);
+    const double distance = reinterpret_cast<const double*>(
+      this->Values.data())[v % this->ChunkVertices * this->Components];
+    if (std::isfinite(distance))
+    {
+      ++finite;
+      sum += distance;
+      summary.maximum = std::max(summary.maximum, distance);
+    }
+  }
+  summary.mean = finite > 0 ? sum / static_cast<double>(finite) : 0;
+  summary.unreached = this->Vertices - finite;
 }
 
 } // namespace smg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/PathDistance.h"
 
-#include "Solver/Jobs/Distance/ChunkWriter.h"
-#include "Solver/Jobs/Distance/DistanceSolution.h"
+#include "Solver/Jobs/Distance/ChunkedMesh.h"
+#include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/March.h"
 #include "Solver/Jobs/Distance/MarchDirections.h"
 #include "Solver/Mesh/StreamCheck.h"

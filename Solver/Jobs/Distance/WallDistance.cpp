@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/WallDistance.h"
 
-#include "Solver/Jobs/Distance/DistanceSolution.h"
+#include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/WallPass.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/Error.h"

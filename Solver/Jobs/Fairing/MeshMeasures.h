@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Assembly/Components.h"
-#include "Solver/Assembly/OpenComponents.h"
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Assembly/Elements.h"
+#include "Solver/Files/CheckedFile.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/MeshSource.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -64,6 +67,111 @@ private:
   std::int64_t Finalized = 0; ///< after the previous block
 
   static constexpr double Infinity = std::numeric_limits<double>::infinity();
+};
+
+/** The tuples of a vertex file at the open vertices of a mesh stream. Blocks are passed in order;
+ * the first block restarts it. */
+class OpenTuples
+{
+public:
+  OpenTuples(Pool& pool, const VertexFile& file)
+    : File(&file)
+    , Values(pool, file.lanes())
+  {
+  }
+
+  /** Reads the tuples of the vertices of the next block. */
+  void startBlock(const MeshBlock& block)
+  {
+    if (block.firstVertex == 0)
+    {
+      this->Values.restart();
+      this->Finalized = 0;
+    }
+    this->Values.release(this->Finalized);
+    this->Finalized = block.finalized;
+    if (block.vertices() > 0)
+    {
+      this->Values.extendRaw(block.firstVertex + block.vertices());
+      this->File->read(block.firstVertex, block.vertices(), this->Values.at(block.firstVertex));
+    }
+  }
+
+  /** The tuple of an open vertex; those of the current block lie one after the other. */
+  const double* at(std::int64_t vertex) const { return this->Values.at(vertex); }
+
+private:
+  const VertexFile* File;
+  Ring<double> Values;
+  std::int64_t Finalized = 0; ///< after the previous block
+};
+
+/** The unit normals at the vertices of a triangle mesh stream with other positions: means of the
+ * normals of the triangles, weighted with their angles at the vertex. Triangles without area do not
+ * count; a vertex without any other, and one that is held, has the normal 0. */
+class PointNormals
+{
+public:
+  /** Appends the normals of the vertices to `normals`, as they become final. */
+  PointNormals(Pool& pool, const VertexFile& positions, VertexFile& normals)
+    : Points(pool, positions)
+    , Sums(pool, 4)
+    , Normals(normals)
+  {
+  }
+
+  /** Adds the next block; `held` is 1 at its vertices that are held. */
+  void add(const MeshBlock& block, std::span<const std::uint8_t> held);
+  /** To be called after the last block. */
+  void finish();
+
+private:
+  void addCell(const std::int64_t* corners);
+  void write(std::int64_t finalized);
+
+  OpenTuples Points;
+  Ring<double> Sums; ///< of weighted normals, and whether the vertex is held
+  VertexFile& Normals;
+  std::vector<double> Units; ///< to write
+};
+
+/** Calls visit(corners) for each cell of a block that has distinct corners and is not flagged. */
+template <class Visit>
+void forCells(CellType type, const MeshBlock& block, Visit&& visit)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(type));
+  const Column* flags = block.flags();
+  for (std::size_t c = 0; c < block.corners.size() / corners; ++c)
+  {
+    const std::int64_t* corner = block.corners.data() + c * corners;
+    if (!(flags && flags->value(c) != 0.0) && !hasRepeatedCorner(corner, cornersOf(type)))
+    {
+      visit(corner);
+    }
+  }
+}
+
+/**
+ * The volume that triangles sweep when their corners move from x to y + c n along straight lines,
+ * as a polynomial of the distance c. Positive if they move to the side of their normals; of a
+ * closed surface it is the difference of the enclosed volumes.
+ */
+class SweptVolume
+{
+public:
+  /** Adds a triangle: the x, y, z of each corner before and after the motion, and its n. */
+  void add(const double* const* x, const double* const* y, const double* const* n);
+
+  /** The volume at the distance c. */
+  double at(double c) const;
+  /** The distance nearest to 0, of at most `most`, with which no volume is swept, by Newton's
+   * method; none if that does not find it. */
+  std::optional<double> root(double most) const;
+
+private:
+  double slope(double c) const;
+
+  std::array<double, 4> Coefficients{}; ///< of 1, c, c^2, c^3
 };
 
 } // namespace smg

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Fairing/Smoother.h"
 
-#include "Solver/Assembly/BoundaryFacets.h"
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Assembly/Facets.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
-#include "Solver/Problem/ColumnNumbers.h"
+#include "Solver/Problem/MeshColumns.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 

@@ -2,15 +2,17 @@
 #pragma once
 
 #include "Solver/Core/Timer.h"
-#include "Solver/Files/VertexFile.h"
+#include "Solver/Files/CheckedFile.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Jobs/Fairing/SmoothedValues.h"
 #include "Solver/Jobs/Fairing/SmoothingProblem.h"
 #include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/HeldVertices.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Smooth.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,6 +23,39 @@
 
 namespace smg
 {
+
+/** The result of smoothing: values at the vertices, the memory or files that they are in, and the
+ * report. */
+class SmoothedValues final : public Solution
+{
+public:
+  SmoothedValues(const SolveOptions& options, int columns)
+    : memory(options.memoryLimit)
+    , scratch(options.inCore ? std::nullopt
+                             : std::optional<ScratchFolder>(
+                                 std::in_place, options.scratch, options.scratchLimit))
+    , storage{ this->memory, this->scratch ? &*this->scratch : nullptr, this->traffic }
+    , values(this->storage, columns)
+  {
+  }
+
+  std::int64_t vertices() const override { return this->values.vertices(); }
+  int columns() const override { return this->values.lanes(); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> to) override
+  {
+    checkVertexRange(
+      first, count, to.size() / static_cast<std::size_t>(this->columns()), this->vertices());
+    this->values.read(first, count, to.data());
+  }
+  const Report& report() const override { return this->total; }
+
+  Pool memory;
+  std::optional<ScratchFolder> scratch;
+  IoStatistics traffic;
+  VertexStorage storage; ///< for further values
+  VertexFile values;
+  Report total;
+};
 
 /** Smooths a mesh, see smooth(): surveys it, then takes step after step. */
 class Smoother

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Results/DiscretisationError.h"
 
-#include "Solver/Assembly/CellFacets.h"
-#include "Solver/Assembly/FlatCells.h"
+#include "Solver/Assembly/Elements.h"
+#include "Solver/Assembly/Facets.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Results/ProblemResults.h"
 
-#include "Solver/Assembly/FlatCells.h"
+#include "Solver/Assembly/Elements.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/FacetSet.h"
+#include "Solver/Assembly/Edges.h"
+#include "Solver/Assembly/Facets.h"
+#include "Solver/Assembly/Loads.h"
 #include "Solver/Assembly/NeighbourReach.h"
 #include "Solver/Assembly/OpenVertices.h"
 #include "Solver/Assembly/ProblemCells.h"
 #include "Solver/Assembly/ProblemFacets.h"
-#include "Solver/Assembly/VertexLoads.h"
-#include "Solver/Assembly/WeightedEdges.h"
-#include "Solver/Jobs/Results/CellResults.h"
 #include "Solver/Jobs/Results/ResultSums.h"
-#include "Solver/Jobs/Results/VertexTerms.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/Export.h"
+#include "smg/Report.h"
 #include "smg/Solve.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -115,5 +116,49 @@ private:
   std::vector<RowNeighbour> Neighbours;
   std::int64_t Final = 0;
 };
+
+/** Values in memory as a solution. */
+class HeldSolution final : public Solution
+{
+public:
+  /** `columns` values of each vertex, which another object owns. */
+  HeldSolution(std::span<const double> values, int columns)
+    : Values(values)
+    , Columns(columns)
+  {
+  }
+
+  std::int64_t vertices() const override
+  {
+    return static_cast<std::int64_t>(this->Values.size()) / this->Columns;
+  }
+  int columns() const override { return this->Columns; }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
+  {
+    std::ranges::copy(this->Values.subspan(static_cast<std::size_t>(first * this->Columns),
+                        static_cast<std::size_t>(count * this->Columns)),
+      values.begin());
+  }
+  const Report& report() const override { return this->Nothing; }
+
+private:
+  std::span<const double> Values;
+  int Columns;
+  Report Nothing;
+};
+
+/** Replaces the vertices of the minima and maxima of a report by numberOf(vertex). */
+template <class NumberOf>
+void renumberExtremes(Report& report, NumberOf numberOf)
+{
+  for (std::vector<Report::Extreme>* extremes : { &report.minimum, &report.maximum })
+  {
+    for (Report::Extreme& extreme : *extremes)
+    {
+      // Negative if all values are NaN.
+      extreme.vertex = extreme.vertex < 0 ? extreme.vertex : numberOf(extreme.vertex);
+    }
+  }
+}
 
 } // namespace smg

@@ -1,19 +1,134 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Jobs/Results/CellResults.h"
-#include "Solver/Jobs/Results/ConditionSums.h"
-#include "Solver/Jobs/Results/VertexTerms.h"
+#include "Solver/Assembly/Facets.h"
+#include "Solver/Assembly/OpenVertices.h"
+#include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 #include "smg/Report.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace smg
 {
+
+/** The gradients and fluxes of the cells of a block, and the energy of all cells. */
+class CellResults
+{
+public:
+  /** `gradient`, `flux`: whether they are requested. */
+  CellResults(CellType type, int columns, bool gradient, bool flux);
+
+  /** Starts the next block, of this many cells. */
+  void begin(std::size_t cells);
+  /** Adds cell c of the block: the positions of its corners, the values there (`columns` each), its
+   * weights, the factor by which the solve has reduced these, and K (null: the identity). */
+  void add(std::size_t c, const double* const* points, const double* const* values,
+    const CellWeights& weights, double flatness, const double* K);
+
+  /** grad u in the block: 3 * `columns` numbers per cell, 0 in cells without measure. */
+  std::span<const double> gradient() const { return this->Gradient; }
+  /** -K grad u, likewise. */
+  std::span<const double> flux() const { return this->Flux; }
+  /** Per column: 1/2 the integral of grad u . K grad u, and the part of it that the solve has
+   * omitted. */
+  const std::vector<double>& energy() const { return this->Energy; }
+  const std::vector<double>& leftOut() const { return this->LeftOut; }
+
+private:
+  CellType Type;
+  int Columns;
+  bool WantsGradient, WantsFlux;
+  std::vector<double> Gradient, Flux, Energy, LeftOut;
+};
+
+/** Whether nothing determines these values of a vertex, which has no share in the equations. */
+inline bool isUndetermined(const double* value)
+{
+  return std::isnan(value[0]);
+}
+
+/** Sums the data of Report::Condition over facets and vertices. */
+class ConditionSums
+{
+public:
+  ConditionSums(CellType type, const ConditionCounts& counts, int columns);
+
+  /** Adds a boundary facet of this length or area; the values of `vertices` are the solution. */
+  void add(const BoundaryFacet& facet, double area, const OpenVertices& vertices);
+  /** Adds a vertex of a Dirichlet condition with its value and its reaction, `columns` numbers
+   * each. */
+  void add(std::int32_t dirichlet, const double* value, const double* reaction);
+
+  std::vector<Report::Condition> conditions() const;
+  /** Appends all sums: those of the parts of a mesh add up. */
+  void appendNumbers(std::vector<double*>& numbers);
+  /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
+  const std::vector<double>& inflow() const { return this->Inflow; }
+  const std::vector<double>& magnitude() const { return this->Magnitude; }
+  /** Per column: the magnitudes of the terms whose differences are the Robin fluxes. */
+  const std::vector<double>& robinTerms() const { return this->RobinTerms; }
+
+private:
+  struct Sums
+  {
+    double area = 0.0;
+    std::vector<double> value, flux, vertexValue; ///< value: times area
+    double vertices = 0.0;                        ///< their number
+  };
+
+  void addMean(Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices);
+  void addFlux(Sums& sums, std::size_t column, double flux);
+  void append(const char* kind, const std::vector<Sums>& all,
+    std::vector<Report::Condition>& conditions) const;
+
+  int Corners; // of a facet
+  std::size_t Columns;
+  std::vector<Sums> Dirichlet, Flux, Robin;
+  std::vector<double> Inflow, Magnitude, RobinTerms;
+};
+
+/** What the cells, boundary facets and edges of a vertex contribute to the results. These are sums
+ * over them: what the parts of a mesh contribute to a vertex of several parts adds up. */
+class VertexTerms
+{
+public:
+  /** The number of numbers. */
+  static std::size_t size(std::size_t columns) { return OfColumns + 4 * columns; }
+
+  /** A view of this many numbers. */
+  explicit VertexTerms(double* numbers)
+    : Numbers(numbers)
+  {
+  }
+
+  double& mass() { return this->Numbers[0]; }
+  double& screening() { return this->Numbers[1]; } ///< of the diagonal
+  double& transfer() { return this->Numbers[2]; }  ///< likewise, of Robin conditions
+  /** The magnitudes of the weights of all edges, if the problem has facets. */
+  double& edges() { return this->Numbers[3]; }
+
+  // Of column k:
+
+  double& source(std::size_t k) { return this->at(k, 0); } ///< of the right-hand side
+  double& inflow(std::size_t k) { return this->at(k, 1); } ///< likewise, of facets
+  /** What flows out of the condition along the edges of a Dirichlet vertex, and the magnitudes of
+   * the terms of its differences. */
+  double& outflow(std::size_t k) { return this->at(k, 2); }
+  double& outflowTerms(std::size_t k) { return this->at(k, 3); }
+
+private:
+  static constexpr std::size_t OfColumns = 4;
+
+  double& at(std::size_t k, std::size_t place) { return this->Numbers[OfColumns + 4 * k + place]; }
+
+  double* Numbers;
+};
 
 /** The sums over vertices, cells and facets from which the derived results of a report follow. */
 class SMG_EXPORT ResultSums

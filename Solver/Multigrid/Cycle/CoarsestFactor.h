@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Memory/Reservation.h"
+#include "Solver/Memory/Pool.h"
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCore>

@@ -1,18 +1,139 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Memory/Buffer.h"
 #include "Solver/Multigrid/Cycle/CoarsestSolver.h"
-#include "Solver/Multigrid/Cycle/CoreIteration.h"
 #include "Solver/Multigrid/Cycle/Level.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace smg
 {
+
+/**
+ * Solves the equations of a core level more accurately than one V-cycle, by conjugate gradients
+ * that V-cycles from this level on precondition: one V-cycle over many levels reduces smooth errors
+ * slowly, since each level contributes to its error. On a level much smaller than the finest one
+ * this takes hardly any time and saves V-cycles of the finest level.
+ *
+ * The flexible form permits V-cycles that are not quite symmetric (Notay, SIAM Journal on
+ * Scientific Computing 22, 2000, 1444-1460). Each column has its own coefficients.
+ */
+template <class Relaxation>
+class CoreIteration
+{
+public:
+  using CoreLevel = Level<float, Relaxation>;
+
+  /** When the iteration ends. */
+  struct Ending
+  {
+    int mostCycles = 20;
+    /** Ends with the V-cycle that adds at most this share to the squared energy norm of x, of every
+     * column. */
+    double accuracy = 0.001;
+  };
+
+  /** For `level`, all of whose nodes are in memory. */
+  CoreIteration(CoreLevel& level, Ending ending)
+    : Of(level)
+    , End(ending)
+    , Size(static_cast<std::size_t>(level.window().x().range(0, level.window().nodes()).size()))
+    , Lanes(static_cast<std::size_t>(level.window().stride()))
+    , Memory(level.window().pool(), Vectors * this->Size * sizeof(float))
+  {
+  }
+
+  /** Computes x of the level from its b, which is lost; cycle() computes x from b by a V-cycle. */
+  template <class Cycle>
+  void operator()(Cycle&& cycle)
+  {
+    LevelWindow<float>& window = this->Of.window();
+    const std::span<float> z = window.x().range(0, window.nodes());
+    const std::span<float> r = window.b().range(0, window.nodes());
+    const std::span<float> sum = this->vector(0), direction = this->vector(1);
+    const std::span<float> image = this->vector(2), residual = this->vector(3);
+    std::ranges::fill(this->values(), 0.0F);
+    std::vector<double> energy(this->Lanes), reduction(this->Lanes);
+    for (int k = 0; k < this->End.mostCycles; ++k)
+    {
+      cycle();
+      this->Of.residualAll(residual.data());
+      const std::vector<double> conjugation = this->ratios(this->dots(z, image), energy);
+      for (std::size_t i = 0; i < this->Size; ++i)
+      {
+        const auto beta = static_cast<float>(conjugation[i % this->Lanes]);
+        direction[i] = z[i] - beta * direction[i];
+        image[i] = (r[i] - residual[i]) - beta * image[i];
+      }
+      energy = this->dots(direction, image);
+      const std::vector<double> descent = this->dots(direction, r);
+      const std::vector<double> length = this->ratios(descent, energy);
+      bool isAccurate = true;
+      for (std::size_t lane = 0; lane < this->Lanes; ++lane)
+      {
+        const double gain = length[lane] * descent[lane];
+        reduction[lane] += gain;
+        isAccurate = isAccurate && gain <= this->End.accuracy * reduction[lane];
+      }
+      for (std::size_t i = 0; i < this->Size; ++i)
+      {
+        const auto alpha = static_cast<float>(length[i % this->Lanes]);
+        sum[i] += alpha * direction[i];
+        r[i] -= alpha * image[i];
+      }
+      if (isAccurate)
+      {
+        break;
+      }
+    }
+    std::ranges::copy(sum, z.begin());
+  }
+
+private:
+  static constexpr std::size_t Vectors = 4;
+
+  std::span<float> values()
+  {
+    return { reinterpret_cast<float*>(this->Memory.data()), Vectors * this->Size };
+  }
+  std::span<float> vector(std::size_t v)
+  {
+    return this->values().subspan(v * this->Size, this->Size);
+  }
+
+  /** The scalar products of each column. */
+  std::vector<double> dots(std::span<const float> a, std::span<const float> b) const
+  {
+    std::vector<double> sums(this->Lanes);
+    for (std::size_t i = 0; i < this->Size; ++i)
+    {
+      sums[i % this->Lanes] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+    }
+    return sums;
+  }
+  /** a / b of each column; 0 where b is not positive: a column that is zero, or solved. */
+  static std::vector<double> ratios(std::vector<double> a, const std::vector<double>& b)
+  {
+    for (std::size_t lane = 0; lane < a.size(); ++lane)
+    {
+      a[lane] = b[lane] > 0.0 ? a[lane] / b[lane] : 0.0;
+    }
+    return a;
+  }
+
+  CoreLevel& Of;
+  Ending End;
+  std::size_t Size;
+  std::size_t Lanes;
+  Buffer Memory;
+};
 
 /**
  * The part of a V-cycle on the levels in memory (core levels), performed between two passes. The

@@ -4,6 +4,7 @@
 #include "Solver/Core/Lanes.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 
+#include <concepts>
 #include <cstdint>
 
 namespace smg
@@ -70,5 +71,74 @@ struct GaussSeidel
     }
   }
 };
+
+/** Whether R has the sweep described at Relaxation, for one type of numbers and blocks. */
+template <class R, class Real, int Count, class Index, class Weight>
+concept RelaxesBlocks = requires(const RowBlock::Header& h,
+  const RowBlock::Arrays<Index, Weight>& a, BlockRange nodes, std::int64_t stride, Real* x,
+  const Real* b)
+{
+  R::template sweep<false, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
+  R::template sweep<true, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
+};
+
+/** The same for all blocks of such levels. */
+template <class R, class Real, class Weight>
+concept RelaxesLevels = RelaxesBlocks<R, Real, 1, std::int16_t, Weight> &&
+  RelaxesBlocks<R, Real, 4, std::int16_t, Weight> && RelaxesBlocks<R, Real, 1, WideIndex, Weight> &&
+  RelaxesBlocks<R, Real, 4, WideIndex, Weight>;
+
+/**
+ * A relaxation (smoother) of A x = b, applied on every level before and after the correction from
+ * the coarser one. A type R with a static function template
+ *
+ *   template <bool LowerOnly, class Vectors, ...>
+ *   static void sweep(const auto& h, const auto& a, BlockRange nodes, std::int64_t stride,
+ *     auto* x, const auto* b);
+ *
+ * that relaxes nodes [nodes.begin, nodes.end) of a block once. `h` and `a` are the rows of the
+ * block: see RowBlock, entriesOf() and neighbourSum(). x and b point to node 0 of the block, the
+ * values of node k are at x + k * stride; they are `double` on the finest level, `float` on the
+ * others. Weights are double, float or BFloat16, converted to Real by a static_cast. Vectors::load
+ * and ::store move 1 or 4 right-hand sides at once. GaussSeidel is the model.
+ *
+ * The engine itself relaxes patches of strongly coupled nodes (see PatchRelaxation.h).
+ *
+ * Requirements of the streaming engine:
+ *
+ * - A sweep relaxes the nodes in ascending order and modifies only x of node k. The engine splits a
+ *   level into ranges according to its windows; the result must not depend on the ranges.
+ * - Node k may read its own b and row, and x of itself and its neighbours, nothing else: only these
+ *   are guaranteed to be in memory. Neighbours below k have the values of this sweep, those above
+ *   the values of the previous one. Sweeps that need the old values of all neighbours (Jacobi) or
+ *   run backwards are not possible: they would need a second x or the end of the stream.
+ * - With LowerOnly, the first sweep on a coarse level, x must be taken as zero for k itself and all
+ *   nodes above. Their memory is uninitialised or absent.
+ * - A sweep keeps no state between calls: two threads process two ranges concurrently.
+ *
+ * For the V-cycle to converge, the sweep must reduce the error of every symmetric positive definite
+ * A (SOR: a factor between 0 and 2).
+ */
+template <class R>
+concept Relaxation = RelaxesLevels<R, double, float> && RelaxesLevels<R, double, double> &&
+  RelaxesLevels<R, float, float> && RelaxesLevels<R, float, BFloat16>;
+
+/** sum_j w_ij x_j over the neighbours j of node k, or over those below k. For user-defined sweeps:
+ * the x that solves row k is (b_k + neighbourSum) / a.diagonal[k]. */
+template <bool LowerOnly, class Vectors, class Real, class Arrays>
+[[gnu::always_inline]] inline typename Vectors::Vector neighbourSum(
+  const RowBlock::Header& h, const Arrays& a, std::int64_t k, std::int64_t stride, const Real* x)
+{
+  const BlockRange row = entriesOf(h, a, k);
+  const Real* xk = x + k * stride;
+  typename Vectors::Vector sum{};
+  for (std::int64_t e = row.begin; e < row.end && !(LowerOnly && a.delta[e] > 0); ++e)
+  {
+    sum += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+  }
+  return sum;
+}
+
+static_assert(Relaxation<GaussSeidel>);
 
 } // namespace smg

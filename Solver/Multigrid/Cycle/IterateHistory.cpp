@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 
-#include "Solver/Core/Padding.h"
+#include "Solver/Core/Lanes.h"
 
 #include <algorithm>
 #include <numeric>

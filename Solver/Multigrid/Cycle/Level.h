@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Cycle/IterateEnergy.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/LevelCursors.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Cycle/PatchRelaxation.h"
 #include "Solver/Multigrid/Cycle/Pipeline.h"
-#include "Solver/Multigrid/Cycle/SpecialNodes.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
 
 #include <cstdint>

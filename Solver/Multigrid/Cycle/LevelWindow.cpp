@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Cycle/LevelWindowState.txx"
+#include "Solver/Multigrid/Cycle/LevelWindow.h"
 
-#include "Solver/Core/Padding.h"
+#include "Solver/Core/Lanes.h"
+#include "Solver/Multigrid/Cycle/LevelWindowState.txx"
 
 #include <algorithm>
 #include <string>

@@ -2,8 +2,6 @@
 #pragma once
 
 #include "Solver/Memory/Buffer.h"
-#include "Solver/Multigrid/Cycle/BFloat16.h"
-#include "Solver/Multigrid/Cycle/WideIndex.h"
 #include "Solver/Multigrid/Setup/LevelRows.h"
 
 #include <algorithm>
@@ -17,6 +15,51 @@
 
 namespace smg
 {
+
+/** The upper half of a float: its range with 8 bits of precision, rounded to nearest. */
+class BFloat16
+{
+public:
+  BFloat16() = default;
+  /** `value` must not be NaN. */
+  explicit BFloat16(float value)
+  {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    this->Bits = static_cast<std::uint16_t>((bits + 0x7FFFU + (bits >> 16 & 1U)) >> 16);
+  }
+
+  operator float() const
+  {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(this->Bits) << 16);
+  }
+
+private:
+  std::uint16_t Bits = 0;
+};
+
+/** An index of a wide block in three bytes, enough for distances of rows and of parents. It is read
+ * together with the preceding byte in one load, and therefore only in place in a block. */
+class WideIndex
+{
+public:
+  WideIndex() = default;
+  /** From -2^23 to 2^23 - 1. */
+  explicit WideIndex(std::int32_t index) { std::memcpy(this->Bytes.data(), &index, sizeof(*this)); }
+  /** A copy would have another preceding byte. */
+  WideIndex(const WideIndex&) = delete;
+  WideIndex& operator=(const WideIndex&) = default;
+
+  operator std::int64_t() const
+  {
+    std::int32_t shifted = 0;
+    std::memcpy(&shifted, reinterpret_cast<const std::byte*>(this) - 1, sizeof(shifted));
+    return std::int64_t(shifted) >> 8;
+  }
+
+private:
+  std::array<std::byte, 3> Bytes;
+};
+static_assert(sizeof(WideIndex) == 3 && std::endian::native == std::endian::little);
 
 /**
  * The rows and the interpolation of up to `Nodes` consecutive nodes of a level in the format on

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Memory/SpareBuffers.h"
+#include "Solver/Memory/Buffer.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
 #include "smg/Export.h"

@@ -1,19 +1,91 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Engine/Chebyshev.h"
-#include "Solver/Multigrid/Engine/ConjugateResiduals.h"
+#include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "smg/Export.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace smg
 {
+
+/**
+ * Chebyshev acceleration of an iteration whose error is multiplied by a matrix with eigenvalues in
+ * [-bound, bound] (Golub and Varga 1961): after k steps the error is that of the polynomial C_k(t /
+ * bound) / C_k(1 / bound), the smallest on that interval. V-cycles both under- and overshoot,
+ * because coarse operators are sparsified: on scans the measured interval is equally long on the
+ * negative side, and polynomials for [0, bound] are slower than no acceleration.
+ */
+class Chebyshev
+{
+public:
+  /** `bound` in (0, 1). */
+  explicit Chebyshev(double bound)
+    : Quarter(bound * bound / 4)
+  {
+  }
+
+  /** The weights of the next step. */
+  StepWeights next()
+  {
+    this->Omega = this->Steps == 0   ? 1.0
+                  : this->Steps == 1 ? 1 / (1 - 2 * this->Quarter)
+                                     : 1 / (1 - this->Quarter * this->Omega);
+    ++this->Steps;
+    return { this->Omega, this->Omega - 1 };
+  }
+
+private:
+  double Quarter;
+  double Omega = 1.0;
+  int Steps = 0;
+};
+
+/**
+ * The weights of conjugate residuals, which minimise the residual over the combinations of
+ * iterates; see IterateHistory for the vectors. Only the last direction is kept conjugate, which is
+ * sufficient for a symmetric V-cycle; forward Gauss-Seidel is nearly symmetric. Restarts if the
+ * products break down.
+ */
+class ConjugateResiduals
+{
+public:
+  /** The weights of the next step, from the products of the last pass. */
+  StepWeights next(const ResidualProducts& p)
+  {
+    if (this->Steps++ == 0)
+    {
+      return { 1.0, 0.0, 0.0, 0.0, true };
+    }
+    if (this->Steps == 2)
+    {
+      return {}; // a plain V-cycle from z gives the first direction
+    }
+    const double conjugation = p.qq > 0.0 ? p.aq / p.qq : 0.0;
+    const double length = (p.za - conjugation * p.zq) / (p.aa - conjugation * p.aq);
+    if (!(std::fabs(length) >= 1 / Longest && std::fabs(length) <= Longest))
+    {
+      *this = {};
+      return this->next(p);
+    }
+    const StepWeights weights{ length,
+      this->Length == 0.0 ? 0.0 : -length * conjugation / this->Length, conjugation, length };
+    this->Length = length;
+    return weights;
+  }
+
+private:
+  static constexpr double Longest = 100.0;
+
+  int Steps = 0;
+  double Length = 0.0;
+};
 
 /** Decides before each V-cycle whether and how it is accelerated. Solves with a fixed number of
  * V-cycles are not accelerated. */

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "smg/Deform.h"
+#include "smg/Export.h"
 #include "smg/Smooth.h"
 #include "smg/Solve.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace smg
@@ -30,5 +33,10 @@ SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, Weights wei
 SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem);
 /** Throws Error if the problem has no column; solve() does so, too. */
 SMG_EXPORT void checkProblem(const Problem& problem);
+
+/** Throws Error unless [first, first + count) is a range of a solution of `vertices` vertices and
+ * there is room for its values. */
+SMG_EXPORT void checkVertexRange(
+  std::int64_t first, std::int64_t count, std::size_t room, std::int64_t vertices);
 
 } // namespace smg

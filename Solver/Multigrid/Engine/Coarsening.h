@@ -2,11 +2,8 @@
 #pragma once
 
 #include "Solver/Multigrid/Engine/InterpolationSweeps.h"
-#include "Solver/Multigrid/Engine/StepLimit.h"
-#include "Solver/Multigrid/Engine/UsualEntries.h"
 #include "Solver/Multigrid/OperatorSet.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
-#include "Solver/Multigrid/Setup/FinishedRow.h"
 #include "Solver/Multigrid/Setup/RowBatch.h"
 #include "smg/Error.h"
 
@@ -18,6 +15,30 @@
 
 namespace smg
 {
+
+/** The number of entries that rows of any length usually have. On a cache line of its own, since
+ * stages on different threads note theirs at the same time. */
+class alignas(64) UsualEntries
+{
+public:
+  /** Notes a row with so many entries. */
+  void add(std::int64_t entries)
+  {
+    ++this->Rows;
+    this->Entries += entries;
+  }
+
+  /** Some more than so many rows had on average so far. */
+  std::int64_t of(std::int64_t rows) const
+  {
+    constexpr std::int64_t AtFirst = 8;
+    const std::int64_t usual = this->Rows > 0 ? rows * this->Entries / this->Rows : AtFirst * rows;
+    return usual + usual / 8;
+  }
+
+private:
+  std::int64_t Rows = 0, Entries = 0;
+};
 
 /**
  * Builds a level from the next finer one, as far as the rows of that exist. Every stage has a

@@ -3,7 +3,7 @@
 
 #include "Solver/Assembly/Assembly.h"
 #include "Solver/Core/Timer.h"
-#include "Solver/Memory/MemoryLimitError.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/MeshAhead.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 #include "Solver/Multigrid/Engine/Convergence.h"

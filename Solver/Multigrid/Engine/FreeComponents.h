@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Assembly/Components.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"

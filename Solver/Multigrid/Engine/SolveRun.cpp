@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/SolveRun.h"
 
-#include "Solver/Multigrid/Engine/AssemblyReport.h"
-#include "Solver/Multigrid/Engine/ReportState.h"
-
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/ScratchAccount.h"
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
 
 #include <tbb/info.h>
 

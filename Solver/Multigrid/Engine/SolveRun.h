@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Assembly/Components.h"
 #include "Solver/Checkpoint/Checkpoint.h"
-#include "Solver/Core/LongestFirst.h"
 #include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchFolder.h"
-#include "Solver/Files/ScratchTraffic.h"
-#include "Solver/Memory/MemoryLimitError.h"
 #include "Solver/Memory/Pool.h"
-#include "Solver/Multigrid/Cycle/IterateEnergy.h"
-#include "Solver/Multigrid/Cycle/LevelCursors.h"
+#include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "Solver/Multigrid/Engine/SolveProgress.h"
-#include "Solver/Multigrid/Engine/StepRecorder.h"
 #include "smg/Export.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
@@ -25,10 +21,63 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace smg
 {
+
+/**
+ * Performs the tasks of the steps of a solve one after the other and keeps their processor times,
+ * from which a model tells how long they take on any number of threads
+ * (Testing/Benchmarks/ScheduleModel.h).
+ */
+class StepRecorder
+{
+public:
+  struct Step
+  {
+    double before = 0.0;       ///< seconds since the step before this one, or the start of the pass
+    std::vector<double> tasks; ///< seconds of each task
+  };
+  struct Pass
+  {
+    std::vector<double> costs; ///< of the stages, which come first among the tasks; see Pipeline
+    std::vector<Step> steps;
+  };
+
+  /** Starts a pass with stages of these costs; none in the first pass. */
+  void startPass(std::vector<double> costs)
+  {
+    this->Passes.push_back({ std::move(costs), {} });
+    this->Since = processSeconds();
+  }
+
+  /** Performs a step: task(0) .. task(count - 1). */
+  template <class Task>
+  void run(int count, Task&& task)
+  {
+    Step step{ this->lap(), {} };
+    for (int k = 0; k < count; ++k)
+    {
+      task(k);
+      step.tasks.push_back(this->lap());
+    }
+    this->Passes.back().steps.push_back(std::move(step));
+  }
+
+  const std::vector<Pass>& passes() const { return this->Passes; }
+
+private:
+  double lap()
+  {
+    const double now = processSeconds();
+    return now - std::exchange(this->Since, now);
+  }
+
+  std::vector<Pass> Passes;
+  double Since = 0.0;
+};
 
 /** The shared data of all parts of a solve and of its solution: options, memory, scratch files,
  * threads, the components of the mesh, progress and report. */
@@ -129,6 +178,49 @@ private:
   double CpuAtStart = 0.0;
   double SecondsBefore = 0.0;
   Parts Kept;
+};
+
+/** The part of a report that the passes of a solve set, for StateWriter and StateReader; the rest
+ * is set at its end. */
+template <class State>
+struct ReportState
+{
+  Report& report;
+
+  void exchange(State& state)
+  {
+    Report& r = this->report;
+    state.part("report");
+    state(r.vertices, r.cells, r.levels, r.passes, r.cycles, r.residuals, r.acceleration);
+    this->exchangeSteps(state);
+    this->exchangePasses(state);
+    state(r.converged, r.seconds, r.cpu_seconds, r.rss_bytes_peak, r.prescribed, r.shared, r.held,
+      r.degenerate_cells, r.coincident_cells, r.clamped_weights, r.components, r.free_components,
+      r.removed_source, r.notes, r.warnings);
+  }
+
+private:
+  void exchangePasses(State& state)
+  {
+    auto passes = static_cast<std::uint64_t>(this->report.by_pass.size());
+    state(passes);
+    this->report.by_pass.resize(passes);
+    for (Report::Pass& pass : this->report.by_pass)
+    {
+      state(pass.residual, pass.seconds, pass.read, pass.written, pass.pool_bytes);
+    }
+  }
+
+  void exchangeSteps(State& state)
+  {
+    auto steps = static_cast<std::uint8_t>(this->report.steps.size());
+    state(steps);
+    this->report.steps.resize(steps);
+    for (Report::Step& step : this->report.steps)
+    {
+      state(step.name, step.cycles, step.residual, step.converged);
+    }
+  }
 };
 
 } // namespace smg

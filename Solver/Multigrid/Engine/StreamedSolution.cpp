@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/StreamedSolution.h"
 
-#include "Solver/Multigrid/Engine/VertexRange.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 
 #include <utility>
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Memory/MonotoneRing.h"
 #include "Solver/Memory/RaggedRing.h"
-#include "Solver/Multigrid/Setup/CoarseEntry.h"
+#include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Setup/GatheredRows.h"
 #include "Solver/Multigrid/Setup/LevelRows.h"
 #include "Solver/Multigrid/Setup/Patches.h"

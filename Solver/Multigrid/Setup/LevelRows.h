@@ -1,18 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Memory/MonotoneRing.h"
 #include "Solver/Memory/RaggedRing.h"
-#include "Solver/Multigrid/Setup/RowEntry.h"
-#include "Solver/Multigrid/Setup/StrongestWeight.h"
+#include "Solver/Memory/Ring.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <vector>
 
 namespace smg
 {
+
+/** An off-diagonal entry of row i of a level's matrix: A_ij = -weight, j = i + delta. Seven bytes,
+ * since all rows that are alive while levels are built consist of these. */
+class RowEntry
+{
+public:
+  /** Of two nodes that share an edge. */
+  static constexpr std::int64_t MostDistance = (std::int64_t(1) << 23) - 1;
+
+  RowEntry() = default;
+  RowEntry(std::int32_t delta, float weight)
+  {
+    const std::int32_t shifted = delta * 256;
+    std::memcpy(this->Bytes.data() + 3, &shifted, sizeof(shifted));
+    this->setWeight(weight);
+  }
+
+  /** From -MostDistance to MostDistance. */
+  std::int32_t delta() const
+  {
+    std::int32_t shifted = 0;
+    std::memcpy(&shifted, this->Bytes.data() + 3, sizeof(shifted));
+    return shifted >> 8;
+  }
+  float weight() const
+  {
+    float weight = 0.0F;
+    std::memcpy(&weight, this->Bytes.data(), sizeof(weight));
+    return weight;
+  }
+  void setWeight(float weight) { std::memcpy(this->Bytes.data(), &weight, sizeof(weight)); }
+
+private:
+  std::array<std::byte, 7> Bytes; // the weight and 24 bits of delta
+};
+static_assert(sizeof(RowEntry) == 7 && std::endian::native == std::endian::little);
+
+/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see StiffRows),
+ * in four bytes, since every row of a window has them. */
+class StrongestWeight
+{
+public:
+  StrongestWeight() = default;
+  /** `weight`: at least 0. */
+  StrongestWeight(float weight, bool stiff)
+    : Signed(stiff ? -weight : weight)
+  {
+  }
+
+  float weight() const { return std::fabs(this->Signed); }
+  bool stiff() const { return std::signbit(this->Signed); }
+
+private:
+  float Signed; // with the sign - if the row is stiff
+};
 
 /** The diagonal for divisions, given the sum of alpha and the weights. */
 inline double usableDiagonal(double sum)
@@ -221,6 +279,34 @@ private:
   Ring<StrongestWeight> Strongest;
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0;
+};
+
+/** The entries of consecutive rows, in memory that is kept when they are forgotten. */
+template <class Entry>
+class RowEntries
+{
+public:
+  /** Room for at most `size` entries of the next row. */
+  Entry* open(std::int64_t size)
+  {
+    // Grows only, since resize() clears what it adds.
+    const std::size_t end = this->Used + static_cast<std::size_t>(size);
+    this->Entries.resize(std::max(this->Entries.size(), end));
+    return this->Entries.data() + this->Used;
+  }
+  /** Ends the row begun by open(). */
+  void close(std::int64_t size) { this->Used += static_cast<std::size_t>(size); }
+
+  std::int64_t bytes() const
+  {
+    return static_cast<std::int64_t>(this->Entries.capacity() * sizeof(Entry));
+  }
+  const Entry* data() const { return this->Entries.data(); }
+  void clear() { this->Used = 0; }
+
+private:
+  std::vector<Entry> Entries;
+  std::size_t Used = 0;
 };
 
 } // namespace smg

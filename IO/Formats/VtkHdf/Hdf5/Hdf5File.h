@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <hdf5.h>
 #include <optional>
 #include <string>
 #include <vector>
@@ -99,5 +100,88 @@ private:
   std::int64_t Set = -1, Space = -1;
   std::vector<std::byte> Row; ///< of a row read in parts
 };
+
+/** A handle of the library, closed by the destructor. */
+template <herr_t (*Close)(hid_t)>
+class Hdf5Handle
+{
+public:
+  explicit Hdf5Handle(hid_t id)
+    : Id(id)
+  {
+  }
+  ~Hdf5Handle()
+  {
+    if (this->Id >= 0)
+    {
+      Close(this->Id);
+    }
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+
+  hid_t id() const { return this->Id; }
+  bool valid() const { return this->Id >= 0; }
+
+private:
+  hid_t Id;
+};
+
+/** Prevents the library from printing its errors during its lifetime. */
+class Hdf5Silence
+{
+public:
+  Hdf5Silence()
+  {
+    H5Eget_auto2(H5E_DEFAULT, &this->Function, &this->Data);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, this->Function, this->Data); }
+  Hdf5Silence(const Hdf5Silence&) = delete;
+  Hdf5Silence& operator=(const Hdf5Silence&) = delete;
+
+private:
+  H5E_auto2_t Function = nullptr;
+  void* Data = nullptr;
+};
+
+inline hid_t nativeType(ScalarType type)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return H5T_NATIVE_INT8;
+    case ScalarType::UInt8:
+      return H5T_NATIVE_UINT8;
+    case ScalarType::Int16:
+      return H5T_NATIVE_INT16;
+    case ScalarType::UInt16:
+      return H5T_NATIVE_UINT16;
+    case ScalarType::Int32:
+      return H5T_NATIVE_INT32;
+    case ScalarType::UInt32:
+      return H5T_NATIVE_UINT32;
+    case ScalarType::Int64:
+      return H5T_NATIVE_INT64;
+    case ScalarType::UInt64:
+      return H5T_NATIVE_UINT64;
+    case ScalarType::Float32:
+      return H5T_NATIVE_FLOAT;
+    case ScalarType::Float64:
+      return H5T_NATIVE_DOUBLE;
+  }
+  return -1;
+}
+
+// An HDF5 file may name other files. A mesh from an untrusted source must not make a program read
+// files anywhere: only virtual datasets are followed, as ParaView's parallel writer makes them, to
+// datasets of files in the folder of the file or below.
+
+/** Whether a file, called `name`, has an object. Throws Error if the path to it contains a link
+ * that is not a plain (hard) one. */
+bool checkLinks(std::int64_t file, const std::string& name, const std::string& object);
+
+/** Throws Error if an open dataset of the file `name` has its numbers anywhere else. */
+void checkSources(std::int64_t dataset, const std::string& name, const std::string& object);
 
 } // namespace smg

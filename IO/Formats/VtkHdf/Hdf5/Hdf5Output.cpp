@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 
-#include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "smg/Error.h"
 
 #include <algorithm>

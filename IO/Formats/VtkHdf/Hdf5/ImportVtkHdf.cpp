@@ -5,9 +5,12 @@
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
+#include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
+#include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "smg/Error.h"
 
+#include <hdf5.h>
 #include <string>
 #include <vector>
 
@@ -100,3 +103,13 @@ std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
 }
 
 } // namespace smg
+
+extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary()
+{
+  // At the end of a program, the library may crash on files that it could not close.
+  H5dont_atexit();
+  static constexpr smg::VtkHdfLibrary library{ smg::importVtkHdf, smg::countsOfVtkHdf,
+    [](const std::filesystem::path& vsm, const std::filesystem::path& path,
+      const smg::ProgressFunction& progress) { return smg::writeVtkHdf(vsm, path, progress); } };
+  return &library;
+}

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
-#include "IO/Files/InQuotes.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
-#include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
-#include "IO/Mesh/ReservedNames.h"
+#include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 #include "smg/VsmReader.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
+#include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 #include "IO/Mesh/Format.h"
 
 #include <cstdint>

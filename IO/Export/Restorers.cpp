@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/Restorers.h"
+
+#include "IO/Mesh/Columns.h"
+#include "Solver/Memory/Pool.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+namespace smg
+{
+
+bool FanChain::build(std::span<const std::uint32_t> triangles)
+{
+  const std::size_t count = triangles.size() / 3;
+  this->Edges.clear();
+  this->Ends.clear();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::span<const std::uint32_t> triangle = triangles.subspan(3 * i, 3);
+    if (triangle[0] != triangles[0])
+    {
+      return false;
+    }
+    this->Edges.emplace_back(triangle[1], triangle[2]);
+    this->Ends.push_back(triangle[2]);
+  }
+  std::uint32_t start = this->Edges[0].first;
+  std::stable_sort(this->Edges.begin(), this->Edges.end(),
+    [](const Edge& a, const Edge& b) { return a.first < b.first; });
+  std::sort(this->Ends.begin(), this->Ends.end());
+  if (!this->findStart(start))
+  {
+    return false;
+  }
+  this->walk(start);
+  if (this->Trail.size() != count + 1)
+  {
+    return false;
+  }
+  this->Corners.assign(1, triangles[0]);
+  this->Corners.insert(this->Corners.end(), this->Trail.rbegin(), this->Trail.rend());
+  return true;
+}
+
+/** Finds the corner at which one more edge begins than ends. If the trail is closed there is none,
+ * and `start` is not changed. Returns false if no trail uses all edges. */
+bool FanChain::findStart(std::uint32_t& start) const
+{
+  std::size_t begins = 0;
+  std::size_t excess = 0;
+  std::size_t end = 0;
+  while (begins < this->Edges.size())
+  {
+    const std::uint32_t corner = this->Edges[begins].first;
+    const std::size_t before = begins;
+    while (begins < this->Edges.size() && this->Edges[begins].first == corner)
+    {
+      ++begins;
+    }
+    while (end < this->Ends.size() && this->Ends[end] < corner)
+    {
+      ++end;
+    }
+    const std::size_t firstEnd = end;
+    while (end < this->Ends.size() && this->Ends[end] == corner)
+    {
+      ++end;
+    }
+    const std::size_t out = begins - before;
+    const std::size_t in = end - firstEnd;
+    if (out > in)
+    {
+      start = corner;
+      excess += out - in;
+    }
+  }
+  return excess <= 1;
+}
+
+/**
+ * Hierholzer's algorithm: follows edges until none is left, and inserts detours when backtracking.
+ */
+void FanChain::walk(std::uint32_t start)
+{
+  this->Taken.assign(this->Edges.size(), 0);
+  this->Trail.clear();
+  this->Stack.assign(1, start);
+  while (!this->Stack.empty())
+  {
+    const std::uint32_t corner = this->Stack.back();
+    const auto first = std::lower_bound(this->Edges.begin(), this->Edges.end(), corner,
+      [](const Edge& edge, std::uint32_t c) { return edge.first < c; });
+    const auto place = static_cast<std::size_t>(first - this->Edges.begin());
+    const std::size_t edge =
+      place < this->Edges.size() ? place + this->Taken[place] : this->Edges.size();
+    if (edge < this->Edges.size() && this->Edges[edge].first == corner)
+    {
+      ++this->Taken[place];
+      this->Stack.push_back(this->Edges[edge].second);
+    }
+    else
+    {
+      this->Trail.push_back(corner);
+      this->Stack.pop_back();
+    }
+  }
+}
+
+namespace
+{
+
+/** The approximate bytes per triangle of the search for a polygon. */
+constexpr std::size_t BytesOfFanTriangle = 64;
+
+constexpr std::int64_t ChunkElements = 8192;
+constexpr std::size_t ChunkCorners = std::size_t(64) << 10;
+/** The approximate bytes of columns delivered at once. */
+constexpr std::size_t ElementChunkBytes = std::size_t(512) << 10;
+
+/** The memory for an element that is processed as a whole. */
+std::int64_t elementBytes(Workspace& workspace)
+{
+  return workspace.pool().limit() / 8;
+}
+
+} // namespace
+
+ElementRestorer::ElementRestorer(
+  Workspace& workspace, std::int64_t memory, const RestoredInfo& info)
+  : Space(workspace)
+  , CornersOfCell(static_cast<std::size_t>(cornersOf(info.cellType)))
+  , Columns(info.elementColumns)
+  , Sorted(workspace, memory, this->CornersOfCell * sizeof(std::uint32_t) + this->Columns.bytes())
+  , Elements(workspace)
+  , MostCells(static_cast<std::size_t>(elementBytes(workspace)) /
+              (BytesOfFanTriangle + this->Columns.bytes()))
+{
+}
+
+void ElementRestorer::put(std::int64_t element, std::span<const std::uint32_t> corners,
+  const std::vector<Column>& columns, std::size_t tuple)
+{
+  std::byte* const row = this->Sorted.put(static_cast<std::uint64_t>(element));
+  std::memcpy(row, corners.data(), corners.size_bytes());
+  this->Columns.gather(columns, tuple, row + corners.size_bytes());
+}
+
+void ElementRestorer::restore(RestoredInfo& info)
+{
+  this->Sorted.sort();
+  const Reservation reserved(this->Space.pool(), elementBytes(this->Space));
+  for (RowSort::Row row; this->Sorted.next(row);)
+  {
+    this->take(row);
+  }
+  this->endGroup();
+  this->Elements.close();
+  info.elements = this->Counts.elements;
+  info.quadrilaterals = this->Counts.quadrilaterals;
+  info.corners = this->Counts.corners;
+  info.mostCorners = this->Counts.mostCorners;
+}
+
+void ElementRestorer::take(const RowSort::Row& row)
+{
+  if (row.key != this->Element)
+  {
+    this->endGroup();
+    this->Element = row.key;
+    this->TooLarge = false;
+    this->MayBeFan = this->CornersOfCell == 3;
+    std::memcpy(&this->Apex, row.bytes, sizeof(this->Apex));
+  }
+  if (this->Corners.size() == this->MostCells * this->CornersOfCell)
+  {
+    // The cells of such a large element are delivered one by one.
+    this->TooLarge = true;
+    this->writeCells();
+  }
+  const std::size_t size = this->Corners.size();
+  this->Corners.resize(size + this->CornersOfCell);
+  const std::size_t cornerBytes = this->CornersOfCell * sizeof(std::uint32_t);
+  std::memcpy(&this->Corners[size], row.bytes, cornerBytes);
+  this->MayBeFan = this->MayBeFan && this->Corners[size] == this->Apex;
+  const std::byte* const tuples = row.bytes + cornerBytes;
+  this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
+}
+
+/** Writes the last collected cells of one element, as a polygon if they are its fan. */
+void ElementRestorer::endGroup()
+{
+  const bool isOne = this->Corners.size() <= this->CornersOfCell && !this->TooLarge;
+  if (!isOne && this->MayBeFan && !this->TooLarge && this->Fan.build(this->Corners))
+  {
+    const std::span<const std::byte> tuples = this->Tuples;
+    const std::size_t bytes = this->Columns.bytes();
+    // All tuples are equal if each equals the one before.
+    const bool same =
+      std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
+    this->Different += same ? 0 : 1;
+    this->write(this->Fan.polygon(), tuples.first(bytes));
+    this->Corners.clear();
+    this->Tuples.clear();
+    return;
+  }
+  // More memory would only help a polygon.
+  this->Large += this->TooLarge && this->MayBeFan ? 1 : 0;
+  this->Split += isOne || (this->TooLarge && this->MayBeFan) ? 0 : 1;
+  this->writeCells();
+}
+
+/** Writes the collected cells as they are. */
+void ElementRestorer::writeCells()
+{
+  const std::size_t bytes = this->Columns.bytes();
+  for (std::size_t cell = 0; cell < this->Corners.size() / this->CornersOfCell; ++cell)
+  {
+    this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
+      std::span(this->Tuples).subspan(cell * bytes, bytes));
+  }
+  this->Corners.clear();
+  this->Tuples.clear();
+}
+
+void ElementRestorer::write(
+  std::span<const std::uint32_t> corners, std::span<const std::byte> tuples)
+{
+  const auto size = static_cast<std::uint32_t>(corners.size());
+  this->Elements.put(0, size);
+  this->Elements.append(0, std::as_bytes(corners));
+  this->Elements.append(0, tuples);
+  ++this->Counts.elements;
+  this->Counts.quadrilaterals += size == 4 && this->CornersOfCell == 3 ? 1 : 0;
+  this->Counts.corners += size;
+  this->Counts.mostCorners = std::max<std::int64_t>(this->Counts.mostCorners, size);
+}
+
+std::vector<std::string> ElementRestorer::notes() const
+{
+  std::vector<std::string> notes;
+  const std::string cells = this->CornersOfCell == 3 ? "triangles" : "tetrahedra";
+  if (this->Split > 0)
+  {
+    notes.push_back(
+      std::to_string(this->Split) +
+      (this->Split == 1
+          ? " cell of the original file, which became several " + cells + ", is"
+          : " cells of the original file, which became several " + cells + " each, are") +
+      " written as these " + cells + ".");
+  }
+  if (this->Large > 0)
+  {
+    notes.push_back(
+      std::to_string(this->Large) +
+      (this->Large == 1 ? " polygon of more than " : " polygons of more than ") +
+      std::to_string(this->MostCells) +
+      (this->Large == 1 ? " corners is written as triangles: allow more memory to keep it."
+                        : " corners are written as triangles: allow more memory to keep them."));
+  }
+  if (this->Different > 0)
+  {
+    notes.push_back(std::to_string(this->Different) +
+                    " polygons were triangles with different values in the mesh stream: they have "
+                    "those of one of these.");
+  }
+  return notes;
+}
+
+bool ElementRestorer::next(RestoredElements& elements)
+{
+  if (!this->Reader)
+  {
+    this->Reader.emplace(this->Elements);
+    this->Next = 0;
+  }
+  elements.first = this->Next;
+  elements.sizes.clear();
+  elements.corners.clear();
+  elements.columns = emptyColumns(this->Columns.specs());
+  std::vector<std::byte> tuples(this->Columns.bytes());
+  std::vector<std::uint32_t> corners;
+  const std::int64_t most = std::clamp<std::int64_t>(
+    static_cast<std::int64_t>(ElementChunkBytes / (1 + this->Columns.bytes())), 1, ChunkElements);
+  std::uint32_t size = 0;
+  while (
+    elements.count() < most && elements.corners.size() < ChunkCorners && this->Reader->get(size))
+  {
+    corners.resize(size);
+    this->Reader->read(std::as_writable_bytes(std::span(corners)));
+    this->Reader->read(tuples);
+    elements.sizes.push_back(size);
+    elements.corners.insert(elements.corners.end(), corners.begin(), corners.end());
+    this->Columns.append(tuples.data(), elements.columns);
+  }
+  this->Next += elements.count();
+  return elements.count() > 0;
+}
+
+namespace
+{
+
+/** The approximate bytes of vertices delivered at once. */
+constexpr std::size_t VertexChunkBytes = std::size_t(512) << 10;
+
+} // namespace
+
+VertexRestorer::VertexRestorer(
+  Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name)
+  : Name(std::move(name))
+  , DoublePositions(info.doublePositions)
+  , PositionBytes(3 * (info.doublePositions ? sizeof(double) : sizeof(float)))
+  , Columns(info.vertexColumns)
+  , Count(info.vertices)
+  , Chunk(static_cast<std::int64_t>(std::clamp<std::size_t>(
+      VertexChunkBytes / (this->PositionBytes + this->Columns.bytes()), 1, 8192)))
+  , Sorted(workspace, memory, this->PositionBytes + this->Columns.bytes())
+{
+}
+
+void VertexRestorer::fail(const std::string& what) const
+{
+  throw Error(
+    this->Name + ": " + what +
+    ", so the original order cannot be restored: take the whole mesh that was converted, "
+    "with its column OriginalId, or the .vsm file of it that has its points of no cell, too.");
+}
+
+void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const double> positions,
+  const std::vector<Column>& columns)
+{
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    if (ids[i] < 0 || ids[i] >= this->Count)
+    {
+      this->fail("a vertex has the original number " + std::to_string(ids[i]) +
+                 ", but there are only " + std::to_string(this->Count) + " vertices");
+    }
+    std::byte* const row = this->Sorted.put(static_cast<std::uint64_t>(ids[i]));
+    const std::span<const double> position = positions.subspan(3 * i, 3);
+    if (this->DoublePositions)
+    {
+      std::memcpy(row, position.data(), this->PositionBytes);
+    }
+    else
+    {
+      const std::array<float, 3> single{ static_cast<float>(position[0]),
+        static_cast<float>(position[1]), static_cast<float>(position[2]) };
+      std::memcpy(row, single.data(), this->PositionBytes);
+    }
+    this->Columns.gather(columns, i, row + this->PositionBytes);
+  }
+}
+
+bool VertexRestorer::next(RestoredVertices& vertices)
+{
+  vertices.first = this->Next;
+  vertices.positions.clear();
+  vertices.columns = emptyColumns(this->Columns.specs(), static_cast<std::size_t>(this->Chunk));
+  RowSort::Row row;
+  for (std::int64_t i = 0; i < this->Chunk && this->Sorted.next(row); ++i, ++this->Next)
+  {
+    // All numbers are below the number of vertices: if one is missing, another occurs twice.
+    if (row.key != static_cast<std::uint64_t>(this->Next))
+    {
+      this->fail(row.key < static_cast<std::uint64_t>(this->Next)
+                   ? "two vertices have the original number " + std::to_string(row.key)
+                   : "no vertex has the original number " + std::to_string(this->Next));
+    }
+    if (this->DoublePositions)
+    {
+      std::array<double, 3> position;
+      std::memcpy(position.data(), row.bytes, sizeof(position));
+      vertices.positions.insert(vertices.positions.end(), position.begin(), position.end());
+    }
+    else
+    {
+      std::array<float, 3> position;
+      std::memcpy(position.data(), row.bytes, sizeof(position));
+      vertices.positions.insert(vertices.positions.end(), position.begin(), position.end());
+    }
+    this->Columns.append(row.bytes + this->PositionBytes, vertices.columns);
+  }
+  return !vertices.positions.empty();
+}
+
+} // namespace smg

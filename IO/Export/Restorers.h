@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/ExternalSort.h"
+#include "smg/Column.h"
+#include "smg/MeshSource.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/** The layout of a row with the tuples of some columns for one vertex or cell. */
+class ColumnRows
+{
+public:
+  explicit ColumnRows(std::vector<ColumnSpec> specs)
+    : Specs(std::move(specs))
+  {
+    for (const ColumnSpec& spec : this->Specs)
+    {
+      this->RowBytes += spec.tupleBytes();
+    }
+  }
+
+  const std::vector<ColumnSpec>& specs() const { return this->Specs; }
+  /** Bytes of a row. */
+  std::size_t bytes() const { return this->RowBytes; }
+
+  /** Fills a row with tuple `tuple` of the columns; additional columns are ignored. */
+  void gather(const std::vector<Column>& columns, std::size_t tuple, std::byte* row) const
+  {
+    for (std::size_t c = 0; c < this->Specs.size(); ++c)
+    {
+      const std::size_t size = this->Specs[c].tupleBytes();
+      std::memcpy(row, columns[c].bytes.data() + tuple * size, size);
+      row += size;
+    }
+  }
+
+  /** Appends the tuples of a row to the columns, which correspond to the specs. */
+  void append(const std::byte* row, std::vector<Column>& columns) const
+  {
+    for (std::size_t c = 0; c < this->Specs.size(); ++c)
+    {
+      const std::size_t size = this->Specs[c].tupleBytes();
+      columns[c].bytes.insert(columns[c].bytes.end(), row, row + size);
+      row += size;
+    }
+  }
+
+private:
+  std::vector<ColumnSpec> Specs;
+  std::size_t RowBytes = 0;
+};
+
+/**
+ * Restores a polygon from its triangles. The polygon c0 c1 c2 ... was split into the fan of
+ * triangles c0 c1 c2, c0 c2 c3 ..., given in any order: from c1 on, the corners are the trail that
+ * uses the last two corners of each triangle once, as an edge. If corners of the polygon are
+ * repeated, several polygons may have the same triangles; the result is one of these.
+ */
+class FanChain
+{
+public:
+  /** Whether the triangles, 3 corners each, are such a fan; then polygon() returns its corners. */
+  bool build(std::span<const std::uint32_t> triangles);
+
+  std::span<const std::uint32_t> polygon() const { return this->Corners; }
+
+private:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+  bool findStart(std::uint32_t& start) const;
+  void walk(std::uint32_t start);
+
+  std::vector<std::uint32_t> Corners;
+  std::vector<Edge> Edges;                 ///< by their first corner
+  std::vector<std::uint32_t> Ends;         ///< the edges' last corners, ascending
+  std::vector<std::size_t> Taken;          ///< by the first edge of a corner: how many of its edges
+  std::vector<std::uint32_t> Stack, Trail; ///< the trail from its end to its start
+};
+
+/** The properties of a restored mesh before its vertices and elements are read. */
+struct RestoredInfo
+{
+  CellType cellType = CellType::Triangle;
+  /** Whether positions have double precision; otherwise they were single precision numbers. */
+  bool doublePositions = true;
+  std::int64_t vertices = 0; ///< including isolated ones
+  std::int64_t isolated = 0;
+  std::int64_t cells = 0;          ///< triangles or tetrahedra of the stream
+  std::int64_t elements = 0;       ///< the restored polygons or tetrahedra
+  std::int64_t quadrilaterals = 0; ///< elements that are polygons of four corners
+  std::int64_t corners = 0;        ///< of all elements
+  std::int64_t mostCorners = 0;    ///< of an element
+  std::vector<ColumnSpec> vertexColumns;
+  std::vector<ColumnSpec> elementColumns;
+};
+
+/** Consecutive vertices of a restored mesh. */
+struct RestoredVertices
+{
+  std::int64_t first = 0;
+  std::vector<double> positions; ///< x, y, z of each vertex
+  std::vector<Column> columns;
+
+  std::int64_t count() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
+};
+
+/** Calls `take` with the corners of each triangle of the fan of a polygon. */
+template <class Take>
+void forEachFanTriangle(std::span<const std::int64_t> polygon, Take&& take)
+{
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+  {
+    take(std::array{ polygon[0], polygon[i - 1], polygon[i] });
+  }
+}
+
+/** Consecutive elements of a restored mesh: polygons of any number of corners, or tetrahedra. */
+struct RestoredElements
+{
+  std::int64_t first = 0;
+  std::vector<std::uint32_t> sizes;  ///< corners of each element
+  std::vector<std::int64_t> corners; ///< original numbers of vertices
+  std::vector<Column> columns;
+
+  std::int64_t count() const { return static_cast<std::int64_t>(this->sizes.size()); }
+
+  /** Calls `take` with the corners of each element and its index here, in order. */
+  template <class Take>
+  void forEach(Take&& take) const
+  {
+    std::size_t begin = 0;
+    for (std::size_t element = 0; element < this->sizes.size(); ++element)
+    {
+      const std::size_t size = this->sizes[element];
+      take(std::span<const std::int64_t>(this->corners).subspan(begin, size), element);
+      begin += size;
+    }
+  }
+
+  /** The same with the triangles of the fan of each element. */
+  template <class Take>
+  void forEachTriangle(Take&& take) const
+  {
+    this->forEach([&take](std::span<const std::int64_t> polygon, std::size_t)
+      { forEachFanTriangle(polygon, take); });
+  }
+};
+
+/**
+ * Restores the elements of the original file, in its order, from the cells of a mesh stream, out of
+ * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
+ * element that are the fan of a polygon become this polygon; other cells of one element keep their
+ * order.
+ */
+class ElementRestorer
+{
+public:
+  /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. */
+  ElementRestorer(Workspace& workspace, std::int64_t memory, const RestoredInfo& info);
+
+  /** Adds a cell with tuple `tuple` of the columns, which begin with those of the info. */
+  void put(std::int64_t element, std::span<const std::uint32_t> corners,
+    const std::vector<Column>& columns, std::size_t tuple);
+
+  /** To be called after the last put(); sets the counts of elements and corners in `info`. Throws
+   * Error. */
+  void restore(RestoredInfo& info);
+
+  /** Notes on elements that restore() could not restore, a sentence each. */
+  std::vector<std::string> notes() const;
+
+  /** The next elements; returns false at the end. */
+  bool next(RestoredElements& elements);
+  /** Goes back to the first element. */
+  void rewind() { this->Reader.reset(); }
+
+private:
+  void take(const RowSort::Row& row);
+  void endGroup();
+  void writeCells();
+  void write(std::span<const std::uint32_t> corners, std::span<const std::byte> tuples);
+
+  Workspace& Space;
+  std::size_t CornersOfCell;
+  ColumnRows Columns;
+  RowSort Sorted;      ///< a row is the corners, then the columns
+  BucketFile Elements; ///< number of corners, corners, columns
+  RestoredInfo Counts;
+  std::size_t MostCells; ///< of an element that is processed as a whole
+
+  // The cells of one element.
+  std::uint64_t Element = UINT64_MAX; ///< none, at first
+  std::vector<std::uint32_t> Corners;
+  std::vector<std::byte> Tuples; ///< of all columns, cell by cell
+  bool TooLarge = false;
+  bool MayBeFan = false;  ///< all its cells are triangles that begin with
+  std::uint32_t Apex = 0; ///< this corner
+  FanChain Fan;
+  std::int64_t Split = 0, Large = 0, Different = 0; ///< elements of that kind
+
+  std::optional<BucketFile::Reader> Reader;
+  std::int64_t Next = 0;
+};
+
+/** Sorts vertices by their original numbers, out of core: put() all, then sort(), then next()
+ * delivers them. The numbers must be 0, 1, 2 ..., one vertex each. */
+class VertexRestorer
+{
+public:
+  /** For info.vertices vertices with info.vertexColumns. Uses `memory` bytes of the workspace.
+   * `name` is the name of the mesh in errors. */
+  VertexRestorer(
+    Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name);
+
+  /** Adds vertices with these numbers. The columns begin with those of the info. Throws Error if a
+   * number is out of range. */
+  void put(std::span<const std::int64_t> ids, std::span<const double> positions,
+    const std::vector<Column>& columns);
+
+  /** To be called after the last put(). */
+  void sort() { this->Sorted.sort(); }
+
+  /** The next vertices; returns false at the end. Throws Error if no vertex, or more than one, has
+   * a number. */
+  bool next(RestoredVertices& vertices);
+
+private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string Name;
+  bool DoublePositions;
+  std::size_t PositionBytes;
+  ColumnRows Columns;
+  std::int64_t Count;
+  std::int64_t Chunk; ///< vertices delivered at once
+  std::int64_t Next = 0;
+  RowSort Sorted; ///< a row is a position, then the columns
+};
+
+} // namespace smg

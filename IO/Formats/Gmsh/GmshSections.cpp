@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Gmsh/GmshSections.h"
+
+#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/Columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Types with consecutive numbers and the same shape. */
+struct Run
+{
+  std::size_t first;
+  GmshShape shape;
+  std::initializer_list<std::uint16_t> nodes;
+};
+
+constexpr std::size_t GmshTypes = 132;
+
+/** Gmsh numbers the types in the order of their introduction: by order, complete ones and those
+ * without inner nodes. */
+constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
+{
+  using enum GmshShape;
+  std::array<GmshElementType, GmshTypes> types{};
+  for (const Run& run : {
+         Run{ 1, None, { 2 } },
+         Run{ 2, Triangle, { 3 } },
+         Run{ 3, Quadrilateral, { 4 } },
+         Run{ 4, Tetrahedron, { 4 } },
+         Run{ 5, Hexahedron, { 8 } },
+         Run{ 6, Prism, { 6 } },
+         Run{ 7, Pyramid, { 5 } },
+         Run{ 8, None, { 3 } },
+         Run{ 9, Triangle, { 6 } },
+         Run{ 10, Quadrilateral, { 9 } },
+         Run{ 11, Tetrahedron, { 10 } },
+         Run{ 12, Hexahedron, { 27 } },
+         Run{ 13, Prism, { 18 } },
+         Run{ 14, Pyramid, { 14 } },
+         Run{ 15, None, { 1 } },
+         Run{ 16, Quadrilateral, { 8 } },
+         Run{ 17, Hexahedron, { 20 } },
+         Run{ 18, Prism, { 15 } },
+         Run{ 19, Pyramid, { 13 } },
+         Run{ 20, Triangle, { 9, 10, 12, 15, 15, 21 } },
+         Run{ 26, None, { 4, 5, 6 } },
+         Run{ 29, Tetrahedron, { 20, 35, 56, 22, 28 } },
+         Run{ 36, Quadrilateral, { 16, 25, 36, 12, 16, 20 } },
+         Run{ 42, Triangle, { 28, 36, 45, 55, 66 } },
+         Run{ 47, Quadrilateral, { 49, 64, 81, 100, 121 } },
+         Run{ 52, Triangle, { 18, 21, 24, 27, 30 } },
+         Run{ 57, Quadrilateral, { 24, 28, 32, 36, 40 } },
+         Run{ 62, None, { 7, 8, 9, 10, 11 } },
+         Run{ 71, Tetrahedron, { 84, 120, 165, 220, 286 } },
+         Run{ 79, Tetrahedron, { 34, 40, 46, 52, 58 } },
+         Run{ 90, Prism, { 40, 75 } },
+         Run{ 92, Hexahedron, { 64, 125, 216, 343, 512, 729, 1000 } },
+         Run{ 99, Hexahedron, { 32, 44, 56, 68, 80, 92, 104 } },
+         Run{ 106, Prism, { 126, 196, 288, 405, 550, 24, 33, 42, 51, 60, 69, 78 } },
+         Run{ 118, Pyramid, { 30, 55, 91, 140, 204, 285, 385, 21, 29, 37, 45, 53, 61, 69 } },
+       })
+  {
+    std::size_t type = run.first;
+    for (const std::uint16_t nodes : run.nodes)
+    {
+      types[type++] = { run.shape, nodes };
+    }
+  }
+  return types;
+}
+
+} // namespace
+
+std::size_t GmshElementType::corners() const
+{
+  constexpr std::array<std::size_t, 7> corners{ 0, 3, 4, 4, 8, 6, 5 };
+  return corners[static_cast<std::size_t>(this->shape)];
+}
+
+GmshElementType gmshElementType(std::int64_t type)
+{
+  static constexpr std::array<GmshElementType, GmshTypes> types = makeGmshTypes();
+  return type < 0 || type >= std::int64_t(GmshTypes) ? GmshElementType()
+                                                     : types[static_cast<std::size_t>(type)];
+}
+
+void addGmshElement(
+  RawMeshBuilder& builder, GmshElementType type, std::span<const std::int64_t> corners)
+{
+  const std::int64_t before = builder.cells();
+  switch (type.shape)
+  {
+    case GmshShape::None:
+      builder.dropped();
+      break;
+    case GmshShape::Triangle:
+      builder.triangle(corners[0], corners[1], corners[2]);
+      break;
+    case GmshShape::Quadrilateral:
+      builder.polygon(corners);
+      break;
+    case GmshShape::Tetrahedron:
+      builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+      break;
+    case GmshShape::Prism:
+      // The first triangle faces inwards here, and outwards in VTK.
+      builder.solid(std::array<std::int64_t, 6>{
+        corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] });
+      break;
+    default:
+      builder.solid(corners);
+  }
+  if (type.nodes > type.corners() && builder.cells() > before)
+  {
+    builder.noteHigherOrder();
+  }
+}
+
+void GmshNodes::addOther(std::int64_t tag)
+{
+  if (this->Count == 0)
+  {
+    this->First = tag;
+    ++this->Count;
+    return;
+  }
+  if (!this->Tags)
+  {
+    this->Tags.emplace(this->Space, this->Space.available() / 2);
+    for (std::int64_t vertex = 0; vertex < this->Count; ++vertex)
+    {
+      this->Tags->put({ this->First + vertex, vertex });
+    }
+    this->Least = this->First;
+    this->Largest = this->First + (this->Count - 1);
+  }
+  this->Tags->put({ tag, this->Count++ });
+  this->Least = std::min(this->Least, tag);
+  this->Largest = std::max(this->Largest, tag);
+}
+
+void GmshNodes::finish()
+{
+  if (!this->Tags)
+  {
+    this->Range = static_cast<std::uint64_t>(this->Count);
+    return;
+  }
+  this->First = this->Least;
+  const std::uint64_t distance = this->distance(this->Largest);
+  if (distance >= NoIndex - 1)
+  {
+    throw MeshError("the tags of the nodes are from " + std::to_string(this->Least) + " to " +
+                    std::to_string(this->Largest) +
+                    ", which is more than 4294967294 numbers: renumber the nodes first");
+  }
+  this->Range = distance + 1;
+  this->number();
+}
+
+void GmshNodes::number()
+{
+  this->Tags->sort();
+  this->Numbers.emplace(
+    this->Space, static_cast<std::int64_t>(this->Range), this->Space.available() / 2);
+  Tag before{ this->Least, -1 };
+  for (Tag next{}; this->Tags->next(next); before = next)
+  {
+    if (next.tag == before.tag && before.vertex >= 0)
+    {
+      throw MeshError("there are two nodes " + std::to_string(next.tag));
+    }
+    this->Numbers->put(static_cast<std::uint32_t>(this->distance(next.tag)),
+      static_cast<std::uint32_t>(next.vertex));
+  }
+  this->Numbers->close();
+  this->Tags.reset();
+}
+
+GmshTags::GmshTags(RawMeshBuilder& builder)
+  : Physical(builder, ImportColumn::Of::Elements, PhysicalTagName, NoGroup)
+  , Geometrical(builder, ImportColumn::Of::Elements, GeometricalTagName, FirstEntity)
+  , GroupMemory(builder.workspace().pool())
+{
+}
+
+void GmshTags::readEntities(GmshInput& input)
+{
+  input.beginNumbers();
+  std::array<std::int64_t, 4> counts{};
+  for (std::int64_t& count : counts)
+  {
+    count = input.count("the number of entities", 8, 32);
+  }
+  for (std::size_t dimension = 0; dimension < counts.size(); ++dimension)
+  {
+    for (std::int64_t i = 0; i < counts[dimension]; ++i)
+    {
+      const std::int64_t entity = input.integer("the tag of an entity");
+      for (int bound = dimension == 0 ? 3 : 0; bound < 6; ++bound)
+      {
+        input.number("a bound of an entity");
+      }
+      const std::int64_t groups = input.count("the number of physical groups", 2, 4);
+      for (std::int64_t k = 0; k < groups; ++k)
+      {
+        const std::int64_t group = input.integer("the tag of a physical group");
+        this->setGroup(dimension, entity, group);
+      }
+      const std::int64_t bounding =
+        dimension == 0 ? 0 : input.count("the number of bounding entities", 2, 4);
+      for (std::int64_t k = 0; k < bounding; ++k)
+      {
+        input.integer("the tag of a bounding entity");
+      }
+    }
+  }
+}
+
+void GmshTags::setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group)
+{
+  constexpr std::size_t Step = 1024;
+  constexpr std::int64_t NodeBytes = 64; // of a map
+  auto& groups = this->Groups[dimension];
+  const bool isNew = groups.emplace(entity, group).second; // the first one stays
+  if (isNew && groups.size() % Step == 1)
+  {
+    this->GroupMemory.resize(this->GroupMemory.bytes() + std::int64_t(Step) * NodeBytes);
+  }
+}
+
+std::int64_t GmshTags::groupOf(std::int64_t dimension, std::int64_t entity) const
+{
+  if (dimension < 0 || dimension >= std::int64_t(this->Groups.size()))
+  {
+    return NoGroup;
+  }
+  const auto& groups = this->Groups[static_cast<std::size_t>(dimension)];
+  const auto found = groups.find(entity);
+  return found == groups.end() ? NoGroup : found->second;
+}
+
+void GmshTags::add(std::int64_t group, std::int64_t entity)
+{
+  this->Physical.add(group);
+  this->Geometrical.add(entity);
+}
+
+void GmshTags::finish()
+{
+  this->Physical.finish();
+  this->Geometrical.finish();
+}
+
+} // namespace smg

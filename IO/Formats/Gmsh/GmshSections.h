@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/ExternalSort.h"
+#include "IO/External/Relabelling.h"
+#include "IO/Formats/Gmsh/GmshInput.h"
+#include "IO/Import/ImportColumn.h"
+#include "IO/Import/RawMeshBuilder.h"
+#include "Solver/Memory/Pool.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+
+namespace smg
+{
+
+/** The shapes of the elements of a Gmsh file, of any order. */
+enum class GmshShape : std::uint8_t
+{
+  None, ///< a point or a line: not a cell of a mesh
+  Triangle,
+  Quadrilateral,
+  Tetrahedron,
+  Hexahedron,
+  Prism,
+  Pyramid
+};
+
+/** A type of elements: its shape, and its nodes, corners first. */
+struct GmshElementType
+{
+  GmshShape shape = GmshShape::None;
+  std::uint16_t nodes = 0; ///< 0: unknown type
+
+  std::size_t corners() const;
+};
+
+/** The element type of this number in a .msh file. */
+GmshElementType gmshElementType(std::int64_t type);
+
+/** Passes an element to the builder; `corners` are type.corners() vertices in Gmsh's order. */
+void addGmshElement(
+  RawMeshBuilder& builder, GmshElementType type, std::span<const std::int64_t> corners);
+
+/**
+ * The tags of the nodes, to which elements refer: any numbers, usually 1, 2, 3 ... Consecutive tags
+ * are not stored; others are sorted out of core, and the elements have tags as corners until a
+ * Relabelling replaces these.
+ */
+class GmshNodes
+{
+public:
+  explicit GmshNodes(Workspace& workspace)
+    : Space(workspace)
+  {
+  }
+
+  /** Adds the tag of the next node. */
+  void add(std::int64_t tag)
+  {
+    if (!this->Tags && tag >= this->First &&
+        this->distance(tag) == static_cast<std::uint64_t>(this->Count))
+    {
+      ++this->Count;
+      return;
+    }
+    this->addOther(tag);
+  }
+  std::int64_t count() const { return this->Count; }
+
+  /** To be called after the last node. Throws MeshError if two nodes have the same tag, or the
+   * range of the tags exceeds 32 bits. */
+  void finish();
+
+  /** The number of the corner with this tag; -1 if no node can have the tag. */
+  std::int64_t corner(std::int64_t tag) const
+  {
+    const std::uint64_t place = this->distance(tag);
+    return place < this->Range ? static_cast<std::int64_t>(place) : -1;
+  }
+
+  /** Returns the vertices of the corners; nothing if corners are vertices. */
+  std::optional<Relabelling> takeNumbers() { return std::move(this->Numbers); }
+
+private:
+  struct Tag
+  {
+    std::int64_t tag;
+    std::int64_t vertex;
+    bool operator<(const Tag& other) const
+    {
+      return this->tag != other.tag ? this->tag < other.tag : this->vertex < other.vertex;
+    }
+  };
+
+  /** From the first tag, without overflow. */
+  std::uint64_t distance(std::int64_t tag) const
+  {
+    return static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(this->First);
+  }
+  void addOther(std::int64_t tag);
+  void number();
+
+  Workspace& Space;
+  std::int64_t Count = 0;
+  std::int64_t First = 1; ///< tag of the first node; after finish() the least tag
+  std::int64_t Least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t Largest = std::numeric_limits<std::int64_t>::min();
+  std::uint64_t Range = 0; ///< tags from First to the largest one
+  std::optional<ExternalSort<Tag>> Tags;
+  std::optional<Relabelling> Numbers;
+};
+
+/**
+ * The tags of the elements as the cell columns `PhysicalTag` (the physical group, 0: none) and
+ * `GeometricalTag` (the entity of the geometry). In version 2 each element has its own tags; in
+ * version 4.1 it has those of its entity, with only the first physical group. A column without
+ * information (no group, or entity 1, for all elements) is omitted.
+ */
+class GmshTags
+{
+public:
+  static constexpr std::int64_t NoGroup = 0, FirstEntity = 1;
+
+  explicit GmshTags(RawMeshBuilder& builder);
+
+  /** Reads the section $Entities of version 4.1, after its first line. */
+  void readEntities(GmshInput& input);
+  /** The physical group of an entity. */
+  std::int64_t groupOf(std::int64_t dimension, std::int64_t entity) const;
+
+  /** Appends the tags of the next element. */
+  void add(std::int64_t group, std::int64_t entity);
+  /** After the last element. */
+  void finish();
+
+private:
+  void setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group);
+
+  LabelColumn Physical, Geometrical;
+  Reservation GroupMemory;
+  std::array<std::map<std::int64_t, std::int64_t>, 4> Groups; ///< by dimension and entity
+};
+
+} // namespace smg

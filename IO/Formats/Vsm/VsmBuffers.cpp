@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vsm/VsmBuffers.h"
+
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+IsolatedWriter::IsolatedWriter(std::string name, const StreamInfo& info)
+  : Name(std::move(name))
+  , Specs(info.vertexColumns)
+  , Positions(info.doublePositions)
+  , Rows(info.vertexColumns)
+{
+}
+
+TableSpec IsolatedWriter::table(const StreamInfo& info)
+{
+  const ScalarType real = info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+  TableSpec table{ "isolated", { { "Id", ScalarType::Int64, 1 }, { "Position", real, 3 } } };
+  table.columns.insert(table.columns.end(), info.vertexColumns.begin(), info.vertexColumns.end());
+  return table;
+}
+
+void IsolatedWriter::fail(const std::string& what) const
+{
+  throw Error(this->Name + ": " + what);
+}
+
+void IsolatedWriter::check(std::span<const std::int64_t> ids, std::span<const double> positions,
+  const std::vector<Column>& columns) const
+{
+  if (positions.size() != 3 * ids.size())
+  {
+    this->fail("there are not three coordinates for each isolated vertex.");
+  }
+  for (std::size_t c = 0; c < this->Specs.size() && !columns.empty(); ++c)
+  {
+    if (c >= columns.size() || columns[c].bytes.size() != ids.size() * this->Specs[c].tupleBytes())
+    {
+      this->fail("there are not " + std::to_string(ids.size()) + " values of column '" +
+                 this->Specs[c].name + "' for the isolated vertices.");
+    }
+  }
+}
+
+void IsolatedWriter::append(BlockFileWriter& file, std::span<const std::int64_t> ids,
+  std::span<const double> positions, const std::vector<Column>& columns)
+{
+  this->check(ids, positions, columns);
+  std::vector<Column> zeros; // one of each column
+  if (columns.empty())
+  {
+    for (const ColumnSpec& spec : this->Specs)
+    {
+      zeros.push_back({ spec, {} });
+      zeros.back().resize(1);
+    }
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    if (ids[i] < 0)
+    {
+      this->fail("the isolated vertex " + std::to_string(ids[i]) + " has a negative number.");
+    }
+    this->Ids.push_back(ids[i]);
+    for (const double x : positions.subspan(3 * i, 3))
+    {
+      if (!this->Positions.append(x))
+      {
+        this->fail("the coordinate " + std::to_string(x) + " of the isolated vertex " +
+                   std::to_string(ids[i]) +
+                   " is not finite, or not a single precision number as the others are.");
+      }
+    }
+    columns.empty() ? this->Rows.append(zeros, 0, 1)
+                    : this->Rows.append(columns, static_cast<std::int64_t>(i), 1);
+    if (static_cast<std::int64_t>(this->Ids.size()) == VsmFormat::BlockRows)
+    {
+      this->finish(file);
+    }
+  }
+}
+
+void IsolatedWriter::finish(BlockFileWriter& file)
+{
+  if (this->Ids.empty())
+  {
+    return;
+  }
+  file.append(VsmFormat::Isolated, static_cast<std::int64_t>(this->Ids.size()),
+    this->Rows.block({ std::as_bytes(std::span(this->Ids)), this->Positions.bytes() }));
+  this->Ids.clear();
+  this->Positions.clear();
+  this->Rows.clear();
+}
+
+StreamStatistics::StreamStatistics(const std::filesystem::path& scratch)
+  : Changes(scratch, std::int64_t(1) << 20)
+{
+}
+
+void StreamStatistics::count(std::int64_t cells, std::int64_t vertices)
+{
+  for (; this->Cells < cells; this->Cells++)
+  {
+    const std::uint8_t change = this->Changes.get(this->Cells);
+    // A vertex ends after it begins: only vertices up to this cell can end at it.
+    if (this->Vertices + change % FinalUnit > vertices)
+    {
+      break;
+    }
+    this->Vertices += change % FinalUnit;
+    this->Alive += change % FinalUnit;
+    this->Width = std::max(this->Width, this->Alive);
+    this->Sum += static_cast<double>(this->Alive);
+    this->Alive -= change / FinalUnit;
+  }
+  this->Changes.discardBelow(this->Cells);
+}
+
+StreamStatistics::Result StreamStatistics::result() const
+{
+  return { this->Width, this->Cells > 0 ? this->Sum / static_cast<double>(this->Cells) : 0 };
+}
+
+} // namespace smg

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/Pages/RankedVertices.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+UsedVertices::UsedVertices(const RawMesh& mesh, Workspace& workspace, std::int64_t memory)
+  : Mesh(mesh)
+  , Range(
+      (std::clamp<std::int64_t>(memory * 8, 64, std::max<std::int64_t>(mesh.vertices, 64)) + 63) /
+      64 * 64)
+  , First(-this->Range)
+  , Bits(workspace.pool(), static_cast<std::size_t>(this->Range / 8))
+{
+}
+
+void UsedVertices::load(std::uint32_t vertex)
+{
+  this->First = vertex / this->Range * this->Range;
+  std::uint64_t* words = this->words();
+  std::fill_n(words, this->Range / 64, 0);
+  const auto first = static_cast<std::uint32_t>(this->First);
+  forEachStretch(this->Mesh.corners, 1,
+    [&](std::span<const std::uint32_t> corners)
+    {
+      for (const std::uint32_t corner : corners)
+      {
+        const std::uint32_t place = corner - first;
+        if (place < this->Range)
+        {
+          words[place / 64] |= std::uint64_t(1) << place % 64;
+        }
+      }
+    });
+}
+
+} // namespace smg

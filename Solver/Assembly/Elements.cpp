@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/Elements.h"
+
+#include "Solver/Core/Vector.h"
+#include "smg/CellWeights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace smg
+{
+
+CellGradients::CellGradients(CellType type, const double* const* points)
+{
+  const Vector ab = difference(points[1], points[0]);
+  const Vector ac = difference(points[2], points[0]);
+  if (type == CellType::Triangle)
+  {
+    const Vector normal = cross(ab, ac);
+    const double inverse = 1.0 / dot(normal, normal);
+    this->Of[1] = scaled(-inverse, cross(normal, ac));
+    this->Of[2] = scaled(inverse, cross(normal, ab));
+  }
+  else
+  {
+    const Vector ad = difference(points[3], points[0]);
+    const Vector b = cross(ac, ad);
+    const double inverse = 1.0 / dot(ab, b);
+    this->Of[1] = scaled(inverse, b);
+    this->Of[2] = scaled(inverse, cross(ad, ab));
+    this->Of[3] = scaled(inverse, cross(ab, ac));
+  }
+  for (std::size_t d = 0; d < 3; ++d)
+  {
+    this->Of[0][d] = -(this->Of[1][d] + this->Of[2][d] + this->Of[3][d]);
+  }
+}
+
+bool hasCoincidentCorners(const double* const* corners, int count)
+{
+  constexpr double Rounding = 1e-7; // of coordinates in single precision
+  double shortest = std::numeric_limits<double>::max(), longest = 0.0;
+  for (int a = 1; a < count; ++a)
+  {
+    for (int b = 0; b < a; ++b)
+    {
+      const Vector edge = difference(corners[a], corners[b]);
+      shortest = std::min(shortest, dot(edge, edge));
+      longest = std::max(longest, dot(edge, edge));
+    }
+  }
+  return shortest <= Rounding * Rounding * longest;
+}
+
+double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
+{
+  constexpr double Limit = 1e5;
+  double largest = 0.0;
+  for (int e = 0; e < edgesOf(type); ++e)
+  {
+    largest = std::max(largest, std::fabs(cell.weight[e]));
+  }
+  if (type == CellType::Triangle)
+  {
+    return largest > Limit ? Limit / largest : 1.0;
+  }
+  // In most cases any edge already shows that the longest one is long enough.
+  double square = 0.0;
+  for (const int* ends : TetrahedronEdges)
+  {
+    const Vector edge = difference(corners[ends[0]], corners[ends[1]]);
+    square = std::max(square, dot(edge, edge));
+    if (largest * largest <= Limit * Limit * square)
+    {
+      return 1.0;
+    }
+  }
+  return Limit * std::sqrt(square) / largest;
+}
+
+double cotangentFloor(CellType type, const double* a, const double* b)
+{
+  if (type == CellType::Triangle)
+  {
+    return 5e-4;
+  }
+  const Vector ab = difference(a, b);
+  return 1e-4 * std::sqrt(dot(ab, ab));
+}
+
+namespace
+{
+
+/**
+ * A cell is degenerate if its measure is below this share of the maximum for its edges: rounding.
+ */
+constexpr double Flat = 1e-14;
+
+/** Whether K is a multiple of the identity. */
+bool isScalar(const double* K)
+{
+  return K[0] == K[1] && K[1] == K[2] && K[3] == 0.0 && K[4] == 0.0 && K[5] == 0.0;
+}
+
+} // namespace
+
+CellWeights triangleWeights(const double* a, const double* b, const double* c)
+{
+  const Vector ab = difference(b, a);
+  const Vector ac = difference(c, a);
+  const Vector bc = difference(c, b);
+  const Vector normal = cross(ab, ac);
+  const double twiceArea = std::sqrt(dot(normal, normal));
+  CellWeights cell;
+  const double scale = std::max({ dot(ab, ab), dot(ac, ac), dot(bc, bc) });
+  const double inverse = 1.0 / twiceArea;
+  if (!(twiceArea > Flat * scale) || !std::isfinite(inverse))
+  {
+    return cell;
+  }
+  cell.measure = 0.5 * twiceArea;
+  const double half = 0.5 * inverse;
+  cell.weight[0] = half * dot(ac, bc);
+  cell.weight[1] = -half * dot(ab, bc);
+  cell.weight[2] = half * dot(ab, ac);
+  return cell;
+}
+
+CellWeights tetrahedronWeights(const double* a, const double* b, const double* c, const double* d)
+{
+  const Vector ab = difference(b, a);
+  const Vector ac = difference(c, a);
+  const Vector ad = difference(d, a);
+  // Twice the area vectors of the faces opposite to b, c, d and a, all outward or all inward.
+  const Vector nb = cross(ac, ad);
+  const Vector nc = cross(ad, ab);
+  const Vector nd = cross(ab, ac);
+  const Vector na = { -(nb[0] + nc[0] + nd[0]), -(nb[1] + nc[1] + nd[1]),
+    -(nb[2] + nc[2] + nd[2]) };
+  const double sixVolume = std::fabs(dot(ab, nb));
+  CellWeights cell;
+  const double longest = std::sqrt(std::max({ dot(ab, ab), dot(ac, ac), dot(ad, ad) }));
+  const double scale = longest * longest * longest;
+  if (!(sixVolume > Flat * scale) || !std::isfinite(1.0 / sixVolume))
+  {
+    return cell;
+  }
+  cell.measure = sixVolume / 6.0;
+  const double stiffness = -1.0 / (6.0 * sixVolume);
+  const Vector* n[4] = { &na, &nb, &nc, &nd };
+  for (int e = 0; e < 6; ++e)
+  {
+    cell.weight[e] = stiffness * dot(*n[TetrahedronEdges[e][0]], *n[TetrahedronEdges[e][1]]);
+  }
+  return cell;
+}
+
+CellWeights conductivityWeights(CellType type, const double* const* points, const double* K)
+{
+  CellWeights cell = cellWeights(type, points);
+  if (isScalar(K))
+  {
+    for (double& weight : cell.weight)
+    {
+      weight *= K[0];
+    }
+    return cell;
+  }
+  if (cell.measure == 0.0)
+  {
+    return cell;
+  }
+  const CellGradients gradients(type, points);
+  for (int e = 0; e < edgesOf(type); ++e)
+  {
+    const int* ends = edgeCorners(type, e);
+    cell.weight[e] = -cell.measure * dot(gradients[ends[0]], product(K, gradients[ends[1]]));
+  }
+  return cell;
+}
+
+bool isPositiveDefinite(const double* K)
+{
+  const double scale = *std::max_element(K, K + 3);
+  if (!(scale > 0.0) || !std::all_of(K, K + 6, [](double k) { return std::isfinite(k); }))
+  {
+    return false;
+  }
+  const double xx = K[0] / scale;
+  const double yy = K[1] / scale;
+  const double zz = K[2] / scale;
+  const double xy = K[3] / scale;
+  const double yz = K[4] / scale;
+  const double xz = K[5] / scale;
+  const double minor = xx * yy - xy * xy;
+  const double determinant =
+    xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  return xx > 0.0 && minor > 0.0 && determinant > 0.0;
+}
+
+} // namespace smg

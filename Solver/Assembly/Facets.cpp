@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/Facets.h"
+
+#include "Solver/Assembly/Elements.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The facets of a vertex that are compared one after the other. */
+constexpr int MostWalked = 64;
+
+} // namespace
+
+void OpenFacets::extend(std::int64_t vertices)
+{
+  if (vertices - this->Heads.first() > INT32_MAX)
+  {
+    throw Error("too many vertices are open at once: convert the mesh with the order bfs");
+  }
+  this->Heads.extend(vertices);
+}
+
+std::int32_t OpenFacets::add(
+  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data)
+{
+  const Found found = this->findOrAdd(
+    low, { static_cast<std::uint32_t>(middle), static_cast<std::uint32_t>(high), 0, data });
+  return found.isNew ? Fresh : this->Facets[found.slot].share();
+}
+
+std::int32_t OpenFacets::join(
+  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data)
+{
+  const Found found = this->findOrAdd(
+    low, { static_cast<std::uint32_t>(middle), static_cast<std::uint32_t>(high), 0, data });
+  return this->Facets[found.slot].data;
+}
+
+OpenFacets::Found OpenFacets::findOrAdd(std::int64_t low, const Facet& facet)
+{
+  std::int32_t last = 0;
+  int walked = 0;
+  for (std::int32_t slot = this->Heads[low]; slot != 0; slot = this->Facets[slot].next)
+  {
+    if (this->Facets[slot].isSame(facet))
+    {
+      return { slot, false };
+    }
+    if (++walked == MostWalked)
+    {
+      return this->findInHub(low, facet);
+    }
+    last = slot;
+  }
+  const std::int32_t slot = this->Facets.take();
+  this->Facets[slot] = facet;
+  (last == 0 ? this->Heads[low] : this->Facets[last].next) = slot;
+  return { slot, true };
+}
+
+OpenFacets::Found OpenFacets::findInHub(std::int64_t low, const Facet& facet)
+{
+  Hub& hub = this->hubOf(low);
+  if (const std::int32_t known = *this->place(hub, facet); known != 0)
+  {
+    return { known, false };
+  }
+  const std::int32_t slot = this->Facets.take();
+  this->Facets[slot] = facet;
+  this->Facets[hub.last].next = slot;
+  this->append(hub, slot);
+  return { slot, true };
+}
+
+OpenFacets::Hub& OpenFacets::hubOf(std::int64_t low)
+{
+  const auto [place, isNew] = this->Hubs.try_emplace(low);
+  if (isNew)
+  {
+    for (std::int32_t slot = this->Heads[low]; slot != 0; slot = this->Facets[slot].next)
+    {
+      this->append(place->second, slot);
+    }
+  }
+  return place->second;
+}
+
+/** The entry of the table with this facet, or the one where it belongs. */
+std::int32_t* OpenFacets::place(const Hub& hub, const Facet& facet) const
+{
+  auto* const table = reinterpret_cast<std::int32_t*>(hub.table.data());
+  const std::size_t last = hub.table.size() / sizeof(std::int32_t) - 1;
+  // The multiplier spreads close numbers (Knuth, The Art of Computer Programming 3, 6.4).
+  const std::uint64_t key = std::uint64_t{ facet.middle } << 32 | facet.high;
+  std::size_t k = (key * 0x9e3779b97f4a7c15U) >> 32 & last;
+  while (table[k] != 0 && !this->Facets[table[k]].isSame(facet))
+  {
+    k = (k + 1) & last;
+  }
+  return table + k;
+}
+
+/** Appends a facet of the list, which is not in the table. */
+void OpenFacets::append(Hub& hub, std::int32_t slot)
+{
+  const std::size_t entries = hub.table.size() / sizeof(std::int32_t);
+  if (2 * static_cast<std::size_t>(hub.facets) >= entries)
+  {
+    const Hub before = std::exchange(hub,
+      { Buffer(*this->Memory, std::max<std::size_t>(2 * entries, 4 * MostWalked) * sizeof(slot)),
+        hub.last, hub.facets });
+    std::ranges::fill(hub.table.bytes(), std::byte{ 0 });
+    const auto* const old = reinterpret_cast<const std::int32_t*>(before.table.data());
+    for (std::size_t k = 0; k < entries; ++k)
+    {
+      if (old[k] != 0)
+      {
+        *this->place(hub, this->Facets[old[k]]) = old[k];
+      }
+    }
+  }
+  *this->place(hub, this->Facets[slot]) = slot;
+  hub.last = slot;
+  ++hub.facets;
+}
+
+void BoundaryFacets::addCells(const MeshBlock& block)
+{
+  const int corners = cornersOf(this->Type);
+  const std::size_t cells = block.corners.size() / static_cast<std::size_t>(corners);
+  const Column* flags = block.flags();
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    const std::int64_t* corner = block.corners.data() + c * static_cast<std::size_t>(corners);
+    const unsigned flag = flags ? static_cast<unsigned>(flags->value(c)) : 0;
+    if (!isDistinctCell(corner, corners, flag))
+    {
+      continue;
+    }
+    for (int k = 0; k < corners; ++k)
+    {
+      const CellFacet facet = facetOf(this->Type, corner, k);
+      // Of an edge: 1 if the triangle runs along it from the lower vertex, 2 if to it.
+      const std::int32_t direction = (facet.order[0] == 0) != (k == 1) ? 1 : 2;
+      const std::int32_t other =
+        this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], direction);
+      if (this->Type == CellType::Triangle && other == direction)
+      {
+        this->MaybeTurned.emplace(facet.vertex[0], facet.vertex[1]);
+      }
+      else if (other == 0 && !this->MaybeTurned.empty()) // a third triangle
+      {
+        this->MaybeTurned.erase({ facet.vertex[0], facet.vertex[1] });
+      }
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Assembly/Loads.h"
+
+#include "Solver/Assembly/Facets.h"
+
+#include <cstddef>
+
+namespace smg
+{
+
+VertexLoads::VertexLoads(Pool& pool, CellType type, int columns)
+  : Type(type)
+  , Columns(columns)
+  , Alpha(pool)
+  , Load(pool, columns)
+{
+}
+
+void VertexLoads::extend(std::int64_t vertices)
+{
+  this->Alpha.extend(vertices);
+  this->Load.extend(vertices);
+}
+
+void VertexLoads::reserve(std::int64_t vertices)
+{
+  this->Alpha.reserveMore(vertices);
+  this->Load.reserveMore(vertices);
+}
+
+void VertexLoads::release(std::int64_t first)
+{
+  this->Alpha.release(first);
+  this->Load.release(first);
+}
+
+void VertexLoads::add(
+  const std::int64_t* corners, const double* const* points, const ProblemCells& cells)
+{
+  const int count = cornersOf(this->Type);
+  const double measure = cells.weights().measure;
+  const double mass = measure / count;
+  const double* source = cells.source();
+  double* loads[4] = {};
+  for (int c = 0; c < count; ++c)
+  {
+    this->Alpha[corners[c]] += mass * cells.screening();
+    loads[c] = this->Load.at(corners[c]);
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      loads[c][k] += mass * source[k];
+    }
+  }
+  addFieldLoads(cells, this->Type, points, this->Columns, loads);
+}
+
+void VertexLoads::add(const BoundaryFacet& facet, double area)
+{
+  const int count = BoundaryFacet::cornersOf(this->Type);
+  const double share = area / count;
+  for (int c = 0; c < count; ++c)
+  {
+    double* load = this->Load.at(facet.corners[c]);
+    for (int k = 0; facet.flux >= 0 && k < this->Columns; ++k)
+    {
+      load[k] += share * facet.fluxValue[c * this->Columns + k];
+    }
+    if (facet.robin < 0)
+    {
+      continue;
+    }
+    const double alpha = share * facet.coefficient[c];
+    this->Alpha[facet.corners[c]] += alpha;
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      load[k] += alpha * facet.ambient[c * this->Columns + k];
+    }
+  }
+}
+
+RowLoads::RowLoads(Pool& pool, CellType type, Problem& problem, const OpenVertices& vertices)
+  : Type(type)
+  , Vertices(vertices)
+  , Load(static_cast<std::size_t>(problem.columns()))
+{
+  if (problem.hasCells())
+  {
+    this->OfCells.emplace(pool, type, problem.columns());
+  }
+  if (problem.hasFacets())
+  {
+    this->Facets.emplace(pool, problem, type, vertices);
+    this->OfFacets.emplace(pool, type, problem.columns());
+  }
+}
+
+void RowLoads::extend(std::int64_t vertices)
+{
+  if (this->OfCells)
+  {
+    this->OfCells->extend(vertices);
+  }
+  if (this->Facets)
+  {
+    this->Facets->extend(vertices);
+    this->OfFacets->extend(vertices);
+  }
+}
+
+void RowLoads::reserve(std::int64_t vertices)
+{
+  if (this->OfCells)
+  {
+    this->OfCells->reserve(vertices);
+  }
+}
+
+void RowLoads::addFacets(const MeshBlock& block)
+{
+  if (this->Facets)
+  {
+    this->Facets->add(block);
+  }
+}
+
+void RowLoads::release(std::int64_t first)
+{
+  if (this->OfCells)
+  {
+    this->OfCells->release(first);
+  }
+  if (this->Facets)
+  {
+    this->Facets->release(first);
+    this->OfFacets->release(first);
+  }
+}
+
+double RowLoads::close(std::int64_t i)
+{
+  if (this->Facets)
+  {
+    this->addBoundary(i);
+  }
+  const double mass = this->Vertices.mass[i];
+  double alpha = this->Vertices.screening[i] * mass;
+  for (std::size_t k = 0; k < this->Load.size(); ++k)
+  {
+    this->Load[k] = mass * this->Vertices.sources.at(i)[k];
+  }
+  for (const auto* loads : { &this->OfCells, &this->OfFacets })
+  {
+    if (*loads)
+    {
+      alpha += (*loads)->alpha(i);
+      for (std::size_t k = 0; k < this->Load.size(); ++k)
+      {
+        this->Load[k] += (*loads)->load(i)[k];
+      }
+    }
+  }
+  return alpha;
+}
+
+/**
+ * Adds the contributions of the boundary facets with the lowest corner i to all of their corners.
+ */
+void RowLoads::addBoundary(std::int64_t i)
+{
+  this->Facets->take(i,
+    [this](const BoundaryFacet& facet)
+    {
+      const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
+      if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
+      {
+        return;
+      }
+      const double* points[3] = {};
+      for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
+      {
+        points[k] = this->Vertices.points.at(facet.corners[k]);
+      }
+      this->OfFacets->add(facet, facetArea(this->Type, points));
+    });
+}
+
+} // namespace smg

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Assembly/Facets.h"
+#include "Solver/Assembly/OpenVertices.h"
+#include "Solver/Assembly/ProblemCells.h"
+#include "Solver/Assembly/ProblemFacets.h"
+#include "Solver/Memory/Ring.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/** The contributions of cells or boundary facets to the diagonal and to the right-hand side of the
+ * rows of open vertices, lumped at their corners. */
+class VertexLoads
+{
+public:
+  VertexLoads(Pool& pool, CellType type, int columns);
+
+  void extend(std::int64_t vertices);
+  /** Provides room for so many more vertices. */
+  void reserve(std::int64_t vertices);
+  void release(std::int64_t first);
+
+  /** Adds screening, source and field of the prepared cell, which must have a measure. */
+  void add(const std::int64_t* corners, const double* const* points, const ProblemCells& cells);
+  /** Adds flux and heat transfer of a facet with this length or area. */
+  void add(const BoundaryFacet& facet, double area);
+
+  double alpha(std::int64_t i) const { return this->Alpha[i]; }
+  /** `columns` numbers. */
+  const double* load(std::int64_t i) const { return this->Load.at(i); }
+
+private:
+  CellType Type;
+  int Columns;
+  Ring<double> Alpha, Load;
+};
+
+/** The contributions of sources, screening and boundary conditions, at vertices, in cells or on
+ * facets, to the diagonals and right-hand sides of the rows of open vertices. */
+class SMG_EXPORT RowLoads
+{
+public:
+  RowLoads(Pool& pool, CellType type, Problem& problem, const OpenVertices& vertices);
+
+  /** Sets the number of vertices so far. */
+  void extend(std::int64_t vertices);
+  /** Provides room for so many more vertices: until these are added, the loads in cells of others
+   * may be used by another thread. */
+  void reserve(std::int64_t vertices);
+  /** Adds the facets of the cells of the block. */
+  void addFacets(const MeshBlock& block);
+  /** Adds the data of the prepared cell, which must have a measure. */
+  void addCell(const std::int64_t* corners, const double* const* points, const ProblemCells& cells)
+  {
+    this->OfCells->add(corners, points, cells);
+  }
+  void release(std::int64_t first);
+
+  /** The facets so far; null if the problem has no data on facets. */
+  const OpenFacets* facets() const { return this->Facets ? &this->Facets->open() : nullptr; }
+  /** Excludes facets that have only one of their cells in the stream. */
+  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+
+  /** Sums the contributions to vertex i, the lowest open one; returns that to the diagonal. */
+  double close(std::int64_t i);
+  /** The contribution to the right-hand side of the last closed vertex, `columns` numbers. */
+  const double* load() const { return this->Load.data(); }
+
+private:
+  void addBoundary(std::int64_t i);
+
+  CellType Type;
+  const OpenVertices& Vertices;
+  std::optional<ProblemFacets> Facets;
+  FacetSet Inner;
+  // Separate, since facets are known when their vertices are final, which depends on the blocks.
+  std::optional<VertexLoads> OfCells, OfFacets;
+  std::vector<double> Load;
+};
+
+} // namespace smg

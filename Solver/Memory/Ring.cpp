@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Memory/Ring.h"
+
+#include "Solver/Core/SystemCalls.h"
+#include "smg/Error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <utility>
+
+namespace smg
+{
+namespace
+{
+
+[[noreturn]] void fail(const char* what)
+{
+  throw Error(std::string("no memory for a window: ") + what + ": " + std::strerror(errno) +
+              "; lower the memory limit or raise that of the system (ulimit -v)");
+}
+
+} // namespace
+
+MirroredMemory::MirroredMemory(MirroredMemory&& other) noexcept
+  : Owner(other.Owner)
+  , Data(std::exchange(other.Data, nullptr))
+  , Size(std::exchange(other.Size, 0))
+  , Descriptor(std::exchange(other.Descriptor, -1))
+{
+}
+
+MirroredMemory& MirroredMemory::operator=(MirroredMemory&& other) noexcept
+{
+  std::swap(this->Owner, other.Owner);
+  std::swap(this->Data, other.Data);
+  std::swap(this->Size, other.Size);
+  std::swap(this->Descriptor, other.Descriptor);
+  return *this;
+}
+
+void MirroredMemory::grow(std::size_t bytes)
+{
+  if (bytes <= this->Size)
+  {
+    return;
+  }
+  this->Owner->acquire(static_cast<std::int64_t>(bytes - this->Size));
+  const std::size_t before = this->Size;
+  try
+  {
+    if (this->Descriptor < 0)
+    {
+      this->Descriptor = systemCalls().memfd_create("smg-window", MFD_CLOEXEC);
+    }
+    if (this->Descriptor < 0 ||
+        systemCalls().ftruncate(this->Descriptor, static_cast<off_t>(bytes)) != 0)
+    {
+      fail("memfd");
+    }
+    this->unmap();
+    this->map(bytes);
+  }
+  catch (...)
+  {
+    this->Owner->release(static_cast<std::int64_t>(bytes - before));
+    throw;
+  }
+}
+
+void MirroredMemory::map(std::size_t bytes)
+{
+  void* all = systemCalls().mmap(
+    nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (all == MAP_FAILED)
+  {
+    fail("reserving address space");
+  }
+  auto* first = static_cast<std::byte*>(all);
+  for (std::byte* image : { first, first + bytes, first + 2 * bytes })
+  {
+    if (systemCalls().mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED,
+          this->Descriptor, 0) == MAP_FAILED)
+    {
+      ::munmap(all, 3 * bytes);
+      fail("mapping");
+    }
+  }
+  this->Data = first + bytes;
+  this->Size = bytes;
+}
+
+void MirroredMemory::unmap()
+{
+  if (this->Data)
+  {
+    ::munmap(this->Data - this->Size, 3 * this->Size);
+    this->Data = nullptr;
+  }
+}
+
+void MirroredMemory::clear()
+{
+  this->unmap();
+  if (this->Descriptor >= 0)
+  {
+    systemCalls().close(this->Descriptor);
+    this->Descriptor = -1;
+  }
+  this->Owner->release(static_cast<std::int64_t>(this->Size));
+  this->Size = 0;
+}
+
+} // namespace smg

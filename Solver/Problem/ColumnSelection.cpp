@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/ColumnSelection.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+namespace smg
+{
+namespace
+{
+
+/** The shortest text of the number in its precision, an integer without an exponent. */
+std::string textOf(double value, bool isSingle)
+{
+  constexpr double MostExact = 9007199254740992.0;
+  if (value == std::trunc(value) && std::fabs(value) < MostExact)
+  {
+    return std::to_string(static_cast<std::int64_t>(value));
+  }
+  char text[32];
+  const auto end = isSingle ? std::to_chars(text, text + sizeof text, static_cast<float>(value))
+                            : std::to_chars(text, text + sizeof text, value);
+  return { text, end.ptr };
+}
+
+} // namespace
+
+void TagValues::add(const Column& column, std::span<const std::uint8_t> selected)
+{
+  this->Found = this->Found || std::ranges::count(selected, 1) > 0;
+  this->IsSingle = column.spec.type == ScalarType::Float32;
+  for (std::size_t i = 0; i < selected.size() && !this->Found; ++i)
+  {
+    this->add(column.value(i, 0));
+  }
+}
+
+void TagValues::add(double value)
+{
+  const auto place = std::ranges::lower_bound(this->Values, value);
+  const bool isNew = place == this->Values.end() || *place != value;
+  if (!isNew || std::isnan(value))
+  {
+    return;
+  }
+  if (this->IsRange)
+  {
+    this->Values.front() = std::min(this->Values.front(), value);
+    this->Values.back() = std::max(this->Values.back(), value);
+    return;
+  }
+  this->Values.insert(place, value);
+  if (this->Values.size() > Most)
+  {
+    this->Values = { this->Values.front(), this->Values.back() };
+    this->IsRange = true;
+  }
+}
+
+std::string TagValues::text() const
+{
+  constexpr std::size_t Named = 10;
+  const auto name = [this](double value) { return textOf(value, this->IsSingle); };
+  if (this->Found || this->Values.empty())
+  {
+    return {};
+  }
+  const std::size_t count = this->Values.size();
+  if (this->IsRange)
+  {
+    return ": its values, more than " + std::to_string(Most) + ", are from " +
+           name(this->Values.front()) + " to " + name(this->Values.back());
+  }
+  if (count == 1)
+  {
+    return ": its only value is " + name(this->Values.front());
+  }
+  std::string list;
+  for (std::size_t i = 0; i < std::min(count, Named); ++i)
+  {
+    list += (i == 0 ? "" : i + 1 < count ? ", " : " and ") + name(this->Values[i]);
+  }
+  return count <= Named ? ": its values are " + list
+                        : ": the smallest of its " + std::to_string(count) + " values are " + list;
+}
+
+void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Columns.cellType()));
+  std::vector<std::uint8_t> selected(block.corners.size() / corners);
+  this->atCells({ block, 0, block.corners }, selected);
+  this->Count += std::ranges::count(selected, 1);
+  this->Tags.add(this->Test.column.in(block), selected);
+  if (this->Place != DataPlace::Vertices)
+  {
+    return;
+  }
+  if (!this->Vertices)
+  {
+    this->Vertices.emplace(scratch);
+  }
+  this->Marks.append(block.vertices());
+  this->Marked += block.vertices();
+  for (std::size_t c = 0; c < selected.size(); ++c)
+  {
+    for (std::size_t k = c * corners; selected[c] && k < (c + 1) * corners; ++k)
+    {
+      *this->Marks.at(block.corners[k]) = 1;
+    }
+  }
+  this->Vertices->append({ this->Marks.at(this->Written), this->Marks.at(block.finalized) });
+  this->Written = block.finalized;
+  this->Marks.release(this->Written);
+}
+
+void CellSelection::endPreparing(MeshParts* parts)
+{
+  this->Selection::endPreparing(parts);
+  if (this->Vertices)
+  {
+    const std::span<std::uint8_t> marks{ this->Marks.at(this->Written),
+      this->Marks.at(this->Marked) };
+    if (parts)
+    {
+      parts->join(marks);
+    }
+    this->Vertices->append(marks);
+    this->Vertices->finish();
+    this->Marks.restart();
+  }
+}
+
+void CellSelection::atCells(const CellRange& cells, std::span<std::uint8_t> selected) const
+{
+  const std::size_t valid =
+    this->Test.apply(this->Test.column.in(cells.block), cells.first, selected);
+  if (valid < selected.size())
+  {
+    this->Columns.fail(this->Key + ".mask",
+      "is not a number in " + this->Columns.cellName(cells.block, cells.first + valid));
+  }
+}
+
+void CellSelection::atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const
+{
+  this->atCells(cells, selected);
+  const auto all = static_cast<std::uint8_t>((1U << cornersOf(this->Columns.cellType())) - 1U);
+  std::ranges::for_each(selected, [all](std::uint8_t& bits) { bits = bits ? all : 0; });
+}
+
+void CellSelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)
+{
+  if (this->Vertices)
+  {
+    if (block.firstVertex == 0)
+    {
+      this->Vertices->rewind();
+    }
+    this->Vertices->read(selected);
+  }
+}
+
+} // namespace smg
