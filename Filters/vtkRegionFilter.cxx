@@ -13,6 +13,7 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include "vtkImplicitFunction.h"
@@ -182,6 +183,7 @@ struct vtkRegionFilter::Internals
   smg::MarkedRegion Marked;
 
   smg::HeldCount Count;
+  std::string Outcome;
   smg::WarnOnce FarPoints, NoPoint;
 };
 
@@ -269,6 +271,17 @@ double* vtkRegionFilter::GetHeldBounds()
     input->GetBounds(this->HeldBounds);
   }
   return this->HeldBounds;
+}
+
+const char* vtkRegionFilter::GetOutcome()
+{
+  const std::string& error = this->Internal->Failures.error();
+  std::string& text = this->Internal->Outcome;
+  text = !error.empty()                 ? "Failed: " + error
+         : this->NumberOfHeldPoints > 0 ? smg::groupedDigits(this->NumberOfHeldPoints) + " points."
+         : this->IsElsewhere()          ? "The region is sought when the mesh is solved on."
+                                        : "Not applied yet.";
+  return text.c_str();
 }
 
 const char* vtkRegionFilter::GetError()

@@ -177,6 +177,9 @@ public:
    * delivered last; 0 if that has no points either. */
   double* GetHeldBounds() VTK_SIZEHINT(6);
 
+  /** What the last request found, in a sentence: the number of held points, or why it failed. */
+  const char* GetOutcome();
+
   /** The reason why the last request failed, of this filter or of one before it; "": it did not. */
   const char* GetError();
 

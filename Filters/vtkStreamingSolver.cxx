@@ -73,7 +73,9 @@ const char* vtkStreamingSolver::GetOutcome()
   text = summary.outcome();
   if (isPast)
   {
-    text = "Not solved: not applied yet, or a filter before this one failed.";
+    const std::string& error = this->Internal->Failures.error();
+    text = error.empty() ? "Not solved: not applied yet, or a filter before this one failed."
+                         : "Not solved: " + error;
   }
   else if (summary.error.empty() && shown.where() != summary.where() && !shown.where().empty())
   {

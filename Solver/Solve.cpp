@@ -30,7 +30,7 @@ void checkOptions(const SolveOptions& options)
   require(options.sweeps >= 1 && options.sweeps <= 20, "the number of sweeps must be from 1 to 20");
   require((options.tolerance > 0.0 && options.tolerance < 1.0) ||
             options.tolerance == SolveOptions::AutomaticTolerance,
-    "the tolerance must lie between 0 and 1, both excluded");
+    "the tolerance must lie between 0 and 1, both excluded, or be automatic");
   require(options.maxCycles >= 1, "at least one V-cycle must be allowed");
   require(options.memoryLimit > 0, "the memory limit must be positive");
   require(options.scratchLimit >= 0, "the limit of scratch files must not be negative");

@@ -65,7 +65,7 @@ public:
       ->check([](const std::string& given)
         { return given == Automatic ? std::string() : checkTolerance(given); })
       ->type_name("FLOAT|auto")
-      ->default_str("1e-06");
+      ->default_str(CLI::detail::to_string(this->Solve.tolerance));
     this->addCheckpointTo(command);
     command
       .add_option_function<std::string>(

@@ -161,6 +161,8 @@ void deliverHandle(
   }
   output.ShallowCopy(&piece);
   arrays.addTo(*output.GetPointData());
+  // Views show what is held.
+  output.GetPointData()->SetActiveScalars(HandleMaskName);
 }
 
 } // namespace smg

@@ -77,7 +77,7 @@ std::string SolveSummary::outcome() const
     text << "relative residual " << std::setprecision(3) << this->residual << ", ";
   }
   text << std::fixed << std::setprecision(1) << static_cast<double>(this->peakMemory) / MiB
-       << " MiB";
+       << " MiB of memory";
   return text.str();
 }
 

@@ -59,8 +59,8 @@ void DistanceTask::check() const
   if (this->description.from.empty() && !this->description.wall)
   {
     throw Error(
-      "Nothing says where the distance is 0: put a Mesh Region before this filter, or set From, "
-      "for example {\"vertices\": [5]}.");
+      "Nothing says where the distance is 0: put a Mesh Region before this filter, or set From "
+      "(advanced), for example {\"vertices\": [5]}.");
   }
 }
 

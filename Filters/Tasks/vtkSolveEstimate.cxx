@@ -49,9 +49,9 @@ std::string textOf(const JobEstimate& estimate, std::int64_t scratchLimit)
     text << "the limit is " << mebibytes(scratchLimit) << ", ";
   }
   text << mebibytes(estimate.scratch_free) << " are free), " << estimate.passes
-       << (estimate.passes == 1 ? " pass" : " passes") << " over " << estimate.vertices
-       << " points and " << estimate.cells << " cells, "
-       << std::llround(std::ceil(estimate.cpu_seconds)) << " s of CPU; saved as .vsm "
+       << (estimate.passes == 1 ? " pass" : " passes") << " over "
+       << groupedDigits(estimate.vertices) << " points and " << groupedDigits(estimate.cells)
+       << " cells, " << std::llround(std::ceil(estimate.cpu_seconds)) << " s of CPU; saved as .vsm "
        << mebibytes(estimate.output_bytes);
   return text.str();
 }

@@ -48,7 +48,7 @@ void check(const SimplifyOptions& options)
   if (!std::isfinite(options.error) || options.error < 0.0)
   {
     throw Error("the error of a simplification is " + std::to_string(options.error) +
-                "; expected a length above 0");
+                "; expected a length above 0, or 0 for what the number of vertices needs");
   }
   if (options.memoryLimit < LeastMemory)
   {

@@ -272,8 +272,13 @@ TEST_F(VtkMeshCondition, HasNotConvergedIfAConditionFails)
   EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
   EXPECT_TRUE(errors.contain("The plane of the region has no direction")) << errors.text();
   EXPECT_EQ(this->Poisson->GetConverged(), 0);
-  EXPECT_STREQ(this->Poisson->GetOutcome(),
-    "Not solved: not applied yet, or a filter before this one failed.");
+  const auto begins = [](const char* text, const char* beginning)
+  { return std::string(text).starts_with(beginning); };
+  const char* error = "The plane of the region has no direction";
+  EXPECT_TRUE(begins(this->Poisson->GetOutcome(), (std::string("Not solved: ") + error).c_str()))
+    << this->Poisson->GetOutcome();
+  EXPECT_TRUE(begins(held.GetOutcome(), (std::string("Failed: ") + error).c_str()))
+    << held.GetOutcome();
   plane->SetNormal(-1, 0, 0);
   ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
   EXPECT_EQ(this->Poisson->GetConverged(), 1);

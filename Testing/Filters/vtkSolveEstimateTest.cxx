@@ -45,7 +45,7 @@ protected:
     { EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text; };
     expectPart("About " + mebibytes(costs.memory) + " of memory (the limit is 1024 MiB), ");
     expectPart(mebibytes(costs.scratch + mesh.storedBytes()) + " of scratch files");
-    expectPart(std::to_string(costs.passes) + " passes over 40000 points and 80000 cells");
+    expectPart(std::to_string(costs.passes) + " passes over 40,000 points and 80,000 cells");
     const JobEstimate saved(EstimatedInput(mesh.path(), {}),
       { "result.vsm", solvedValues(columns, false, false) }, costs, {});
     expectPart("saved as .vsm " + mebibytes(saved.output_bytes));
@@ -110,7 +110,7 @@ TEST_F(VtkSolveEstimate, OfASimplification)
   const auto text = [&filter] { return std::string(filter->GetEstimate()); };
   EXPECT_TRUE(text().starts_with("Not known: the filter before")) << text();
   filter->UpdateInformation();
-  EXPECT_NE(text().find("1 pass over 40000 points and 80000 cells"), std::string::npos) << text();
+  EXPECT_NE(text().find("1 pass over 40,000 points and 80,000 cells"), std::string::npos) << text();
   // The filter before changes the mesh, so that it is copied.
   const VsmReader mesh(this->Folder / "mesh.vsm");
   const SimplifyOptions options{ .vertices = 1000, .memoryLimit = std::int64_t(256) << 20 };

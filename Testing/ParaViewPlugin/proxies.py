@@ -38,7 +38,7 @@ assert StreamingMeshDeformation(Input=reader).Tolerance == 1e-6
 simplified = StreamingMeshSimplification(Input=reader, NumberOfVertices=3000)
 simplified.UpdatePropertyInformation()
 estimate = simplified.GetPropertyValue("Estimate")
-assert f"over {t.BUNNY_POINTS} points and {t.BUNNY_CELLS} cells" in estimate, estimate
+assert f"over {t.BUNNY_POINTS:,} points and {t.BUNNY_CELLS:,} cells" in estimate, estimate
 simplified.UpdatePipeline()
 assert simplified.GetDataInformation().GetNumberOfPoints() <= 3000
 simplified.UpdatePropertyInformation()
@@ -55,7 +55,7 @@ for name, value in defaults.items():
 # What a solve costs is stated before it is applied.
 smoothing.UpdatePropertyInformation()
 estimate = smoothing.GetPropertyValue("Estimate")
-assert f"over {t.BUNNY_POINTS} points and {t.BUNNY_CELLS} cells" in estimate, estimate
+assert f"over {t.BUNNY_POINTS:,} points and {t.BUNNY_CELLS:,} cells" in estimate, estimate
 assert smoothing.GetPropertyValue("Passes") == 0
 
 # Columns is the former name of Arrays.

@@ -26,6 +26,7 @@ def play(arguments):
     session.choose("Region", "Boundary")
     session.apply()
     session.checkpoint("marked")
+    session.check("Outcome/Text", "text", "223 points.")
     session.picture("region-boundary")
     session.choose("Region", "Mask")
     session.picture("region-mask")
