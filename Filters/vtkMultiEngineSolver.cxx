@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMultiEngineSolver.h"
 
-#include "Filters/Processes/vtkMemoryVerdict.h"
+#include "Filters/Processes/vtkMemoryFit.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -22,13 +22,13 @@ bool vtkMultiEngineSolver::IsForProcesses(vtkPointSet& piece, bool isAlone)
   {
     return true;
   }
-  smg::MemoryVerdict verdict{ false, this->WhyStreaming() };
+  smg::MemoryFit verdict{ false, this->WhyStreaming() };
   if (verdict.reason.empty())
   {
     vtkMultiProcessController* controller = this->GetController();
     verdict = controller && controller->GetNumberOfProcesses() > 1
-                ? smg::judgeMemory(piece, controller, this->GetUsualColumns())
-                : smg::MemoryVerdict{ false, "there is one process" };
+                ? smg::estimateMemoryFit(piece, controller, this->GetUsualColumns())
+                : smg::MemoryFit{ false, "there is one process" };
   }
   note = (verdict.fits ? "the distributed engine was chosen, since "
                        : "the streaming engine was chosen, since ") +

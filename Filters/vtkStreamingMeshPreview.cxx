@@ -136,7 +136,7 @@ vtkStreamingMeshPreview::~vtkStreamingMeshPreview() = default;
 void vtkStreamingMeshPreview::SetPreviewPoints(int points)
 {
   const int possible = static_cast<int>(
-    std::clamp<std::int64_t>(points, smg::LeastPreviewPoints, smg::MostPreviewPoints));
+    std::clamp<std::int64_t>(points, smg::MinPreviewPoints, smg::MaxPreviewPoints));
   if (possible != this->PreviewPoints)
   {
     this->PreviewPoints = possible;

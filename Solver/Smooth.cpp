@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Smooth.h"
 
-#include "Solver/Jobs/Fairing/Smoother.h"
+#include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Extended.h"
 #include "smg/Error.h"
@@ -49,7 +49,7 @@ void checkOptions(const SmoothingOptions& options)
 std::unique_ptr<Solution> smooth(const StoredMesh& mesh, const SmoothingOptions& options)
 {
   checkOptions(options);
-  return Smoother(mesh, options).run();
+  return MeshFairing(mesh, options).run();
 }
 
 } // namespace smg

@@ -58,14 +58,14 @@ std::string toMebibytes(std::string& text)
 
 void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
 {
-  constexpr std::int64_t MostMemory = std::int64_t(1) << 30;
+  constexpr std::int64_t MaxMemory = std::int64_t(1) << 30;
   command
     .add_option("--report", this->report,
       "Write the report to this file: in JSON, or with the suffix .html as a page with figures and "
       "a picture of the result, for any browser")
     ->type_name("FILE");
   command.add_option("--memory", this->memory, "Memory limit in MiB, or with a unit as 2GiB")
-    ->check(CLI::Range(std::int64_t(1), MostMemory))
+    ->check(CLI::Range(std::int64_t(1), MaxMemory))
     ->transform(CLI::Validator(toMebibytes, ""))
     ->default_str(memoryDefault)
     ->type_name("MiB");
@@ -78,7 +78,7 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
       "--scratch-limit",
       [](std::int64_t limit) { smg::ScratchAccount::process().setLimit(limit << 20); },
       "Limit of the bytes of scratch files that exist at once, in MiB; without it there is none")
-    ->check(CLI::Range(std::int64_t(1), MostMemory))
+    ->check(CLI::Range(std::int64_t(1), MaxMemory))
     ->transform(CLI::Validator(toMebibytes, ""))
     ->type_name("MiB");
   command.add_flag_callback(

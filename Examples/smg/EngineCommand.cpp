@@ -55,7 +55,7 @@ void EngineCommand::compute()
     this->SolvingCommand::compute();
     return;
   }
-  constexpr int MostIterations = 200;
+  constexpr int MaxIterations = 200;
   auto bar = std::make_unique<ProgressBar>(this->title(), this->quiet);
   DistributedJob job;
   job.in = this->In;
@@ -63,8 +63,7 @@ void EngineCommand::compute()
   job.task = this->File.string();
   job.text = &this->text();
   job.scratch = this->scratch;
-  job.maxIterations =
-    this->MaxCycles->count() > 0 ? this->solveOptions().maxCycles : MostIterations;
+  job.maxIterations = this->MaxCycles->count() > 0 ? this->solveOptions().maxCycles : MaxIterations;
   job.memoryLimit = this->memoryBytes(INT64_MAX);
   job.progress = bar->function();
   job.check = [this] { this->checkDistributed(); };

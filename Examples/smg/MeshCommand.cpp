@@ -221,7 +221,7 @@ html::ResultSurface MeshCommand::draw(
   {
     names.push_back(column.name);
   }
-  const std::int64_t memory = std::max(this->memoryLimit(), smg::Workspace::LeastMemory);
+  const std::int64_t memory = std::max(this->memoryLimit(), smg::Workspace::MinMemory);
   return drawnBy(
     [&]
     {
@@ -239,8 +239,8 @@ html::ResultSurface MeshCommand::draw(
 
 std::int64_t MeshCommand::writerMemory() const
 {
-  constexpr std::int64_t MostMemory = std::int64_t(64) << 20;
-  return std::clamp(this->memoryLimit() / 4, smg::Workspace::LeastMemory, MostMemory);
+  constexpr std::int64_t MaxMemory = std::int64_t(64) << 20;
+  return std::clamp(this->memoryLimit() / 4, smg::Workspace::MinMemory, MaxMemory);
 }
 
 std::vector<std::string> MeshCommand::notesOn(

@@ -106,7 +106,7 @@ void addPreviewCommand(CLI::App& program, Action& action)
         "and OriginalId are their indices in the stream and in the original file")
     ->required();
   command->add_option("--points", options->points, "Maximum number of points of the preview")
-    ->check(CLI::Range(smg::LeastPreviewPoints, smg::MostPreviewPoints))
+    ->check(CLI::Range(smg::MinPreviewPoints, smg::MaxPreviewPoints))
     ->capture_default_str()
     ->type_name("N");
   options->input.addTo(*command);

@@ -121,7 +121,7 @@ void ResultFile::check(smg::FormatUse use, smg::CellType cells) const
 
 int ResultFile::threads(std::int64_t memory) const
 {
-  return memory > smg::Workspace::LeastMemory ? this->Files.threads : 1;
+  return memory > smg::Workspace::MinMemory ? this->Files.threads : 1;
 }
 
 std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::MeshSource& result,

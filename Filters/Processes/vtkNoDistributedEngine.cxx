@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // In place of the functions for several processes where MPI or hypre is missing.
 #include "Filters/Processes/vtkDistributedTasks.h"
-#include "Filters/Processes/vtkMemoryVerdict.h"
+#include "Filters/Processes/vtkMemoryFit.h"
 
 #include "smg/Error.h"
 
@@ -30,7 +30,7 @@ SolveSummary deformInProcesses(vtkPointSet&, vtkMultiProcessController*, const M
   fail();
 }
 
-MemoryVerdict judgeMemory(vtkPointSet&, vtkMultiProcessController*, int)
+MemoryFit estimateMemoryFit(vtkPointSet&, vtkMultiProcessController*, int)
 {
   return { false, "this build has no distributed engine" };
 }

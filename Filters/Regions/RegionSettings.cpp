@@ -89,7 +89,7 @@ void PointRegionSettings::check(bool hasSelection) const
   }
 }
 
-SoughtIds::SoughtIds(const std::vector<std::int64_t>& ids)
+IdList::IdList(const std::vector<std::int64_t>& ids)
   : Size(static_cast<std::int64_t>(ids.size()))
 {
   for (std::size_t i = 0; i < ids.size(); ++i)
@@ -102,14 +102,14 @@ SoughtIds::SoughtIds(const std::vector<std::int64_t>& ids)
   this->Sorted.erase(end, this->Sorted.end());
 }
 
-std::int64_t SoughtIds::numberOf(std::int64_t id) const
+std::int64_t IdList::numberOf(std::int64_t id) const
 {
   const auto found =
     std::lower_bound(this->Sorted.begin(), this->Sorted.end(), std::pair(id, std::int64_t(0)));
   return found != this->Sorted.end() && found->first == id ? found->second : -1;
 }
 
-std::int64_t SoughtIds::firstMissing(const std::vector<char>& isFound) const
+std::int64_t IdList::firstMissing(const std::vector<char>& isFound) const
 {
   for (const auto& [id, number] : this->Sorted)
   {

@@ -66,11 +66,11 @@ struct PointRegionSettings
 };
 
 /** A list of ids to search for, with their indices in the list. */
-class SoughtIds
+class IdList
 {
 public:
-  SoughtIds() = default;
-  explicit SoughtIds(const std::vector<std::int64_t>& ids);
+  IdList() = default;
+  explicit IdList(const std::vector<std::int64_t>& ids);
 
   /** The index of the id, the first of several; -1 if it is not in the list. */
   std::int64_t numberOf(std::int64_t id) const;

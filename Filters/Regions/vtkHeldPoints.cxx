@@ -10,7 +10,7 @@
 namespace smg
 {
 
-HeldPoints heldByIds(std::span<const std::int64_t> ids, const SoughtIds& sought)
+HeldPoints heldByIds(std::span<const std::int64_t> ids, const IdList& sought)
 {
   HeldPoints held;
   held.by.reserve(ids.size());

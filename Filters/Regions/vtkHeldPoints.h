@@ -61,7 +61,7 @@ private:
 };
 
 /** The points of the mesh whose `ids` (one per point) are in the list. */
-HeldPoints heldByIds(std::span<const std::int64_t> ids, const SoughtIds& sought);
+HeldPoints heldByIds(std::span<const std::int64_t> ids, const IdList& sought);
 
 /** The points of the mesh, with their stream indices, in the range of the projected points. */
 HeldPoints heldByProjection(

@@ -4,7 +4,7 @@
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/RegionSettings.h"
 #include "Filters/Regions/vtkHeldPoints.h"
-#include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/FixedVertices.h"
 
 #include <memory>
 #include <optional>

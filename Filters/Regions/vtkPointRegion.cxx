@@ -35,7 +35,7 @@ void DisplayedRegion::set(const PointRegionSettings& settings)
 {
   this->Last.reset();
   this->Asked = settings;
-  this->Ids = SoughtIds(settings.ids);
+  this->Ids = IdList(settings.ids);
 }
 
 const HeldPoints& DisplayedRegion::hold(vtkPointSet& mesh, const PieceRequest& request,
@@ -65,7 +65,7 @@ HeldPoints DisplayedRegion::holdSelected(vtkPointSet& mesh, const RegionContext&
   {
     return this->holdNear(mesh, positionsOf(mesh, points), context);
   }
-  return heldByIds(numbersOfPoints(mesh), SoughtIds(points));
+  return heldByIds(numbersOfPoints(mesh), IdList(points));
 }
 
 HeldPoints DisplayedRegion::holdIds(vtkPointSet& mesh, const RegionContext& context) const
@@ -112,7 +112,7 @@ void StreamedRegion::set(const PointRegionSettings& settings)
   this->OnMesh.reset();
   this->Places.reset();
   this->Asked = settings;
-  this->Ids = SoughtIds(settings.ids);
+  this->Ids = IdList(settings.ids);
 }
 
 const std::vector<double>& StreamedRegion::placesOfIds(const RegionContext& context)
@@ -201,7 +201,7 @@ std::vector<double> StreamedRegion::selectedPlaces(
     {
       selected.push_back(ids[point]);
     }
-    found.ids = SoughtIds(selected);
+    found.ids = IdList(selected);
     return {};
   }
   return positionsOf(*displayed, points);
@@ -214,7 +214,7 @@ bool PointRegion::set(const PointRegionSettings& settings)
     return false;
   }
   this->Asked = settings;
-  this->Ids = SoughtIds(settings.ids);
+  this->Ids = IdList(settings.ids);
   this->OnDisplay.set(settings);
   this->OnMesh.set(settings);
   return true;
@@ -280,7 +280,7 @@ void PointRegion::checkHolders(const std::vector<char>& isHolding) const
   }
 }
 
-PlacesOfIds::PlacesOfIds(const std::vector<std::int64_t>& ids, const SoughtIds& sought)
+PlacesOfIds::PlacesOfIds(const std::vector<std::int64_t>& ids, const IdList& sought)
   : Ids(ids)
   , Sought(sought)
   , Positions(3 * ids.size())

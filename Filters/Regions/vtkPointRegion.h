@@ -37,7 +37,7 @@ private:
     vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const;
 
   PointRegionSettings Asked;
-  SoughtIds Ids;
+  IdList Ids;
   KeptHeldPoints Last;
 };
 
@@ -70,7 +70,7 @@ private:
   struct Found
   {
     InputStamp stamp;
-    SoughtIds ids;
+    IdList ids;
     std::optional<PointProjection> projection;
   };
   struct Located
@@ -83,7 +83,7 @@ private:
     const RegionContext& context, double& radius, Found& found) const;
 
   PointRegionSettings Asked;
-  SoughtIds Ids;
+  IdList Ids;
   std::optional<Found> OnMesh;
   std::optional<Located> Places;
 };
@@ -114,7 +114,7 @@ private:
   bool isDisplayed(const PieceRequest& request, const RegionContext& context) const;
 
   PointRegionSettings Asked;
-  SoughtIds Ids;
+  IdList Ids;
   DisplayedRegion OnDisplay;
   StreamedRegion OnMesh;
 };
@@ -131,7 +131,7 @@ class PlacesOfIds
 {
 public:
   /** `sought` are the `ids`; both must outlive *this. */
-  PlacesOfIds(const std::vector<std::int64_t>& ids, const SoughtIds& sought);
+  PlacesOfIds(const std::vector<std::int64_t>& ids, const IdList& sought);
 
   /** Searches the points of a piece, whose ids are `idsOfPoints`. */
   void seek(vtkPointSet& piece, std::span<const std::int64_t> idsOfPoints);
@@ -144,7 +144,7 @@ public:
 
 private:
   const std::vector<std::int64_t>& Ids;
-  const SoughtIds& Sought;
+  const IdList& Sought;
   std::vector<double> Positions; ///< of the ids that isFound() marks
   std::vector<char> IsFound;
 };

@@ -84,7 +84,7 @@ std::vector<std::int64_t> selectPoints(vtkPointSet& mesh, const RegionContext& c
   return points;
 }
 
-void checkIds(const SoughtIds& ids, const std::vector<char>& isFound)
+void checkIds(const IdList& ids, const std::vector<char>& isFound)
 {
   const std::int64_t missing = ids.firstMissing(isFound);
   if (missing >= 0)

@@ -30,7 +30,7 @@ std::vector<std::int64_t> idsOf(vtkPointSet& mesh, const PointRegionSettings& se
 std::vector<std::int64_t> selectPoints(vtkPointSet& mesh, const RegionContext& context);
 
 /** Throws Error, which names the first missing id, if not all ids are found. */
-void checkIds(const SoughtIds& ids, const std::vector<char>& isFound);
+void checkIds(const IdList& ids, const std::vector<char>& isFound);
 
 /** Warns of points whose distance from the mesh exceeds 1 % of its diagonal plus `slack`. */
 void warnOfDistant(const PointProjection& projection, double slack, const RegionContext& to);

@@ -72,7 +72,7 @@ void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
   const ProblemDescription part = ofCells(problem);
   const PieceBlock mesh(piece, namedColumns(part));
   DescribedProblem described(part, mesh.info());
-  HeldSolution solution(values, problem.columns);
+  InMemorySolution solution(values, problem.columns);
   ProblemResults results(mesh.info(), described, solution,
     { .gradient = problem.gradientOutput, .flux = problem.fluxOutput });
   results.add(mesh.block());

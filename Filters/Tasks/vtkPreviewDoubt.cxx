@@ -19,7 +19,7 @@ namespace
 {
 
 /** A preview of fewer points is known well enough by eye. */
-constexpr std::int64_t LeastPoints = 400;
+constexpr std::int64_t MinPoints = 400;
 constexpr std::int64_t Coarsening = 4;
 
 /** Two digits count, as in 0.0095, 12 or 4,400. */
@@ -40,7 +40,7 @@ std::string twoDigits(double value)
 
 PreviewDoubt::PreviewDoubt(vtkPointSet& preview, KeptCoarserPreview& kept, const Solve& solve)
 {
-  if (preview.GetNumberOfPoints() < LeastPoints || !CoarserPreview::isPossible(preview))
+  if (preview.GetNumberOfPoints() < MinPoints || !CoarserPreview::isPossible(preview))
   {
     return;
   }

@@ -28,7 +28,7 @@ namespace
 /** The share of reading the input in the progress; the solve takes the rest. */
 constexpr double PullShare = 0.25;
 /** A conversion needs so much memory. */
-constexpr std::int64_t LeastConversionMemory = std::int64_t(16) << 20;
+constexpr std::int64_t MinConversionMemory = std::int64_t(16) << 20;
 
 /** A folder whose files are in memory, as Linux has it. */
 constexpr const char* FolderInMemory = "/dev/shm";
@@ -221,7 +221,7 @@ ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const Pulling& pul
   plain->GetPointData()->RemoveArray(OriginalIdName);
   plain->GetCellData()->RemoveArray(OriginalCellIdName);
   ConversionOptions options;
-  options.memoryLimit = std::max(pulling.memory, LeastConversionMemory);
+  options.memoryLimit = std::max(pulling.memory, MinConversionMemory);
   options.scratch = this->Scratch->path();
   options.threads = pulling.threads;
   options.codec = Codec::Lz4;

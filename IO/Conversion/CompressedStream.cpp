@@ -25,7 +25,7 @@ bool isCompressedStream(const std::filesystem::path& path)
 ConversionReport convertCompressedStream(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options)
 {
-  Workspace space(options.scratch, Workspace::LeastMemory, {}, options.scratchLimit);
+  Workspace space(options.scratch, Workspace::MinMemory, {}, options.scratchLimit);
   ConversionOptions inner = options;
   inner.scratch = space.folder();
   inner.checkpoint.clear(); // the inflated file has another name in each program

@@ -25,7 +25,7 @@ namespace
 {
 
 /** Memory for buffered vertices while a streaming format is read. */
-constexpr std::int64_t MostStreamMemory = std::int64_t(256) << 20;
+constexpr std::int64_t MaxStreamMemory = std::int64_t(256) << 20;
 
 } // namespace
 
@@ -38,10 +38,10 @@ Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::p
   , From(kindOfInput(in))
   , To(kindOfOutput(out))
 {
-  if (this->Memory < Workspace::LeastMemory)
+  if (this->Memory < Workspace::MinMemory)
   {
     throw Error(in.string() + ": a conversion needs a memory limit of at least " +
-                std::to_string(Workspace::LeastMemory >> 20) + " MiB, but it is " +
+                std::to_string(Workspace::MinMemory >> 20) + " MiB, but it is " +
                 std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
   }
   if (options.scratchLimit < 0)
@@ -125,7 +125,7 @@ std::filesystem::path Conversion::importStream()
   StreamToVsmOptions options;
   options.codec = Codec::Lz4;
   options.scratch = this->workspace().folder();
-  options.memory = std::min<std::int64_t>(this->Memory / 4, MostStreamMemory);
+  options.memory = std::min<std::int64_t>(this->Memory / 4, MaxStreamMemory);
   options.progress = this->progress();
   const std::filesystem::path path = this->workspace().folder() / "stream.vsm";
   this->Report.isolated_vertices = streamToVsm(this->In, path, options).isolatedVertices;

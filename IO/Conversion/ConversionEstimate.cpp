@@ -40,7 +40,7 @@ std::int64_t inflatedSize(InputFile& file)
 }
 
 /** Numbers of vertices and cells have 32 bits during a conversion, see RawMesh. */
-constexpr std::int64_t MostNumbers = (std::int64_t(1) << 32) - 2;
+constexpr std::int64_t MaxNumbers = (std::int64_t(1) << 32) - 2;
 
 /** The counts of a file, from its header or estimated from its size. */
 struct Counts : FileCounts
@@ -189,10 +189,10 @@ ConversionEstimate estimateConversion(
 {
   const Counts counts = countsOf(in, { options.timeStep, options.partition });
   const StreamInfo& mesh = counts.mesh;
-  if (counts.counted && std::max(mesh.vertices, mesh.cells) > MostNumbers)
+  if (counts.counted && std::max(mesh.vertices, mesh.cells) > MaxNumbers)
   {
     throw Error(in.string() + ": the mesh has " + std::to_string(mesh.vertices) + " vertices and " +
-                std::to_string(mesh.cells) + " cells; at most " + std::to_string(MostNumbers) +
+                std::to_string(mesh.cells) + " cells; at most " + std::to_string(MaxNumbers) +
                 " of each can be converted: split it.");
   }
   const MeshFileKind kind = kindOfInput(in);

@@ -12,7 +12,7 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t MostCycles = 1000000;
+constexpr std::int64_t MaxCycles = 1000000;
 /** The keys of motions of a handle as a whole, and of motions vertex by vertex. */
 constexpr std::array MotionKeys{ "translate", "rotate", "scale" };
 constexpr std::array ValueKeys{ "target", "rotation", "logScale" };
@@ -205,7 +205,7 @@ DeformationDescription parseDeformation(const JsonNode& node)
   data.weights = parseWeights(node);
   if (node.has("cycles"))
   {
-    data.cycles = static_cast<int>(node.member("cycles").integer(1, MostCycles));
+    data.cycles = static_cast<int>(node.member("cycles").integer(1, MaxCycles));
   }
   if (node.has("tolerance"))
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Description/ParseWhere.h"
-#include "Solver/Problem/ValueOnMesh.h"
+#include "Solver/Problem/Coefficient.h"
 #include "smg/DescriptionFiles.h"
 
 namespace smg
@@ -9,7 +9,7 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t MostColumns = ProblemDescription::MostColumns;
+constexpr std::int64_t MaxColumns = ProblemDescription::MaxColumns;
 
 /** Whether the value is a list of entries, each with a value. */
 bool isList(const JsonNode& node)
@@ -144,7 +144,7 @@ ProblemDescription parseProblem(const JsonNode& node, ProblemDescription problem
   problem.weights = parseWeights(node).value_or(problem.weights);
   if (node.has("columns"))
   {
-    problem.columns = static_cast<int>(node.member("columns").integer(1, MostColumns));
+    problem.columns = static_cast<int>(node.member("columns").integer(1, MaxColumns));
   }
   const ValueParser parseValue{ problem.columns };
   if (node.has("conductivity"))

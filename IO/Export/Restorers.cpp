@@ -136,8 +136,8 @@ ElementRestorer::ElementRestorer(
   , Columns(info.elementColumns)
   , Sorted(workspace, memory, this->CornersOfCell * sizeof(std::uint32_t) + this->Columns.bytes())
   , Elements(workspace)
-  , MostCells(static_cast<std::size_t>(elementBytes(workspace)) /
-              (BytesOfFanTriangle + this->Columns.bytes()))
+  , MaxCells(static_cast<std::size_t>(elementBytes(workspace)) /
+             (BytesOfFanTriangle + this->Columns.bytes()))
 {
 }
 
@@ -162,7 +162,7 @@ void ElementRestorer::restore(RestoredInfo& info)
   info.elements = this->Counts.elements;
   info.quadrilaterals = this->Counts.quadrilaterals;
   info.corners = this->Counts.corners;
-  info.mostCorners = this->Counts.mostCorners;
+  info.maxCorners = this->Counts.maxCorners;
 }
 
 void ElementRestorer::take(const RowSort::Row& row)
@@ -175,7 +175,7 @@ void ElementRestorer::take(const RowSort::Row& row)
     this->MayBeFan = this->CornersOfCell == 3;
     std::memcpy(&this->Apex, row.bytes, sizeof(this->Apex));
   }
-  if (this->Corners.size() == this->MostCells * this->CornersOfCell)
+  if (this->Corners.size() == this->MaxCells * this->CornersOfCell)
   {
     // The cells of such a large element are delivered one by one.
     this->TooLarge = true;
@@ -236,7 +236,7 @@ void ElementRestorer::write(
   ++this->Counts.elements;
   this->Counts.quadrilaterals += size == 4 && this->CornersOfCell == 3 ? 1 : 0;
   this->Counts.corners += size;
-  this->Counts.mostCorners = std::max<std::int64_t>(this->Counts.mostCorners, size);
+  this->Counts.maxCorners = std::max<std::int64_t>(this->Counts.maxCorners, size);
 }
 
 std::vector<std::string> ElementRestorer::notes() const
@@ -257,7 +257,7 @@ std::vector<std::string> ElementRestorer::notes() const
     notes.push_back(
       std::to_string(this->Large) +
       (this->Large == 1 ? " polygon of more than " : " polygons of more than ") +
-      std::to_string(this->MostCells) +
+      std::to_string(this->MaxCells) +
       (this->Large == 1 ? " corners is written as triangles: allow more memory to keep it."
                         : " corners are written as triangles: allow more memory to keep them."));
   }

@@ -101,7 +101,7 @@ struct RestoredInfo
   std::int64_t elements = 0;       ///< the restored polygons or tetrahedra
   std::int64_t quadrilaterals = 0; ///< elements that are polygons of four corners
   std::int64_t corners = 0;        ///< of all elements
-  std::int64_t mostCorners = 0;    ///< of an element
+  std::int64_t maxCorners = 0;     ///< of an element
   std::vector<ColumnSpec> vertexColumns;
   std::vector<ColumnSpec> elementColumns;
 };
@@ -198,7 +198,7 @@ private:
   RowSort Sorted;      ///< a row is the corners, then the columns
   BucketFile Elements; ///< number of corners, corners, columns
   RestoredInfo Counts;
-  std::size_t MostCells; ///< of an element that is processed as a whole
+  std::size_t MaxCells; ///< of an element that is processed as a whole
 
   // The cells of one element.
   std::uint64_t Element = UINT64_MAX; ///< none, at first

@@ -45,7 +45,7 @@ public:
   static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
   /** The most blocks that are compressed at once, and the most bytes that each has in the mean if
    * they are several. */
-  static constexpr int MostBlocks = 8;
+  static constexpr int MaxBlocks = 8;
   static constexpr std::size_t BlockBytes = std::size_t(256) << 10;
 
   /** Blocks are compressed on the threads of `workers`, which must outlive the writer; null: on

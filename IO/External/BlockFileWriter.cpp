@@ -33,7 +33,7 @@ struct PendingBlock
 std::size_t blocksAtOnce(const Workers* workers)
 {
   return workers
-           ? static_cast<std::size_t>(std::min(workers->threads(), BlockFileWriter::MostBlocks))
+           ? static_cast<std::size_t>(std::min(workers->threads(), BlockFileWriter::MaxBlocks))
            : 1;
 }
 

@@ -13,7 +13,7 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t LeastMemoryAhead = std::int64_t(4) << 20;
+constexpr std::int64_t MinMemoryAhead = std::int64_t(4) << 20;
 
 /** Whether the caller can leave work to other threads. */
 bool hasHelpers(Workspace& workspace)
@@ -28,8 +28,8 @@ std::size_t chunkBytes(Workspace& workspace, int buckets, std::int64_t memory)
   const auto chunks = static_cast<std::size_t>(buckets + (hasHelpers(workspace) ? 1 : 0));
   const auto share = static_cast<std::size_t>(memory) / chunks;
   const std::size_t unit =
-    share < CheckedFile::GrainBytes ? BucketFile::LeastChunkBytes : CheckedFile::GrainBytes;
-  return std::clamp(share / unit * unit, BucketFile::LeastChunkBytes, BucketFile::ChunkBytes);
+    share < CheckedFile::GrainBytes ? BucketFile::MinChunkBytes : CheckedFile::GrainBytes;
+  return std::clamp(share / unit * unit, BucketFile::MinChunkBytes, BucketFile::ChunkBytes);
 }
 
 } // namespace
@@ -304,8 +304,8 @@ BucketFile::Reader::Reader(const BucketFile& file, int bucket, std::size_t buffe
   file.Out->finish();
   Workspace& space = *file.Space;
   std::size_t ahead = 0;
-  if (bufferBytes >= LeastAheadBytes && file.bytes(bucket) > std::int64_t(bufferBytes) &&
-      space.available() > LeastMemoryAhead && hasHelpers(space))
+  if (bufferBytes >= MinAheadBytes && file.bytes(bucket) > std::int64_t(bufferBytes) &&
+      space.available() > MinMemoryAhead && hasHelpers(space))
   {
     // A part of a record may be left over before the bytes that were fetched.
     ahead = (bufferBytes / 2 - 1) / CheckedFile::GrainBytes * CheckedFile::GrainBytes;

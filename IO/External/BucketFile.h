@@ -33,9 +33,9 @@ class SMG_EXPORT BucketFile
 public:
   static constexpr std::size_t ChunkBytes = std::size_t(256) << 10;
   /** The minimum size of a chunk. */
-  static constexpr std::size_t LeastChunkBytes = std::size_t(4) << 10;
+  static constexpr std::size_t MinChunkBytes = std::size_t(4) << 10;
   /** A reader of fewer bytes fetches nothing ahead. */
-  static constexpr std::size_t LeastAheadBytes = std::size_t(128) << 10;
+  static constexpr std::size_t MinAheadBytes = std::size_t(128) << 10;
 
   /** The workspace must outlive the file. The chunks use at most `memory` bytes. */
   explicit BucketFile(

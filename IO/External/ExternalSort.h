@@ -21,7 +21,7 @@ namespace parallelsort
 {
 
 /** Fewer records are sorted by one thread. */
-inline constexpr std::ptrdiff_t LeastRecords = 1 << 14;
+inline constexpr std::ptrdiff_t MinRecords = 1 << 14;
 
 /** Moves the records before the median of a sample to the front; returns their end. */
 template <class Record, class Less>
@@ -48,7 +48,7 @@ void parallelSort(Workers& workers, Record* begin, Record* end, Less less)
   std::vector<Record*> ends{ begin, end }; // of the parts
   const auto parts = [&ends] { return static_cast<int>(ends.size()) - 1; };
   const int wanted = workers.threads() > 1 ? 2 * workers.threads() : 1;
-  while (parts() < wanted && (end - begin) / parts() >= 2 * parallelsort::LeastRecords)
+  while (parts() < wanted && (end - begin) / parts() >= 2 * parallelsort::MinRecords)
   {
     std::vector<Record*> divided(ends.size() + static_cast<std::size_t>(parts()), end);
     runAll(workers, parts(),
@@ -56,7 +56,7 @@ void parallelSort(Workers& workers, Record* begin, Record* end, Less less)
       {
         const auto p = static_cast<std::size_t>(part);
         divided[2 * p] = ends[p];
-        divided[2 * p + 1] = ends[p + 1] - ends[p] < parallelsort::LeastRecords
+        divided[2 * p + 1] = ends[p + 1] - ends[p] < parallelsort::MinRecords
                                ? ends[p + 1]
                                : parallelsort::divide(ends[p], ends[p + 1], less);
       });

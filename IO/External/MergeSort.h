@@ -21,7 +21,7 @@ namespace smg
 
 /** Rows of a sequence, which another thread produces while the owner takes those before them. */
 template <class Row>
-class RowsAhead
+class RowPrefetch
 {
   static_assert(std::is_trivially_copyable_v<Row>);
 
@@ -34,7 +34,7 @@ public:
   static_assert(sizeof(Row) <= MemoryBytes / 2);
 
   /** Takes `memory` bytes, at least two rows, of the workspace, which must outlive it. */
-  RowsAhead(Workspace& workspace, Produce produce, std::size_t memory = MemoryBytes)
+  RowPrefetch(Workspace& workspace, Produce produce, std::size_t memory = MemoryBytes)
     : Space(workspace)
     , Taken(workspace.pool(), memory / 2)
     , Produced(workspace.pool(), memory / 2)
@@ -42,15 +42,15 @@ public:
   {
     this->start();
   }
-  ~RowsAhead()
+  ~RowPrefetch()
   {
     if (this->IsProducing)
     {
       this->Space.workers().cancel(this->Job);
     }
   }
-  RowsAhead(const RowsAhead&) = delete;
-  RowsAhead& operator=(const RowsAhead&) = delete;
+  RowPrefetch(const RowPrefetch&) = delete;
+  RowPrefetch& operator=(const RowPrefetch&) = delete;
 
   /** The next row; returns false at the end. Rethrows an exception of the production; throws
    * Cancelled. */
@@ -163,9 +163,9 @@ public:
     }
     this->writeRun();
     this->release();
-    while (this->Runs.size() > this->mostRuns())
+    while (this->Runs.size() > this->maxRuns())
     {
-      this->mergeLast(std::min(this->mostRuns(), this->Runs.size() - this->mostRuns() + 1));
+      this->mergeLast(std::min(this->maxRuns(), this->Runs.size() - this->maxRuns() + 1));
     }
     this->startMerge(this->Runs);
     if constexpr (Rows::AreWhole)
@@ -204,14 +204,14 @@ public:
   }
 
 private:
-  static constexpr std::size_t LeastBufferBytes = std::size_t(64) << 10;
+  static constexpr std::size_t MinBufferBytes = std::size_t(64) << 10;
   /** The maximum number of runs of a rank that are merged at once while rows arrive. */
   static constexpr std::size_t RunsOfRank = 32;
 
-  std::size_t bufferBytes() const { return std::max(LeastBufferBytes, this->Collected.bytes()); }
+  std::size_t bufferBytes() const { return std::max(MinBufferBytes, this->Collected.bytes()); }
 
   /** The number of runs that can be merged at once, with a chunk of the output file. */
-  std::size_t mostRuns() const
+  std::size_t maxRuns() const
   {
     return std::max<std::size_t>(2, (this->Memory - BucketFile::ChunkBytes) / this->bufferBytes());
   }
@@ -253,7 +253,7 @@ private:
     run.close();
     this->Ranks.push_back(0);
     this->Used = 0;
-    const std::size_t count = std::min(this->mostRuns(), RunsOfRank);
+    const std::size_t count = std::min(this->maxRuns(), RunsOfRank);
     while (
       this->Ranks.size() >= count && this->Ranks[this->Ranks.size() - count] == this->Ranks.back())
     {
@@ -303,11 +303,11 @@ private:
       return;
     }
     // The memory of the chunk that mergeLast() needs.
-    static_assert(RowsAhead<Row>::MemoryBytes <= BucketFile::ChunkBytes);
+    static_assert(RowPrefetch<Row>::MemoryBytes <= BucketFile::ChunkBytes);
     // Readers that fetch ahead submit jobs.
     static_assert(
-      LeastBufferBytes < BucketFile::LeastAheadBytes && sizeof(Row) < BucketFile::LeastAheadBytes);
-    this->Merged = std::make_unique<RowsAhead<Row>>(this->Space,
+      MinBufferBytes < BucketFile::MinAheadBytes && sizeof(Row) < BucketFile::MinAheadBytes);
+    this->Merged = std::make_unique<RowPrefetch<Row>>(this->Space,
       [this](std::span<Row> rows)
       {
         std::size_t count = 0;
@@ -395,7 +395,7 @@ private:
   std::vector<Row> Heads;          ///< the next row of each run
   std::vector<std::uint32_t> Heap; ///< runs
   bool TopIsDelivered = false;
-  std::unique_ptr<RowsAhead<Row>> Merged; ///< null: next() merges
+  std::unique_ptr<RowPrefetch<Row>> Merged; ///< null: next() merges
 };
 
 } // namespace smg

@@ -17,7 +17,7 @@ PageFile::PageFile(std::filesystem::path folder, std::int64_t memory)
 {
 }
 
-std::int64_t PageFile::mostSlots() const
+std::int64_t PageFile::maxSlots() const
 {
   constexpr std::int64_t Least = 4;
   const auto tables = static_cast<std::int64_t>(this->States.capacity() * sizeof(std::int32_t)) +
@@ -50,7 +50,7 @@ std::int32_t PageFile::load(std::int64_t page)
 std::int32_t PageFile::makeRoom()
 {
   // The tables may have grown.
-  while (std::ssize(this->Slots) > this->mostSlots())
+  while (std::ssize(this->Slots) > this->maxSlots())
   {
     const auto last = static_cast<std::int32_t>(this->Slots.size()) - 1;
     this->Slots.back().page >= 0 ? this->evict(this->Slots.back())
@@ -64,7 +64,7 @@ std::int32_t PageFile::makeRoom()
     this->Vacant.pop_back();
     return number;
   }
-  if (std::ssize(this->Slots) < this->mostSlots())
+  if (std::ssize(this->Slots) < this->maxSlots())
   {
     this->Slots.emplace_back().bytes = std::make_unique<std::byte[]>(PageBytes);
     return static_cast<std::int32_t>(this->Slots.size()) - 1;

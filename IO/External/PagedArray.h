@@ -71,7 +71,7 @@ private:
   std::int32_t makeRoom();
   /** Writes the page of a slot, if that is needed, and forgets it there. */
   void evict(Slot& slot);
-  std::int64_t mostSlots() const;
+  std::int64_t maxSlots() const;
   std::int32_t& stateOf(std::int64_t page) { return this->States[page - this->FirstPage]; }
 
   void createFile();

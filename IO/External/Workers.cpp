@@ -15,8 +15,8 @@ namespace
 {
 
 /** About 20 microseconds. */
-constexpr int MostSpins = 400;
-constexpr int MostThreads = 64;
+constexpr int MaxSpins = 400;
+constexpr int MaxThreads = 64;
 
 thread_local bool isOfWorkers = false;
 
@@ -30,7 +30,7 @@ void spinPause()
 } // namespace
 
 Workers::Workers(int threads)
-  : Threads(std::clamp(threads > 0 ? threads : tbb::info::default_concurrency(), 1, MostThreads))
+  : Threads(std::clamp(threads > 0 ? threads : tbb::info::default_concurrency(), 1, MaxThreads))
 {
 }
 
@@ -90,7 +90,7 @@ void Workers::submit(Job& job)
 bool Workers::spinUntil(const std::atomic<bool>& flag)
 {
   static const int cores = tbb::info::default_concurrency();
-  const int spins = this->Threads <= cores ? MostSpins : 0;
+  const int spins = this->Threads <= cores ? MaxSpins : 0;
   for (int i = 0; i < spins; ++i)
   {
     if (flag.load(std::memory_order_acquire))

@@ -16,7 +16,7 @@ constexpr PoolUse ConversionMemory{ "the conversion", "raise the memory limit (o
 Workspace::Workspace(const std::filesystem::path& scratch, std::int64_t memory,
   const ProgressFunction& progress, std::int64_t scratchLimit, int threads)
   : Folder(scratch, scratchLimit)
-  , Memory(std::max(memory, LeastMemory), ConversionMemory)
+  , Memory(std::max(memory, MinMemory), ConversionMemory)
   , Threads(threads)
   , Reported(progress)
 {

@@ -23,9 +23,9 @@ class SMG_EXPORT Workspace
 {
 public:
   /** The minimum memory of out-of-core operations, in bytes. */
-  static constexpr std::int64_t LeastMemory = std::int64_t(16) << 20;
+  static constexpr std::int64_t MinMemory = std::int64_t(16) << 20;
 
-  /** At most `memory` bytes are used, at least LeastMemory. Files are created in a new folder in
+  /** At most `memory` bytes are used, at least MinMemory. Files are created in a new folder in
    * `scratch`; empty: the system's temporary folder. They have at most `scratchLimit` bytes at
    * once; 0: any number. `threads`: see Workers. */
   Workspace(const std::filesystem::path& scratch, std::int64_t memory,

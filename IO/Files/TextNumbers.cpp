@@ -66,12 +66,12 @@ std::string_view TextNumbers::rest()
 {
   for (;;)
   {
-    const std::string_view text = this->File.at(this->At, MostLetters);
+    const std::string_view text = this->File.at(this->At, MaxLetters);
     const auto* const word = std::find_if_not(text.begin(), text.end(), isTextBlank);
     this->At += static_cast<std::size_t>(word - text.begin());
     const std::string_view rest(word, static_cast<std::size_t>(text.end() - word));
     const bool all = this->At + rest.size() >= this->File.size();
-    if (rest.size() >= MostLetters || all)
+    if (rest.size() >= MaxLetters || all)
     {
       return !rest.empty() && rest.front() == '<' ? std::string_view() : rest;
     }
@@ -92,7 +92,7 @@ std::size_t TextNumbers::readAs(T* values, std::size_t count)
     // Words that may be truncated at the end of the buffer are left for the next call.
     const bool all = this->At + text.size() >= this->File.size();
     const char* const end = text.data() + text.size();
-    const char* const last = all ? end : end - MostLetters + 1;
+    const char* const last = all ? end : end - MaxLetters + 1;
     const char* at = text.data();
     while (done < count && at < last && *at != '<')
     {

@@ -37,7 +37,7 @@ public:
 
 private:
   /** The maximum length of a number. */
-  static constexpr std::size_t MostLetters = 512;
+  static constexpr std::size_t MaxLetters = 512;
 
   /** The rest of the text from the next word on; empty at the end. */
   std::string_view rest();

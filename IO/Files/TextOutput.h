@@ -51,13 +51,13 @@ public:
   requires(std::integral<Number> || std::floating_point<Number>) TextOutput& operator<<(
     Number number)
   {
-    if (this->Text.size() - this->Used < MostDigits)
+    if (this->Text.size() - this->Used < MaxDigits)
     {
       this->flush();
     }
     char* const begin = this->Text.data() + this->Used;
     this->Used +=
-      static_cast<std::size_t>(std::to_chars(begin, begin + MostDigits, number).ptr - begin);
+      static_cast<std::size_t>(std::to_chars(begin, begin + MaxDigits, number).ptr - begin);
     return *this;
   }
 
@@ -110,7 +110,7 @@ public:
 private:
   static constexpr std::size_t BufferBytes = std::size_t(64) << 10;
   /** An upper bound of the characters of a number. */
-  static constexpr std::size_t MostDigits = 32;
+  static constexpr std::size_t MaxDigits = 32;
 
   void flush()
   {

@@ -38,7 +38,7 @@ void convert(std::string_view text, TextWord& word)
 
 } // namespace
 
-WordsAhead::WordsAhead(
+WordPrefetch::WordPrefetch(
   InputFile& file, Workspace& workspace, CharacterKinds kinds, std::size_t offset)
   : File(file)
   , Offset(offset)
@@ -51,7 +51,7 @@ WordsAhead::WordsAhead(
 {
 }
 
-const TextBlock* WordsAhead::next()
+const TextBlock* WordPrefetch::next()
 {
   if (this->Blocks.size() == 0 && !this->read())
   {
@@ -64,7 +64,7 @@ const TextBlock* WordsAhead::next()
   return &this->Current;
 }
 
-bool WordsAhead::read()
+bool WordPrefetch::read()
 {
   if (this->Offset >= this->File.size())
   {
@@ -81,20 +81,20 @@ bool WordsAhead::read()
   }
   TextBlock& block = this->Blocks.next();
   block.text.reserve(BlockBytes);
-  block.words.reserve(MostWords);
+  block.words.reserve(MaxWords);
   block.text.assign(text.begin(), text.end());
   this->Offset += text.size();
   this->Blocks.submit();
   return true;
 }
 
-void WordsAhead::findWords(TextBlock& block, const CharacterKinds& kinds)
+void WordPrefetch::findWords(TextBlock& block, const CharacterKinds& kinds)
 {
   block.words.clear();
   const char* const begin = block.text.data();
   const char* const end = begin + block.text.size();
   std::uint32_t line = 0;
-  for (const char* at = begin; at < end && block.words.size() < MostWords;)
+  for (const char* at = begin; at < end && block.words.size() < MaxWords;)
   {
     switch (kinds(*at))
     {
@@ -147,12 +147,12 @@ void TextScanner::moveTo(std::size_t offset)
 void TextScanner::readFrom(std::size_t offset)
 {
   const std::string_view bytes =
-    this->File.at(std::min(offset, this->File.size()), MostTokenBytes + 1);
+    this->File.at(std::min(offset, this->File.size()), MaxTokenBytes + 1);
   this->At = bytes.data();
   this->End = bytes.data() + bytes.size();
   this->EndOffset = std::min(offset, this->File.size()) + bytes.size();
   this->FarEnough =
-    this->EndOffset == this->File.size() ? this->End : this->End - (MostTokenBytes + 1);
+    this->EndOffset == this->File.size() ? this->End : this->End - (MaxTokenBytes + 1);
 }
 
 /** Continues in the next block whose words are found ahead, in the window if there is none. */
@@ -224,10 +224,10 @@ void TextScanner::skipBlanks()
 void TextScanner::startAhead()
 {
   const bool isLong = this->EndOffset < this->File.size();
-  if (isLong && this->Helpers && !this->Ahead && WordsAhead::isPossible(*this->Helpers))
+  if (isLong && this->Helpers && !this->Ahead && WordPrefetch::isPossible(*this->Helpers))
   {
     this->Ahead =
-      std::make_unique<WordsAhead>(this->File, *this->Helpers, this->Kinds, this->offset());
+      std::make_unique<WordPrefetch>(this->File, *this->Helpers, this->Kinds, this->offset());
   }
 }
 
@@ -245,9 +245,9 @@ std::string_view TextScanner::tokenHere()
     ++end;
   }
   const auto length = static_cast<std::size_t>(end - this->At);
-  if (length > MostTokenBytes)
+  if (length > MaxTokenBytes)
   {
-    this->fail("a word has more than " + std::to_string(MostTokenBytes) +
+    this->fail("a word has more than " + std::to_string(MaxTokenBytes) +
                " bytes: this is no text, or the file is damaged");
   }
   return { this->At, length };
@@ -343,11 +343,11 @@ std::int64_t TextScanner::toInteger(std::string_view token, const char* what) co
   return *value;
 }
 
-std::int64_t TextScanner::count(const char* what, std::size_t leastBytes)
+std::int64_t TextScanner::count(const char* what, std::size_t minBytes)
 {
   const std::int64_t value = this->integer(what);
   // The last item of a file needs no line end.
-  if (value < 0 || static_cast<std::uint64_t>(value) > (this->left() + 1) / leastBytes)
+  if (value < 0 || static_cast<std::uint64_t>(value) > (this->left() + 1) / minBytes)
   {
     this->fail(std::to_string(value) + " cannot be " + what + ": the file has " +
                std::to_string(this->left()) +

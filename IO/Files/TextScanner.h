@@ -89,7 +89,7 @@ struct TextBlock
  * The lines of a text in blocks, whose words other threads find and convert to numbers while the
  * owner takes the blocks before them.
  */
-class WordsAhead
+class WordPrefetch
 {
 public:
   static constexpr std::size_t BlockBytes = std::size_t(64) << 10;
@@ -102,7 +102,7 @@ public:
 
   /** From `offset` on, which is not inside of a word or a comment. The file must outlive it; its
    * window moves. */
-  WordsAhead(InputFile& file, Workspace& workspace, CharacterKinds kinds, std::size_t offset);
+  WordPrefetch(InputFile& file, Workspace& workspace, CharacterKinds kinds, std::size_t offset);
 
   /** The next block, valid until the next call; null at the end of the file, or where the rest of
    * a line is longer than a block. Throws Error, Cancelled. */
@@ -110,8 +110,8 @@ public:
 
 private:
   /** The maximum number of words that are found in a block: as lines of a mesh have. */
-  static constexpr std::size_t MostWords = BlockBytes / 4;
-  static constexpr std::int64_t MemoryBytes = BlockBytes + MostWords * sizeof(TextWord);
+  static constexpr std::size_t MaxWords = BlockBytes / 4;
+  static constexpr std::int64_t MemoryBytes = BlockBytes + MaxWords * sizeof(TextWord);
 
   static void findWords(TextBlock& block, const CharacterKinds& kinds);
   /** Reads the text of the next block; returns whether there is one. */
@@ -140,7 +140,7 @@ class TextScanner
 {
 public:
   /** The maximum length of a token. */
-  static constexpr std::size_t MostTokenBytes = std::size_t(64) << 10;
+  static constexpr std::size_t MaxTokenBytes = std::size_t(64) << 10;
 
   /** Starts at byte `begin`, which is in line `line` (counted from 1). `comment` starts a comment
    * up to the end of the line; 0: no comments. `helpers`: whose threads find tokens ahead; it must
@@ -183,9 +183,9 @@ public:
   double toNumber(std::string_view token, const char* what, bool finite = true) const;
   std::int64_t toInteger(std::string_view token, const char* what) const;
 
-  /** A count of following items, each of at least `leastBytes` bytes: an error if it is negative or
+  /** A count of following items, each of at least `minBytes` bytes: an error if it is negative or
    * more than the rest of the file can hold. */
-  std::int64_t count(const char* what, std::size_t leastBytes);
+  std::int64_t count(const char* what, std::size_t minBytes);
 
   /** The offset in the file of the next byte. */
   std::size_t offset() const
@@ -237,7 +237,7 @@ private:
   std::int64_t Line;
   CharacterKinds Kinds;
   Workspace* Helpers; ///< null: nothing is found ahead
-  std::unique_ptr<WordsAhead> Ahead;
+  std::unique_ptr<WordPrefetch> Ahead;
   // The block of `Ahead` with the bytes above, if there is one.
   const char* Text = nullptr;
   std::int64_t TextLine = 0; ///< the number of its first line

@@ -48,7 +48,7 @@ inline std::vector<BucketFile::Reader> readersOf(
   for (const RawColumn& column : columns)
   {
     readers.emplace_back(
-      column.tuples, 0, std::clamp(share, BucketFile::LeastChunkBytes, BucketFile::ChunkBytes / 4));
+      column.tuples, 0, std::clamp(share, BucketFile::MinChunkBytes, BucketFile::ChunkBytes / 4));
   }
   return readers;
 }

@@ -75,11 +75,11 @@ PreviewSource::PreviewSource(VsmReader& mesh, std::int64_t maximumPoints,
   const ProgressFunction& progress, const std::string& name, const std::filesystem::path& scratch)
   : Self(new Implementation{ { scratch, OrderMemory, partOf(progress, 0.95, 1.0) }, {}, {}, {} })
 {
-  if (maximumPoints < LeastPreviewPoints || maximumPoints > MostPreviewPoints)
+  if (maximumPoints < MinPreviewPoints || maximumPoints > MaxPreviewPoints)
   {
     throw Error("the limit of a preview is " + std::to_string(maximumPoints) +
-                " points; expected " + std::to_string(LeastPreviewPoints) + " to " +
-                std::to_string(MostPreviewPoints) + ".");
+                " points; expected " + std::to_string(MinPreviewPoints) + " to " +
+                std::to_string(MaxPreviewPoints) + ".");
   }
   const MeshPiece piece = makePreviewPiece(mesh, maximumPoints, partOf(progress, 0.0, 0.95));
   if (piece.corners.empty())

@@ -209,7 +209,7 @@ MeshPiece makeSolidPreview(
   const std::int64_t vertices = mesh.info().vertices;
   const std::int64_t most = vertices <= maximumPoints ? maximumPoints
                                                       : std::clamp(vertices / VerticesPerPoint,
-                                                          LeastPreviewPoints, maximumPoints);
+                                                          MinPreviewPoints, maximumPoints);
   Progress done(progress);
   const auto rising = [&done](double part)
   {
@@ -235,7 +235,7 @@ using SolidPoint = SolidClusters::Point;
 
 /** Tetrahedra with less than this share of the volume between lattice points are flat: their
  * weights would exceed all others. */
-constexpr double LeastVolume = 0.05;
+constexpr double MinVolume = 0.05;
 
 /** The number of tetrahedra between lattice points that meet at one of them. */
 constexpr std::size_t AroundAPoint = 24;
@@ -339,7 +339,7 @@ void SolidClusters::add(const Tetrahedron& clusters, const std::array<Point, 4>&
 
 std::vector<SolidClusters::Tetrahedron> SolidClusters::tetrahedra() const
 {
-  const double least = this->Grid ? LeastVolume * this->Grid->tetrahedronVolume() : 0.0;
+  const double least = this->Grid ? MinVolume * this->Grid->tetrahedronVolume() : 0.0;
   const auto point = [this](int cluster) -> const Point&
   { return this->Clusters[static_cast<std::size_t>(cluster)].point; };
   std::vector<Tetrahedron> kept;

@@ -73,13 +73,13 @@ MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& col
 } // namespace
 
 MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
-  const ProgressFunction& progress, std::int64_t mostMemory)
+  const ProgressFunction& progress, std::int64_t maxMemory)
 {
   Progress done(progress);
   Workers workers(mesh.info().cells > CellsOfOneThread ? 0 : 1);
   SolidBoundary triangles(mesh);
   StreamSimplifier simplifier(triangles, { .vertices = maximumPoints },
-    std::min(memoryFor(maximumPoints, mesh.info()), mostMemory), workers,
+    std::min(memoryFor(maximumPoints, mesh.info()), maxMemory), workers,
     [&done](double share) { done.update(share); });
   SurfacePart surface;
   for (StreamSimplifier::Result result; simplifier.next(result);)

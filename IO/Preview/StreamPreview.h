@@ -16,7 +16,7 @@ namespace smg
 
 /**
  * Reads the mesh stream once and creates a preview: the surface simplified by edge collapse to at
- * most `maximumPoints` points (LeastPreviewPoints to MostPreviewPoints), in stream order; of
+ * most `maximumPoints` points (MinPreviewPoints to MaxPreviewPoints), in stream order; of
  * tetrahedra, their outer surface. Each point is a vertex of the mesh, with the columns of the
  * stream and a normal: the mean of the triangles around it by their angles. A mesh of fewer points
  * is returned unchanged. No vertex is a ghost.
@@ -24,11 +24,11 @@ namespace smg
  * Where the edges of a mesh cannot be collapsed, vertices near one another are merged instead.
  *
  * Memory is bounded by that of StreamSimplifier, which is what the number of points and the width
- * of the stream ask for, but at most `mostMemory` bytes. Throws Error and Cancelled.
+ * of the stream ask for, but at most `maxMemory` bytes. Throws Error and Cancelled.
  */
 SMG_EXPORT MeshPiece makePreview(MeshSource& mesh,
   std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {},
-  std::int64_t mostMemory = std::numeric_limits<std::int64_t>::max());
+  std::int64_t maxMemory = std::numeric_limits<std::int64_t>::max());
 
 /** The error message for an empty preview of a mesh that is not empty. */
 SMG_EXPORT std::string emptyPreview(std::int64_t maximumPoints);

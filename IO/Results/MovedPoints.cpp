@@ -17,7 +17,7 @@ namespace
 {
 
 /** A triangle is collapsed if its smallest stretch is at most this part of its largest. */
-constexpr double LeastStretch = 1e-3;
+constexpr double MinStretch = 1e-3;
 
 /** The edges of a cell from its first corner, over the largest of their components. */
 struct Edges
@@ -133,7 +133,7 @@ std::optional<double> InvertedCells::ratio(const Corners& corners) const
   const double size = moved.size / rest.size;
   const double ratio =
     isSurface ? stretchRatio(rest, moved) : moved.volume() / rest.volume() * size * size * size;
-  const bool isInverted = ratio <= (isSurface ? LeastStretch : 0.0);
+  const bool isInverted = ratio <= (isSurface ? MinStretch : 0.0);
   return isInverted ? std::optional(ratio == 0.0 ? 0.0 : ratio) : std::nullopt; // no -0
 }
 

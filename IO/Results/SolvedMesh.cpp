@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/SolvedMesh.h"
 
-#include "IO/Results/SourceAhead.h"
+#include "IO/Results/SourcePrefetch.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
@@ -39,7 +39,7 @@ struct SolvedMesh::Implementation
 {
   Implementation(
     const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
-    : source(std::make_unique<SourceAhead>(mesh.source(), options.threads))
+    : source(std::make_unique<SourcePrefetch>(mesh.source(), options.threads))
     , results(source->info(), problem, solution, options)
     , wanted(options)
     , info(source->info())

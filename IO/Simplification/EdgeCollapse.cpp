@@ -22,7 +22,7 @@ constexpr double BoundaryWeight = 10.0;
 /** Where the topology may change, it does for an error that is four times smaller than others. */
 constexpr float PinchWorth = 16.0F;
 /** The least cosine of the angle by which a triangle may turn. */
-constexpr double LeastCosine = 0.2;
+constexpr double MinCosine = 0.2;
 
 /** A collapse of `from` onto `to`. */
 struct Collapse
@@ -254,8 +254,8 @@ private:
         const Vector before = cross(edge, difference(this->point(from), this->point(a)));
         const Vector after = cross(edge, difference(this->point(to), this->point(a)));
         const double product = dot(before, after), size = dot(before, before);
-        return size > 0.0 && !(product > 0.0 && product * product > LeastCosine * LeastCosine *
-                                                                      size * dot(after, after));
+        return size > 0.0 && !(product > 0.0 && product * product >
+                                                  MinCosine * MinCosine * size * dot(after, after));
       });
   }
 

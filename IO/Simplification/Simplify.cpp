@@ -35,25 +35,25 @@ namespace
 
 void check(const SimplifyOptions& options)
 {
-  constexpr std::int64_t LeastVertices = 4, LeastMemory = std::int64_t(16) << 20;
+  constexpr std::int64_t MinVertices = 4, MinMemory = std::int64_t(16) << 20;
   if (options.vertices == 0 && options.error == 0.0)
   {
     throw Error("a simplification needs the number of vertices or the error of its result");
   }
-  if (options.vertices != 0 && options.vertices < LeastVertices)
+  if (options.vertices != 0 && options.vertices < MinVertices)
   {
     throw Error("a simplified mesh of " + std::to_string(options.vertices) +
-                " vertices is asked for; expected at least " + std::to_string(LeastVertices));
+                " vertices is asked for; expected at least " + std::to_string(MinVertices));
   }
   if (!std::isfinite(options.error) || options.error < 0.0)
   {
     throw Error("the error of a simplification is " + std::to_string(options.error) +
                 "; expected a length above 0, or 0 for what the number of vertices needs");
   }
-  if (options.memoryLimit < LeastMemory)
+  if (options.memoryLimit < MinMemory)
   {
     throw Error("the memory limit of a simplification is " + mebibytes(options.memoryLimit) +
-                "; expected at least " + mebibytes(LeastMemory));
+                "; expected at least " + mebibytes(MinMemory));
   }
   if (!options.checkpoint.empty() && options.meshIdentity.empty())
   {

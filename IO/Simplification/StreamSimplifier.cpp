@@ -19,7 +19,7 @@ constexpr PoolUse SimplificationMemory{ "the simplification",
   "raise the memory limit, or convert the mesh with the order bfs" };
 
 /** The least number of triangles of a window. */
-constexpr std::int64_t LeastWindow = 20000;
+constexpr std::int64_t MinWindow = 20000;
 /** The window has the triangles of so many parts. */
 constexpr std::int64_t PartsOfWindow = 3;
 /** The least share of its vertices that a part keeps: more, where that is not many times what is
@@ -46,7 +46,7 @@ std::size_t partOf(std::int64_t memory, const StreamInfo& info)
   constexpr std::int64_t Most = std::int64_t(1) << 29; // the corners of a window have 32 bits
   const auto share = static_cast<std::int64_t>(0.45 * static_cast<double>(memory));
   return static_cast<std::size_t>(
-    std::clamp(share / bytesOfTriangle(info), LeastWindow, Most) / PartsOfWindow);
+    std::clamp(share / bytesOfTriangle(info), MinWindow, Most) / PartsOfWindow);
 }
 
 } // namespace

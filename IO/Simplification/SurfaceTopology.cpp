@@ -12,7 +12,7 @@ namespace
 {
 
 /** A vertex of more triangles does not go, and no other one goes to it. */
-constexpr std::size_t MostTriangles = 512;
+constexpr std::size_t MaxTriangles = 512;
 
 } // namespace
 
@@ -80,7 +80,7 @@ void SurfaceTopology::classify(std::uint32_t v)
   const std::size_t triangles = this->Pairs.size();
   this->IsBoundary[v] = neighbours != triangles ? 1 : 0;
   // To look at all triangles of a hub for each of its edges would take the square of their number.
-  const bool isHub = triangles > MostTriangles;
+  const bool isHub = triangles > MaxTriangles;
   this->IsFixed[v] =
     isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? 1 : 0;
 }
@@ -124,7 +124,7 @@ bool SurfaceTopology::isFan()
 
 SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint32_t to)
 {
-  if (this->star(to).size() > MostTriangles)
+  if (this->star(to).size() > MaxTriangles)
   {
     return Change::Impossible;
   }

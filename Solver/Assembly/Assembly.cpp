@@ -167,22 +167,22 @@ void Assembly::collectVertex(std::int64_t i)
   this->Cells.edges.take(i, open.points, made.neighbours);
   const std::size_t end = made.neighbours.size();
   this->Reach.close(i, end == before ? i : std::max(i, made.neighbours.back().to));
-  const double alpha = this->Cells.loads.close(i);
+  const double rowSum = this->Cells.loads.close(i);
   const double* load = this->Cells.loads.load();
   made.loads.insert(made.loads.end(), load, load + open.values.lanes());
   const double mass = open.mass[i];
-  const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, alpha);
+  const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, rowSum);
   const bool isUndetermined = isKnown && open.dirichlet[i] < 0;
   // A vertex with only flat cells has no component, but may have a facet.
   const std::int32_t root =
     isUndetermined ? this->Cells.parts.closeUndetermined(i) : this->Cells.parts.close(i, mass);
-  if (root >= 0 && (alpha > 0.0 || isKnown))
+  if (root >= 0 && (rowSum > 0.0 || isKnown))
   {
     this->Parts.anchor(root);
   }
   // The root depends on which later cells are in the block, the label does not.
   const bool counts = root >= 0 && this->Parts.isFree(root);
-  made.vertices.push_back({ end, alpha, mass, this->Reach[i],
+  made.vertices.push_back({ end, rowSum, mass, this->Reach[i],
     this->Cells.policy.own() ? open.scale[i] : 1.0F, counts ? this->Cells.parts.label(i) : -1 });
 }
 

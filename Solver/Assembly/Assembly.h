@@ -7,7 +7,7 @@
 #include "Solver/Assembly/RowAssembly.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
-#include "Solver/Multigrid/Setup/StiffRows.h"
+#include "Solver/Multigrid/Setup/SliverRows.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 
@@ -21,17 +21,17 @@ namespace smg
 /**
  * Converts the mesh stream to the rows of the finest level: weights are summed per edge while cells
  * arrive; when a vertex is final, its row, right-hand side and initial value are appended to
- * `rows`. Constrained vertices are nodes with an empty row; they contribute to alpha and b of their
- * neighbours.
+ * `rows`. Constrained vertices are nodes with an empty row; they contribute to rowSum and b of
+ * their neighbours.
  */
 class SMG_EXPORT Assembly
 {
 public:
   /** The detection of the stiff rows of a level for a problem on such cells with these `rows`. */
-  static StiffRows stiffRows(CellType type, Weights weights, const AssembledRows& rows)
+  static SliverRows stiffRows(CellType type, Weights weights, const AssembledRows& rows)
   {
     const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
-    return may ? StiffRows(StiffRows::Triangles, rows.weightScale) : StiffRows();
+    return may ? SliverRows(SliverRows::Triangles, rows.weightScale) : SliverRows();
   }
 
   /** `listener`, if given, receives the data that the rows do not store. */
@@ -74,10 +74,10 @@ public:
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }
   /** The data of the cells. */
-  const WeightPolicy& weights() const { return this->Cells.policy; }
+  const StiffnessRules& weights() const { return this->Cells.policy; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
-  /** See StiffRows. */
+  /** See SliverRows. */
   std::int64_t stiffRows() const { return this->Rows.stiff(); }
   /** ||b - A x_0|| of the completed rows. */
   const InitialResidual& residual() const { return this->Rows.residual(); }
@@ -99,7 +99,7 @@ private:
   // By open vertex.
   CellAssembly Cells;
   // Of a block each, and not accounted for: a constant times the block of the mesh source.
-  WeighedCells Weighed, Connected; // the latter are those that connect() takes
+  ElementMatrices Weighed, Connected; // the latter are those that connect() takes
   NeighbourReach Reach;
 
   EdgeTargets Targets;

@@ -48,7 +48,7 @@ void CellAssembly::reserve(std::int64_t vertices)
   this->loads.reserve(vertices);
 }
 
-void CellAssembly::weigh(const MeshBlock& block, WeighedCells& to)
+void CellAssembly::weigh(const MeshBlock& block, ElementMatrices& to)
 {
   this->addVertices(block);
   const std::size_t cells = cellsOf(block, this->Type);
@@ -58,7 +58,7 @@ void CellAssembly::weigh(const MeshBlock& block, WeighedCells& to)
   to.finalized = block.finalized;
 }
 
-void CellAssembly::connect(const WeighedCells& cells)
+void CellAssembly::connect(const ElementMatrices& cells)
 {
   this->extend(cells.vertices);
   this->connect(cells.cells);
@@ -78,7 +78,7 @@ void CellAssembly::extend(std::int64_t vertices)
 
 /** Weighs these cells of the block. */
 void CellAssembly::weigh(
-  const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<WeighedCell>& to)
+  const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<ElementMatrix>& to)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
   const Column* flags = block.flags();
@@ -91,7 +91,8 @@ void CellAssembly::weigh(
 }
 
 /** Weighs the prepared cell. */
-void CellAssembly::weigh(const std::int64_t* corners, unsigned flags, std::vector<WeighedCell>& to)
+void CellAssembly::weigh(
+  const std::int64_t* corners, unsigned flags, std::vector<ElementMatrix>& to)
 {
   const double* points[4] = {};
   const int count = cornersOf(this->Type);
@@ -103,7 +104,7 @@ void CellAssembly::weigh(const std::int64_t* corners, unsigned flags, std::vecto
   const bool degenerate = weights.measure == 0.0;
   if (!degenerate || this->policy.connectsFlat(corners, flags))
   {
-    WeighedCell& cell = to.emplace_back();
+    ElementMatrix& cell = to.emplace_back();
     std::copy_n(corners, count, cell.corners);
     cell.weights = weights;
     cell.scale = this->policy.scale();
@@ -114,15 +115,15 @@ void CellAssembly::weigh(const std::int64_t* corners, unsigned flags, std::vecto
   }
 }
 
-void CellAssembly::connect(std::span<const WeighedCell> cells)
+void CellAssembly::connect(std::span<const ElementMatrix> cells)
 {
-  for (const WeighedCell& cell : cells)
+  for (const ElementMatrix& cell : cells)
   {
     this->connect(cell);
   }
 }
 
-void CellAssembly::connect(const WeighedCell& cell)
+void CellAssembly::connect(const ElementMatrix& cell)
 {
   const int count = cornersOf(this->Type);
   this->parts.join(cell.corners, count);

@@ -19,17 +19,17 @@ namespace smg
 {
 
 /** A cell that connects its corners, with the weights of its edges, which are 0 if it is flat. */
-struct WeighedCell
+struct ElementMatrix
 {
   std::int64_t corners[4]; ///< 3 of a triangle
   CellWeights weights;
-  double scale; ///< see WeightPolicy::scale()
+  double scale; ///< see StiffnessRules::scale()
 };
 
 /** Consecutive cells of a mesh stream that connect their corners. */
-struct WeighedCells
+struct ElementMatrices
 {
-  std::vector<WeighedCell> cells;
+  std::vector<ElementMatrix> cells;
   std::int64_t vertices = 0;  ///< the end of those that the stream has had so far
   std::int64_t finalized = 0; ///< no later cell uses a vertex below
 
@@ -45,7 +45,7 @@ struct WeighedCells
  * loads and components. Assembly makes rows of it in stream order. */
 struct SMG_EXPORT CellAssembly
 {
-  /** `scale`: see WeightPolicy; `labels` receives the component of each closed vertex. */
+  /** `scale`: see StiffnessRules; `labels` receives the component of each closed vertex. */
   CellAssembly(Pool& pool, CellType type, Problem& problem, double& scale, Components& components,
     ComponentLabels& labels);
 
@@ -62,27 +62,27 @@ struct SMG_EXPORT CellAssembly
   void reserve(std::int64_t vertices);
   /** Adds the vertices of a block and the loads in its cells; `to` receives those of its cells that
    * connect their corners. Throws Error if the problem returns invalid data. */
-  void weigh(const MeshBlock& block, WeighedCells& to);
+  void weigh(const MeshBlock& block, ElementMatrices& to);
   /** Connects the corners of the cells. */
-  void connect(const WeighedCells& cells);
+  void connect(const ElementMatrices& cells);
 
-  WeightPolicy policy;
+  StiffnessRules policy;
   OpenVertices vertices;
   OpenComponents parts;
-  WeightedEdges edges;
+  EdgeStiffness edges;
   RowLoads loads;
 
 private:
   void addVertices(const MeshBlock& block);
   void extend(std::int64_t vertices);
   void weigh(
-    const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<WeighedCell>& to);
-  void weigh(const std::int64_t* corners, unsigned flags, std::vector<WeighedCell>& to);
-  void connect(std::span<const WeighedCell> cells);
-  void connect(const WeighedCell& cell);
+    const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<ElementMatrix>& to);
+  void weigh(const std::int64_t* corners, unsigned flags, std::vector<ElementMatrix>& to);
+  void connect(std::span<const ElementMatrix> cells);
+  void connect(const ElementMatrix& cell);
 
   CellType Type;
-  std::vector<WeighedCell> Weighed; // a batch of add()
+  std::vector<ElementMatrix> Weighed; // a batch of add()
 };
 
 } // namespace smg

@@ -10,7 +10,7 @@
 namespace smg
 {
 
-WeightedEdges::WeightedEdges(Pool& pool, const Problem& problem, CellType type)
+EdgeStiffness::EdgeStiffness(Pool& pool, const Problem& problem, CellType type)
   : Type(type)
   , Kind(problem.weights())
   , Edges(pool, OpenEdges::usual(type))
@@ -21,7 +21,7 @@ WeightedEdges::WeightedEdges(Pool& pool, const Problem& problem, CellType type)
   }
 }
 
-void WeightedEdges::extend(std::int64_t vertices)
+void EdgeStiffness::extend(std::int64_t vertices)
 {
   this->Edges.extend(vertices);
   if (this->Scales)
@@ -30,7 +30,7 @@ void WeightedEdges::extend(std::int64_t vertices)
   }
 }
 
-void WeightedEdges::release(std::int64_t first)
+void EdgeStiffness::release(std::int64_t first)
 {
   this->Edges.release(first);
   if (this->Scales)
@@ -39,7 +39,7 @@ void WeightedEdges::release(std::int64_t first)
   }
 }
 
-void WeightedEdges::take(
+void EdgeStiffness::take(
   std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours)
 {
   const std::size_t before = neighbours.size();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Assembly/Elements.h"
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/CellWeights.h"
@@ -183,7 +183,7 @@ private:
   }
   static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low)
   {
-    using Half = Lanes<std::uint32_t, Group / 2>;
+    using Half = SimdPack<std::uint32_t, Group / 2>;
     constexpr Half::Vector Low = { 1, 2, 4, 8 }, High = { 16, 32, 64, 128 };
     const auto lower = (Half::Vector)(Half::load(list) == low) & Low;
     const auto upper = (Half::Vector)(Half::load(list + Group / 2) == low) & High;
@@ -274,8 +274,8 @@ private:
  */
 using RowNeighbour = OpenEdge;
 
-/** The weight of an edge to a prescribed vertex in the system, where it contributes to alpha and b;
- * for finite elements it is not rounded. */
+/** The weight of an edge to a prescribed vertex in the system, where it contributes to rowSum and
+ * b; for finite elements it is not rounded. */
 inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
 {
   return weights == Weights::Cotangent ? neighbour.weight
@@ -290,7 +290,7 @@ inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
  * the conductivity its two sides may differ by orders of magnitude, and the floor of the strong
  * side would conduct through the weak one.
  */
-class SMG_EXPORT WeightedEdges
+class SMG_EXPORT EdgeStiffness
 {
 public:
   /** The weight of an edge that take() leaves out: another process has it. */
@@ -303,7 +303,7 @@ public:
     double scale; ///< the smallest one; 0: only of cells without measure, or not used
   };
 
-  WeightedEdges(Pool& pool, const Problem& problem, CellType type);
+  EdgeStiffness(Pool& pool, const Problem& problem, CellType type);
 
   void extend(std::int64_t vertices);
   void release(std::int64_t first);
@@ -348,7 +348,7 @@ public:
   void join(Sum& sum, const Sum& other) const
   {
     sum.weight = this->Kind == Weights::Uniform ? 1.0 : sum.weight + other.weight;
-    sum.scale = leastScale(sum.scale, other.scale);
+    sum.scale = minScale(sum.scale, other.scale);
   }
 
   /** Appends the neighbours of vertex `from`, the lowest open one, in ascending order; `points` are
@@ -383,7 +383,7 @@ private:
     }
   }
 
-  static double leastScale(double a, double b)
+  static double minScale(double a, double b)
   {
     return a > 0.0 && b > 0.0 ? std::min(a, b) : std::max(a, b);
   }
@@ -395,7 +395,7 @@ private:
     if (this->Scales)
     {
       double& least = this->Scales->weight(a, b);
-      least = leastScale(least, scale);
+      least = minScale(least, scale);
     }
   }
 

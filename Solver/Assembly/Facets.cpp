@@ -15,7 +15,7 @@ namespace
 {
 
 /** The facets of a vertex that are compared one after the other. */
-constexpr int MostWalked = 64;
+constexpr int MaxWalked = 64;
 
 } // namespace
 
@@ -54,7 +54,7 @@ OpenFacets::Found OpenFacets::findOrAdd(std::int64_t low, const Facet& facet)
     {
       return { slot, false };
     }
-    if (++walked == MostWalked)
+    if (++walked == MaxWalked)
     {
       return this->findInHub(low, facet);
     }
@@ -115,7 +115,7 @@ void OpenFacets::append(Hub& hub, std::int32_t slot)
   if (2 * static_cast<std::size_t>(hub.facets) >= entries)
   {
     const Hub before = std::exchange(hub,
-      { Buffer(*this->Memory, std::max<std::size_t>(2 * entries, 4 * MostWalked) * sizeof(slot)),
+      { Buffer(*this->Memory, std::max<std::size_t>(2 * entries, 4 * MaxWalked) * sizeof(slot)),
         hub.last, hub.facets });
     std::ranges::fill(hub.table.bytes(), std::byte{ 0 });
     const auto* const old = reinterpret_cast<const std::int32_t*>(before.table.data());

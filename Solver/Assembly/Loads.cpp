@@ -11,26 +11,26 @@ namespace smg
 VertexLoads::VertexLoads(Pool& pool, CellType type, int columns)
   : Type(type)
   , Columns(columns)
-  , Alpha(pool)
+  , RowSum(pool)
   , Load(pool, columns)
 {
 }
 
 void VertexLoads::extend(std::int64_t vertices)
 {
-  this->Alpha.extend(vertices);
+  this->RowSum.extend(vertices);
   this->Load.extend(vertices);
 }
 
 void VertexLoads::reserve(std::int64_t vertices)
 {
-  this->Alpha.reserveMore(vertices);
+  this->RowSum.reserveMore(vertices);
   this->Load.reserveMore(vertices);
 }
 
 void VertexLoads::release(std::int64_t first)
 {
-  this->Alpha.release(first);
+  this->RowSum.release(first);
   this->Load.release(first);
 }
 
@@ -44,7 +44,7 @@ void VertexLoads::add(
   double* loads[4] = {};
   for (int c = 0; c < count; ++c)
   {
-    this->Alpha[corners[c]] += mass * cells.screening();
+    this->RowSum[corners[c]] += mass * cells.screening();
     loads[c] = this->Load.at(corners[c]);
     for (int k = 0; k < this->Columns; ++k)
     {
@@ -69,11 +69,11 @@ void VertexLoads::add(const BoundaryFacet& facet, double area)
     {
       continue;
     }
-    const double alpha = share * facet.coefficient[c];
-    this->Alpha[facet.corners[c]] += alpha;
+    const double rowSum = share * facet.coefficient[c];
+    this->RowSum[facet.corners[c]] += rowSum;
     for (int k = 0; k < this->Columns; ++k)
     {
-      load[k] += alpha * facet.ambient[c * this->Columns + k];
+      load[k] += rowSum * facet.ambient[c * this->Columns + k];
     }
   }
 }
@@ -143,7 +143,7 @@ double RowLoads::close(std::int64_t i)
     this->addBoundary(i);
   }
   const double mass = this->Vertices.mass[i];
-  double alpha = this->Vertices.screening[i] * mass;
+  double rowSum = this->Vertices.screening[i] * mass;
   for (std::size_t k = 0; k < this->Load.size(); ++k)
   {
     this->Load[k] = mass * this->Vertices.sources.at(i)[k];
@@ -152,14 +152,14 @@ double RowLoads::close(std::int64_t i)
   {
     if (*loads)
     {
-      alpha += (*loads)->alpha(i);
+      rowSum += (*loads)->rowSum(i);
       for (std::size_t k = 0; k < this->Load.size(); ++k)
       {
         this->Load[k] += (*loads)->load(i)[k];
       }
     }
   }
-  return alpha;
+  return rowSum;
 }
 
 /**

@@ -34,14 +34,14 @@ public:
   /** Adds flux and heat transfer of a facet with this length or area. */
   void add(const BoundaryFacet& facet, double area);
 
-  double alpha(std::int64_t i) const { return this->Alpha[i]; }
+  double rowSum(std::int64_t i) const { return this->RowSum[i]; }
   /** `columns` numbers. */
   const double* load(std::int64_t i) const { return this->Load.at(i); }
 
 private:
   CellType Type;
   int Columns;
-  Ring<double> Alpha, Load;
+  Ring<double> RowSum, Load;
 };
 
 /** The contributions of sources, screening and boundary conditions, at vertices, in cells or on

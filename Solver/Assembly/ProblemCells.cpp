@@ -175,7 +175,7 @@ void addFieldLoads(const ProblemCells& own, CellType type, const double* const* 
   }
 }
 
-WeightPolicy::WeightPolicy(CellType type, Problem& problem, double& scale)
+StiffnessRules::StiffnessRules(CellType type, Problem& problem, double& scale)
   : Type(type)
   , Kind(problem.weights())
   , ConnectsFlat(problem.connectsFlatCells())
@@ -187,7 +187,7 @@ WeightPolicy::WeightPolicy(CellType type, Problem& problem, double& scale)
   }
 }
 
-CellWeights WeightPolicy::weigh(
+CellWeights StiffnessRules::weigh(
   const std::int64_t* corners, const double* const* points, unsigned flags)
 {
   CellWeights cell;
@@ -216,10 +216,10 @@ CellWeights WeightPolicy::weigh(
   return flatness < 1.0 ? this->limited(cell, flatness) : cell;
 }
 
-CellWeights WeightPolicy::limited(CellWeights cell, double flatness)
+CellWeights StiffnessRules::limited(CellWeights cell, double flatness)
 {
   ++this->Limited;
-  this->LeastFlatness = std::min(this->LeastFlatness, flatness);
+  this->MinFlatness = std::min(this->MinFlatness, flatness);
   for (double& weight : cell.weight)
   {
     weight *= flatness;
@@ -227,7 +227,7 @@ CellWeights WeightPolicy::limited(CellWeights cell, double flatness)
   return cell;
 }
 
-bool WeightPolicy::connectsFlat(const std::int64_t* corners, unsigned flags) const
+bool StiffnessRules::connectsFlat(const std::int64_t* corners, unsigned flags) const
 {
   return this->ConnectsFlat && isDistinctCell(corners, cornersOf(this->Type), flags);
 }

@@ -85,14 +85,14 @@ void addFieldLoads(const ProblemCells& own, CellType type, const double* const* 
 
 /**
  * The weights of a cell for its edges: those of finite elements or of the problem, and, with
- * Weights::Cotangent, scaled down if the cell is too flat. WeightedEdges processes their sums over
+ * Weights::Cotangent, scaled down if the cell is too flat. EdgeStiffness processes their sums over
  * the cells of an edge.
  */
-class WeightPolicy
+class StiffnessRules
 {
 public:
   /** `scale` is set to the size of the weights of the problem, see AssembledRows::weightScale. */
-  WeightPolicy(CellType type, Problem& problem, double& scale);
+  StiffnessRules(CellType type, Problem& problem, double& scale);
 
   /** Prepares cell `c` of the block; see ProblemCells::prepare(). */
   void prepare(const MeshBlock& block, std::size_t c, const Ring<double>& points)
@@ -120,7 +120,7 @@ public:
   /** With cotangent weights: the number of cells whose stiffness was scaled down, and the least
    * factor. */
   std::int64_t limitedCells() const { return this->Limited; }
-  double leastFlatness() const { return this->LeastFlatness; }
+  double minFlatness() const { return this->MinFlatness; }
 
 private:
   CellWeights limited(CellWeights cell, double flatness);
@@ -132,7 +132,7 @@ private:
   double& Scale;
   bool Scaled = false; // Scale is known
   std::int64_t Degenerate = 0, Coincident = 0, Limited = 0;
-  double LeastFlatness = 1.0;
+  double MinFlatness = 1.0;
 };
 
 } // namespace smg

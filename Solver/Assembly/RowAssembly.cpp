@@ -2,7 +2,7 @@
 #include "Solver/Assembly/RowAssembly.h"
 
 #include "Solver/Assembly/RowSums.h"
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ namespace
 std::int32_t distance(std::int64_t i, std::int64_t j)
 {
   const std::int64_t delta = j - i;
-  if (delta > RowEntry::MostDistance || delta < -RowEntry::MostDistance)
+  if (delta > RowEntry::MaxDistance || delta < -RowEntry::MaxDistance)
   {
     throw Error("vertices " + std::to_string(i) + " and " + std::to_string(j) +
                 " share an edge but lie too far apart in the stream: convert the mesh with the "
@@ -66,7 +66,7 @@ std::int32_t distance(std::int64_t i, std::int64_t j)
 } // namespace
 
 RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& problem,
-  AssembledRows& rows, Components& components, StiffRows stiff, RowListener* listener)
+  AssembledRows& rows, Components& components, SliverRows stiff, RowListener* listener)
   : Vertices(vertices)
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Type(type)
@@ -88,7 +88,7 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   const std::size_t begin = made.begin(k);
   const double* x = this->Vertices.values.at(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
-  if (isKnown(this->Vertices.dirichlet[i], vertex.end - begin, vertex.alpha))
+  if (isKnown(this->Vertices.dirichlet[i], vertex.end - begin, vertex.rowSum))
   {
     this->closeKnown(i);
     return;
@@ -96,12 +96,12 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   const double* load = made.loads.data() + k * this->Columns;
   std::copy_n(load, this->Columns, this->B.data());
   std::copy_n(load, this->Columns, this->Constraint.data());
-  this->Alpha = vertex.alpha;
+  this->RowSum = vertex.rowSum;
   this->Scale = static_cast<double>(vertex.scale);
   this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
     made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
-  this->raise(i);
-  this->Out.rows.close(this->Size, this->Alpha, -1, this->Stiff(this->Least),
+  this->regularise(i);
+  this->Out.rows.close(this->Size, this->RowSum, -1, this->Stiff(this->Least),
     this->AnyPrecise ? this->weights() : std::span<const double>());
   this->Out.b.insert(this->Out.b.end(), this->B.begin(), this->B.end());
   if (this->Listener)
@@ -207,7 +207,7 @@ void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
     return;
   }
   constexpr double Cancelling = 1e-2;
-  double diagonal = this->Alpha, terms = 0.0;
+  double diagonal = this->RowSum, terms = 0.0;
   for (const double weight : this->weights())
   {
     diagonal += weight;
@@ -228,13 +228,13 @@ void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
   this->AnyPrecise = this->Size > 0;
 }
 
-/** Adds the weight of a prescribed neighbour to alpha and b. */
+/** Adds the weight of a prescribed neighbour to rowSum and b. */
 void RowAssembly::addKnown(
   std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
   const double weight = knownWeight(this->Kind, neighbour);
   const double* value = this->Vertices.values.at(neighbour.to);
-  this->Alpha += weight;
+  this->RowSum += weight;
   this->addEdge(i, neighbour, weight);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
@@ -262,15 +262,16 @@ void RowAssembly::addTarget(double weight, const double* target)
 }
 
 /** Keeps the vertex near its initial value if its diagonal is lost in rounding. */
-void RowAssembly::raise(std::int64_t i)
+void RowAssembly::regularise(std::int64_t i)
 {
-  this->Raise = this->Kind == Weights::Cotangent ? rowShortfall(this->weights(), this->Alpha) : 0.0;
+  this->Raise =
+    this->Kind == Weights::Cotangent ? lostDiagonal(this->weights(), this->RowSum) : 0.0;
   if (this->Raise == 0.0)
   {
     return;
   }
   ++this->Raised;
-  this->Alpha += this->Raise;
+  this->RowSum += this->Raise;
   const double* x = this->Vertices.values.at(i);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
@@ -282,10 +283,10 @@ void RowAssembly::raise(std::int64_t i)
 /** Adds the row to the sums over all rows and over its component. */
 void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
 {
-  const double share = commonShare(vertex.alpha + (this->Edges - this->Ordinary), this->Ordinary);
+  const double share = commonShare(vertex.rowSum + (this->Edges - this->Ordinary), this->Ordinary);
   const AssembledRow row{ i, this->Row, this->weights(),
-    usableDiagonal(
-      std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->Alpha)) };
+    nonZeroDiagonal(
+      std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->RowSum)) };
   const std::span<const double> residual = this->Residual.add(row, this->B, share);
   const double* x = this->Vertices.values.at(i);
   if (this->Raise > 0.0)

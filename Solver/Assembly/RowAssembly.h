@@ -4,12 +4,12 @@
 #include "Solver/Assembly/Components.h"
 #include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Setup/LevelRows.h"
 #include "Solver/Multigrid/Setup/RowBatch.h"
-#include "Solver/Multigrid/Setup/StiffRows.h"
+#include "Solver/Multigrid/Setup/SliverRows.h"
 #include "smg/Problem.h"
 
 #include <cstddef>
@@ -62,7 +62,7 @@ public:
   struct Vertex
   {
     std::size_t end; ///< of its edges in `neighbours`
-    double alpha;    ///< contribution to the diagonal
+    double rowSum;   ///< contribution to the diagonal
     double mass;
     std::int64_t reach; ///< the largest neighbour of this and all earlier vertices
     float scale;        ///< see OpenVertices
@@ -165,12 +165,12 @@ class RowAssembly
 {
 public:
   RowAssembly(CellType type, const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
-    Components& components, StiffRows stiff, RowListener* listener);
+    Components& components, SliverRows stiff, RowListener* listener);
 
   /** Whether a vertex is not an unknown: prescribed, or without any data that determine it. */
-  static bool isKnown(std::int32_t dirichlet, std::size_t neighbours, double alpha)
+  static bool isKnown(std::int32_t dirichlet, std::size_t neighbours, double rowSum)
   {
-    return dirichlet >= 0 || (neighbours == 0 && alpha == 0.0);
+    return dirichlet >= 0 || (neighbours == 0 && rowSum == 0.0);
   }
 
   /** Adds the next row, of vertex number k of `made`. */
@@ -179,7 +179,7 @@ public:
   std::int64_t prescribed() const { return this->Prescribed; }
   /** The number of vertices without any data that determine them. */
   std::int64_t held() const { return this->Held; }
-  /** See rowShortfall(). */
+  /** See lostDiagonal(). */
   std::int64_t raised() const { return this->Raised; }
   std::int64_t stiff() const { return this->Stiff.found(); }
   /** The residual of the initial values; rows dominated by slivers, screening and the like count as
@@ -197,7 +197,7 @@ private:
   void addTarget(double weight, const double* target);
   void sharpen(std::span<const RowNeighbour> neighbours);
   bool addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight);
-  void raise(std::int64_t i);
+  void regularise(std::int64_t i);
   void count(std::int64_t i, const FinalVertices::Vertex& vertex);
   std::span<const double> weights() const
   {
@@ -210,13 +210,13 @@ private:
   Weights Kind;
   AssembledRows& Out;
   Components& Parts;
-  StiffRows Stiff;
+  SliverRows Stiff;
   RowListener* Listener;
 
   // The current row.
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
-  double Alpha = 0.0;
+  double RowSum = 0.0;
   double Scale = 0.0;                 // of the weights of its cells
   double Edges = 0.0, Ordinary = 0.0; // magnitudes of weights, and what regular cells may have
   double Raise = 0.0;

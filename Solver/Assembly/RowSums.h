@@ -18,7 +18,7 @@ namespace smg
  * added to its diagonal stays near its initial value.
  * `terms` is the sum of the magnitudes of what the diagonal sums up.
  */
-inline double diagonalShortfall(double diagonal, double terms)
+inline double lostDiagonalOf(double diagonal, double terms)
 {
   // Also for double precision: the data derived from the row have single precision.
   constexpr double Rounding = 1e-8;
@@ -26,17 +26,17 @@ inline double diagonalShortfall(double diagonal, double terms)
   return std::max(0.0, least - diagonal);
 }
 
-/** That of a row with entries of these weights, and `alpha` added to its diagonal. */
-inline double rowShortfall(std::span<const double> weights, double alpha)
+/** That of a row with entries of these weights, and `rowSum` added to its diagonal. */
+inline double lostDiagonal(std::span<const double> weights, double rowSum)
 {
-  double terms = std::fabs(alpha);
-  double diagonal = alpha;
+  double terms = std::fabs(rowSum);
+  double diagonal = rowSum;
   for (const double weight : weights)
   {
     diagonal += weight;
     terms += std::fabs(weight);
   }
-  return diagonalShortfall(diagonal, terms);
+  return lostDiagonalOf(diagonal, terms);
 }
 
 /**

@@ -19,10 +19,10 @@ namespace smg
  * the steps so far come first, so that the threads become idle at about the same time (Graham,
  * 1969). Only task 0 is always the first one.
  */
-class LongestFirst
+class LongestTaskFirst
 {
 public:
-  explicit LongestFirst(int tasks)
+  explicit LongestTaskFirst(int tasks)
     : Order(static_cast<std::size_t>(tasks))
     , Seconds(static_cast<std::size_t>(tasks))
   {

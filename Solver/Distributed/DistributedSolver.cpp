@@ -187,7 +187,7 @@ enum Tag
 };
 
 /** Values are sent in pieces of this number of vertices. */
-constexpr std::int64_t MostVertices = std::int64_t(1) << 20;
+constexpr std::int64_t MaxVertices = std::int64_t(1) << 20;
 
 /** The values of own vertices, by stream index. */
 const double* valuesOf(
@@ -226,7 +226,7 @@ public:
     {
       const int owner = this->Vertices.ownerOf(first);
       const std::int64_t part =
-        std::min({ count, this->Vertices.endOf(owner) - first, MostVertices });
+        std::min({ count, this->Vertices.endOf(owner) - first, MaxVertices });
       this->readFrom(owner, { first, part }, to);
       first += part;
       count -= part;

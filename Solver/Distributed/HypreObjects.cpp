@@ -20,10 +20,10 @@ HypreRows::HypreRows(std::int64_t first, std::int64_t last, std::int64_t all)
                 " vertices, more than this build of hypre can count: build with a hypre that has "
                 "64-bit or mixed integers, or use the streaming engine");
   }
-  if (last - first > mostPartVertices())
+  if (last - first > maxPartVertices())
   {
     throw Error("a process has " + std::to_string(last - first) + " vertices, more than the " +
-                std::to_string(mostPartVertices()) +
+                std::to_string(maxPartVertices()) +
                 " that this build of hypre can have in a process: use more processes");
   }
 }

@@ -85,7 +85,7 @@ void PartAssembly::addEdges(std::vector<double>& sums)
   for (std::int64_t i = 0; i < this->Vertices.vertices(); ++i)
   {
     double* of = sums.data() + i * this->lanes();
-    of[Alpha] = this->Cells.loads.close(i);
+    of[RowSum] = this->Cells.loads.close(i);
     of[Mass] = this->Cells.vertices.mass[i];
     std::copy_n(this->Cells.loads.load(), this->Columns, of + Load);
     this->LabelOf.push_back(this->Cells.parts.close(i, of[Mass]));
@@ -182,13 +182,13 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
     }
     const SharedComponents::Place place = system.components->of(static_cast<std::int64_t>(k));
     const bool isKnown = this->isKnown(i);
-    const bool isHeld = !isKnown && of[Edges] == 0.0 && of[Alpha] == 0.0;
+    const bool isHeld = !isKnown && of[Edges] == 0.0 && of[RowSum] == 0.0;
     this->Prescribed += isKnown ? 1 : 0;
     if (isHeld)
     {
       system.undetermined.push_back(static_cast<std::int64_t>(k));
     }
-    if (place.components && (isKnown || isHeld || of[Alpha] > 0.0))
+    if (place.components && (isKnown || isHeld || of[RowSum] > 0.0))
     {
       place.components->anchor(place.label);
     }
@@ -204,14 +204,14 @@ void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& 
 {
   const auto row = static_cast<std::size_t>(k);
   const double edges = sums[Diagonal];
-  const double raise = this->Kind == Weights::Cotangent ? diagonalShortfall(sums[Alpha] + edges,
-                                                            std::fabs(sums[Alpha]) + sums[Terms])
+  const double raise = this->Kind == Weights::Cotangent ? lostDiagonalOf(sums[RowSum] + edges,
+                                                            std::fabs(sums[RowSum]) + sums[Terms])
                                                         : 0.0;
   this->Raised += raise > 0.0 ? 1 : 0;
   this->IsUnknown[row] = 1;
-  this->Diagonals[row] = sums[Alpha] + edges + raise;
+  this->Diagonals[row] = sums[RowSum] + edges + raise;
   system.mass[row] = sums[Mass];
-  system.share[row] = commonShare(sums[Alpha] + (sums[Terms] - sums[Ordinary]), sums[Ordinary]);
+  system.share[row] = commonShare(sums[RowSum] + (sums[Terms] - sums[Ordinary]), sums[Ordinary]);
   std::vector<double> x(static_cast<std::size_t>(this->Columns));
   for (std::size_t c = 0; c < x.size(); ++c)
   {
@@ -285,7 +285,7 @@ void PartAssembly::add(
 void PartAssembly::count(PartSystem& system) const
 {
   Team& team = this->Vertices.team();
-  const WeightPolicy& policy = this->Cells.policy;
+  const StiffnessRules& policy = this->Cells.policy;
   const auto cells = static_cast<std::int64_t>(this->Part.block.corners.size()) /
                      cornersOf(this->Part.info.cellType);
   const std::int64_t unknowns = std::ranges::count(this->IsUnknown, 1);
@@ -294,7 +294,7 @@ void PartAssembly::count(PartSystem& system) const
     this->Cells.edges.clamped(), policy.limitedCells(), unknowns, this->Entries + unknowns,
     policy.coincidentCells() };
   team.sum(counts);
-  double flatness = policy.leastFlatness();
+  double flatness = policy.minFlatness();
   team.least({ &flatness, 1 });
   team.sum(system.termSquares);
   AssemblyCounts& all = system.counts;
@@ -308,7 +308,7 @@ void PartAssembly::count(PartSystem& system) const
   all.coincidentCells = counts[9];
   all.clampedWeights = counts[5];
   all.limitedCells = counts[6];
-  all.leastFlatness = flatness;
+  all.minFlatness = flatness;
   system.unknowns = counts[7];
   system.nonzeros = counts[8];
   all.components = system.components->components();

@@ -53,7 +53,7 @@ private:
   enum Lane
   {
     Mass,
-    Alpha,    ///< the part of the diagonal that no edge has
+    RowSum,   ///< the part of the diagonal that no edge has
     Diagonal, ///< of all edges
     Terms,    ///< magnitudes of the weights of all edges
     Ordinary, ///< likewise of regular cells, see commonShare()

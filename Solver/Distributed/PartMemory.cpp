@@ -26,7 +26,7 @@ double partMemory(std::int64_t vertices, std::int64_t cells, int columns)
          static_cast<double>(cells) * OfCell;
 }
 
-std::int64_t mostPartVertices()
+std::int64_t maxPartVertices()
 {
   return std::numeric_limits<HYPRE_Int>::max() / 64;
 }

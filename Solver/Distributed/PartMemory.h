@@ -18,7 +18,7 @@ SMG_EXPORT double partMemory(std::int64_t vertices, std::int64_t cells, int colu
 
 /** The most vertices that a process can own: hypre counts the entries of its rows, in all levels
  * less than 64 times as many, by a HYPRE_Int. */
-SMG_EXPORT std::int64_t mostPartVertices();
+SMG_EXPORT std::int64_t maxPartVertices();
 
 /** Throws Error if partMemory() is more than the limit. */
 void checkPartMemory(std::int64_t vertices, std::int64_t cells, int columns, std::int64_t limit);

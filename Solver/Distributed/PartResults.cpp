@@ -75,7 +75,7 @@ void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem&
   const ResultOptions& options, DistributedSolution& solution)
 {
   const CellType type = part.info.cellType;
-  HeldSolution values(solution.values, solution.columns);
+  InMemorySolution values(solution.values, solution.columns);
   ProblemResults results(part.info, problem, values, options);
   results.addPart(part.block);
   solution.gradient.assign(results.gradient().begin(), results.gradient().end());

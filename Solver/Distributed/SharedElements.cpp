@@ -56,12 +56,12 @@ namespace
 struct PartEdge
 {
   std::array<std::int64_t, 2> key; ///< stream indices
-  WeightedEdges::Sum sum;
+  EdgeStiffness::Sum sum;
 };
 
 } // namespace
 
-void joinSharedEdges(const SharedVertices& vertices, WeightedEdges& edges)
+void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges)
 {
   const auto forShared = [&](auto visit)
   {
@@ -70,7 +70,7 @@ void joinSharedEdges(const SharedVertices& vertices, WeightedEdges& edges)
       if (vertices.isShared(low))
       {
         edges.visit(low,
-          [&](std::int64_t high, WeightedEdges::Sum& sum)
+          [&](std::int64_t high, EdgeStiffness::Sum& sum)
           {
             if (vertices.isShared(high))
             {
@@ -82,22 +82,22 @@ void joinSharedEdges(const SharedVertices& vertices, WeightedEdges& edges)
   };
   std::vector<PartEdge> items;
   forShared(
-    [&](std::int64_t low, std::int64_t high, const WeightedEdges::Sum& sum) {
+    [&](std::int64_t low, std::int64_t high, const EdgeStiffness::Sum& sum) {
       items.push_back({ { vertices.id(low), vertices.id(high) }, sum });
     });
-  const auto sums = rendezvous<WeightedEdges::Sum>(vertices, items,
+  const auto sums = rendezvous<EdgeStiffness::Sum>(vertices, items,
     [&edges](auto meetings)
     {
-      WeightedEdges::Sum& whole = meetings.front().answer;
+      EdgeStiffness::Sum& whole = meetings.front().answer;
       whole = meetings.front().item.sum;
       for (auto& meeting : meetings.subspan(1))
       {
         edges.join(whole, meeting.item.sum);
-        meeting.answer = { WeightedEdges::Elsewhere, 0.0 };
+        meeting.answer = { EdgeStiffness::Elsewhere, 0.0 };
       }
     });
   auto next = sums.begin();
-  forShared([&next](std::int64_t, std::int64_t, WeightedEdges::Sum& sum) { sum = *next++; });
+  forShared([&next](std::int64_t, std::int64_t, EdgeStiffness::Sum& sum) { sum = *next++; });
 }
 
 namespace

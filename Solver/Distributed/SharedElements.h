@@ -18,8 +18,8 @@ namespace smg
 std::int64_t repeatedCells(const SharedVertices& vertices, const MeshPart& part);
 
 /** Sums the weights of the edges that several parts have: one process keeps the sum, the others
- * leave the edge out (WeightedEdges::Elsewhere). Called on all processes. */
-void joinSharedEdges(const SharedVertices& vertices, WeightedEdges& edges);
+ * leave the edge out (EdgeStiffness::Elsewhere). Called on all processes. */
+void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges);
 
 /** The facets with one cell in this part, but several in all parts. Called on all processes. */
 FacetSet innerFacets(const SharedVertices& vertices, CellType type, const OpenFacets& facets);

@@ -90,12 +90,12 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
 
 std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path)
 {
-  constexpr int MostLinks = 40; // the limit of the system
+  constexpr int MaxLinks = 40; // the limit of the system
   std::filesystem::path target = path;
   std::error_code none;
   for (int links = 0; std::filesystem::is_symlink(target, none); ++links)
   {
-    if (links == MostLinks)
+    if (links == MaxLinks)
     {
       throwWriteError(path, ELOOP);
     }

@@ -3,9 +3,9 @@
 
 #include "Solver/Multigrid/Cycle/GaussSeidel.h"
 #include "Solver/Multigrid/OperatorSet.h"
-#include "Solver/Multigrid/Setup/ExtendedInterpolation.h"
+#include "Solver/Multigrid/Setup/CoarsePoints.h"
 #include "Solver/Multigrid/Setup/GalerkinProduct.h"
-#include "Solver/Multigrid/Setup/Lifting.h"
+#include "Solver/Multigrid/Setup/Interpolation.h"
 #include "Solver/Multigrid/Setup/Sparsification.h"
 #include "smg/MeshSource.h"
 
@@ -15,7 +15,7 @@ namespace smg
 /** Parameters of the operator set Extended; the defaults are those for triangles. */
 struct ExtendedParameters
 {
-  /** IndependentSetLifting::strength, sliverStrength and cancelling. */
+  /** IndependentSetCoarsening::strength, sliverStrength and cancelling. */
   float strength = 0.2F;
   float sliverStrength = 0.5F;
   float cancelling = 1.2F;
@@ -72,12 +72,12 @@ struct ExtendedParameters
 };
 
 /**
- * The default operator set: the paper's lifting rule on strong edges, extended interpolation, the
- * sparsified Galerkin product and Gauss-Seidel relaxation in stream order. Nodes with stiff rows
- * (see StiffRows) have their own coarse nodes. Unlike the paper's printed equations it converges to
- * the solution. The rate hardly depends on the size of the mesh where cells are well shaped, or
- * noisy but not refined; lattices of slivers, which refinement makes of bad cells, slow it down
- * (docs/performance.md).
+ * The default operator set: the paper's choice of C-points on strong edges, extended interpolation,
+ * the sparsified Galerkin product and Gauss-Seidel relaxation in stream order. Nodes with stiff
+ * rows (see SliverRows) have their own coarse nodes. Unlike the paper's printed equations it
+ * converges to the solution. The rate hardly depends on the size of the mesh where cells are well
+ * shaped, or noisy but not refined; lattices of slivers, which refinement makes of bad cells, slow
+ * it down (docs/performance.md).
  */
 class Extended
 {
@@ -89,9 +89,9 @@ public:
   Extended() = default;
   explicit Extended(const ExtendedParameters& parameters)
   {
-    this->Interpolation.lifting.strength = parameters.strength;
-    this->Interpolation.lifting.sliverStrength = parameters.sliverStrength;
-    this->Interpolation.lifting.cancelling = parameters.cancelling;
+    this->Interpolation.coarsePoints.strength = parameters.strength;
+    this->Interpolation.coarsePoints.sliverStrength = parameters.sliverStrength;
+    this->Interpolation.coarsePoints.cancelling = parameters.cancelling;
     this->Interpolation.finestEntries = parameters.finestEntries;
     this->Interpolation.entries = parameters.entries;
     this->Interpolation.sweeps = parameters.sweeps;
@@ -108,9 +108,9 @@ public:
 
   /** See Patches::setRings(). */
   int patchRings() const { return this->PatchRings; }
-  bool lift(const CoarseningData& data, std::int64_t i) const
+  bool isCoarse(const CoarseningData& data, std::int64_t i) const
   {
-    return this->Interpolation.lifting(data, i);
+    return this->Interpolation.coarsePoints(data, i);
   }
   void interpolateInitial(CoarseningData& data, std::int64_t i) const
   {
@@ -125,8 +125,8 @@ public:
   {
     this->Interpolation.append(data, i);
   }
-  void multiply(CoarseningData& data, std::int64_t i) { this->Product.multiply(data, i); }
-  void gather(CoarseningData& data, std::int64_t c) { this->Product.gather(data, c); }
+  void productAP(CoarseningData& data, std::int64_t i) { this->Product.productAP(data, i); }
+  void productPtAP(CoarseningData& data, std::int64_t c) { this->Product.productPtAP(data, c); }
   void sparsify(CoarseningData& data, std::int64_t c) const { this->Sparsify(data, c); }
 
 private:

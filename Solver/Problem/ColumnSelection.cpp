@@ -14,8 +14,8 @@ namespace
 /** The shortest text of the number in its precision, an integer without an exponent. */
 std::string textOf(double value, bool isSingle)
 {
-  constexpr double MostExact = 9007199254740992.0;
-  if (value == std::trunc(value) && std::fabs(value) < MostExact)
+  constexpr double MaxExact = 9007199254740992.0;
+  if (value == std::trunc(value) && std::fabs(value) < MaxExact)
   {
     return std::to_string(static_cast<std::int64_t>(value));
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedProblem.h"
 #include "Solver/Mesh/StreamCheck.h"
-#include "Solver/Problem/DatumOnMesh.h"
+#include "Solver/Problem/PiecewiseCoefficient.h"
 #include "smg/Error.h"
 #include "smg/Problem.h"
 #include "smg/ProblemDescription.h"
@@ -50,7 +50,7 @@ public:
 private:
   struct Soft
   {
-    DatumOnMesh value, weight;
+    PiecewiseCoefficient value, weight;
   };
 
   /** The place of a density: the vertices, unless an entry names a column of the cells. */
@@ -58,7 +58,7 @@ private:
   void addRobin(const ProblemDescription& description);
   void addSoft(const ProblemDescription& description);
   /** All data. */
-  std::vector<DatumOnMesh*> data();
+  std::vector<PiecewiseCoefficient*> data();
 
   void setValues(const MeshBlock& block, VertexConditions& conditions);
   void addSoft(const MeshBlock& block, VertexConditions& conditions);
@@ -66,17 +66,19 @@ private:
   void setField(const CellRange& cells, CellBatch& batch);
   void setRobin(const CellRange& cells, FacetBatch& batch);
   /** Evaluates a density at the vertices of a block, or in cells. */
-  void setDensity(const DatumOnMesh& datum, const MeshBlock& block, std::vector<double>& density);
-  void setDensity(const DatumOnMesh& datum, const CellRange& cells, std::span<double> density);
+  void setDensity(
+    const PiecewiseCoefficient& datum, const MeshBlock& block, std::vector<double>& density);
+  void setDensity(
+    const PiecewiseCoefficient& datum, const CellRange& cells, std::span<double> density);
 
   MeshColumns OfMesh;
   std::size_t Columns;
   Weights EdgeWeights;
   bool StartsAtPosition;
   DataPlace ScreeningPlace, SourcePlace;
-  DatumOnMesh Conductivity, Screening, Source, Field, Initial, Dirichlet, Flux;
-  DatumOnMesh Ambient;                   ///< of the Robin conditions
-  std::vector<DatumOnMesh> Coefficients; ///< of each of them
+  PiecewiseCoefficient Conductivity, Screening, Source, Field, Initial, Dirichlet, Flux;
+  PiecewiseCoefficient Ambient;                   ///< of the Robin conditions
+  std::vector<PiecewiseCoefficient> Coefficients; ///< of each of them
   std::vector<Soft> Softs;
   std::vector<std::int32_t> Entry,
     Other;                    ///< applicable entries at vertices, in cells, or on facets
@@ -166,7 +168,7 @@ void DescribedProblem::facets(FacetBatch& batch)
 namespace
 {
 
-constexpr int MostColumns = ProblemDescription::MostColumns;
+constexpr int MaxColumns = ProblemDescription::MaxColumns;
 
 std::string keyOf(const char* list, std::size_t k)
 {
@@ -226,9 +228,9 @@ ProblemOnMesh::ProblemOnMesh(
   , Flux(this->OfMesh, DataPlace::Facets, valueRules(description.columns))
   , Ambient(this->OfMesh, DataPlace::Facets, valueRules(description.columns))
 {
-  if (description.columns < 1 || description.columns > MostColumns)
+  if (description.columns < 1 || description.columns > MaxColumns)
   {
-    this->OfMesh.fail("columns", "must be from 1 to " + std::to_string(MostColumns));
+    this->OfMesh.fail("columns", "must be from 1 to " + std::to_string(MaxColumns));
   }
   if (description.conductivity.isGiven() && this->EdgeWeights == Weights::Uniform)
   {
@@ -297,11 +299,11 @@ void ProblemOnMesh::addSoft(const ProblemDescription& description)
   }
 }
 
-std::vector<DatumOnMesh*> ProblemOnMesh::data()
+std::vector<PiecewiseCoefficient*> ProblemOnMesh::data()
 {
-  std::vector<DatumOnMesh*> data{ &this->Conductivity, &this->Screening, &this->Source,
+  std::vector<PiecewiseCoefficient*> data{ &this->Conductivity, &this->Screening, &this->Source,
     &this->Field, &this->Initial, &this->Dirichlet, &this->Flux, &this->Ambient };
-  for (DatumOnMesh& coefficient : this->Coefficients)
+  for (PiecewiseCoefficient& coefficient : this->Coefficients)
   {
     data.push_back(&coefficient);
   }
@@ -324,16 +326,16 @@ void ProblemOnMesh::preparePart(
   MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
   this->OfMesh.memory().setLimit(memoryLimit);
-  const std::vector<DatumOnMesh*> data = this->data();
+  const std::vector<PiecewiseCoefficient*> data = this->data();
   const bool selects =
-    std::ranges::any_of(data, [](const DatumOnMesh* datum) { return datum->selects(); });
+    std::ranges::any_of(data, [](const PiecewiseCoefficient* datum) { return datum->selects(); });
   if (selects)
   {
     forCheckedBlocks(
       mesh,
       [&](const MeshBlock& block)
       {
-        for (DatumOnMesh* datum : data)
+        for (PiecewiseCoefficient* datum : data)
         {
           datum->prepare(block, scratch);
         }
@@ -344,7 +346,7 @@ void ProblemOnMesh::preparePart(
 
 void ProblemOnMesh::endPreparing(MeshParts* parts)
 {
-  for (DatumOnMesh* datum : this->data())
+  for (PiecewiseCoefficient* datum : this->data())
   {
     datum->endPreparing(parts);
   }
@@ -372,7 +374,7 @@ namespace smg
 
 void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
-  for (DatumOnMesh* datum : this->data())
+  for (PiecewiseCoefficient* datum : this->data())
   {
     if (datum->needsPreparing())
     {
@@ -416,7 +418,7 @@ void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditio
 }
 
 void ProblemOnMesh::setDensity(
-  const DatumOnMesh& datum, const MeshBlock& block, std::vector<double>& density)
+  const PiecewiseCoefficient& datum, const MeshBlock& block, std::vector<double>& density)
 {
   const auto vertices = static_cast<std::size_t>(block.vertices());
   this->Entry.assign(vertices, -1);
@@ -426,7 +428,7 @@ void ProblemOnMesh::setDensity(
 }
 
 void ProblemOnMesh::setDensity(
-  const DatumOnMesh& datum, const CellRange& cells, std::span<double> density)
+  const PiecewiseCoefficient& datum, const CellRange& cells, std::span<double> density)
 {
   datum.entriesAtCells(cells, this->Entry);
   datum.valuesAtCells(cells, this->Entry, density.data(), density.size() / this->Entry.size());

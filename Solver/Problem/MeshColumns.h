@@ -89,9 +89,9 @@ private:
  * magnitude is 2^53 or more. */
 inline bool isInexact(ScalarType type, double number)
 {
-  constexpr double LeastInexact = 9007199254740992.0;
+  constexpr double MinInexact = 9007199254740992.0;
   const bool isInteger = type != ScalarType::Float32 && type != ScalarType::Float64;
-  return isInteger && std::fabs(number) >= LeastInexact;
+  return isInteger && std::fabs(number) >= MinInexact;
 }
 
 /** What prevents a computation with this number of a column, as the end of "the column ..."; null:

@@ -266,7 +266,7 @@ void FinestRows::take()
       *edge++ = { i + entry.delta(), entry.weight() };
     }
     level.edges.close(static_cast<std::int64_t>(row.size()));
-    level.node[i] = { this->Rows.alpha(i), this->Rows.diagonal(i) };
+    level.node[i] = { this->Rows.rowSum(i), this->Rows.diagonal(i) };
     std::copy_n(this->State.x().at(i), columns, level.value.at(i));
   }
   level.target.extend(level.edges.start(end)); // without edge targets: zero

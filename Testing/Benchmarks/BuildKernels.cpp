@@ -37,7 +37,7 @@ struct KeptRows
       const auto row = this->rows.row(i);
       const auto size = static_cast<std::int64_t>(row.size());
       std::copy(row.begin(), row.end(), to.open(size));
-      to.close(size, this->rows.alpha(i), this->rows.childReach(i), this->rows.stiff(i),
+      to.close(size, this->rows.rowSum(i), this->rows.childReach(i), this->rows.stiff(i),
         this->rows.precise(i));
     }
   }
@@ -134,7 +134,7 @@ void coarsening(State& state, const KeptRows& kept, CellType type)
       end = std::min(level.nodes, begin + RowBlock::Nodes);
       kept.copy(begin, end, fine);
       fine.Ended = end == level.nodes;
-      clock.enter(Stage::Lift);
+      clock.enter(Stage::Choose);
       step.advance();
       step.handOver();
       clock.enter(Stage::Pack);

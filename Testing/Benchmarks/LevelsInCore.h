@@ -3,7 +3,7 @@
 
 #include "Solver/Multigrid/Engine/FirstPass.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Support/MemorySource.h"
@@ -59,7 +59,7 @@ private:
     return options;
   }
 
-  SolveRun Run;
+  SolveContext Run;
   Hierarchy<GaussSeidel> Levels;
 };
 

@@ -14,7 +14,7 @@ namespace smg::benchmark
 double ScheduleModel::seconds(std::size_t pass, int threads) const
 {
   const std::vector<StepRecorder::Step> steps = this->scheduled(this->Passes[pass], threads);
-  LongestFirst order(steps.empty() ? 1 : static_cast<int>(steps.front().tasks.size()));
+  LongestTaskFirst order(steps.empty() ? 1 : static_cast<int>(steps.front().tasks.size()));
   double seconds = 0.0;
   for (const StepRecorder::Step& step : steps)
   {
@@ -54,7 +54,7 @@ double ScheduleModel::seconds(int threads) const
 /** The time of tasks of which every thread takes the next one; the first thread takes the first
  * one (see runAll()). */
 double ScheduleModel::concurrent(
-  const std::vector<double>& tasks, const LongestFirst& order, int threads)
+  const std::vector<double>& tasks, const LongestTaskFirst& order, int threads)
 {
   std::vector<double> busy(static_cast<std::size_t>(threads));
   for (int place = 0; place < order.tasks(); ++place)

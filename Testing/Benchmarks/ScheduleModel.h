@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/RunAll.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include <vector>
 
@@ -31,7 +31,7 @@ public:
 
 private:
   static double concurrent(
-    const std::vector<double>& tasks, const LongestFirst& order, int threads);
+    const std::vector<double>& tasks, const LongestTaskFirst& order, int threads);
   std::vector<StepRecorder::Step> scheduled(const StepRecorder::Pass& pass, int threads) const;
 
   const std::vector<StepRecorder::Pass>& Passes;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/DisjointSets.h"
-#include "Solver/Multigrid/Cycle/CoreCycle.h"
+#include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Testing/Benchmarks/LevelsInCore.h"
 #include "Testing/Support/TestMeshes.h"
 
@@ -169,7 +169,7 @@ private:
 
   LevelsInCore& Levels;
   double Quotient = 0.0;
-  CoreCycle<GaussSeidel> Below; ///< the V-cycle of the levels below
+  CoreVCycle<GaussSeidel> Below; ///< the V-cycle of the levels below
   std::vector<double> Squares;
 };
 

@@ -14,7 +14,7 @@ namespace smg::benchmark
 /** The stages from the rows of a level to those of the next one, in order. */
 enum class Stage
 {
-  Lift,
+  Choose,
   InterpolateInitial,
   RelaxInterpolation,
   Interpolate,
@@ -24,7 +24,7 @@ enum class Stage
   None
 };
 inline constexpr std::array<const char*, static_cast<std::size_t>(Stage::None)> StageNames = {
-  "lift", "initial", "relax", "interpolate", "multiply", "gather", "pack"
+  "choose", "initial", "relax", "interpolate", "productAP", "productPtAP", "pack"
 };
 
 /**
@@ -88,10 +88,10 @@ public:
     return timed;
   }
 
-  bool lift(CoarseningData& data, std::int64_t i)
+  bool isCoarse(CoarseningData& data, std::int64_t i)
   {
-    this->Clock->enter(Stage::Lift);
-    return this->Set.lift(data, i);
+    this->Clock->enter(Stage::Choose);
+    return this->Set.isCoarse(data, i);
   }
   void interpolateInitial(CoarseningData& data, std::int64_t i)
   {
@@ -109,17 +109,17 @@ public:
     this->Clock->enter(Stage::Interpolate);
     this->Set.interpolate(data, i);
   }
-  void multiply(CoarseningData& data, std::int64_t i)
+  void productAP(CoarseningData& data, std::int64_t i)
   {
     this->Clock->enter(Stage::Multiply);
-    this->Set.multiply(data, i);
+    this->Set.productAP(data, i);
   }
-  void gather(CoarseningData& data, std::int64_t c)
+  void productPtAP(CoarseningData& data, std::int64_t c)
   {
     this->Clock->enter(Stage::Gather);
-    this->Set.gather(data, c);
+    this->Set.productPtAP(data, c);
   }
-  /** Alternates with gather() and is counted as part of it. */
+  /** Alternates with productPtAP() and is counted as part of it. */
   void sparsify(CoarseningData& data, std::int64_t c) { this->Set.sparsify(data, c); }
 
 private:

@@ -54,14 +54,14 @@ struct Options
   int plainCycles = 50;
 };
 
-json solved(const StreamMesh& mesh, smg::AccelerationKind acceleration, int mostCycles)
+json solved(const StreamMesh& mesh, smg::AccelerationKind acceleration, int maxCycles)
 {
   smg::testing::MemorySource source(mesh);
   smg::benchmark::FixedEndsProblem problem(source.info());
   smg::SolveOptions options;
   options.tolerance = 1e-6;
   options.acceleration = acceleration;
-  options.maxCycles = mostCycles;
+  options.maxCycles = maxCycles;
   options.memoryLimit = std::int64_t(1) << 40;
   const auto solution = smg::solve(source, problem, options);
   const smg::Report& report = solution->report();

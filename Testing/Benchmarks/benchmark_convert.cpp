@@ -30,7 +30,7 @@ using smg::benchmark::text;
 
 constexpr std::int64_t Mebibyte = std::int64_t(1) << 20;
 /** For more vertices the order in core may need more memory than the machine has. */
-constexpr std::int64_t MostVerticesInCore = 4'000'000;
+constexpr std::int64_t MaxVerticesInCore = 4'000'000;
 
 struct Options
 {
@@ -63,7 +63,7 @@ void judge(json& result, const std::filesystem::path& output, json& inCore)
 json measure(const ConversionTask& task, json& inCore)
 {
   json result = smg::benchmark::measureConversion(task);
-  if (!result.contains("failed") && result["vertices"] < MostVerticesInCore)
+  if (!result.contains("failed") && result["vertices"] < MaxVerticesInCore)
   {
     judge(result, task.output, inCore);
   }

@@ -9,8 +9,8 @@
 //   assemble                   from the cells to the rows of the finest level
 //   coarsen                    from a level's rows to those of the next one, a block at a time in
 //                              windows, as the first pass of a solve does; its counters are the
-//                              stages. `gather` includes what makes coarse rows sparse and final,
-//                              `pack` is the packing of rows into blocks.
+//                              stages. `productPtAP` includes what makes coarse rows sparse and
+//                              final, `pack` is the packing of rows into blocks.
 // All counters are nanoseconds of processor time a node of the (finer) level, but `nodes` and
 // `nonzeros` (a node).
 // Takes the options of Google Benchmark (--help).

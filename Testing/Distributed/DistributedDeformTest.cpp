@@ -16,7 +16,7 @@ namespace
 {
 
 /** Of the range of the positions. */
-constexpr double MostDifference = 1e-6;
+constexpr double MaxDifference = 1e-6;
 
 /** Two surfaces and two solids; beside each, at large x, a component without held vertices. */
 std::vector<StreamMesh> meshesToDeform()
@@ -125,7 +125,7 @@ void expectEqualDeformations(const Deformations& both)
   {
     return;
   }
-  EXPECT_LT(differenceOf(both.distributed, both.streamed), MostDifference);
+  EXPECT_LT(differenceOf(both.distributed, both.streamed), MaxDifference);
   const Report& b = both.ofStream;
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_EQ(a.cells, b.cells);
@@ -223,7 +223,7 @@ TEST(DistributedDeform, EdgeTargetsAreThoseOfTheStreamingEngine)
     if (rankOfTest() == 0)
     {
       EXPECT_LT(
-        differenceOf(values, solveMesh(mesh, whole, accurate(1e-10)).values), MostDifference);
+        differenceOf(values, solveMesh(mesh, whole, accurate(1e-10)).values), MaxDifference);
     }
   }
 }

@@ -62,7 +62,7 @@ Results evaluateStream(
   ElementProblem problem(mesh);
   set(problem);
   const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = values;
-  HeldSolution solution({ rows.data(), static_cast<std::size_t>(rows.size()) }, WaveColumns);
+  InMemorySolution solution({ rows.data(), static_cast<std::size_t>(rows.size()) }, WaveColumns);
   MemorySource source(mesh);
   ProblemResults results(source.info(), problem, solution, { true, true });
   Results told{ ofSolve, {}, {} };

@@ -24,7 +24,7 @@ namespace
 
 /** Smaller allocations are not counted: some constructors of nlohmann::json, declared noexcept,
  * end the program where one of those for a report fails. */
-constexpr std::size_t LeastCounted = 4096;
+constexpr std::size_t MinCounted = 4096;
 
 std::atomic<std::int64_t> allocations{ 0 };
 std::int64_t failing = 0; // from 1; 0: none
@@ -102,7 +102,7 @@ const Installed installed;
 
 void* allocate(std::size_t bytes, std::size_t alignment)
 {
-  const bool counts = bytes >= LeastCounted && smg::testing::countedCalls() > 0;
+  const bool counts = bytes >= MinCounted && smg::testing::countedCalls() > 0;
   const std::int64_t number = counts ? ++allocations : 0;
   if (number > 0 && failing > 0 && (failsForever ? number >= failing : number == failing))
   {

@@ -98,7 +98,7 @@ bool runPlaces(std::string_view bytes, CellChoice cells)
       description.wall = cells == CellChoice::Tetrahedra;
       description.source = description.direction = true;
       DistanceOptions options;
-      options.memoryLimit = Workspace::LeastMemory;
+      options.memoryLimit = Workspace::MinMemory;
       options.threads = 1;
       options.scratch = place.workspace().folder();
       ofFile(path,

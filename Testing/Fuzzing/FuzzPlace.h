@@ -68,7 +68,7 @@ public:
 
 private:
   FuzzPlace()
-    : Space(Folder.path(), Workspace::LeastMemory)
+    : Space(Folder.path(), Workspace::MinMemory)
     , OwnEntries(this->workspaceEntries())
   {
   }
@@ -99,7 +99,7 @@ private:
     {
       throw Finding(std::to_string(this->Space.pool().used()) + " bytes of the pool are left");
     }
-    if (this->Space.pool().peak() > Workspace::LeastMemory)
+    if (this->Space.pool().peak() > Workspace::MinMemory)
     {
       throw Finding("more memory was taken from the pool than allowed");
     }

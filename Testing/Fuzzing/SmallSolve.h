@@ -26,7 +26,7 @@ Options smallSolve()
   options.coreNodes = 20;
   options.blockNodes = 50;
   options.threads = 1;
-  options.memoryLimit = Workspace::LeastMemory;
+  options.memoryLimit = Workspace::MinMemory;
   options.scratch = FuzzPlace::instance().workspace().folder();
   return options;
 }
@@ -51,7 +51,7 @@ enum class Missing
 inline void checkSolution(Solution& solution, Missing missing = Missing::None)
 {
   const Report& report = solution.report();
-  mustHold(report.pool_bytes_peak <= Workspace::LeastMemory, "more memory was used than the limit");
+  mustHold(report.pool_bytes_peak <= Workspace::MinMemory, "more memory was used than the limit");
   const std::vector<double> values = valuesOf(solution);
   const auto count = [&](auto&& which) { return std::ranges::count_if(values, which); };
   mustHold(count([](double value) { return std::isnan(value); }) ==

@@ -36,7 +36,7 @@ void solveOn(const VsmReader& mesh, Weights weights)
   problem.prepare(*source(), FuzzPlace::instance().workspace().folder());
   const std::unique_ptr<Solution> solution = solve(*source(), problem, smallSolve());
   checkSolution(*solution, Missing::Undetermined);
-  SolvedMesh solved(mesh, problem, *solution, { true, true, Workspace::LeastMemory, 1 });
+  SolvedMesh solved(mesh, problem, *solution, { true, true, Workspace::MinMemory, 1 });
   for (MeshBlock block; solved.next(block);)
   {
     // All results are computed.
@@ -51,7 +51,7 @@ void measureOn(const VsmReader& mesh)
   description.from = { NearestVertices{ { { 0.0, 0.0, 0.0 } } } };
   description.source = true;
   DistanceOptions options;
-  options.memoryLimit = Workspace::LeastMemory;
+  options.memoryLimit = Workspace::MinMemory;
   options.threads = 1;
   options.maxPasses = 3;
   options.scratch = FuzzPlace::instance().workspace().folder();
@@ -63,11 +63,11 @@ void previewOf(VsmReader& mesh)
   for (const SolidPreviewCells cells :
     { SolidPreviewCells::Triangles, SolidPreviewCells::Tetrahedra })
   {
-    const MeshPiece piece = makePreviewPiece(mesh, LeastPreviewPoints, {}, cells);
+    const MeshPiece piece = makePreviewPiece(mesh, MinPreviewPoints, {}, cells);
     mustHold(std::ranges::all_of(piece.corners,
                [&](std::int64_t corner) { return corner >= 0 && corner < piece.vertices(); }),
       "a corner is no point of the preview");
-    mustHold(piece.vertices() <= std::max(LeastPreviewPoints, mesh.info().vertices),
+    mustHold(piece.vertices() <= std::max(MinPreviewPoints, mesh.info().vertices),
       "the preview has too many points");
   }
 }

@@ -37,7 +37,7 @@ OrderSize expectGoodOrder(const Neighbours& neighbours, std::span<const double> 
 }
 
 OrderSize expectGoodOrder(const IndexedTestMesh& mesh, int pageVertices = 64,
-  std::int64_t memory = Workspace::LeastMemory, const BreadthFirstOptions& options = {})
+  std::int64_t memory = Workspace::MinMemory, const BreadthFirstOptions& options = {})
 {
   return expectGoodOrder(neighboursOf(mesh), mesh.positions, pageVertices, memory, options);
 }
@@ -57,8 +57,8 @@ TEST(BreadthFirstOrder, IsAboutAsGoodAsInMemory)
     const Neighbours neighbours = neighboursOf(input);
     const OrderSize inCore = orderSize(neighbours, inCoreBreadthFirst(neighbours));
     EXPECT_LE(costOf(expectGoodOrder(input)), 1.1 * costOf(inCore));
-    EXPECT_LE(costOf(expectGoodOrder(input, 64, Workspace::LeastMemory, { 0, 4096 })),
-      1.2 * costOf(inCore));
+    EXPECT_LE(
+      costOf(expectGoodOrder(input, 64, Workspace::MinMemory, { 0, 4096 })), 1.2 * costOf(inCore));
   }
 }
 
@@ -74,7 +74,7 @@ TEST(BreadthFirstOrder, OfManyComponentsPlannedOrNot)
       { 3.0 * i, 1.0 * i, 0 });
   }
   const OrderSize whole = expectGoodOrder(shuffled(mesh), 50);
-  const OrderSize planned = expectGoodOrder(shuffled(mesh), 50, Workspace::LeastMemory, { 4, 100 });
+  const OrderSize planned = expectGoodOrder(shuffled(mesh), 50, Workspace::MinMemory, { 4, 100 });
   // Components are consecutive: no window is larger than that of the largest component.
   EXPECT_LT(whole.span, 300);
   EXPECT_LT(planned.span, 300);
@@ -95,7 +95,7 @@ TEST(BreadthFirstOrder, OfGraphsWithoutShape)
   {
     edges.emplace_back(i, i < 4999 ? i + 1 : 0);
   }
-  expectGoodOrder(neighboursOf(5000, edges), positions, 16, Workspace::LeastMemory);
+  expectGoodOrder(neighboursOf(5000, edges), positions, 16, Workspace::MinMemory);
 }
 
 TEST(BreadthFirstOrder, OfAFan)
@@ -109,7 +109,7 @@ TEST(BreadthFirstOrder, OfAFan)
     edges.emplace_back(i, i % rim + 1);
     positions.insert(positions.end(), { double(i), 1, 0 });
   }
-  expectGoodOrder(neighboursOf(rim + 1, edges), positions, 256, Workspace::LeastMemory);
+  expectGoodOrder(neighboursOf(rim + 1, edges), positions, 256, Workspace::MinMemory);
 }
 
 TEST(BreadthFirstOrder, OfSeparateTriangles)
@@ -127,13 +127,13 @@ TEST(BreadthFirstOrder, OfSeparateTriangles)
     }
   }
   const OrderSize size =
-    expectGoodOrder(neighboursOf(9000, edges), positions, 100, Workspace::LeastMemory);
+    expectGoodOrder(neighboursOf(9000, edges), positions, 100, Workspace::MinMemory);
   EXPECT_EQ(size.span, 2);
 }
 
 TEST(BreadthFirstOrder, OfNothing)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   PagedMesh mesh{ VertexPages(workspace, 64, true), {}, {}, 1, 0 };
   mesh.pages.close();
   PageTraffic traffic;
@@ -150,7 +150,7 @@ TEST(BreadthFirstOrder, WithAlmostNoMemory)
   std::vector<std::uint32_t> plenty, little;
   for (const bool isLittle : { false, true })
   {
-    Workspace workspace({}, Workspace::LeastMemory);
+    Workspace workspace({}, Workspace::MinMemory);
     PagedMesh paged = pagesOf(mesh, 100, workspace);
     Buffer taken;
     if (isLittle)
@@ -171,7 +171,7 @@ TEST(BreadthFirstOrder, WithAlmostNoMemory)
 
 TEST(BreadthFirstOrder, NoMemoryIsAnErrorThatSaysWhatToDo)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   PagedMesh mesh = pagesOf(sphere(3), 64, workspace);
   const Buffer taken(workspace.pool(), std::size_t(workspace.available() - (100 << 10)));
   expectError([&] { breadthFirstOrder(mesh, workspace); }, "raise the memory limit");

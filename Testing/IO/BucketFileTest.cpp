@@ -26,7 +26,7 @@ std::vector<std::byte> randomBytes(Random& random, std::int64_t most)
 TEST(BucketFile, BucketsKeepTheirBytesInOrder)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   constexpr int Buckets = 7;
   BucketFile file(workspace, Buckets, 1 << 16);
   std::vector<std::vector<std::byte>> expected(Buckets);
@@ -58,7 +58,7 @@ TEST(BucketFile, OnlyChunksAreInMemory)
   for (const int threads : { 1, 4 })
   {
     const TemporaryFolder folder;
-    Workspace workspace(folder.path(), Workspace::LeastMemory, {}, 0, threads);
+    Workspace workspace(folder.path(), Workspace::MinMemory, {}, 0, threads);
     BucketFile file(workspace, 16, 1 << 18);
     const std::vector<std::byte> bytes(100000);
     for (int i = 0; i < 1000; ++i)
@@ -77,7 +77,7 @@ TEST(BucketFile, WhatIsFetchedAheadIsTheSame)
   for (const int threads : { 1, 2, 8 })
   {
     const TemporaryFolder folder;
-    Workspace workspace(folder.path(), Workspace::LeastMemory, {}, 0, threads);
+    Workspace workspace(folder.path(), Workspace::MinMemory, {}, 0, threads);
     BucketFile file(workspace, 2);
     constexpr std::uint32_t Count = 1u << 20;
     for (std::uint32_t i = 0; i < Count; ++i)
@@ -112,7 +112,7 @@ TEST(BucketFile, WhatIsFetchedAheadIsTheSame)
 TEST(BucketFile, LittleDataNeedsNoFile)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   BucketFile file(workspace);
   file.put(0, 17);
   EXPECT_EQ(bytesOf(file).size(), sizeof(int));
@@ -122,8 +122,8 @@ TEST(BucketFile, LittleDataNeedsNoFile)
 TEST(BucketFile, ReadersKeepUnitsTogether)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
-  BucketFile file(workspace, 1, BucketFile::LeastChunkBytes);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
+  BucketFile file(workspace, 1, BucketFile::MinChunkBytes);
   for (std::int64_t i = 0; i < 10000; ++i)
   {
     file.put(0, std::array<std::int64_t, 3>{ i, 2 * i, 3 * i });
@@ -148,7 +148,7 @@ TEST(BucketFile, ReadersKeepUnitsTogether)
 TEST(RecordFile, ReadsRecordsOneByOneAndInSpans)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   RecordFile<std::uint32_t> file(workspace);
   for (std::uint32_t i = 0; i < 200000; ++i)
   {

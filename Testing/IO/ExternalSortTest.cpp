@@ -39,7 +39,7 @@ template <class Less>
 void expectSorted(std::int64_t count, std::int64_t memory, Less less)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory, {}, 0, 3);
+  Workspace workspace(folder.path(), Workspace::MinMemory, {}, 0, 3);
   ExternalSort<std::uint64_t, Less> sort(workspace, memory, less);
   std::vector<std::uint64_t> expected(static_cast<std::size_t>(count));
   Random random(5);
@@ -84,7 +84,7 @@ TEST(ExternalSort, CanBeCancelledWhileRunsAreMerged)
     const TemporaryFolder folder;
     bool goesOn = true;
     Workspace workspace(
-      folder.path(), Workspace::LeastMemory, [&goesOn](double) { return goesOn; }, 0, threads);
+      folder.path(), Workspace::MinMemory, [&goesOn](double) { return goesOn; }, 0, threads);
     ExternalSort<std::uint64_t> sort(workspace, 1 << 20);
     for (std::uint64_t i = 0; i < 1000000; ++i)
     {
@@ -101,7 +101,7 @@ TEST(ExternalSort, CanBeCancelledWhileRunsAreMerged)
 TEST(ExternalSort, ManyRunsNeedFewFilesAndLittleMemory)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   ExternalSort<Wide, ByKey> sort(workspace, 1 << 20);
   constexpr std::uint64_t Count = 800000; // 195 runs
   const std::ptrdiff_t before = openFiles();

@@ -19,7 +19,7 @@ namespace smg::testing
 TEST(FlippedBits, OfMergedRuns)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   expectNoticedFlips(10,
     [&]
     {
@@ -39,7 +39,7 @@ TEST(FlippedBits, OfMergedRuns)
 TEST(FlippedBits, OfRowTables)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   constexpr std::uint32_t Count = 30000;
   RowTable table(workspace, Count, sizeof(std::uint32_t), 1 << 15);
   for (std::uint32_t i = 0; i < Count; ++i)
@@ -62,7 +62,7 @@ TEST(FlippedBits, OfRowTables)
 TEST(FlippedBits, OfQueues)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   expectNoticedFlips(50,
     [&]
     {

@@ -39,14 +39,14 @@ class ImportFixture : public ::testing::Test
 {
 protected:
   ReadMesh read(const std::string& name, std::string_view bytes,
-    CellChoice cells = CellChoice::Only, std::int64_t memory = Workspace::LeastMemory)
+    CellChoice cells = CellChoice::Only, std::int64_t memory = Workspace::MinMemory)
   {
     writeBytes(this->Folder / name, bytes);
     return this->readFile(this->Folder / name, cells, memory);
   }
 
   ReadMesh readFile(const std::filesystem::path& path, CellChoice cells = CellChoice::Only,
-    std::int64_t memory = Workspace::LeastMemory)
+    std::int64_t memory = Workspace::MinMemory)
   {
     Workspace workspace(this->Folder.path(), memory);
     ImportOptions options;

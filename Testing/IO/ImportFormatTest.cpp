@@ -146,7 +146,7 @@ TEST_F(ImportFormat, WhatIsNoMeshIsRefused)
     this->expectError(name, garbage, ": ");
     this->expectError(name, "This is a text, and no mesh.\n", ": ");
   }
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   smg::testing::expectError(
     [&] { importMesh(this->Folder / "missing.ply", workspace); }, "missing.ply: cannot be opened");
   smg::testing::expectError(
@@ -171,7 +171,7 @@ TEST_F(ImportFormat, CompressedFilesAreTheSame)
 TEST_F(ImportFormat, NothingOfACompressedFileStays)
 {
   writeBytes(this->Folder / "a.gz", gzip(Off));
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   const auto files = [&workspace]
   { return std::distance(std::filesystem::directory_iterator(workspace.folder()), {}); };
   const std::ptrdiff_t before = files();
@@ -241,7 +241,7 @@ TEST_F(ImportFormat, ProgressGrowsToItsEnd)
       done.push_back(fraction);
       return true;
     };
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     importMesh(this->Folder / "a.off", workspace, options);
     ASSERT_GE(done.size(), 3u);
     EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
@@ -258,7 +258,7 @@ TEST_F(ImportFormat, CancelEndsIt)
     writeBytes(this->Folder / "a.off", bytes);
     ImportOptions options;
     options.progress = [](double) { return false; };
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     EXPECT_THROW(importMesh(this->Folder / "a.off", workspace, options), Cancelled);
   }
 }

@@ -75,7 +75,7 @@ protected:
   ReadMesh read(const std::string& bytes, CellChoice cells = CellChoice::Only)
   {
     writeBytes(this->Path, bytes);
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     RawMeshBuilder builder(workspace, cells);
     InputFile file(this->Path);
     importLegacyVtk(file, builder);

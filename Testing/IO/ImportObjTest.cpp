@@ -120,7 +120,7 @@ TEST(ImportObjData, ArchiveMeshHasItsCounts)
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
   }
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   const RawMesh mesh = importMesh(folder / "armadillo43k.obj", workspace);
   EXPECT_EQ(mesh.vertices, 43243);
   EXPECT_EQ(mesh.cells, 86482);

@@ -217,7 +217,7 @@ TEST(ImportOffData, ArchiveMeshHasItsCounts)
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
   }
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   const RawMesh mesh = importMesh(folder / "elephant44k.off", workspace);
   EXPECT_EQ(mesh.vertices, 44460);
   EXPECT_EQ(mesh.cells, 88928);

@@ -201,7 +201,7 @@ TEST_F(ImportPly, StripsOfAnyLength)
   constexpr std::int32_t vertices = 600000;
   static_assert(vertices * sizeof(std::int32_t) > 2 * InputFile::WindowBytes);
   writeBytes(this->Folder / "strip.ply", longStrip(vertices));
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   const RawMesh mesh = importMesh(this->Folder / "strip.ply", workspace);
   EXPECT_EQ(mesh.cells, vertices - 2);
   EXPECT_EQ(mesh.elementCount, 1);
@@ -330,7 +330,7 @@ TEST(ImportPlyData, ArchiveMeshesHaveTheirCounts)
     { "horse_be.ply", 48485, 96966 }, { "rangemap_lato315.ply", 62702, 120995 } };
   for (const Expected& each : expected)
   {
-    Workspace workspace({}, Workspace::LeastMemory);
+    Workspace workspace({}, Workspace::MinMemory);
     const RawMesh mesh = importMesh(folder / each.file, workspace);
     EXPECT_EQ(mesh.cellType, CellType::Triangle) << each.file;
     EXPECT_EQ(mesh.vertices, each.vertices) << each.file;

@@ -26,7 +26,7 @@ class ImportVtkHdf : public ImportFixture
 protected:
   ReadMesh readHdf(const MeshPart& part = {}, const std::string& name = "a.vtkhdf")
   {
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     ImportOptions options;
     options.part = part;
     return readRaw(importMesh(this->Folder / name, workspace, options));
@@ -208,7 +208,7 @@ TEST_F(ImportVtkHdf, OnePartitionIsReadWithoutTheCellsOfOthers)
 TEST_F(ImportVtkHdf, OtherFormatsHaveNoParts)
 {
   writeBytes(this->Folder / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   const auto expectRefused = [&](const MeshPart& part, const std::string& sentence)
   {
     ImportOptions options;

@@ -33,7 +33,7 @@ namespace
 class ImportVtkXml : public ::testing::Test
 {
 protected:
-  ReadMesh read(const std::string& bytes, std::int64_t memory = Workspace::LeastMemory)
+  ReadMesh read(const std::string& bytes, std::int64_t memory = Workspace::MinMemory)
   {
     writeBytes(this->Path, bytes);
     Workspace workspace(this->Folder.path(), memory);
@@ -59,7 +59,7 @@ protected:
   ReadMesh readParallel(const std::string& bytes)
   {
     writeBytes(this->Folder / "all.pvtu", bytes);
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     RawMeshBuilder builder(workspace, CellChoice::Only);
     InputFile file(this->Folder / "all.pvtu");
     importParallelVtkXml(file, builder, {});

@@ -137,7 +137,7 @@ TEST_F(IsolatedConversion, MergedPointsAreKnownByTheirPlacesInTheFirstFile)
 
 TEST_F(IsolatedConversion, MoreVerticesThanTheMemoryHasBitsFor)
 {
-  Workspace space(this->Folder.path(), Workspace::LeastMemory);
+  Workspace space(this->Folder.path(), Workspace::MinMemory);
   constexpr std::int64_t Vertices = 5'000'000;
   RawMeshBuilder builder(space, CellChoice::Only);
   builder.useSinglePrecision();

@@ -163,9 +163,9 @@ TEST_F(IsolatedVerticesTest, AreNoneInFilesWithoutTheTable)
   {
     BlockFileReader in(this->Folder / "new.vsm");
     std::vector<TableSpec> tables = in.tables();
-    tables.resize(VsmFormat::LeastTables);
+    tables.resize(VsmFormat::MinTables);
     BlockFileWriter out(this->Folder / "old.vsm", tables, Codec::Lz4);
-    for (int table = 0; table < VsmFormat::LeastTables; ++table)
+    for (int table = 0; table < VsmFormat::MinTables; ++table)
     {
       for (std::int64_t block = 0; block < in.blocks(table); ++block)
       {

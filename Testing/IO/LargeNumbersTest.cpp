@@ -24,14 +24,14 @@ namespace
 
 using Indices = std::vector<std::uint32_t>;
 
-constexpr std::int64_t MostNumbers = (std::int64_t(1) << 32) - 2;
+constexpr std::int64_t MaxNumbers = (std::int64_t(1) << 32) - 2;
 
 /** Indices on both sides of 2^31, and the largest ones of a conversion, ascending. */
 Indices largeNumbers()
 {
   Indices numbers(400);
   std::iota(numbers.begin(), numbers.begin() + 200, (1U << 31) - 100);
-  std::iota(numbers.begin() + 200, numbers.end(), static_cast<std::uint32_t>(MostNumbers - 200));
+  std::iota(numbers.begin() + 200, numbers.end(), static_cast<std::uint32_t>(MaxNumbers - 200));
   return numbers;
 }
 
@@ -39,7 +39,7 @@ class LargeNumbers : public ::testing::Test
 {
 protected:
   TemporaryFolder Folder;
-  Workspace Space{ this->Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ this->Folder.path(), Workspace::MinMemory };
 };
 
 /** What CellGroups, VertexLinks and VertexStar find, ranks relative to the first one. */
@@ -54,7 +54,7 @@ struct Around
 
 TEST_F(LargeNumbers, AreReplaced)
 {
-  Relabelling labels(this->Space, MostNumbers, std::int64_t(4) << 20);
+  Relabelling labels(this->Space, MaxNumbers, std::int64_t(4) << 20);
   RecordFile<std::uint32_t> file(this->Space);
   Indices expected;
   for (const std::uint32_t number : largeNumbers())
@@ -75,7 +75,7 @@ TEST_F(LargeNumbers, AreReplaced)
 
 TEST_F(LargeNumbers, OfRowsOfATable)
 {
-  RowTable table(this->Space, MostNumbers, sizeof(std::uint64_t), std::int64_t(4) << 20);
+  RowTable table(this->Space, MaxNumbers, sizeof(std::uint64_t), std::int64_t(4) << 20);
   for (const std::uint32_t number : largeNumbers())
   {
     const std::uint64_t square = std::uint64_t(number) * number;
@@ -169,7 +169,7 @@ TEST_F(LargeNumbers, OfTheVerticesAroundAVertex)
   const Around expected = around(0);
   ASSERT_EQ(std::ssize(expected.neighbours), vertices);
   EXPECT_EQ(around((std::int64_t(1) << 31) - 130), expected);
-  EXPECT_EQ(around(MostNumbers - vertices), expected);
+  EXPECT_EQ(around(MaxNumbers - vertices), expected);
 }
 
 } // namespace smg::testing

@@ -112,9 +112,9 @@ inline void fillColumns(std::vector<Column>& columns, std::size_t tuples, Random
   }
 }
 
-/** Random points; random polygons of up to `mostCorners` corners, or tetrahedra. */
+/** Random points; random polygons of up to `maxCorners` corners, or tetrahedra. */
 inline MeshOfFile randomMeshOfFile(
-  CellType cellType, int mostCorners, bool doublePositions, std::uint64_t seed = 1)
+  CellType cellType, int maxCorners, bool doublePositions, std::uint64_t seed = 1)
 {
   Random random(seed);
   MeshOfFile mesh;
@@ -132,7 +132,7 @@ inline MeshOfFile randomMeshOfFile(
   {
     const auto size = cellType == CellType::Tetrahedron
                         ? std::size_t(4)
-                        : std::size_t(3 + random.below(mostCorners - 2));
+                        : std::size_t(3 + random.below(maxCorners - 2));
     std::set<std::int64_t> used;
     std::vector<std::int64_t> cell;
     while (cell.size() < size)

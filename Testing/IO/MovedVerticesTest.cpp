@@ -87,7 +87,7 @@ TEST(MovedVertices, AreFoundByNumberWhateverTheirOrder)
 {
   // 60 MB of vertices in 16 MiB, and in memory.
   constexpr std::int64_t Count = 1500000;
-  for (const std::int64_t memory : { std::int64_t(LeastMebibytes) << 20, std::int64_t(200) << 20 })
+  for (const std::int64_t memory : { std::int64_t(MinMebibytes) << 20, std::int64_t(200) << 20 })
   {
     const TemporaryFolder folder;
     Workspace workspace(folder.path(), memory);
@@ -106,7 +106,7 @@ TEST(MovedVertices, AreFoundByNumberWhateverTheirOrder)
 TEST(MovedVertices, MayLackNumbers)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), std::int64_t(LeastMebibytes) << 20);
+  Workspace workspace(folder.path(), std::int64_t(MinMebibytes) << 20);
   std::vector<std::int64_t> ids = shuffledNumbers(500000);
   std::erase_if(ids, [](std::int64_t id) { return id % 3 == 1 || (id > 50000 && id < 120000); });
   ids.push_back(std::int64_t(1) << 52);
@@ -149,7 +149,7 @@ private:
 TEST(MovedVertices, AreTheLastOnesOfTheirNumbers)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), std::int64_t(LeastMebibytes) << 20);
+  Workspace workspace(folder.path(), std::int64_t(MinMebibytes) << 20);
   RepeatedSource source;
   MovedVertices moved(source, workspace);
   for (const auto& [vertex, place] : { std::pair{ 0, 4.0 }, { 1, 3.0 }, { 2, 2.0 } })
@@ -162,7 +162,7 @@ TEST(MovedVertices, AreTheLastOnesOfTheirNumbers)
 TEST(MovedVertices, HaveNoNegativeNumbers)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), std::int64_t(LeastMebibytes) << 20);
+  Workspace workspace(folder.path(), std::int64_t(MinMebibytes) << 20);
   NumberedSource source({ 2, -1 });
   expectError([&] { MovedVertices(source, workspace); }, "-1 of a vertex is negative");
 }

@@ -39,7 +39,7 @@ struct Unpacked
 class PageBuilder : public ::testing::Test
 {
 protected:
-  static constexpr std::int64_t Memory = Workspace::LeastMemory;
+  static constexpr std::int64_t Memory = Workspace::MinMemory;
 
   RawMesh raw(const IndexedTestMesh& mesh, bool singlePrecision = false)
   {

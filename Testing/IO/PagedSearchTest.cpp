@@ -46,7 +46,7 @@ struct PagedCase
   {
   }
 
-  Workspace workspace{ {}, Workspace::LeastMemory };
+  Workspace workspace{ {}, Workspace::MinMemory };
   Neighbours neighbours, ranks;
   PagedMesh paged;
 };
@@ -64,8 +64,8 @@ TEST(PagedSearch, LevelsAreThoseInMemory)
   }
   const std::vector<std::uint32_t> expected = inCoreLevels(box.ranks, pairs);
 
-  const std::int64_t least = PageCache::leastBytes(box.paged.pages);
-  for (const std::int64_t bytes : { least, 2 * least, PageCache::mostBytes(box.paged.pages) })
+  const std::int64_t least = PageCache::minBytes(box.paged.pages);
+  for (const std::int64_t bytes : { least, 2 * least, PageCache::maxBytes(box.paged.pages) })
   {
     PageCache cache(box.paged.pages, box.workspace, bytes);
     PagedSearch search(box.paged.pages, cache, box.workspace, 4096);
@@ -87,7 +87,7 @@ TEST(PagedSearch, LevelsAreThoseInMemory)
 TEST(PagedSearch, ASourceThatBeginsWhenAllElseIsOver)
 {
   PagedCase two(disjointUnion(grid(5, 5), grid(6, 6), { 100, 0, 0 }), 8);
-  PageCache cache(two.paged.pages, two.workspace, PageCache::mostBytes(two.paged.pages));
+  PageCache cache(two.paged.pages, two.workspace, PageCache::maxBytes(two.paged.pages));
   PagedSearch search(two.paged.pages, cache, two.workspace, 4096);
   const std::uint32_t last = 60;
   const std::vector<SearchSource> sources = { { 0, 0 }, { 1000, last } };
@@ -108,10 +108,10 @@ TEST(PagedSearch, ProbesDoNotDependOnThreads)
     SearchResult first;
     for (const int threads : { 1, 2, 3, 8, 16 })
     {
-      Workspace workspace({}, 4 * Workspace::LeastMemory, {}, 0, threads);
+      Workspace workspace({}, 4 * Workspace::MinMemory, {}, 0, threads);
       PagedMesh paged = pagesOf(mesh, 32, workspace);
-      const std::int64_t least = PageCache::leastBytes(paged.pages);
-      for (const std::int64_t bytes : { 4 * least, PageCache::mostBytes(paged.pages) })
+      const std::int64_t least = PageCache::minBytes(paged.pages);
+      for (const std::int64_t bytes : { 4 * least, PageCache::maxBytes(paged.pages) })
       {
         PageCache cache(paged.pages, workspace, bytes);
         PagedSearch search(paged.pages, cache, workspace, 4096);
@@ -145,9 +145,9 @@ TEST(PagedSearch, PlacesDoNotDependOnMemory)
     {
       PagedCase torus(mesh);
       VertexPages& pages = torus.paged.pages;
-      const auto most = static_cast<double>(PageCache::mostBytes(pages));
+      const auto most = static_cast<double>(PageCache::maxBytes(pages));
       PageCache cache(
-        pages, torus.workspace, std::max(PageCache::leastBytes(pages), std::int64_t(share * most)));
+        pages, torus.workspace, std::max(PageCache::minBytes(pages), std::int64_t(share * most)));
       PagedSearch search(pages, cache, torus.workspace, queueBytes);
       const std::vector<SearchSource> sources = { { 0, 17 }, { 4, 1500 }, { 9, 700 } };
       const SearchResult probed = search.probe(sources);
@@ -186,7 +186,7 @@ TEST(PagedSearch, PlacesDoNotDependOnMemory)
 TEST(PagedSearch, LoadsEachPageOnceIfTheyFit)
 {
   PagedCase ball(sphere(5), 64);
-  PageCache cache(ball.paged.pages, ball.workspace, PageCache::mostBytes(ball.paged.pages));
+  PageCache cache(ball.paged.pages, ball.workspace, PageCache::maxBytes(ball.paged.pages));
   PagedSearch search(ball.paged.pages, cache, ball.workspace, 4096);
   const SearchSource source{ 0, 0 };
   search.probe({ &source, 1 });
@@ -218,7 +218,7 @@ TEST(PagedSearch, CountsComponents)
       disjointUnion(mesh, i % 3 == 0 ? grid(2, 2) : grid(2, 5), { 10.0 * i, 3.0 * (i % 7), 0 });
   }
   PagedCase many(shuffled(mesh));
-  PageCache cache(many.paged.pages, many.workspace, PageCache::leastBytes(many.paged.pages));
+  PageCache cache(many.paged.pages, many.workspace, PageCache::minBytes(many.paged.pages));
   PagedSearch search(many.paged.pages, cache, many.workspace, 4096);
   EXPECT_EQ(search.components(), 100);
   EXPECT_EQ(search.components(), inCoreComponents(many.neighbours));
@@ -228,10 +228,10 @@ TEST(PagedSearch, CountsComponents)
 void expectCancelled(const IndexedTestMesh& mesh, bool allPagesFit)
 {
   bool goesOn = true;
-  Workspace workspace({}, Workspace::LeastMemory, [&goesOn](double) { return goesOn; });
+  Workspace workspace({}, Workspace::MinMemory, [&goesOn](double) { return goesOn; });
   PagedMesh paged = pagesOf(mesh, 64, workspace);
   PageCache cache(paged.pages, workspace,
-    allPagesFit ? PageCache::mostBytes(paged.pages) : PageCache::leastBytes(paged.pages));
+    allPagesFit ? PageCache::maxBytes(paged.pages) : PageCache::minBytes(paged.pages));
   PagedSearch search(paged.pages, cache, workspace, 4096);
   const SearchSource source{ 0, 0 };
   EXPECT_EQ(search.probe({ &source, 1 }).vertices, mesh.vertices());
@@ -261,7 +261,7 @@ TEST(SearchQueue, IsAQueueWhateverItsMemory)
 {
   for (const std::size_t bytes : { 0, 1000, 100000 })
   {
-    Workspace workspace({}, Workspace::LeastMemory);
+    Workspace workspace({}, Workspace::MinMemory);
     SearchQueue queue(workspace, bytes);
     std::deque<std::uint32_t> expected;
     Random random(bytes);
@@ -285,7 +285,7 @@ TEST(SearchQueue, IsAQueueWhateverItsMemory)
 
 TEST(VisitedBits, AreClearedHoweverManyAreSet)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   const std::int64_t count = 3000001;
   VisitedBits bits(workspace, count);
   for (const std::int64_t step : { 1000000, 1000, 64, 3 })

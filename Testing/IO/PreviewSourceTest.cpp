@@ -91,8 +91,7 @@ TEST_F(PreviewStreams, OfTetrahedraAreTheirSurface)
 TEST_F(PreviewStreams, OfFewerOrMorePointsThanAllowedAreRefused)
 {
   const StreamMesh mesh = toStream(grid(3, 3));
-  for (const std::int64_t points :
-    { std::int64_t(-1), LeastPreviewPoints - 1, MostPreviewPoints + 1 })
+  for (const std::int64_t points : { std::int64_t(-1), MinPreviewPoints - 1, MaxPreviewPoints + 1 })
   {
     expectError([&] { this->previewOf(mesh, points); }, "expected 8 to 1000000");
   }

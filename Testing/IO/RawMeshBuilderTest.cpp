@@ -48,7 +48,7 @@ protected:
   }
 
   TemporaryFolder Folder;
-  Workspace Space{ this->Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ this->Folder.path(), Workspace::MinMemory };
 };
 
 } // namespace

@@ -52,7 +52,7 @@ protected:
   }
 
   TemporaryFolder Folder;
-  Workspace Space{ this->Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ this->Folder.path(), Workspace::MinMemory };
 };
 
 } // namespace

@@ -101,7 +101,7 @@ TEST_F(RestoredColumns, TextFormatsKeepTheColumnsThatTheyHaveAPlaceFor)
       giveTextColumns(mesh);
       this->write(mesh, std::string("out") + suffix);
       EXPECT_TRUE(this->isNoted("'height'"));
-      Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+      Workspace workspace(this->Folder.path(), Workspace::MinMemory);
       const ReadMesh back =
         readRaw(importMesh(this->Folder / (std::string("out") + suffix), workspace));
       EXPECT_EQ(back.positions, mesh.points);
@@ -126,7 +126,7 @@ TEST_F(RestoredColumns, LabelsThatAreNoIntegersAreLeftOut)
   {
     this->write(mesh, name);
     EXPECT_TRUE(this->isNoted("cell 'Reference', cell 'PhysicalTag'"));
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     EXPECT_TRUE(importMesh(this->Folder / name, workspace).elementColumns.empty());
   }
 }
@@ -143,7 +143,7 @@ TEST_F(RestoredColumns, LabelsTravelBetweenFormatsThatCallThemDifferently)
     mesh.cellColumns = { makeColumn<int>(from, labels) };
     this->write(mesh, to);
     EXPECT_TRUE(this->Notes.empty());
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     const ReadMesh back = readRaw(importMesh(this->Folder / to, workspace));
     ASSERT_EQ(back.elementColumns.size(), 1U);
     EXPECT_EQ(valuesOf(back.elementColumns[0]), valuesOf(mesh.cellColumns[0])) << to;
@@ -155,7 +155,7 @@ TEST_F(RestoredColumns, ColoursOfObjAreFromZeroToOne)
   MeshOfFile mesh = randomMeshOfFile(CellType::Triangle, 4, true);
   giveTextColumns(mesh);
   this->write(mesh, "out.obj");
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   const ReadMesh back = readRaw(importMesh(this->Folder / "out.obj", workspace));
   ASSERT_EQ(back.vertexColumns.size(), 1U);
   EXPECT_EQ(back.vertexColumns[0].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 4 }));

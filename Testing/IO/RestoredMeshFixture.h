@@ -33,7 +33,7 @@ protected:
   void write(const MeshOfFile& mesh, const std::string& name, std::uint64_t seed = 1)
   {
     writeVsmOf(mesh, this->Folder / "mesh.vsm", seed);
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     this->Notes = writeRestored(this->Folder / "mesh.vsm", this->Folder / name, workspace);
   }
 

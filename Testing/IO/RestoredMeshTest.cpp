@@ -235,7 +235,7 @@ TEST_F(RestoredMeshTest, RefusesWhatIsNotTheWholeMesh)
     stream.corners = { 0, 1, 2 };
     stream.vertexColumns = { makeColumn<std::int64_t>("OriginalId", ids) };
     testing::write(this->Folder / "mesh.vsm", stream);
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.ply", workspace);
   };
   expectError([&] { withIds({ 0, 3, 1 }); }, "original number 3");
@@ -246,7 +246,7 @@ TEST_F(RestoredMeshTest, RefusesWhatIsNotTheWholeMesh)
   std::filesystem::remove(this->Folder / "out.ply");
 
   testing::write(this->Folder / "mesh.vsm", toStream(grid(3, 3)));
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   expectError([&]
     { writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.ply", workspace); },
     "no column OriginalId");
@@ -273,7 +273,7 @@ TEST_F(RestoredMeshTest, CanBeCancelledAtAnyTime)
   writeVsmOf(randomMeshOfFile(CellType::Triangle, 5, true), this->Folder / "mesh.vsm");
   const auto run = [this](const ProgressFunction& progress)
   {
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory, progress);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory, progress);
     workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
     writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.ply", workspace);
   };
@@ -329,7 +329,7 @@ protected:
 
 TEST_F(LargeRestoredMesh, IsRestoredInLittleMemory)
 {
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   RestoredMesh restored(this->Folder / "mesh.vsm", workspace);
   EXPECT_EQ(restored.info().vertices, Vertices);
   EXPECT_EQ(restored.info().isolated, Vertices / 3);
@@ -356,7 +356,7 @@ TEST_F(LargeRestoredMesh, IsRestoredInLittleMemory)
   EXPECT_TRUE(cells == this->Mesh.cells);
   EXPECT_TRUE(a.bytes == this->Mesh.vertexColumns[0].bytes);
   EXPECT_TRUE(b.bytes == this->Mesh.cellColumns[0].bytes);
-  EXPECT_LE(workspace.pool().peak(), Workspace::LeastMemory);
+  EXPECT_LE(workspace.pool().peak(), Workspace::MinMemory);
   EXPECT_GT(workspace.traffic().bytesWritten, Vertices * 24);
 }
 
@@ -366,7 +366,7 @@ TEST_F(LargeRestoredMesh, GoesToStlInLittleMemory)
     this->Mesh.points, this->Mesh.points.begin(), [](double x) { return static_cast<float>(x); });
   this->Mesh.doublePositions = false;
   writeVsmOf(this->Mesh, this->Folder / "mesh.vsm");
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  Workspace workspace(this->Folder.path(), Workspace::MinMemory);
   writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.stl", workspace);
   const std::vector<double> points = readStlPoints(this->Folder / "out.stl");
   ASSERT_EQ(points.size(), 9 * this->Mesh.cells.size());
@@ -377,7 +377,7 @@ TEST_F(LargeRestoredMesh, GoesToStlInLittleMemory)
     same = same && points[i] == this->Mesh.points[std::size_t(3 * corner) + i % 3];
   }
   EXPECT_TRUE(same);
-  EXPECT_LE(workspace.pool().peak(), Workspace::LeastMemory);
+  EXPECT_LE(workspace.pool().peak(), Workspace::MinMemory);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ struct Expected
 void expectSortedRows(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   Random random(1);
   std::vector<Expected> expected;
   {

@@ -33,7 +33,7 @@ void put(RowTable& table, std::uint64_t number, std::uint64_t square)
 void expectRows(std::int64_t count, std::int64_t memory)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   std::vector<std::uint32_t> numbers(static_cast<std::size_t>(count));
   std::iota(numbers.begin(), numbers.end(), 0u);
   std::shuffle(numbers.begin(), numbers.end(), std::mt19937(7));

@@ -36,7 +36,7 @@ SourceDistances starDistances(Workspace& workspace, int arms, int length)
 
 TEST(SourcePlan, OneEndOfAPathIsEnough)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   const SourceDistances path = starDistances(workspace, 2, 1000);
   const SourcePlan plan = planSources(path, 2000, workspace).front();
   ASSERT_EQ(plan.sources.size(), 1u);
@@ -47,7 +47,7 @@ TEST(SourcePlan, OneEndOfAPathIsEnough)
 /** The arms one after another would be best; starting at several ends is better than at one. */
 TEST(SourcePlan, ArmsOfAStarAreSearchedTwoAfterTwo)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   const SourceDistances star = starDistances(workspace, 4, 1000);
   const SourcePlan plan = planSources(star, 400000, workspace).front();
   // From one end: a level has 100 vertices on the first arm, 300 on the others.
@@ -60,7 +60,7 @@ TEST(SourcePlan, ArmsOfAStarAreSearchedTwoAfterTwo)
 /** All samples have the last level of the last bin, which single precision rounds up. */
 TEST(SourcePlan, LevelsAreCountedHoweverManyThereAre)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   constexpr std::size_t samples = 100;
   SourceDistances distances(workspace, samples, 1);
   std::fill_n(distances.add(), samples, 44999999);
@@ -73,7 +73,7 @@ TEST(SourcePlan, LevelsAreCountedHoweverManyThereAre)
 
 TEST(SourcePlan, IsDetermined)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   const SourceDistances star = starDistances(workspace, 5, 300);
   const SourcePlan a = planSources(star, 1500, workspace).front();
   const SourcePlan b = planSources(star, 1500, workspace).front();
@@ -158,7 +158,7 @@ struct Planned
   explicit Planned(const IndexedTestMesh& mesh, int landmarks = 4)
     : neighbours(neighboursOf(mesh))
     , paged(this->pages(mesh))
-    , cache(this->paged.pages, this->workspace, PageCache::mostBytes(this->paged.pages))
+    , cache(this->paged.pages, this->workspace, PageCache::maxBytes(this->paged.pages))
     , search(this->paged.pages, this->cache, this->workspace, 1 << 16)
   {
     const SearchSource first{ 0, 0 };
@@ -175,7 +175,7 @@ struct Planned
     return pagesOf(this->neighbours, mesh.positions, curve, 64, true, this->workspace);
   }
 
-  Workspace workspace{ {}, Workspace::LeastMemory };
+  Workspace workspace{ {}, Workspace::MinMemory };
   Neighbours neighbours;
   PagedMesh paged;
   PageCache cache;

@@ -220,7 +220,7 @@ TEST(SpectralOrder, NeedsLittleMemory)
 {
   // Arrays and graph are larger than their shares of the memory, so that runs consist of pages.
   const CoreMesh mesh = bumpyTorus(1600, 350);
-  const std::vector<std::uint32_t> order = spectral(mesh, 32, std::int64_t(LeastMebibytes) << 20);
+  const std::vector<std::uint32_t> order = spectral(mesh, 32, std::int64_t(MinMebibytes) << 20);
   expectPermutation(mesh, order);
   EXPECT_LT(widthOf(mesh, order), 1000);
 }
@@ -231,7 +231,7 @@ TEST(SpectralOrder, IsTheAxisOrderWherePagesSayNothing)
   const auto neighbours = neighboursOf(mesh);
   std::vector<std::uint32_t> shuffled = mortonOrder(mesh, neighbours);
   std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   PagedMesh paged = makePages(workspace, mesh, neighbours, shuffled, 256);
   std::vector<std::string> notes;
   EXPECT_EQ(numbersOf(spectralOrder(paged, workspace, &notes)),

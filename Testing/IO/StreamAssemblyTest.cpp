@@ -96,7 +96,7 @@ protected:
   }
 
   TemporaryFolder Folder;
-  Workspace Space{ Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ Folder.path(), Workspace::MinMemory };
 };
 
 /** The numbers of the stream's vertices in the mesh. */
@@ -327,7 +327,7 @@ TEST_F(StreamAssembly, IsolatedVerticesAreTold)
 
 TEST_F(StreamAssembly, ManyColumnsFitTheLeastMemory)
 {
-  Workspace space(this->Folder.path(), Workspace::LeastMemory);
+  Workspace space(this->Folder.path(), Workspace::MinMemory);
   RawMeshBuilder builder(space, CellChoice::Only);
   constexpr int Columns = 600;
   constexpr int Vertices = 3000;

@@ -178,7 +178,7 @@ TEST_F(Scanner, OtherThreadsChangeNothing)
 {
   const std::string numbers = manyNumbers(2 * InputFile::WindowBytes);
   // A line longer than what is read ahead, and a long comment.
-  const std::string longLine(2 * WordsAhead::BlockBytes, ' ');
+  const std::string longLine(2 * WordPrefetch::BlockBytes, ' ');
   for (const std::string& text :
     { numbers, numbers + longLine + numbers, numbers + "#" + longLine + "1 2\n" + numbers + "end" })
   {
@@ -280,10 +280,10 @@ TEST_F(Scanner, CountsAreCheckedAgainstTheFile)
 
 TEST_F(Scanner, EndlessTokensAreRefused)
 {
-  InputFile file = this->open("\n" + std::string(TextScanner::MostTokenBytes, 'x') + " " +
+  InputFile file = this->open("\n" + std::string(TextScanner::MaxTokenBytes, 'x') + " " +
                               std::string(3 * InputFile::WindowBytes, 'y'));
   TextScanner scanner(file);
-  EXPECT_EQ(scanner.token().size(), TextScanner::MostTokenBytes);
+  EXPECT_EQ(scanner.token().size(), TextScanner::MaxTokenBytes);
   expectError([&] { scanner.token(); }, "name.off, line 2: a word has more than 65536 bytes");
 }
 

@@ -41,7 +41,7 @@ VertexPages::Vertex vertexOf(std::uint32_t id, const Ranks& neighbours)
 class VertexPagesTest : public ::testing::TestWithParam<bool>
 {
 protected:
-  Workspace Space{ {}, Workspace::LeastMemory };
+  Workspace Space{ {}, Workspace::MinMemory };
 };
 
 TEST_P(VertexPagesTest, WhatIsAppendedIsRead)
@@ -168,7 +168,7 @@ TEST_P(VertexPagesTest, AnEnormousDegree)
 
 TEST(VertexPages, MemoryIsAccountedFor)
 {
-  Workspace space({}, Workspace::LeastMemory);
+  Workspace space({}, Workspace::MinMemory);
   const std::int64_t before = space.pool().used();
   {
     VertexPages pages(space, 1, false);

@@ -32,7 +32,7 @@ protected:
   }
 
   TemporaryFolder Folder;
-  Workspace Space{ Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ Folder.path(), Workspace::MinMemory };
   VertexStar Star{ Space, Range, 64 };
 };
 

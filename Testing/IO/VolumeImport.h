@@ -143,7 +143,7 @@ protected:
   }
 
   TemporaryFolder Folder;
-  Workspace Space{ this->Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ this->Folder.path(), Workspace::MinMemory };
 
 private:
   void attempt(Importer importer, const std::string& name, const std::string& bytes)

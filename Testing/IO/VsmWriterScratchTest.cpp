@@ -50,7 +50,7 @@ public:
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override
   {
-    this->MostOpen = std::max(this->MostOpen, openFilesIn(this->Watched));
+    this->MaxOpen = std::max(this->MaxOpen, openFilesIn(this->Watched));
     const std::int64_t count = std::min<std::int64_t>(BlockCells, this->Info.cells - this->Cells);
     block.firstVertex = this->Vertices;
     block.firstCell = this->Cells;
@@ -73,7 +73,7 @@ public:
   }
 
   /** The most files that were open at once in the folder that is watched. */
-  int mostOpen() const { return this->MostOpen; }
+  int maxOpen() const { return this->MaxOpen; }
 
 private:
   static constexpr std::int64_t BlockCells = 10000;
@@ -82,7 +82,7 @@ private:
   bool IsFan;
   std::filesystem::path Watched;
   std::int64_t Vertices = 0, Cells = 0;
-  int MostOpen = 0;
+  int MaxOpen = 0;
 };
 
 class VsmWriterScratch : public ::testing::Test
@@ -103,7 +103,7 @@ TEST_F(VsmWriterScratch, AStreamWhoseVerticesBecomeFinalNeedsNoFile)
   RowOfTriangles band(Cells, false, this->Out);
   const WrittenVsm written = writeVsm(
     band, this->Out / "band.vsm", { .codec = Codec::Lz4, .scratch = this->Scratch.path() });
-  EXPECT_EQ(band.mostOpen(), 1) << "that of the result";
+  EXPECT_EQ(band.maxOpen(), 1) << "that of the result";
   EXPECT_EQ(this->Scratch.account().peak(), 0);
   EXPECT_EQ(written.info.width, 3);
   EXPECT_EQ(written.meanWidth, 3.0);
@@ -114,7 +114,7 @@ TEST_F(VsmWriterScratch, WhatHasNoRoomIsCountedWithTheScratchFiles)
   RowOfTriangles fan(Cells, true, this->Out);
   const WrittenVsm written =
     writeVsm(fan, this->Out / "fan.vsm", { .codec = Codec::Lz4, .scratch = this->Scratch.path() });
-  EXPECT_EQ(fan.mostOpen(), 1) << "that of the result";
+  EXPECT_EQ(fan.maxOpen(), 1) << "that of the result";
   EXPECT_GT(this->Scratch.account().peak(), 4 * Cells);
   EXPECT_EQ(this->Scratch.account().used(), 0);
   EXPECT_EQ(written.info.width, 3);

@@ -154,7 +154,7 @@ class VtkHdfTimeSteps : public ImportFixture
 protected:
   ReadMesh readStep(const std::string& name, std::int64_t step, std::optional<std::int64_t> part)
   {
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     ImportOptions options;
     options.part = { step, part };
     return readRaw(importMesh(this->Folder / name, workspace, options));

@@ -40,7 +40,7 @@ protected:
   }
 
   TemporaryFolder Folder;
-  Workspace Space{ Folder.path(), Workspace::LeastMemory };
+  Workspace Space{ Folder.path(), Workspace::MinMemory };
 };
 
 /** The reference result of welding, from comparing all pairs of points. */

@@ -39,13 +39,13 @@ TEST(OrderedJobs, AreTakenInOrderByTheOwner)
     {
       Workers workers(threads);
       std::vector<int> taken;
-      std::atomic<int> running{ 0 }, mostRunning{ 0 };
+      std::atomic<int> running{ 0 }, maxRunning{ 0 };
       OrderedJobs<Numbered> jobs(
         workers, most,
         [&](Numbered& item)
         {
           const int now = ++running;
-          for (int seen = mostRunning; seen < now && !mostRunning.compare_exchange_weak(seen, now);)
+          for (int seen = maxRunning; seen < now && !maxRunning.compare_exchange_weak(seen, now);)
           {
           }
           item.result = churn(item.number);
@@ -66,7 +66,7 @@ TEST(OrderedJobs, AreTakenInOrderByTheOwner)
       jobs.takeAll();
       ASSERT_EQ(taken.size(), 500u);
       EXPECT_TRUE(std::ranges::is_sorted(taken));
-      EXPECT_LE(mostRunning, std::min(threads, static_cast<int>(most)));
+      EXPECT_LE(maxRunning, std::min(threads, static_cast<int>(most)));
     }
   }
 }

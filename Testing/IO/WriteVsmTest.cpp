@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/External/Workers.h"
-#include "IO/Results/SourceAhead.h"
+#include "IO/Results/SourcePrefetch.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -59,12 +59,12 @@ std::string contentOf(const std::filesystem::path& path)
 
 } // namespace
 
-TEST(SourceAhead, DeliversTheStreamForAnyNumberOfThreads)
+TEST(SourcePrefetch, DeliversTheStreamForAnyNumberOfThreads)
 {
   for (const int threads : { 1, 2, 3 })
   {
     FaultySource same;
-    SourceAhead source(std::make_unique<FaultySource>(), threads);
+    SourcePrefetch source(std::make_unique<FaultySource>(), threads);
     EXPECT_EQ(source.info().cells, same.info().cells);
     MeshBlock block, expected;
     int blocks = 0;
@@ -81,11 +81,11 @@ TEST(SourceAhead, DeliversTheStreamForAnyNumberOfThreads)
   }
 }
 
-TEST(SourceAhead, FailsWithTheBlockThatFails)
+TEST(SourcePrefetch, FailsWithTheBlockThatFails)
 {
   for (const int threads : { 1, 2 })
   {
-    SourceAhead source(std::make_unique<FaultySource>(3), threads);
+    SourcePrefetch source(std::make_unique<FaultySource>(3), threads);
     MeshBlock block;
     EXPECT_TRUE(source.next(block));
     EXPECT_TRUE(source.next(block));

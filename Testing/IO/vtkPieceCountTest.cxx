@@ -24,7 +24,7 @@ public:
   vtkTypeMacro(vtkMeasuringFilter, vtkFaultyFilter);
 
   bool IsAnonymous = false;
-  std::int64_t MostBytes = 0; ///< of the pieces of the last number of pieces
+  std::int64_t MaxBytes = 0; ///< of the pieces of the last number of pieces
   int Pieces = 0;
 
 protected:
@@ -45,7 +45,7 @@ protected:
     const int pieces = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
     const int done = this->vtkFaultyFilter::RequestData(request, inputVector, outputVector);
     const std::int64_t bytes = 1024 * vtkDataObject::GetData(info)->GetActualMemorySize();
-    this->MostBytes = std::max(pieces == this->Pieces ? this->MostBytes : 0, bytes);
+    this->MaxBytes = std::max(pieces == this->Pieces ? this->MaxBytes : 0, bytes);
     this->Pieces = pieces;
     return done;
   }
@@ -110,7 +110,7 @@ TEST_F(VtkPieceCount, NoPieceOfAKnownMeshIsLarge)
 {
   this->pull({ .pieceBytes = SmallBytes });
   EXPECT_GT(this->Filter->Pieces, 64);
-  EXPECT_LE(this->Filter->MostBytes, SmallBytes + RoundingBytes);
+  EXPECT_LE(this->Filter->MaxBytes, SmallBytes + RoundingBytes);
   for (const std::string& request : this->Filter->Requests)
   {
     EXPECT_FALSE(request.ends_with("/64")) << request;
@@ -128,7 +128,7 @@ TEST_F(VtkPieceCount, ALargeFirstPieceOfAnotherSourceBeginsAgain)
   // Later pieces also have points of earlier ones, which the first one does not show.
   constexpr std::int64_t PointBytes = 64;
   const std::int64_t shared = PointBytes * VsmReader(this->Folder / "mesh.vsm").info().width;
-  EXPECT_LE(this->Filter->MostBytes, SmallBytes + RoundingBytes + shared);
+  EXPECT_LE(this->Filter->MaxBytes, SmallBytes + RoundingBytes + shared);
 }
 
 TEST_F(VtkPieceCount, TheWriterRequestsNoLargePiece)
@@ -140,7 +140,7 @@ TEST_F(VtkPieceCount, TheWriterRequestsNoLargePiece)
   this->expectSameMesh();
   constexpr std::int64_t PieceBytes = std::int64_t(4) << 20;
   EXPECT_GT(this->Filter->Pieces, 1);
-  EXPECT_LE(this->Filter->MostBytes, PieceBytes);
+  EXPECT_LE(this->Filter->MaxBytes, PieceBytes);
   EXPECT_EQ(this->Filter->Requests.front(), "0/" + std::to_string(this->Filter->Pieces));
 
   this->Filter->IsAnonymous = true;
@@ -148,7 +148,7 @@ TEST_F(VtkPieceCount, TheWriterRequestsNoLargePiece)
   this->Filter->Modified();
   ASSERT_TRUE(writer->Write());
   EXPECT_EQ(this->Filter->Requests.front(), "0/64");
-  EXPECT_LE(this->Filter->MostBytes, PieceBytes);
+  EXPECT_LE(this->Filter->MaxBytes, PieceBytes);
 }
 
 } // namespace

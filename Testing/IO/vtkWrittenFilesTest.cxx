@@ -207,7 +207,7 @@ TEST_F(VtkWrittenFiles, CompressedFilesNeedNoMemoryOfTheirSize)
   {
     this->writeXml<vtkXMLPolyDataWriter>(
       "a.vtp", sphere->GetOutput(), vtkXMLWriter::Binary, compressor, true);
-    EXPECT_EQ(this->read("a.vtp", Workspace::LeastMemory).vertices(),
+    EXPECT_EQ(this->read("a.vtp", Workspace::MinMemory).vertices(),
       sphere->GetOutput()->GetNumberOfPoints());
   }
 }

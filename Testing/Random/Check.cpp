@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 /** Weights of the finest level are mostly of single precision: solutions may differ a little in
  * equations of bad condition, but then their residual is small. Something forgotten or wrong is
  * seen in both. */
-constexpr double MostError = 2e-6, MostResidual = 3e-5;
+constexpr double MaxError = 2e-6, MaxResidual = 3e-5;
 
 bool hasNote(const Report& report, const char* part)
 {
@@ -245,7 +245,7 @@ void compare(const Case& given, const Oracle& oracle, const MatrixXd& values, co
         rest / std::max(terms + oracle.loads(v, k) + std::abs(oracle.rightSide(v, k)), 1e-300));
     }
   }
-  if (to.hasConverged && !to.isApproximate && to.error > MostError && residual > MostResidual)
+  if (to.hasConverged && !to.isApproximate && to.error > MaxError && residual > MaxResidual)
   {
     std::ostringstream text;
     text << "differs from the direct solution by " << to.error << ", residual " << residual;

@@ -12,8 +12,8 @@ TEST(Coarsening, LiftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
   for (const CoarseningCase& test : coarseningCases())
   {
     const CoarsenedLevel step = coarsen(test.level, test.operators);
-    const auto& lifted = step.record.lifted;
-    ASSERT_EQ(lifted.size(), test.level.rows.size());
+    const auto& coarseIndex = step.record.coarseIndex;
+    ASSERT_EQ(coarseIndex.size(), test.level.rows.size());
     std::int64_t next = 0;
     for (std::int64_t i = 0; i < test.level.nodes(); ++i)
     {
@@ -22,12 +22,12 @@ TEST(Coarsening, LiftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
       for (const RowEntry& entry : test.level.rows[i])
       {
         dependsOnLifted = dependsOnLifted || (entry.delta() < 0 && entry.weight() >= strong &&
-                                               lifted[i + entry.delta()] >= 0);
+                                               coarseIndex[i + entry.delta()] >= 0);
       }
       // Next to constrained nodes with negative weights, weights can sum to well over 1.
-      const bool exceeds = test.level.alpha[i] < -0.5 * test.level.diagonal(i);
+      const bool exceeds = test.level.rowSum[i] < -0.5 * test.level.diagonal(i);
       const bool expected = (!dependsOnLifted || exceeds) && !test.level.rows[i].empty();
-      ASSERT_EQ(lifted[i], expected ? next : -1) << test.name << ", node " << i;
+      ASSERT_EQ(coarseIndex[i], expected ? next : -1) << test.name << ", node " << i;
       next += expected ? 1 : 0;
     }
     EXPECT_EQ(next, step.coarse.nodes());
@@ -55,7 +55,7 @@ TEST(Coarsening, TheRawProductIsTheGalerkinProduct)
     const Eigen::VectorXd rowSums = expected.rowwise().sum();
     for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
     {
-      EXPECT_NEAR(step.coarse.alpha[c], rowSums[c], 1e-7 * expected(c, c)) << test.name;
+      EXPECT_NEAR(step.coarse.rowSum[c], rowSums[c], 1e-7 * expected(c, c)) << test.name;
     }
   }
 }
@@ -67,9 +67,9 @@ TEST(Coarsening, RowSumsOfAFreeComponentAreZeroOnEveryLevel)
     TestLevel level = test.level;
     for (int depth = 0; test.free && level.nodes() > 3; ++depth)
     {
-      for (const double alpha : level.alpha)
+      for (const double rowSum : level.rowSum)
       {
-        ASSERT_EQ(alpha, 0.0) << test.name << ", level " << depth;
+        ASSERT_EQ(rowSum, 0.0) << test.name << ", level " << depth;
       }
       ASSERT_LT(depth, 10);
       level = coarsen(level, test.operators).coarse;
@@ -101,7 +101,7 @@ TEST(Coarsening, DoesNotDependOnHowManyRowsComeAtOnce)
     for (const std::int64_t batch : { 1, 7, 64, 200 })
     {
       const CoarsenedLevel parts = coarsen(test.level, test.operators, batch);
-      EXPECT_EQ(parts.record.lifted, whole.record.lifted) << test.name;
+      EXPECT_EQ(parts.record.coarseIndex, whole.record.coarseIndex) << test.name;
       EXPECT_EQ(parts.record.parents, whole.record.parents) << test.name;
       EXPECT_TRUE(sameLevels(parts.record.raw, whole.record.raw)) << test.name;
       EXPECT_TRUE(sameLevels(parts.coarse, whole.coarse)) << test.name << ", batch " << batch;
@@ -113,7 +113,7 @@ TEST(Coarsening, StiffNodesStayAndTheirRowsAreNotSparsified)
 {
   for (const double scale : { 1.0, 1e-5 })
   {
-    const StiffRows rule(StiffRows::Triangles, scale);
+    const SliverRows rule(SliverRows::Triangles, scale);
     TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::Cotangent, 17);
     for (std::int64_t i = 0; i < level.nodes(); ++i)
     {
@@ -121,7 +121,7 @@ TEST(Coarsening, StiffNodesStayAndTheirRowsAreNotSparsified)
       {
         entry.setWeight(entry.weight() * static_cast<float>(scale));
       }
-      level.alpha[i] *= scale;
+      level.rowSum[i] *= scale;
     }
     for (int l = 0; l < 3; ++l)
     {
@@ -130,15 +130,15 @@ TEST(Coarsening, StiffNodesStayAndTheirRowsAreNotSparsified)
       std::int64_t stiff = 0, sparsified = 0;
       for (std::int64_t i = 0; i < level.nodes(); ++i)
       {
-        const bool isStiff = level.least(i) < StiffRows::Triangles * scale;
+        const bool isStiff = level.least(i) < SliverRows::Triangles * scale;
         stiff += isStiff ? 1 : 0;
-        EXPECT_TRUE(!isStiff || step.record.lifted[i] >= 0);
+        EXPECT_TRUE(!isStiff || step.record.coarseIndex[i] >= 0);
       }
       EXPECT_GT(stiff, 100);
       EXPECT_TRUE(l > 0 || stiff < level.nodes() / 2);
       for (std::int64_t c = 0; c < raw.nodes(); ++c)
       {
-        const bool isStiff = raw.least(c) < StiffRows::Triangles * scale;
+        const bool isStiff = raw.least(c) < SliverRows::Triangles * scale;
         EXPECT_EQ(step.record.rawStiff[c], isStiff);
         const bool fewer = step.coarse.rows[c].size() < raw.rows[c].size();
         EXPECT_FALSE(fewer && isStiff);
@@ -155,15 +155,15 @@ TEST(Coarsening, NodesWithoutEdgesHaveNoParent)
 {
   TestLevel level;
   level.rows = { {}, { { 2, 1.0F } }, {}, { { -2, 1.0F } }, {} };
-  level.alpha = { 1.0, 0.0, 1.0, 0.5, 1.0 };
+  level.rowSum = { 1.0, 0.0, 1.0, 0.5, 1.0 };
   for (const std::int64_t batch : { 1, 5 })
   {
     const CoarsenedLevel step = coarsen(level, {}, batch);
-    EXPECT_EQ(step.record.lifted, (std::vector<std::int64_t>{ -1, 0, -1, -1, -1 }));
+    EXPECT_EQ(step.record.coarseIndex, (std::vector<std::int64_t>{ -1, 0, -1, -1, -1 }));
     EXPECT_TRUE(step.record.parents[0].empty());
     ASSERT_EQ(step.coarse.nodes(), 1);
     EXPECT_TRUE(step.coarse.rows[0].empty());
-    EXPECT_GT(step.coarse.alpha[0], 0.0);
+    EXPECT_GT(step.coarse.rowSum[0], 0.0);
   }
 }
 

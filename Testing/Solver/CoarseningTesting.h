@@ -31,7 +31,7 @@ struct CoarseningCase
       terms += std::fabs(entry.weight());
     }
     const bool isOfSlivers =
-      terms > IndependentSetLifting().cancelling * static_cast<float>(this->level.diagonal(i));
+      terms > IndependentSetCoarsening().cancelling * static_cast<float>(this->level.diagonal(i));
     const float share = isOfSlivers ? this->operators.sliverStrength : this->operators.strength;
     return std::max(share * this->level.strongest(i), FLT_MIN);
   }
@@ -72,7 +72,7 @@ inline std::vector<CoarseningCase> coarseningCases()
 
 inline bool sameLevels(const TestLevel& a, const TestLevel& b)
 {
-  bool same = a.nodes() == b.nodes() && a.alpha == b.alpha;
+  bool same = a.nodes() == b.nodes() && a.rowSum == b.rowSum;
   for (std::int64_t i = 0; same && i < a.nodes(); ++i)
   {
     same = std::equal(a.rows[i].begin(), a.rows[i].end(), b.rows[i].begin(), b.rows[i].end(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Cycle/CoreCycle.h"
 #include "Solver/Multigrid/Cycle/RowBlockPacker.h"
+#include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Testing/Solver/PatchReference.h"
 #include "Testing/Support/AllIndices.h"
 
@@ -35,7 +35,7 @@ RowBlock widened(Pool& pool, const RowBlock& narrow)
   copy(from.entryEnd, h.nodes, to.entryEnd);
   copy(from.parentEnd, h.nodes, to.parentEnd);
   copy(from.parentQuanta, h.parents, to.parentQuanta);
-  copy(from.alpha, RowBlock::alphas(h), to.alpha);
+  copy(from.rowSum, RowBlock::rowSums(h), to.rowSum);
   copy(from.special, h.specials, to.special);
   copy(from.value, h.values, to.value);
   copy(from.precise, h.precise, to.precise);

@@ -99,7 +99,7 @@ TEST(StrongestWeight, IsStiffWhateverTheWeight)
 
 TEST(RowEntry, KeepsDistanceAndWeight)
 {
-  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MaxDistance);
   for (const std::int32_t delta : { -Most, -257, -1, 1, 256, Most })
   {
     for (const float weight : { 0.0F, 1.0F / 3.0F, -7e-30F })
@@ -113,7 +113,7 @@ TEST(RowEntry, KeepsDistanceAndWeight)
 
 TEST(WideIndex, KeepsAsManyBitsAsARowEntry)
 {
-  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MaxDistance);
   const std::vector<std::int32_t> expected = { -Most - 1, Most, -1, 0, -257, 255, 32768 };
   for (const int before : { 0, 255 })
   {

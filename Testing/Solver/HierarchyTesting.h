@@ -3,8 +3,8 @@
 
 #include "Solver/Multigrid/Cycle/GaussSeidel.h"
 #include "Solver/Multigrid/Engine/Coarsening.h"
-#include "Solver/Multigrid/Setup/ExtendedInterpolation.h"
 #include "Solver/Multigrid/Setup/GalerkinProduct.h"
+#include "Solver/Multigrid/Setup/Interpolation.h"
 #include "Solver/Multigrid/Setup/Sparsification.h"
 #include "Testing/Support/EdgeWeights.h"
 #include "Testing/Support/MemorySource.h"
@@ -27,7 +27,7 @@ namespace smg::testing
 struct TestLevel
 {
   std::vector<std::vector<RowEntry>> rows;
-  std::vector<double> alpha;
+  std::vector<double> rowSum;
   /** The weights of some rows in double precision; empty: none. */
   std::vector<std::vector<double>> precise;
   bool finest = true; ///< otherwise coarsened from another level
@@ -64,7 +64,7 @@ struct TestLevel
   }
   double diagonal(std::int64_t i) const
   {
-    double sum = this->alpha[i];
+    double sum = this->rowSum[i];
     for (std::size_t e = 0; e < this->rows[i].size(); ++e)
     {
       sum += this->weight(i, e);
@@ -87,19 +87,19 @@ struct TestLevel
   }
 
   /** Appends rows [begin, end) to the window of the level. `stiff` is called row by row. */
-  void append(LevelRows& to, std::int64_t begin, std::int64_t end, StiffRows& stiff) const
+  void append(LevelRows& to, std::int64_t begin, std::int64_t end, SliverRows& stiff) const
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
       const auto size = static_cast<std::int64_t>(this->rows[i].size());
       std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
       to.close(
-        size, this->alpha[i], this->finest ? -1 : 0, stiff(this->least(i)), this->preciseOf(i));
+        size, this->rowSum[i], this->finest ? -1 : 0, stiff(this->least(i)), this->preciseOf(i));
     }
   }
   void append(LevelRows& to, std::int64_t begin, std::int64_t end) const
   {
-    StiffRows none;
+    SliverRows none;
     this->append(to, begin, end, none);
   }
 };
@@ -111,14 +111,14 @@ inline TestLevel levelOf(const LevelRows& rows)
   {
     const auto row = rows.row(i);
     level.rows.emplace_back(row.begin(), row.end());
-    level.alpha.push_back(rows.alpha(i));
+    level.rowSum.push_back(rows.rowSum(i));
   }
   return level;
 }
 
 /**
  * The finest level of a mesh. Every `every`-th vertex is constrained: it has an empty row, and its
- * neighbours have its weight in alpha; 0: none is.
+ * neighbours have its weight in rowSum; 0: none is.
  */
 inline TestLevel finestLevel(const StreamMesh& mesh, Weights weights, std::int64_t every = 0)
 {
@@ -132,17 +132,17 @@ inline TestLevel finestLevel(const StreamMesh& mesh, Weights weights, std::int64
   edges.finish(mesh.positions);
   TestLevel level;
   level.rows.resize(mesh.vertices());
-  level.alpha.resize(mesh.vertices());
+  level.rowSum.resize(mesh.vertices());
   const auto isFixed = [&](std::int64_t v) { return every > 0 && v % every == every / 2; };
   const auto add = [&](std::int64_t i, std::int64_t j, double weight)
   {
     if (isFixed(i))
     {
-      level.alpha[i] = 1.0;
+      level.rowSum[i] = 1.0;
     }
     else if (isFixed(j))
     {
-      level.alpha[i] += static_cast<float>(weight);
+      level.rowSum[i] += static_cast<float>(weight);
     }
     else
     {
@@ -177,7 +177,7 @@ struct CoarseningRecord
     std::vector<std::pair<std::int64_t, float>> entries; ///< coarse node, weight
     float sum = 0.0F;
   };
-  std::vector<std::int64_t> lifted;         ///< coarse node of each fine node, or -1
+  std::vector<std::int64_t> coarseIndex;    ///< coarse node of each fine node, or -1
   std::vector<std::vector<Relaxed>> sweeps; ///< the rows after each sweep, from that of P0
   std::vector<std::vector<Parent>> parents;
   TestLevel raw; ///< P^T A P before sparsification
@@ -216,17 +216,17 @@ public:
   bool dropsNegative = false;
   std::shared_ptr<CoarseningRecord> record = std::make_shared<CoarseningRecord>();
 
-  bool lift(const CoarseningData& data, std::int64_t i)
+  bool isCoarse(const CoarseningData& data, std::int64_t i)
   {
-    this->Interpolation.lifting.strength = this->strength;
-    this->Interpolation.lifting.sliverStrength = this->sliverStrength;
+    this->Interpolation.coarsePoints.strength = this->strength;
+    this->Interpolation.coarsePoints.sliverStrength = this->sliverStrength;
     this->Interpolation.finestEntries = this->finestEntries;
     this->Interpolation.entries = this->entries;
     this->Product.cancelling = this->cancelling;
-    const bool lifted = this->Interpolation.lifting(data, i);
-    this->record->lifted.push_back(lifted ? data.coarseNodes : -1);
+    const bool isCoarse = this->Interpolation.coarsePoints(data, i);
+    this->record->coarseIndex.push_back(isCoarse ? data.coarseNodes : -1);
     this->Turns.push_back(0);
-    return lifted;
+    return isCoarse;
   }
   void interpolateInitial(CoarseningData& data, std::int64_t i)
   {
@@ -260,8 +260,8 @@ public:
       parents.push_back({ near + entry[e].offset(near), entry[e].quanta() });
     }
   }
-  void multiply(CoarseningData& data, std::int64_t i) { this->Product.multiply(data, i); }
-  void gather(CoarseningData& data, std::int64_t c) { this->Product.gather(data, c); }
+  void productAP(CoarseningData& data, std::int64_t i) { this->Product.productAP(data, i); }
+  void productPtAP(CoarseningData& data, std::int64_t c) { this->Product.productPtAP(data, c); }
   void sparsify(CoarseningData& data, std::int64_t c) const
   {
     auto& row = this->record->raw.rows.emplace_back();
@@ -270,7 +270,7 @@ public:
     {
       row.push_back({ entry->offset(c), entry->value() });
     }
-    this->record->raw.alpha.push_back(data.rawAlpha[c]);
+    this->record->raw.rowSum.push_back(data.rawAlpha[c]);
     this->record->rawStiff.push_back(data.rawStrongest[c].stiff());
     Sparsification{ this->tolerance, this->dropsNegative }(data, c);
   }
@@ -308,7 +308,7 @@ struct CoarsenedLevel
 
 /** Coarsens a level whose rows are appended in batches; copies are kept as in a solve. */
 inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
-  std::int64_t batch = std::numeric_limits<std::int64_t>::max(), StiffRows stiff = {})
+  std::int64_t batch = std::numeric_limits<std::int64_t>::max(), SliverRows stiff = {})
 {
   operators.record = std::make_shared<CoarseningRecord>();
   Pool pool(std::int64_t(1) << 32);

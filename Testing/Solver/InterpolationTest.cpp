@@ -42,39 +42,39 @@ public:
     return row;
   }
 
-  bool lifted(std::int64_t i) const { return this->Step.record.lifted[i] >= 0; }
+  bool coarseIndex(std::int64_t i) const { return this->Step.record.coarseIndex[i] >= 0; }
 
   /** Row i of P0. */
   Row initial(std::int64_t i) const
   {
     const TestLevel& fine = this->Test.level;
     Row row{ Eigen::RowVectorXd::Zero(this->Step.coarse.nodes()), 1.0 };
-    if (this->lifted(i))
+    if (this->coarseIndex(i))
     {
-      row.weights[this->Step.record.lifted[i]] = 1.0;
+      row.weights[this->Step.record.coarseIndex[i]] = 1.0;
       return row;
     }
     for (const RowEntry& entry : fine.rows[i])
     {
-      const std::int64_t coarse = this->Step.record.lifted[i + entry.delta()];
+      const std::int64_t coarse = this->Step.record.coarseIndex[i + entry.delta()];
       if (coarse >= 0 && entry.weight() >= this->Test.strong(i))
       {
         row.weights[coarse] += entry.weight();
       }
     }
     const double sum = row.weights.sum();
-    row.weights /= sum > 0.0 ? sum + std::max(0.0, fine.alpha[i]) : 1.0;
+    row.weights /= sum > 0.0 ? sum + std::max(0.0, fine.rowSum[i]) : 1.0;
     row.sum = row.weights.sum();
     return row;
   }
 
-  /** The nodes that are relaxed together with the retained node i. */
+  /** The nodes that are relaxed together with the F-point i. */
   std::vector<std::int64_t> together(std::int64_t i) const
   {
     std::vector<std::int64_t> nodes;
     for (const std::int64_t m : this->PatchOf[i])
     {
-      if (!this->lifted(m))
+      if (!this->coarseIndex(m))
       {
         nodes.push_back(m);
       }
@@ -85,7 +85,7 @@ public:
   /** Whether m is relaxed before node `turn` in a sweep. */
   bool doneBefore(std::int64_t turn, std::int64_t m) const
   {
-    return (this->lifted(m) ? m : this->together(m).back()) < turn;
+    return (this->coarseIndex(m) ? m : this->together(m).back()) < turn;
   }
   /** The latest row of m in a sweep when node `turn` is relaxed. */
   Row newest(std::size_t sweep, std::int64_t turn, std::int64_t m) const
@@ -93,7 +93,7 @@ public:
     return this->recorded(this->doneBefore(turn, m) ? sweep : sweep - 1, m);
   }
 
-  /** What retained neighbours take from node i, its weight in row i, when they are not in `nodes`,
+  /** What F-neighbours take from node i, its weight in row i, when they are not in `nodes`,
    * which are relaxed together with it. */
   struct Response
   {
@@ -121,9 +121,9 @@ public:
       const Row row = this->newest(sweep, nodes.back(), m);
       add(plain, w, row);
       const bool isRelaxed = sweep > 1 || this->doneBefore(nodes.back(), m);
-      const double back = this->lifted(m) || w <= 0.0 ? 0.0
-                          : isRelaxed                 ? w * std::min(1.0, w / this->A(m, m))
-                                                      : w * w / (this->strongTotal(m) + w);
+      const double back = this->coarseIndex(m) || w <= 0.0 ? 0.0
+                          : isRelaxed                      ? w * std::min(1.0, w / this->A(m, m))
+                                                           : w * w / (this->strongTotal(m) + w);
       following.ofItself += back;
       add(following, isRelaxed ? w : w - back, row);
       if (isRelaxed)
@@ -188,11 +188,11 @@ private:
   double strongTotal(std::int64_t i) const
   {
     const TestLevel& fine = this->Test.level;
-    double total = std::max(0.0, fine.alpha[i]);
+    double total = std::max(0.0, fine.rowSum[i]);
     for (const RowEntry& entry : fine.rows[i])
     {
       const bool strong = entry.weight() >= this->Test.strong(i);
-      total += strong && this->lifted(i + entry.delta()) ? entry.weight() : 0.0;
+      total += strong && this->coarseIndex(i + entry.delta()) ? entry.weight() : 0.0;
     }
     return total;
   }
@@ -258,7 +258,7 @@ TEST(Interpolation, IsRelaxedInPlaceAndTruncated)
       for (std::int64_t i = 0; i < test.level.nodes(); ++i)
       {
         const auto& kept = step.record.sweeps[sweep][i];
-        if (check.lifted(i))
+        if (check.coarseIndex(i))
         {
           ASSERT_EQ(kept.entries, step.record.sweeps[0][i].entries);
           continue;
@@ -336,8 +336,8 @@ TEST(Interpolation, IsRoundedToQuantaThatKeepTheRowSum)
 /** Rows with cancelling weights (slivers) have as many as on coarse levels. */
 TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
 {
-  const double cancelling = ExtendedInterpolation().lifting.cancelling;
-  std::size_t mostOfSlivers = 0;
+  const double cancelling = ExtendedInterpolation().coarsePoints.cancelling;
+  std::size_t maxOfSlivers = 0;
   for (CoarseningCase& test : coarseningCases())
   {
     test.operators.finestEntries = 2;
@@ -349,7 +349,7 @@ TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
       const auto parents = coarsen(test.level, test.operators).record.parents;
       for (std::size_t i = 0; i < parents.size(); ++i)
       {
-        double terms = 0.0, diagonal = test.level.alpha[i];
+        double terms = 0.0, diagonal = test.level.rowSum[i];
         for (const RowEntry& entry : test.level.rows[i])
         {
           terms += std::fabs(entry.weight());
@@ -359,17 +359,17 @@ TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
         own = std::max(own, parents[i].size());
       }
       EXPECT_EQ(most[0], finest ? 2U : 3U) << test.name;
-      mostOfSlivers = finest ? std::max(mostOfSlivers, most[1]) : mostOfSlivers;
+      maxOfSlivers = finest ? std::max(maxOfSlivers, most[1]) : maxOfSlivers;
     }
   }
-  EXPECT_EQ(mostOfSlivers, 3U);
+  EXPECT_EQ(maxOfSlivers, 3U);
 }
 
 /** Next to stiff rows they have all that a row may have. */
 TEST(Interpolation, HasMoreEntriesNextToStiffRows)
 {
   const double scale = 1.0;
-  const StiffRows rule(StiffRows::Triangles, scale);
+  const SliverRows rule(SliverRows::Triangles, scale);
   const TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::Cotangent, 17);
   RecordingOperators operators;
   operators.finestEntries = operators.entries = 2;
@@ -377,8 +377,8 @@ TEST(Interpolation, HasMoreEntriesNextToStiffRows)
   std::size_t most[2] = { 0, 0 };
   for (std::int64_t i = 0; i < level.nodes(); ++i)
   {
-    const bool isNext = std::ranges::any_of(level.rows[i],
-      [&](const RowEntry& entry) { return level.least(i + entry.delta()) < StiffRows::Triangles; });
+    const bool isNext = std::ranges::any_of(level.rows[i], [&](const RowEntry& entry)
+      { return level.least(i + entry.delta()) < SliverRows::Triangles; });
     most[isNext ? 1 : 0] = std::max(most[isNext ? 1 : 0], parents[i].size());
   }
   EXPECT_EQ(most[0], 2U);

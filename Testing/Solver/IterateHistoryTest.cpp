@@ -43,7 +43,7 @@ public:
     this->History.keep(this->Errors);
     this->error().array() *= this->Factors.array();
     this->History.combine(this->Errors, 0, end);
-    using One = Lanes<double, 1>;
+    using One = SimdPack<double, 1>;
     for (std::int64_t first = 0; first < end; first += RowBlock::Nodes)
     {
       ResidualKeeper<One> keep(&this->History, first, 0);

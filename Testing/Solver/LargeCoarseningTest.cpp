@@ -64,7 +64,7 @@ void keepRows(const LevelRows& coarse, const FirstNodes& first, Made& made)
   {
     const auto row = coarse.row(c);
     made.coarse.rows.emplace_back(row.begin(), row.end());
-    made.coarse.alpha.push_back(coarse.alpha(c));
+    made.coarse.rowSum.push_back(coarse.rowSum(c));
     EXPECT_GE(coarse.reach(c), c);
     made.childReach.push_back(coarse.childReach(c) - first.fine);
   }

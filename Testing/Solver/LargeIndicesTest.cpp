@@ -154,7 +154,7 @@ public:
 struct Rows
 {
   std::vector<std::vector<RowEntry>> entries;
-  std::vector<double> alpha, x, b;
+  std::vector<double> rowSum, x, b;
   std::vector<std::int64_t> reach;
   std::int64_t components = 0;
 };
@@ -169,7 +169,7 @@ public:
     , Labels(this->Parts)
     , Cells(this->Memory, type, this->Asked, this->Out.weightScale, this->Parts, this->Labels)
     , Assembled(
-        type, this->Cells.vertices, this->Asked, this->Out, this->Parts, StiffRows(), nullptr)
+        type, this->Cells.vertices, this->Asked, this->Out, this->Parts, SliverRows(), nullptr)
     , Level(this->Memory)
     , Final(first)
   {
@@ -210,12 +210,12 @@ private:
     {
       const std::int64_t i = this->Final;
       this->Cells.edges.take(i, this->Cells.vertices.points, made.neighbours);
-      const double alpha = this->Cells.loads.close(i);
+      const double rowSum = this->Cells.loads.close(i);
       const double mass = this->Cells.vertices.mass[i];
       const double* load = this->Cells.loads.load();
       made.loads.insert(made.loads.end(), load, load + this->Asked.columns());
       made.vertices.push_back(
-        { made.neighbours.size(), alpha, mass, i, this->Cells.parts.close(i, mass) });
+        { made.neighbours.size(), rowSum, mass, i, this->Cells.parts.close(i, mass) });
       this->Assembled.close(made, made.vertices.size() - 1);
     }
     this->Cells.parts.flush();
@@ -228,7 +228,7 @@ private:
     {
       const auto row = this->Level.row(i);
       this->Made.entries.emplace_back(row.begin(), row.end());
-      this->Made.alpha.push_back(this->Level.alpha(i));
+      this->Made.rowSum.push_back(this->Level.rowSum(i));
       this->Made.reach.push_back(this->Level.reach(i) - this->First);
     }
     this->Level.release(end, end);
@@ -269,7 +269,7 @@ TEST(LargeIndices, TheRowsOfAMeshAreTheSameBits)
       source.rewind(150);
       const Rows rows = LargeAssembly(first, mesh.cellType)(source);
       EXPECT_TRUE(std::ranges::equal(rows.entries, expected.entries, isSame)) << first;
-      EXPECT_EQ(rows.alpha, expected.alpha) << first;
+      EXPECT_EQ(rows.rowSum, expected.rowSum) << first;
       EXPECT_EQ(rows.x, expected.x) << first;
       EXPECT_EQ(rows.b, expected.b) << first;
       EXPECT_EQ(rows.reach, expected.reach) << first;

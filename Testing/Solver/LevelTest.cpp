@@ -188,7 +188,7 @@ TEST(RowBlockPacker, TurnsWideWhereADistanceOrACountDoesNotFit)
 
 TEST(RowBlockPacker, WideBlocksKeepTheLargestDistances)
 {
-  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MaxDistance);
   const std::vector<RowEntry> expected = { { -Most, 2.0F }, { -1, 3.0F }, { 1, 4.0F },
     { Most, 5.0F } };
   Pool pool(1 << 28);
@@ -220,7 +220,7 @@ TEST(RowBlockPacker, WideBlocksKeepTheLargestDistances)
 TEST(RowBlockPacker, WideBlocksKeepTheLargestDistancesOfParents)
 {
   constexpr std::int64_t Base = std::int64_t(1) << 33;
-  const std::vector<std::int64_t> parents = { 0, -40000, RowEntry::MostDistance };
+  const std::vector<std::int64_t> parents = { 0, -40000, RowEntry::MaxDistance };
   Pool pool(1 << 28);
   SpareBuffers buffers(pool);
   LevelRows rows(pool), coarse(pool);

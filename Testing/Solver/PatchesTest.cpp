@@ -31,12 +31,12 @@ Eigen::MatrixXd denseOf(const PatchMatrix& matrix)
     { return matrix.at(static_cast<int>(a), static_cast<int>(b)); });
 }
 
-/** A path of nodes with these weights between consecutive nodes, and alpha on every node. */
-TestLevel path(const std::vector<float>& weights, double alpha)
+/** A path of nodes with these weights between consecutive nodes, and rowSum on every node. */
+TestLevel path(const std::vector<float>& weights, double rowSum)
 {
   TestLevel level;
   level.rows.resize(weights.size() + 1);
-  level.alpha.assign(level.rows.size(), alpha);
+  level.rowSum.assign(level.rows.size(), rowSum);
   for (std::size_t i = 0; i < weights.size(); ++i)
   {
     level.rows[i].push_back({ 1, weights[i] });
@@ -65,7 +65,7 @@ TestLevel shuffledPaths()
   }
   TestLevel level;
   level.rows.resize(number.size());
-  level.alpha.assign(number.size(), -0.1);
+  level.rowSum.assign(number.size(), -0.1);
   for (std::size_t i = 0; i < number.size(); ++i)
   {
     auto& row = level.rows[static_cast<std::size_t>(number[i])];
@@ -147,7 +147,7 @@ TEST(Patches, JoinThoseOfStrongNeighboursThatHaveRoomWithinTheRings)
 
 TEST(Patches, AreOfCouplingsAboveStrong)
 {
-  // With weight 1 and alpha on both nodes the coupling is 1 / (1 + alpha).
+  // With weight 1 and rowSum on both nodes the coupling is 1 / (1 + rowSum).
   for (const bool strong : { true, false })
   {
     const TestLevel level =

@@ -266,12 +266,12 @@ TEST(RawWeights, ARowThatRoundingHasLeftWithoutDiagonalIsRaised)
 {
   constexpr double Large = 1e5 + 0.1; // in double precision
   const double cancelling[] = { Large, -Large, -0.1 };
-  EXPECT_NEAR(rowShortfall(cancelling, 0.0) - 0.1, 1e-8 * (2 * Large + 0.1), 1e-12);
+  EXPECT_NEAR(lostDiagonal(cancelling, 0.0) - 0.1, 1e-8 * (2 * Large + 0.1), 1e-12);
   const double sound[] = { 2.0, -1.0 };
-  EXPECT_EQ(rowShortfall(sound, 0.0), 0.0);
-  EXPECT_GT(rowShortfall({}, 0.0), 0.0);
+  EXPECT_EQ(lostDiagonal(sound, 0.0), 0.0);
+  EXPECT_GT(lostDiagonal({}, 0.0), 0.0);
   const double small[] = { Large, -Large, 0.1 };
-  EXPECT_EQ(rowShortfall(small, 0.0), 0.0);
+  EXPECT_EQ(lostDiagonal(small, 0.0), 0.0);
 }
 
 } // namespace smg::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Jobs/Fairing/SmoothingProblem.h"
+#include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Testing/Solver/SmoothTesting.h"
 
 #include <Eigen/Dense>

@@ -172,7 +172,7 @@ TEST(Sparsification, KeepsSymmetryAndRowSums)
     const CoarsenedLevel step = coarsen(test.level, test.operators);
     const Eigen::MatrixXd sparse = step.coarse.dense();
     EXPECT_EQ(sparse, sparse.transpose()) << test.name;
-    EXPECT_EQ(step.coarse.alpha, step.record.raw.alpha);
+    EXPECT_EQ(step.coarse.rowSum, step.record.raw.rowSum);
     if (!chosen.next())
     {
       continue; // the rest is a computation of the test alone

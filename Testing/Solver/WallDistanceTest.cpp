@@ -56,7 +56,7 @@ std::vector<TrianglePoints> boundaryTriangles(const StreamMesh& mesh)
 }
 
 /** The distance of a point to the nearest of the triangles. */
-double leastOf(const std::vector<TrianglePoints>& triangles, const double* point)
+double minOf(const std::vector<TrianglePoints>& triangles, const double* point)
 {
   double least = HUGE_VAL;
   for (const TrianglePoints& triangle : triangles)
@@ -123,8 +123,7 @@ TEST(WallDistance, IsThatOfAllBoundaryTriangles)
   EXPECT_EQ(solved.report.passes, 1);
   for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
   {
-    EXPECT_NEAR(
-      solved.values(v, 0), leastOf(boundary, mesh.mesh().positions.data() + 3 * v), 1e-14);
+    EXPECT_NEAR(solved.values(v, 0), minOf(boundary, mesh.mesh().positions.data() + 3 * v), 1e-14);
   }
 }
 
@@ -141,7 +140,7 @@ TEST(WallDistance, PointsAwayFromTheWall)
     const Eigen::RowVector3d foot =
       Eigen::Map<const Eigen::RowVector3d>(mesh.mesh().positions.data() + 3 * v) -
       distance * direction;
-    EXPECT_NEAR(leastOf(boundary, foot.data()), 0, 1e-6);
+    EXPECT_NEAR(minOf(boundary, foot.data()), 0, 1e-6);
     const double* source =
       mesh.mesh().positions.data() + 3 * static_cast<std::int64_t>(solved.values(v, 1));
     EXPECT_LT((Eigen::Map<const Eigen::RowVector3d>(source) - foot).norm(), 0.15);
@@ -252,7 +251,7 @@ TEST(TriangleTree, FindsTheFirstOfTheNearest)
   {
     const double point[3] = { random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
       random.uniform(-0.5, 1.5) };
-    const double least = leastOf(triangles, point);
+    const double least = minOf(triangles, point);
     const TriangleTree::Nearest nearest =
       tree.nearest(point, HUGE_VAL, trial % 2 ? random.below(500) : -1);
     EXPECT_DOUBLE_EQ(nearest.distance, least);

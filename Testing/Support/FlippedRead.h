@@ -50,7 +50,7 @@ private:
 
 /** Requires that each flipped bit is an Error in an operation, which reads at least so often. */
 template <class Operation>
-void expectNoticedFlips(int leastReads, const Operation& operate)
+void expectNoticedFlips(int minReads, const Operation& operate)
 {
   for (int nth = 1;; ++nth)
   {
@@ -59,7 +59,7 @@ void expectNoticedFlips(int leastReads, const Operation& operate)
     if (flip.reads() < nth)
     {
       EXPECT_EQ(message, "");
-      EXPECT_GE(flip.reads(), leastReads);
+      EXPECT_GE(flip.reads(), minReads);
       return;
     }
     ASSERT_TRUE(contains(message, "differs from what was written"))

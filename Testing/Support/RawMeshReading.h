@@ -123,7 +123,7 @@ inline void expectValid(const ReadMesh& mesh)
 /** The mesh of a file in memory. */
 inline ReadMesh importWhole(const std::filesystem::path& path, CellChoice cells = CellChoice::Only)
 {
-  Workspace workspace({}, Workspace::LeastMemory);
+  Workspace workspace({}, Workspace::MinMemory);
   return readRaw(importMesh(path, workspace, { cells, {} }));
 }
 

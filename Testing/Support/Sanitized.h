@@ -20,6 +20,6 @@ inline constexpr bool GrowsInPlace = true;
 #endif
 
 /** The least memory limit of a conversion, MiB, in which buffers that do not grow in place fit. */
-inline constexpr int LeastMebibytes = GrowsInPlace ? 16 : 32;
+inline constexpr int MinMebibytes = GrowsInPlace ? 16 : 32;
 
 } // namespace smg::testing

@@ -129,7 +129,7 @@ std::filesystem::path folderOf(const std::filesystem::path& out)
 }
 
 /** At least so many bytes does the mesh take in pieces, whose arrays are in base64. */
-std::int64_t leastBytes(const smg::StreamInfo& mesh)
+std::int64_t minBytes(const smg::StreamInfo& mesh)
 {
   const auto bytesOf = [](const std::vector<smg::ColumnSpec>& columns)
   {
@@ -219,7 +219,7 @@ void checkPieceFiles(const smg::StreamInfo& mesh, const std::filesystem::path& o
                      ", but that is a file: choose another name for the result.");
   }
   smg::FileDescriptor::createBeside(isThere ? folder / pieceName(out, 0) : out)
-    .reserve(leastBytes(mesh));
+    .reserve(minBytes(mesh));
 }
 
 void writePieceFiles(

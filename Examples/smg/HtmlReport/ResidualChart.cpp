@@ -92,8 +92,8 @@ std::string grid(const Axes& axes, const std::string& iterations)
  * as these can be told apart. */
 std::string line(const ResidualChart::Step& step, std::size_t before, const Axes& axes)
 {
-  constexpr std::size_t MostDots = 60, MostPoints = 1000;
-  const std::size_t stride = step.residuals.size() / MostPoints + 1;
+  constexpr std::size_t MaxDots = 60, MaxPoints = 1000;
+  const std::size_t stride = step.residuals.size() / MaxPoints + 1;
   std::string path = 'M' + number(axes.x(static_cast<double>(before))) + ' ' + number(axes.y(1.0));
   std::string dots;
   for (std::size_t k = 0; k < step.residuals.size(); ++k)
@@ -108,7 +108,7 @@ std::string line(const ResidualChart::Step& step, std::size_t before, const Axes
     // The axis has no place for 0: that is at its end.
     const std::string y = number(residual > 0.0 ? axes.y(residual) : Bottom);
     path += 'L' + x + ' ' + y;
-    if (axes.iterations <= MostDots)
+    if (axes.iterations <= MaxDots)
     {
       dots += "<circle class=\"dot\" cx=\"" + x + "\" cy=\"" + y + "\" r=\"3.5\"><title>" +
               count(static_cast<std::int64_t>(before + k + 1)) + ": " + number(residual) +

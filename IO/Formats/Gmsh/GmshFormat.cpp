@@ -431,7 +431,7 @@ WriteNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path& pa
   out << "$EndElements\n";
   out.finish();
   WriteNotes notes = columns.leftOut(".msh");
-  if (info.cellType == CellType::Triangle && info.mostCorners > 4)
+  if (info.cellType == CellType::Triangle && info.maxCorners > 4)
   {
     notes.emplace_back("Polygons of more than four corners are written as triangles.");
   }

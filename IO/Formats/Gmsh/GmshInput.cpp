@@ -104,11 +104,11 @@ void GmshInput::skipSection(const std::string& end)
   }
 }
 
-std::int64_t GmshInput::lineCount(const char* what, std::size_t leastText, std::size_t leastBinary)
+std::int64_t GmshInput::lineCount(const char* what, std::size_t minText, std::size_t minBinary)
 {
   if (!this->Binary)
   {
-    return this->Scanner.count(what, leastText);
+    return this->Scanner.count(what, minText);
   }
   const std::string_view token = this->Scanner.token();
   std::int64_t count = 0;
@@ -117,7 +117,7 @@ std::int64_t GmshInput::lineCount(const char* what, std::size_t leastText, std::
   {
     this->fail(inQuotes(token) + " is no integer, where " + what + " should be");
   }
-  this->checkCount(count, what, leastBinary);
+  this->checkCount(count, what, minBinary);
   return count;
 }
 
@@ -140,22 +140,22 @@ void GmshInput::endNumbers()
   }
 }
 
-std::int64_t GmshInput::count(const char* what, std::size_t leastText, std::size_t leastBinary)
+std::int64_t GmshInput::count(const char* what, std::size_t minText, std::size_t minBinary)
 {
   if (!this->Binary)
   {
-    return this->Scanner.count(what, leastText);
+    return this->Scanner.count(what, minText);
   }
   const auto count = this->binary<std::int64_t>(what);
-  this->checkCount(count, what, leastBinary);
+  this->checkCount(count, what, minBinary);
   return count;
 }
 
-void GmshInput::checkCount(std::int64_t count, const char* what, std::size_t leastBytes) const
+void GmshInput::checkCount(std::int64_t count, const char* what, std::size_t minBytes) const
 {
   const std::size_t offset = this->InNumbers ? this->Offset : this->Scanner.offset();
   const std::size_t left = this->File.size() - std::min(offset, this->File.size());
-  if (count < 0 || static_cast<std::uint64_t>(count) > left / leastBytes)
+  if (count < 0 || static_cast<std::uint64_t>(count) > left / minBytes)
   {
     this->fail(std::to_string(count) + " cannot be " + what + ": the file has " +
                std::to_string(left) + " more bytes, it is truncated or the number is wrong");

@@ -40,7 +40,7 @@ public:
   void skipSection(const std::string& end);
 
   /** A count in a line of text, of items of at least this many bytes. */
-  std::int64_t lineCount(const char* what, std::size_t leastText, std::size_t leastBinary);
+  std::int64_t lineCount(const char* what, std::size_t minText, std::size_t minBinary);
   /** To be called before numbers. */
   void beginNumbers();
   /** To be called before lines. */
@@ -60,9 +60,9 @@ public:
     return this->Binary ? this->binary<double>(what) : this->Scanner.number(what);
   }
   /** A count of following items, 64 bits, refused if the file cannot hold them. */
-  std::int64_t count(const char* what, std::size_t leastText, std::size_t leastBinary);
+  std::int64_t count(const char* what, std::size_t minText, std::size_t minBinary);
   /** The same check for a number of any kind that has been read. */
-  void checkCount(std::int64_t count, const char* what, std::size_t leastBytes) const;
+  void checkCount(std::int64_t count, const char* what, std::size_t minBytes) const;
 
   /** Throws Error with the position. */
   [[noreturn]] void fail(const std::string& sentence) const;

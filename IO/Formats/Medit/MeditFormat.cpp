@@ -373,7 +373,7 @@ WriteNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path& p
   {
     notes.push_back("The quadrilaterals come after the triangles, as the format has it.");
   }
-  if (info.cellType == CellType::Triangle && info.mostCorners > 4)
+  if (info.cellType == CellType::Triangle && info.maxCorners > 4)
   {
     notes.push_back("Polygons of more than four corners are written as triangles.");
   }

@@ -52,8 +52,8 @@ public:
   void read(TextScanner& scanner)
   {
     this->Count = 0;
-    for (std::string_view token = scanner.tokenInLine();
-         !token.empty() && this->Count < MostNumbers; token = scanner.tokenInLine())
+    for (std::string_view token = scanner.tokenInLine(); !token.empty() && this->Count < MaxNumbers;
+         token = scanner.tokenInLine())
     {
       const std::optional<double> number = parseFinite(token);
       if (!number)
@@ -67,9 +67,9 @@ public:
 
 private:
   /** More than the values after the coordinates of a vertex, or after a face. */
-  static constexpr std::size_t MostNumbers = 16;
+  static constexpr std::size_t MaxNumbers = 16;
 
-  std::array<double, MostNumbers> Numbers{};
+  std::array<double, MaxNumbers> Numbers{};
   std::size_t Count = 0;
 };
 

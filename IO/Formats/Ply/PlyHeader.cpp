@@ -128,7 +128,7 @@ bool isMisspelt(std::string_view word)
 
 } // namespace
 
-std::size_t PlyElement::leastBytes(bool ascii) const
+std::size_t PlyElement::minBytes(bool ascii) const
 {
   std::size_t bytes = 0;
   for (const PlyProperty& property : this->properties)
@@ -144,8 +144,8 @@ PlyHeader readPlyHeader(InputFile& file)
   TextScanner scanner(file);
   PlyHeader header;
   // A header is held in memory, with its comments where the file is written anew.
-  constexpr int MostLines = 4096;
-  constexpr std::size_t MostBytes = std::size_t(1) << 20;
+  constexpr int MaxLines = 4096;
+  constexpr std::size_t MaxBytes = std::size_t(1) << 20;
   int lines = 0;
   if (scanner.tokenInLine() != "ply")
   {
@@ -159,7 +159,7 @@ PlyHeader readPlyHeader(InputFile& file)
   {
     scanner.skipLine();
     const std::string_view keyword = scanner.tokenInLine();
-    if (scanner.offset() > MostBytes)
+    if (scanner.offset() > MaxBytes)
     {
       scanner.fail(
         "the header has more than 1 MiB, which is more than is read: remove its comments");
@@ -168,10 +168,10 @@ PlyHeader readPlyHeader(InputFile& file)
     {
       break;
     }
-    if ((keyword == "element" || keyword == "property") && ++lines > MostLines)
+    if ((keyword == "element" || keyword == "property") && ++lines > MaxLines)
     {
       scanner.fail(
-        "the header has more than " + std::to_string(MostLines) + " elements and properties");
+        "the header has more than " + std::to_string(MaxLines) + " elements and properties");
     }
     if (keyword == "format")
     {
@@ -235,7 +235,7 @@ std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty
   };
   constexpr Group groups[] = { { NormalsName, { "nx", "ny", "nz", "" } },
     { ColorsName, { "red", "green", "blue", "alpha" } } };
-  constexpr int LeastMembers = 3;
+  constexpr int MinMembers = 3;
   for (const Group& candidate : groups)
   {
     int components = 0;
@@ -250,7 +250,7 @@ std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty
       component = member == &property ? components : component;
       ++components;
     }
-    if (component >= 0 && components >= LeastMembers)
+    if (component >= 0 && components >= MinMembers)
     {
       return { { candidate.column, property.type, components }, component };
     }

@@ -39,7 +39,7 @@ struct PlyElement
   std::vector<PlyProperty> properties;
 
   /** The minimum bytes of a record. */
-  std::size_t leastBytes(bool ascii) const;
+  std::size_t minBytes(bool ascii) const;
 };
 
 enum class PlyEncoding

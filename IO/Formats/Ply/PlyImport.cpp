@@ -281,7 +281,7 @@ void checkLength(const InputFile& file, const PlyHeader& header)
   std::uint64_t left = file.size() - header.bodyOffset + (ascii ? 1 : 0);
   for (const PlyElement& element : header.elements)
   {
-    const std::size_t least = element.leastBytes(ascii);
+    const std::size_t least = element.minBytes(ascii);
     if (least > 0 && static_cast<std::uint64_t>(element.count) > left / least)
     {
       throw Error(file.name() + ": the file is truncated: the header promises " +

@@ -359,7 +359,7 @@ public:
     , Out(path)
     , Vertices("vertex", info.vertices)
     , Faces("face", info.elements)
-    , ManyCorners(info.mostCorners > UINT8_MAX)
+    , ManyCorners(info.maxCorners > UINT8_MAX)
   {
     this->Vertices.addPositions(info.doublePositions);
     // The list precedes each record and is not part of it.

@@ -389,7 +389,7 @@ WriteNotes writeRestoredStl(RestoredMesh& mesh, const std::filesystem::path& pat
     notes.push_back("The " + std::to_string(info.isolated) +
                     " isolated vertices are left out, since STL has only triangles.");
   }
-  if (info.mostCorners > 3)
+  if (info.maxCorners > 3)
   {
     notes.push_back("Polygons are written as triangles.");
   }

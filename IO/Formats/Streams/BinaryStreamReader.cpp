@@ -175,7 +175,7 @@ public:
       throw Nonsense();
     }
     this->TextBytes += static_cast<std::int64_t>(sizeof(std::string)) + length;
-    if (this->TextBytes > StreamFileHeader::MostCommentBytes)
+    if (this->TextBytes > StreamFileHeader::MaxCommentBytes)
     {
       throw TooLong();
     }

@@ -25,7 +25,7 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t LeastMemory = std::int64_t(8) << 20;
+constexpr std::int64_t MinMemory = std::int64_t(8) << 20;
 
 /** Elements between two reports of progress. */
 constexpr std::int64_t ProgressElements = std::int64_t(1) << 16;
@@ -78,7 +78,7 @@ public:
     , Writer(writer)
     , Header(header)
     , Corners(cornersOf(reader.info().cellType))
-    , LastCell(scratch, LeastMemory)
+    , LastCell(scratch, MinMemory)
   {
   }
 
@@ -171,8 +171,7 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
   const std::unique_ptr<StreamFileReader> reader = openStreamFile(in);
   VsmWriter writer(out, StreamAssembler::infoOf(reader->header()),
     { .codec = options.codec, .scratch = options.scratch });
-  StreamAssembler assembler(
-    *reader, writer, options.scratch, std::max(options.memory, LeastMemory));
+  StreamAssembler assembler(*reader, writer, options.scratch, std::max(options.memory, MinMemory));
   StreamEvent event;
   std::int64_t elements = 0;
   for (reader->next(event); event.kind != StreamEvent::End; reader->next(event))

@@ -71,7 +71,7 @@ int plainWords(std::string_view line)
 /** Vertices and triangles alone are OBJ as well; other lines are of one format only. */
 Resemblance textResemblance(SequentialInput& input)
 {
-  constexpr int mostValues = 4; // of a vertex; OBJ has six with a colour
+  constexpr int maxValues = 4; // of a vertex; OBJ has six with a colour
   Resemblance result = Resemblance::None;
   std::string_view line;
   for (int i = 0; i < LinesLookedAt && input.nextLine(line); i++)
@@ -83,7 +83,7 @@ Resemblance textResemblance(SequentialInput& input)
       return Resemblance::Sure;
     }
     const int words = plainWords(line);
-    const bool isVertex = first == "v" && words <= mostValues;
+    const bool isVertex = first == "v" && words <= maxValues;
     if (isVertex || (first == "f" && words == 3))
     {
       result = Resemblance::Possible;

@@ -85,7 +85,7 @@ struct StreamFileHeader
   int cellInts = 0;                  ///< integers per cell
   std::vector<std::string> comments; ///< of the header
   /** The comments are in memory: a file with more bytes of them, each with its end, is refused. */
-  static constexpr std::int64_t MostCommentBytes = std::int64_t(1) << 20;
+  static constexpr std::int64_t MaxCommentBytes = std::int64_t(1) << 20;
 };
 
 /** One element of a streaming mesh file. Indices count the file's vertices from 0. */

@@ -121,7 +121,7 @@ void TextStreamReader::readComment(Tokens& tokens)
     // An empty one takes memory, too.
     this->CommentBytes +=
       static_cast<std::int64_t>(sizeof(std::string) + this->Header.comments.back().size());
-    if (this->CommentBytes > StreamFileHeader::MostCommentBytes)
+    if (this->CommentBytes > StreamFileHeader::MaxCommentBytes)
     {
       this->fail("the comments before the first vertex or cell have more than 1 MiB, which is more "
                  "than is read: remove some of them.");

@@ -28,7 +28,7 @@ namespace
 {
 
 /** The maximum number of attributes of a node or element; with more the file is damaged. */
-constexpr std::int64_t MostAttributes = 1024;
+constexpr std::int64_t MaxAttributes = 1024;
 
 /** Reads the nodes and then the elements. */
 class TetGenReader
@@ -129,9 +129,9 @@ private:
   void beginAttributes(TextScanner& scanner, int (RawMeshBuilder::*addColumn)(const ColumnSpec&))
   {
     const std::int64_t attributes = numberInLine(scanner, "the number of attributes");
-    if (attributes < 0 || attributes > MostAttributes)
+    if (attributes < 0 || attributes > MaxAttributes)
     {
-      scanner.fail("the number of attributes must be 0 to " + std::to_string(MostAttributes) +
+      scanner.fail("the number of attributes must be 0 to " + std::to_string(MaxAttributes) +
                    ", not " + std::to_string(attributes));
     }
     this->Attributes.resize(static_cast<std::size_t>(attributes));
@@ -352,7 +352,7 @@ WriteNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& 
   nodes.finish();
   elements.finish();
   WriteNotes notes = columns.leftOut(".node and .ele");
-  if (mesh.info().cellType == CellType::Triangle && mesh.info().mostCorners > 3)
+  if (mesh.info().cellType == CellType::Triangle && mesh.info().maxCorners > 3)
   {
     notes.emplace_back("Polygons are written as triangles.");
   }

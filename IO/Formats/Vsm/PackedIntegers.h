@@ -17,7 +17,7 @@ void packIntegers(std::span<const std::uint64_t> values, std::vector<std::byte>&
 bool unpackIntegers(std::span<const std::byte> packed, std::span<std::uint64_t> values);
 
 /** The most bytes that so many integers are packed into. */
-constexpr std::size_t mostPackedBytes(std::size_t values)
+constexpr std::size_t maxPackedBytes(std::size_t values)
 {
   return 1 + sizeof(std::uint64_t) * values;
 }

@@ -122,8 +122,8 @@ void VsmFile::readTables()
   const ScalarType real = this->Info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
   const std::vector<ColumnSpec> blockColumns{ { "FirstVertex", ScalarType::Int64, 1 },
     { "Finalized", ScalarType::Int64, 1 } };
-  const std::size_t most = VsmFormat::LeastTables + 1;
-  if (tables.size() < VsmFormat::LeastTables || tables.size() > most ||
+  const std::size_t most = VsmFormat::MinTables + 1;
+  if (tables.size() < VsmFormat::MinTables || tables.size() > most ||
       first(VsmFormat::Vertices) != ColumnSpec{ "Position", real, 3 } ||
       first(VsmFormat::Last) != ColumnSpec{ "LastCell", ScalarType::UInt8, 0 } ||
       first(VsmFormat::Cells) != ColumnSpec{ "Corners", ScalarType::UInt8, 0 } ||
@@ -170,7 +170,7 @@ void VsmFile::checkBlocks() const
       const std::int64_t rows = this->Blocks.blockRows(table, b);
       if (rows > VsmFormat::BlockRows ||
           (packed > 0 &&
-            this->Blocks.columnBytes(table, b, 0) > mostPackedBytes(std::size_t(rows * packed))))
+            this->Blocks.columnBytes(table, b, 0) > maxPackedBytes(std::size_t(rows * packed))))
       {
         this->fail("table '" + this->Blocks.tables()[table].name + "', block " + std::to_string(b) +
                    " is too large; make the file anew.");

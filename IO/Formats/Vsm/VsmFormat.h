@@ -37,7 +37,7 @@ struct VsmFormat
     Isolated
   };
   /** The number of tables of every file. */
-  static constexpr int LeastTables = Isolated;
+  static constexpr int MinTables = Isolated;
   /** Rows of a block of vertices or cells, except for the last one. */
   static constexpr std::int64_t BlockRows = 8192;
 };

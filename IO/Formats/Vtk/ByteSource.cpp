@@ -187,8 +187,8 @@ CompressedBytes::CompressedBytes(InputFile& file, const VtkArray& array, Pool& p
   }
   this->BlockBytes = this->Sizes->integer(array.headerBytes, array.byteOrder);
   this->LastBytes = this->Sizes->integer(array.headerBytes, array.byteOrder);
-  constexpr std::uint64_t MostBlockBytes = std::uint64_t(1) << 30;
-  if (this->Blocks > file.size() || this->BlockBytes == 0 || this->BlockBytes > MostBlockBytes ||
+  constexpr std::uint64_t MaxBlockBytes = std::uint64_t(1) << 30;
+  if (this->Blocks > file.size() || this->BlockBytes == 0 || this->BlockBytes > MaxBlockBytes ||
       this->LastBytes > this->BlockBytes)
   {
     file.fail(begin, "the header of the compressed array here cannot be right: it is damaged");

@@ -232,10 +232,10 @@ private:
   void keep(VtkArray array, std::vector<VtkArray>& arrays)
   {
     // Their descriptions are stored in memory.
-    constexpr std::size_t MostArrays = 4096;
-    if (arrays.size() == MostArrays)
+    constexpr std::size_t MaxArrays = 4096;
+    if (arrays.size() == MaxArrays)
     {
-      this->Scanner.fail("there are more than " + std::to_string(MostArrays) +
+      this->Scanner.fail("there are more than " + std::to_string(MaxArrays) +
                          " arrays of points or of cells, which are too many");
     }
     arrays.push_back(std::move(array));
@@ -304,7 +304,7 @@ private:
     if (areBits || areTexts)
     {
       areBits ? this->Scanner.skipBits(values) : this->Scanner.skipTexts(values);
-      if (arrays && arrays == this->Arrays && this->OtherArrays.size() < MostOtherArrays)
+      if (arrays && arrays == this->Arrays && this->OtherArrays.size() < MaxOtherArrays)
       {
         this->OtherArrays.insert(name);
       }

@@ -18,7 +18,7 @@ namespace
 {
 
 /** The maximum length of words and lines of keywords and names. */
-constexpr std::size_t MostLineBytes = 4096;
+constexpr std::size_t MaxLineBytes = 4096;
 
 struct TypeName
 {
@@ -107,7 +107,7 @@ void LegacyVtkScanner::skipBlanks()
 std::string LegacyVtkScanner::peek()
 {
   this->skipBlanks();
-  const std::string_view text = this->File.at(this->At, MostLineBytes).substr(0, MostLineBytes);
+  const std::string_view text = this->File.at(this->At, MaxLineBytes).substr(0, MaxLineBytes);
   const auto* const end = std::find_if(text.begin(), text.end(), isSpace);
   return { text.begin(), end };
 }
@@ -157,7 +157,7 @@ std::string LegacyVtkScanner::line()
     const std::string_view text = this->File.at(this->At);
     const std::size_t end = text.find('\n');
     const std::string_view part = text.substr(0, end);
-    line += part.substr(0, MostLineBytes - std::min(MostLineBytes, line.size()));
+    line += part.substr(0, MaxLineBytes - std::min(MaxLineBytes, line.size()));
     this->At += part.size();
     if (end != std::string_view::npos)
     {

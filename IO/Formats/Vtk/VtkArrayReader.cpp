@@ -34,7 +34,7 @@ VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Workspace
   }
   // Memory that another thread allocates would cost address space: see IoThread.
   file.at(array.begin);
-  this->Ahead = std::make_unique<RowsAhead<std::byte>>(
+  this->Ahead = std::make_unique<RowPrefetch<std::byte>>(
     workspace, [this](std::span<std::byte> bytes) { return this->decode(bytes); },
     this->aheadMemory());
 }

@@ -52,8 +52,8 @@ private:
   std::int64_t Left = -1; ///< numbers to decode; -1: unknown
   std::optional<TextNumbers> Text;
   std::unique_ptr<ByteSource> Bytes;
-  std::vector<std::byte> Decoded;              ///< what an opener's source gives
-  std::unique_ptr<RowsAhead<std::byte>> Ahead; ///< of all other encodings
+  std::vector<std::byte> Decoded;                ///< what an opener's source gives
+  std::unique_ptr<RowPrefetch<std::byte>> Ahead; ///< of all other encodings
 };
 
 /** Reads an array of integers of any type in chunks, as rows of given lengths. */

@@ -74,10 +74,10 @@ std::span<const std::int64_t> VtkCellReader::next()
     ++this->Cell;
     return {};
   }
-  if (size > MostPoints)
+  if (size > MaxPoints)
   {
     this->Points->fail("has a cell, number " + std::to_string(this->Cell) + ", of " +
-                       std::to_string(size) + " points; at most " + std::to_string(MostPoints) +
+                       std::to_string(size) + " points; at most " + std::to_string(MaxPoints) +
                        " are read");
   }
   ++this->Cell;

@@ -21,7 +21,7 @@ class VtkCellReader
 {
 public:
   /** The maximum number of points of a cell other than points and lines. */
-  static constexpr std::int64_t MostPoints = std::int64_t(1) << 20;
+  static constexpr std::int64_t MaxPoints = std::int64_t(1) << 20;
 
   VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace);
 

@@ -126,7 +126,7 @@ namespace
 {
 
 /** The names of the pieces are held in memory. */
-constexpr std::size_t MostPieces = 100000;
+constexpr std::size_t MaxPieces = 100000;
 
 /** The files that a .pvtp or .pvtu file names. Throws Error if it is none. */
 std::vector<std::filesystem::path> pieceFiles(InputFile& file)
@@ -151,10 +151,10 @@ std::vector<std::filesystem::path> pieceFiles(InputFile& file)
       {
         file.fail(tag.begin, "the piece here has no Source: the file is damaged");
       }
-      if (files.size() == MostPieces)
+      if (files.size() == MaxPieces)
       {
         file.fail(tag.begin,
-          "there are more than " + std::to_string(MostPieces) + " pieces, which are too many");
+          "there are more than " + std::to_string(MaxPieces) + " pieces, which are too many");
       }
       if (nearbyFile(folder, source).empty())
       {
@@ -177,7 +177,7 @@ std::vector<std::filesystem::path> pieceFiles(InputFile& file)
 void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress)
 {
-  const std::int64_t mostBytes = builder.workspace().available() / 2;
+  const std::int64_t maxBytes = builder.workspace().available() / 2;
   VtkLayout layout;
   for (const std::filesystem::path& path : pieceFiles(file))
   {
@@ -188,7 +188,7 @@ void importParallelVtkXml(
                   " that the file names does not exist.");
     }
     InputFile piece(path);
-    addVtkXmlLayout(piece, layout, mostBytes);
+    addVtkXmlLayout(piece, layout, maxBytes);
   }
   readVtkMesh(file, layout, builder, progress);
 }

@@ -67,7 +67,7 @@ void forEachArray(auto& piece, const auto& visit)
 }
 
 /** The maximum number of stored names of unsupported arrays. */
-inline constexpr std::size_t MostOtherArrays = 20;
+inline constexpr std::size_t MaxOtherArrays = 20;
 
 /** The positions of all data of a mesh in its files. */
 struct VtkLayout

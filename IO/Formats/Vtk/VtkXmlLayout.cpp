@@ -30,11 +30,11 @@ constexpr std::pair<std::string_view, ScalarType> XmlTypeNames[] = { { "Int8", S
 class XmlLayoutReader
 {
 public:
-  XmlLayoutReader(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
+  XmlLayoutReader(InputFile& file, VtkLayout& layout, std::int64_t maxBytes)
     : File(file)
     , Tags(file)
     , Layout(layout)
-    , MostBytes(mostBytes)
+    , MaxBytes(maxBytes)
     , FirstPiece(layout.pieces.size())
   {
   }
@@ -156,7 +156,7 @@ private:
   /** An array that is not read. */
   void noteOther(const XmlTag& tag)
   {
-    if (this->Layout.otherArrays.size() < MostOtherArrays)
+    if (this->Layout.otherArrays.size() < MaxOtherArrays)
     {
       this->Layout.otherArrays.insert(tag.value("Name"));
     }
@@ -241,7 +241,7 @@ private:
   void account(const XmlTag& tag, std::size_t bytes)
   {
     this->Layout.bytes += static_cast<std::int64_t>(bytes);
-    if (this->Layout.bytes > this->MostBytes)
+    if (this->Layout.bytes > this->MaxBytes)
     {
       this->File.fail(tag.begin, "there are more pieces and arrays than fit into the memory: raise "
                                  "its limit (option --memory), or join pieces first");
@@ -332,7 +332,7 @@ private:
   InputFile& File;
   XmlTags Tags;
   VtkLayout& Layout;
-  const std::int64_t MostBytes;
+  const std::int64_t MaxBytes;
   const std::size_t FirstPiece;
   bool IsGrid = false, HasAppended = false;
   VtkXmlEncoding Encoding;
@@ -341,16 +341,16 @@ private:
 
 } // namespace
 
-void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t maxBytes)
 {
-  XmlLayoutReader(file, layout, mostBytes).read();
+  XmlLayoutReader(file, layout, maxBytes).read();
 }
 
 namespace
 {
 
 /** No file has more points, cells or bytes. */
-constexpr std::int64_t MostThings = std::int64_t(1) << 48;
+constexpr std::int64_t MaxThings = std::int64_t(1) << 48;
 
 } // namespace
 
@@ -418,7 +418,7 @@ std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* n
   std::int64_t value = -1;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
-      value > MostThings)
+      value > MaxThings)
   {
     file.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
   }

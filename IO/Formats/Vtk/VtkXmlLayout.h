@@ -14,11 +14,11 @@ namespace smg
 /**
  * Finds out where everything stands in a .vtp or .vtu file and adds its pieces to the layout.
  * Arrays of texts and bits are left out.
- * @param mostBytes of memory that the layout may take
+ * @param maxBytes of memory that the layout may take
  * @throws Error with the byte where the file is wrong or ends too early, or has another kind of
  * data
  */
-void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t mostBytes);
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t maxBytes);
 
 /** How the arrays of a file are written that are no text, as its root says. */
 struct VtkXmlEncoding

@@ -13,7 +13,7 @@ namespace
 {
 
 /** Longest tag that is read. */
-constexpr std::size_t MostTagBytes = std::size_t(64) << 10;
+constexpr std::size_t MaxTagBytes = std::size_t(64) << 10;
 
 constexpr std::string_view XmlBlanks = " \t\r\n";
 
@@ -87,7 +87,7 @@ void XmlTags::skipPast(std::string_view end)
   const std::size_t begin = this->At;
   for (;;)
   {
-    const std::string_view text = this->File.at(this->At, MostTagBytes);
+    const std::string_view text = this->File.at(this->At, MaxTagBytes);
     const std::size_t place = text.find(end);
     if (place != std::string_view::npos)
     {
@@ -106,7 +106,7 @@ bool XmlTags::next(XmlTag& tag)
 {
   while (this->find())
   {
-    const std::string_view text = this->File.at(this->At, MostTagBytes).substr(0, MostTagBytes);
+    const std::string_view text = this->File.at(this->At, MaxTagBytes).substr(0, MaxTagBytes);
     if (text.starts_with("<!--"))
     {
       this->skipPast("-->");

@@ -39,9 +39,9 @@ const VtkHdfLibrary& library()
 bool isHdf5(std::string_view start)
 {
   constexpr std::string_view Signature = "\x89HDF\r\n\x1a\n";
-  constexpr std::size_t LeastBlock = 512;
+  constexpr std::size_t MinBlock = 512;
   bool found = start.starts_with(Signature);
-  for (std::size_t block = LeastBlock; !found && block < start.size(); block *= 2)
+  for (std::size_t block = MinBlock; !found && block < start.size(); block *= 2)
   {
     found = start.substr(block).starts_with(Signature);
   }

@@ -156,7 +156,7 @@ std::size_t GroupPages<Real>::groupsAtOnce(const CellGroups& groups) const
   {
     const std::int64_t cells = groups.cells(group);
     largest =
-      std::max(largest, GroupStars::mostBytes(groups.range(group).size(), cells, this->Corners));
+      std::max(largest, GroupStars::maxBytes(groups.range(group).size(), cells, this->Corners));
     page = std::max(page, cells * std::int64_t(this->Corners * this->Corners) * EncodedBytes);
   }
   const int threads = this->Space.workers().threads();

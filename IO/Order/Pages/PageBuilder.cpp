@@ -134,7 +134,7 @@ Arrangement<Real> arrange(
     return arrangeByGraph<Real>(mesh, workspace, pageVertices);
   }
   Arrangement<Real> byPlace = arrangeByPlace<Real>(mesh, workspace, pageVertices);
-  if (byPlace.crossing <= mostCrossing(mesh.cellType, pageVertices))
+  if (byPlace.crossing <= maxCrossing(mesh.cellType, pageVertices))
   {
     return byPlace;
   }
@@ -168,7 +168,7 @@ PagedMesh buildPages(const RawMesh& mesh, Workspace& workspace, const PageOption
 namespace
 {
 
-constexpr int LeastVertices = 64;
+constexpr int MinVertices = 64;
 constexpr std::int64_t DirectoryBytes = 32; ///< of a page, always in memory
 
 /** Measured bytes of the pages at the front of a search, with some reserve. */
@@ -194,7 +194,7 @@ int choosePageVertices(
   const bool triangles = cellType == CellType::Triangle;
   const double cache = double(memory) / 2;
   int pageVertices = triangles ? 512 : 256;
-  while (pageVertices > LeastVertices &&
+  while (pageVertices > MinVertices &&
          frontierBytes(triangles, doublePositions, vertices, pageVertices) > cache)
   {
     pageVertices /= 2;
@@ -206,7 +206,7 @@ int choosePageVertices(
   return pageVertices;
 }
 
-double mostCrossing(CellType cellType, int pageVertices)
+double maxCrossing(CellType cellType, int pageVertices)
 {
   const double border =
     cellType == CellType::Triangle ? 8 / std::sqrt(pageVertices) : 3.2 / std::cbrt(pageVertices);

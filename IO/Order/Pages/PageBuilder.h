@@ -52,6 +52,6 @@ int choosePageVertices(
 
 /** The share of directed edges that leave their page above which an order is bad: two to three
  * times that of meshes with useful coordinates. */
-double mostCrossing(CellType cellType, int pageVertices);
+double maxCrossing(CellType cellType, int pageVertices);
 
 } // namespace smg

@@ -13,10 +13,10 @@ namespace smg
 PageCache::PageCache(VertexPages& pages, Workspace& workspace, std::int64_t bytes)
   : Pages(pages)
 {
-  if (bytes < leastBytes(pages))
+  if (bytes < minBytes(pages))
   {
     throw Error("The order of the mesh needs a page cache of " +
-                std::to_string((leastBytes(pages) >> 20) + 1) + " MiB, for which there are only " +
+                std::to_string((minBytes(pages) >> 20) + 1) + " MiB, for which there are only " +
                 std::to_string(std::max<std::int64_t>(bytes, 0) >> 20) +
                 " MiB: raise the memory limit.");
   }
@@ -29,16 +29,16 @@ PageCache::PageCache(VertexPages& pages, Workspace& workspace, std::int64_t byte
   this->RoomEnd = this->Units;
 }
 
-std::int64_t PageCache::leastBytes(const VertexPages& pages)
+std::int64_t PageCache::minBytes(const VertexPages& pages)
 {
   // For any position of the pinned page, there is room for another before or after it.
   return 3 * frameUnits(pages.largestPage()) * std::int64_t(Unit);
 }
 
-std::int64_t PageCache::mostBytes(const VertexPages& pages)
+std::int64_t PageCache::maxBytes(const VertexPages& pages)
 {
   // A page that was loaded with its adjacency only may leave a hole.
-  return std::max(leastBytes(pages),
+  return std::max(minBytes(pages),
     pages.allBytes() + pages.allAdjacencyBytes() + 4 * std::int64_t(Unit) * pages.pages());
 }
 

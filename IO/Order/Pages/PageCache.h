@@ -24,13 +24,13 @@ namespace smg
 class PageCache
 {
 public:
-  /** The pages must be closed and outlive the cache. Throws Error below leastBytes(). */
+  /** The pages must be closed and outlive the cache. Throws Error below minBytes(). */
   PageCache(VertexPages& pages, Workspace& workspace, std::int64_t bytes);
 
   /** The minimum bytes of a search, for any number of loads. */
-  static std::int64_t leastBytes(const VertexPages& pages);
+  static std::int64_t minBytes(const VertexPages& pages);
   /** The bytes of all pages. */
-  static std::int64_t mostBytes(const VertexPages& pages);
+  static std::int64_t maxBytes(const VertexPages& pages);
 
   /** A page whose adjacency can be read. The view is valid until another page is requested. Throws
    * Error. */

@@ -16,8 +16,8 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t LeastCollectedBytes = std::size_t(256) << 10;
-constexpr std::size_t MostVarintBytes = 5;
+constexpr std::size_t MinCollectedBytes = std::size_t(256) << 10;
+constexpr std::size_t MaxVarintBytes = 5;
 constexpr std::size_t PolledBytes = std::size_t(256) << 10;
 
 /** Writes the lists of neighbours after their offsets, which become narrow if possible. */
@@ -42,7 +42,7 @@ std::uint32_t putAdjacency(
     *end++ = std::byte(0);
   }
   const auto bytes = static_cast<std::uint32_t>(end - lists);
-  if (bytes > PageView::MostNarrowBytes)
+  if (bytes > PageView::MaxNarrowBytes)
   {
     return 4 * count + bytes;
   }
@@ -105,8 +105,8 @@ void VertexPages::append(std::span<const Vertex> vertices)
     numbers += vertex.neighbours.size();
   }
   const std::size_t most =
-    numbers * MostVarintBytes + vertices.size() * (8 + this->positionBytes()) + 64;
-  if (numbers > std::numeric_limits<std::uint32_t>::max() / MostVarintBytes - 64)
+    numbers * MaxVarintBytes + vertices.size() * (8 + this->positionBytes()) + 64;
+  if (numbers > std::numeric_limits<std::uint32_t>::max() / MaxVarintBytes - 64)
   {
     throw Error("The mesh cannot be ordered: a few of its vertices have " +
                 std::to_string(numbers) + " neighbours; remove the cells around them.");
@@ -143,7 +143,7 @@ void VertexPages::makeRoom(std::size_t bytes)
   if (bytes > this->Collecting.size())
   {
     this->Collecting = Buffer();
-    this->Collecting = Buffer(this->Space->pool(), std::max(bytes, LeastCollectedBytes));
+    this->Collecting = Buffer(this->Space->pool(), std::max(bytes, MinCollectedBytes));
   }
 }
 

@@ -134,7 +134,7 @@ class PageView
 {
 public:
   /** Lists of more bytes than this have 32-bit offsets. */
-  static constexpr std::uint32_t MostNarrowBytes = 65532;
+  static constexpr std::uint32_t MaxNarrowBytes = 65532;
 
   static constexpr std::uint32_t rounded(std::uint32_t bytes) { return (bytes + 3) / 4 * 4; }
   static constexpr std::uint32_t narrowOffsetBytes(std::uint32_t vertices)
@@ -149,7 +149,7 @@ public:
     , FirstRank(firstRank)
     , Vertices(vertices)
     , Adjacency(adjacency)
-    , Wide(adjacency > narrowOffsetBytes(vertices) + MostNarrowBytes)
+    , Wide(adjacency > narrowOffsetBytes(vertices) + MaxNarrowBytes)
   {
   }
 

@@ -239,7 +239,7 @@ GroupStars::GroupStars(
   }
 }
 
-std::int64_t GroupStars::mostBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners)
+std::int64_t GroupStars::maxBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners)
 {
   const auto links = static_cast<std::int64_t>(corners * (corners - 1)) * cells;
   // Both have ends, links and neighbours have ranks; a buffer is rounded up, a reader has a chunk.

@@ -128,7 +128,7 @@ public:
 
   /** An upper bound of its memory in bytes while it is made, for a group of so many vertices and
    * cells. */
-  static std::int64_t mostBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners);
+  static std::int64_t maxBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners);
 
   RankRange range() const { return this->Range; }
   /** The neighbours of a vertex of the range, see VertexStar::visit(). */

@@ -18,12 +18,12 @@ namespace
 constexpr std::int64_t Tiny = 64;
 /** The maximum of vertices visited by all searches from landmarks, and the minimum of landmarks. */
 constexpr std::int64_t Visits = 16'000'000;
-constexpr int LeastLandmarks = 4;
+constexpr int MinLandmarks = 4;
 
 int landmarksFor(std::int64_t vertices, const BreadthFirstOptions& options)
 {
   const std::int64_t affordable = Visits / std::max<std::int64_t>(1, vertices);
-  return std::min(options.landmarks, std::max(LeastLandmarks, static_cast<int>(affordable)));
+  return std::min(options.landmarks, std::max(MinLandmarks, static_cast<int>(affordable)));
 }
 
 /** A search and its cache, with the available memory. */
@@ -56,13 +56,13 @@ private:
     const std::int64_t rest = workspace.available() - kept -
                               (1 + helpers) * PagedSearch::memoryFor(pages, queueBytes(workspace)) -
                               pages.pages() * std::int64_t(sizeof(std::uint32_t)) - 4096;
-    return std::min(rest, PageCache::mostBytes(pages));
+    return std::min(rest, PageCache::maxBytes(pages));
   }
   /** As many as leave room for the adjacency of all pages. */
   template <class Kept>
   static int helpersFor(const VertexPages& pages, Workspace& workspace, Kept&& kept)
   {
-    int helpers = std::min(workspace.workers().threads() - 1, MostSearchHelpers);
+    int helpers = std::min(workspace.workers().threads() - 1, MaxSearchHelpers);
     while (helpers > 0 &&
            cacheBytes(pages, workspace, kept(helpers), helpers) < pages.allAdjacencyBytes())
     {
@@ -87,7 +87,7 @@ public:
                  (this->Landmarks > 0 ? searchPlanMemory(mesh, this->Landmarks, threads, helpers)
                                       : 0);
         })
-    , LeastPlanned(std::max(options.leastPlanned, mesh.pages.vertices() / 200))
+    , MinPlanned(std::max(options.minPlanned, mesh.pages.vertices() / 200))
   {
   }
 
@@ -123,7 +123,7 @@ private:
     PagedSearch& search = this->Searches.Search;
     const std::vector<SearchSource> first = { { 0, rank } };
     SearchResult result = search.probe(first);
-    if (this->Landmarks > 0 && result.vertices >= this->LeastPlanned)
+    if (this->Landmarks > 0 && result.vertices >= this->MinPlanned)
     {
       return planSearch(
         search, this->Mesh, this->Space, this->Landmarks, result.last, this->Searches.Helpers);
@@ -140,7 +140,7 @@ private:
   Workspace& Space;
   const int Landmarks;
   Searching Searches;
-  std::int64_t LeastPlanned;
+  std::int64_t MinPlanned;
   PageTraffic Traffic;
 };
 

@@ -14,7 +14,7 @@ struct BreadthFirstOptions
    * Each requires a search, so large meshes, which benefit less, use fewer, but at least four. */
   int landmarks = 16;
   /** Components with fewer vertices start at their ends. */
-  std::int64_t leastPlanned = 4096;
+  std::int64_t minPlanned = 4096;
 };
 
 /** The number of page loads, for users and tests. */

@@ -58,7 +58,7 @@ std::vector<double> solve(const WeightedGraph& graph, const std::function<void()
       vector[i] = start.empty() ? i : start[groups[i]];
     }
   }
-  return ConjugateIteration(graph, std::move(vector)).run(poll);
+  return Lobpcg(graph, std::move(vector)).run(poll);
 }
 
 } // namespace
@@ -75,9 +75,9 @@ std::vector<double> fiedlerVector(const WeightedGraph& graph, const std::functio
 namespace
 {
 
-constexpr int MostIterations = 300;
+constexpr int MaxIterations = 300;
 /** The iteration ends when the eigenvalue decreases by less than this share twice in succession. */
-constexpr double LeastGain = 1e-5;
+constexpr double MinGain = 1e-5;
 /** With fewer nodes the time of an iteration is negligible. */
 constexpr std::uint32_t PolledNodes = 4096;
 
@@ -109,7 +109,7 @@ void scale(std::vector<double>& values, double factor)
 
 } // namespace
 
-ConjugateIteration::ConjugateIteration(const WeightedGraph& graph, std::vector<double> start)
+Lobpcg::Lobpcg(const WeightedGraph& graph, std::vector<double> start)
   : Graph(graph)
   , Diagonal(graph.nodes(), 0.0)
 {
@@ -126,7 +126,7 @@ ConjugateIteration::ConjugateIteration(const WeightedGraph& graph, std::vector<d
   }
 }
 
-double ConjugateIteration::dot(const std::vector<double>& a, const std::vector<double>& b) const
+double Lobpcg::dot(const std::vector<double>& a, const std::vector<double>& b) const
 {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -136,7 +136,7 @@ double ConjugateIteration::dot(const std::vector<double>& a, const std::vector<d
   return sum;
 }
 
-void ConjugateIteration::removeMean(std::vector<double>& values) const
+void Lobpcg::removeMean(std::vector<double>& values) const
 {
   double mean = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -150,8 +150,7 @@ void ConjugateIteration::removeMean(std::vector<double>& values) const
   }
 }
 
-void ConjugateIteration::applyLaplacian(
-  const std::vector<double>& values, std::vector<double>& image) const
+void Lobpcg::applyLaplacian(const std::vector<double>& values, std::vector<double>& image) const
 {
   for (std::uint32_t i = 0; i < this->Graph.nodes(); ++i)
   {
@@ -162,7 +161,7 @@ void ConjugateIteration::applyLaplacian(
   }
 }
 
-bool ConjugateIteration::normalise(Direction& direction) const
+bool Lobpcg::normalise(Direction& direction) const
 {
   const double square = this->dot(direction.values, direction.values);
   if (!(square > 0) || !std::isfinite(square))
@@ -174,7 +173,7 @@ bool ConjugateIteration::normalise(Direction& direction) const
   return true;
 }
 
-bool ConjugateIteration::orthogonalise(Direction& direction, const Direction& against) const
+bool Lobpcg::orthogonalise(Direction& direction, const Direction& against) const
 {
   const double factor = this->dot(direction.values, against.values);
   // Of a nearly parallel direction, only rounding errors would remain.
@@ -187,7 +186,7 @@ bool ConjugateIteration::orthogonalise(Direction& direction, const Direction& ag
   return this->normalise(direction);
 }
 
-bool ConjugateIteration::residual(double eigenvalue)
+bool Lobpcg::residual(double eigenvalue)
 {
   for (std::uint32_t i = 0; i < this->Graph.nodes(); ++i)
   {
@@ -200,7 +199,7 @@ bool ConjugateIteration::residual(double eigenvalue)
   return this->normalise(this->Residual) && this->orthogonalise(this->Residual, this->Current);
 }
 
-double ConjugateIteration::minimise(bool withPrevious)
+double Lobpcg::minimise(bool withPrevious)
 {
   const std::array<Direction*, 3> space{ &this->Current, &this->Residual, &this->Previous };
   const int count = withPrevious ? 3 : 2;
@@ -226,7 +225,7 @@ double ConjugateIteration::minimise(bool withPrevious)
   return solver.eigenvalues()(0);
 }
 
-std::vector<double> ConjugateIteration::run(const std::function<void()>& poll)
+std::vector<double> Lobpcg::run(const std::function<void()>& poll)
 {
   const bool isPolled = poll && this->Graph.nodes() >= PolledNodes;
   this->removeMean(this->Current.values);
@@ -238,7 +237,7 @@ std::vector<double> ConjugateIteration::run(const std::function<void()>& poll)
   double eigenvalue = plainDot(this->Current.values, this->Current.image);
   bool withPrevious = false;
   int idle = 0;
-  for (int iteration = 0; iteration < MostIterations && idle < 2; ++iteration)
+  for (int iteration = 0; iteration < MaxIterations && idle < 2; ++iteration)
   {
     if (isPolled)
     {
@@ -254,7 +253,7 @@ std::vector<double> ConjugateIteration::run(const std::function<void()>& poll)
     const double before = eigenvalue;
     eigenvalue = this->minimise(withPrevious);
     withPrevious = true;
-    idle = eigenvalue > before * (1 - LeastGain) ? idle + 1 : 0;
+    idle = eigenvalue > before * (1 - MinGain) ? idle + 1 : 0;
     this->normalise(this->Current);
   }
   this->removeMean(this->Current.values);

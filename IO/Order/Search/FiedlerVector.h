@@ -25,11 +25,11 @@ std::vector<double> fiedlerVector(
 
 /** Improves an approximation of a graph's Fiedler vector: LOBPCG for one vector, preconditioned by
  * the diagonal of the Laplacian, in the space of vectors whose mass-weighted mean is 0. */
-class ConjugateIteration
+class Lobpcg
 {
 public:
   /** The graph must outlive this object. */
-  ConjugateIteration(const WeightedGraph& graph, std::vector<double> start);
+  Lobpcg(const WeightedGraph& graph, std::vector<double> start);
 
   /** Iterates until the eigenvalue hardly decreases any more, and returns the vector. Calls `poll`,
    * which may throw, in each iteration on a large graph. */

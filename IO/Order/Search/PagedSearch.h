@@ -75,7 +75,7 @@ public:
     , Bits(workspace.pool(), bytesFor(count))
     , Changed(workspace)
   {
-    this->Changed.reserve(MostRemembered);
+    this->Changed.reserve(MaxRemembered);
     std::memset(this->Bits.data(), 0, this->Bits.size());
   }
 
@@ -105,7 +105,7 @@ public:
 
   void clear()
   {
-    if (this->Changed.size() == MostRemembered)
+    if (this->Changed.size() == MaxRemembered)
     {
       std::memset(this->Bits.data(), 0, this->Bits.size());
     }
@@ -132,12 +132,12 @@ public:
   }
 
 private:
-  static constexpr std::size_t MostRemembered = 16384;
+  static constexpr std::size_t MaxRemembered = 16384;
 
   std::uint64_t* words() const { return reinterpret_cast<std::uint64_t*>(this->Bits.data()); }
   void remember(std::uint32_t word)
   {
-    if (this->Changed.size() < MostRemembered)
+    if (this->Changed.size() < MaxRemembered)
     {
       this->Changed.push(word);
     }

@@ -16,17 +16,17 @@ namespace smg
 namespace
 {
 
-constexpr int MostAxisEnds = 4;
+constexpr int MaxAxisEnds = 4;
 /** The ends of a double sweep. */
 constexpr int SweepEnds = 2;
 /** The minimum distance between landmarks. */
-constexpr std::int32_t LeastDistance = 8;
+constexpr std::int32_t MinDistance = 8;
 /** The minimum samples of a component for a plan, and for its principal axes. */
-constexpr std::size_t LeastSamples = 16, LeastSamplesForAxes = 100;
+constexpr std::size_t MinSamples = 16, MinSamplesForAxes = 100;
 /** More samples do not make better plans. */
-constexpr std::size_t MostSamples = 8192;
+constexpr std::size_t MaxSamples = 8192;
 /** The number of tested plans. */
-constexpr std::size_t MostTrials = 4;
+constexpr std::size_t MaxTrials = 4;
 
 std::size_t sampleCount(const PagedMesh& mesh)
 {
@@ -71,7 +71,7 @@ public:
     }
   }
 
-  static std::size_t levelRows(int helpers) { return helpers > 0 ? 1 + MostAxisEnds : 1; }
+  static std::size_t levelRows(int helpers) { return helpers > 0 ? 1 + MaxAxisEnds : 1; }
 
   std::vector<SearchSource> plan(std::uint32_t end)
   {
@@ -79,7 +79,7 @@ public:
     this->First = end;
     this->beginSamples();
     std::vector<Trial> ends;
-    if (this->Samples.size() >= LeastSamples)
+    if (this->Samples.size() >= MinSamples)
     {
       ends = this->axisEndTrials();
       this->searchTogether(ends);
@@ -93,7 +93,7 @@ public:
                  : this->measure(std::move(end.sources));
     }
     Candidate best = *std::ranges::min_element(this->Candidates, {}, &Candidate::cost);
-    if (this->Samples.size() >= LeastSamples)
+    if (this->Samples.size() >= MinSamples)
     {
       this->tryPlans(best);
     }
@@ -141,7 +141,7 @@ private:
     {
       reached += this->Search.reached(i * stride) ? 1 : 0;
     }
-    const std::size_t step = std::max<std::size_t>(1, reached / MostSamples);
+    const std::size_t step = std::max<std::size_t>(1, reached / MaxSamples);
     std::size_t seen = 0;
     for (std::uint32_t i = 0; i < count; ++i)
     {
@@ -151,7 +151,7 @@ private:
         this->Nearest.push(std::numeric_limits<std::int32_t>::max());
       }
     }
-    this->Distances.emplace(this->Space, this->Samples.size(), this->Landmarks + MostAxisEnds);
+    this->Distances.emplace(this->Space, this->Samples.size(), this->Landmarks + MaxAxisEnds);
   }
 
   /** The first end; the other end of its search; then landmarks, each the sample farthest from the
@@ -166,13 +166,13 @@ private:
     {
       return { { 0, this->Candidates[0].result.last } };
     }
-    if (this->Samples.size() < LeastSamples || this->Candidates.size() >= this->Landmarks)
+    if (this->Samples.size() < MinSamples || this->Candidates.size() >= this->Landmarks)
     {
       return {};
     }
     const std::span<const std::int32_t> nearest = this->Nearest.all();
     const auto farthest = std::ranges::max_element(nearest);
-    return *farthest < LeastDistance
+    return *farthest < MinDistance
              ? std::vector<SearchSource>()
              : std::vector{ this->sample(std::size_t(farthest - nearest.begin())) };
   }
@@ -198,7 +198,7 @@ private:
   std::vector<Trial> axisEndTrials() const
   {
     std::vector<Trial> trials;
-    if (this->Samples.size() < LeastSamplesForAxes ||
+    if (this->Samples.size() < MinSamplesForAxes ||
         this->Mesh.samples.size() < 3 * this->Levels.size())
     {
       return trials;
@@ -253,7 +253,7 @@ private:
       planSources(*this->Distances, best.result.vertices, this->Space);
     const auto isPromising = [&best](const SourcePlan& plan)
     { return plan.sources.size() > 1 && plan.cost < best.cost(); };
-    std::vector<Trial> trials(std::min(plans.size(), MostTrials));
+    std::vector<Trial> trials(std::min(plans.size(), MaxTrials));
     for (std::size_t i = 0; i < trials.size(); ++i)
     {
       if (!isPromising(plans[i]))
@@ -331,7 +331,7 @@ std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads,
 {
   // Rows of numbers: levels, samples, nearest (which grow), distances.
   const std::int64_t rows = std::int64_t(Planning::levelRows(helpers)) + 2 * 3 +
-                            std::max(landmarks, SweepEnds) + MostAxisEnds;
+                            std::max(landmarks, SweepEnds) + MaxAxisEnds;
   return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) +
          sourcePlanMemory(sampleCount(mesh), threads) + 4096;
 }

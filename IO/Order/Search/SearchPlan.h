@@ -11,7 +11,7 @@ namespace smg
 {
 
 /** The most searches besides the first one that a plan can make at once. */
-inline constexpr int MostSearchHelpers = 4;
+inline constexpr int MaxSearchHelpers = 4;
 
 /** The memory of a plan in bytes, if it is made by so many threads, without that of searches. */
 std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads, int helpers = 0);

@@ -17,10 +17,10 @@ namespace
 
 using Levels = std::span<std::int32_t>;
 
-constexpr std::int32_t MostBins = 150;
+constexpr std::int32_t MaxBins = 150;
 /** The number of single candidates with which plans start. */
 constexpr int Beginnings = 4;
-constexpr std::size_t MostSources = 24;
+constexpr std::size_t MaxSources = 24;
 /** The shares of the levels by which a further source starts before the others reach it. Mostly
  * small: such a source straightens the arriving front, whereas an early one has its own front. */
 constexpr double HeadStarts[] = { 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7,
@@ -44,7 +44,7 @@ public:
   /** All levels are from `first` to `last`. */
   double operator()(std::span<const std::int32_t> levels, std::int32_t first, std::int32_t last)
   {
-    const std::int32_t width = std::max(1, (last - first + MostBins) / MostBins);
+    const std::int32_t width = std::max(1, (last - first + MaxBins) / MaxBins);
     const auto bins = static_cast<std::size_t>((last - first) / width) + 1;
     std::fill_n(this->Bins.begin(), bins, 0);
     // In double precision, so that the last level of a long mesh is not rounded beyond the bins.
@@ -76,7 +76,7 @@ private:
 
   double VerticesPerSample;
   std::size_t Samples;
-  std::array<std::int32_t, MostBins> Bins;
+  std::array<std::int32_t, MaxBins> Bins;
 };
 
 class Planner
@@ -101,7 +101,7 @@ public:
   void extend(SourcePlan& plan)
   {
     this->Last = this->evaluate(plan, this->Current);
-    for (std::size_t added = 1; added < MostSources && this->addSource(plan); ++added)
+    for (std::size_t added = 1; added < MaxSources && this->addSource(plan); ++added)
     {
       this->Last = this->evaluate(plan, this->Current);
       for (int round = 0; round < AdjustRounds; ++round)

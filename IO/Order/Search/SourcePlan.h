@@ -24,9 +24,9 @@ inline double searchCost(double meanQueue, double peakQueue)
 class SourceDistances
 {
 public:
-  SourceDistances(Workspace& workspace, std::size_t samples, std::size_t mostCandidates)
+  SourceDistances(Workspace& workspace, std::size_t samples, std::size_t maxCandidates)
     : Samples(samples)
-    , Memory(workspace.pool(), samples * mostCandidates * sizeof(std::int32_t))
+    , Memory(workspace.pool(), samples * maxCandidates * sizeof(std::int32_t))
   {
   }
 

@@ -18,16 +18,16 @@ namespace
 {
 
 /** Vertices of a patch, if the memory permits: fewer hardly improve the order. */
-constexpr std::int64_t LeastRun = 32;
+constexpr std::int64_t MinRun = 32;
 /** Sweeps over vertices smooth the values of this many vertices well. */
-constexpr std::int64_t MostSmoothed = 64;
+constexpr std::int64_t MaxSmoothed = 64;
 constexpr int VertexSweeps = 4;
 /** Bytes of a patch of the graph, with its edges, its share of the graphs of a component and the
  * coarser ones, and the vectors. */
 constexpr std::int64_t PatchBytes = 600;
 constexpr std::size_t EdgesPerPatch = 16;
 /** The vector of more is slow and does not improve the order. */
-constexpr std::size_t MostPatches = std::size_t(1) << 19;
+constexpr std::size_t MaxPatches = std::size_t(1) << 19;
 constexpr std::size_t PolledComponents = 256;
 
 /** The connected components of a graph: the nodes of each, component by component. */
@@ -143,13 +143,13 @@ bool SpectralValues::compute()
   const Reservation reservedPatches(this->Space.pool(), this->ArrayBytes);
   PagedArray<std::uint32_t> patches(this->Space.folder(), this->ArrayBytes);
   const std::int64_t graphBytes =
-    std::min(this->Space.available() / 2, std::int64_t(MostPatches) * PatchBytes);
+    std::min(this->Space.available() / 2, std::int64_t(MaxPatches) * PatchBytes);
   std::optional<Reservation> reservedGraph(std::in_place, this->Space.pool(), graphBytes);
-  const auto mostNodes = static_cast<std::size_t>(graphBytes / PatchBytes);
-  const PatchLimits limits{ mostNodes, mostNodes * EdgesPerPatch };
+  const auto maxNodes = static_cast<std::size_t>(graphBytes / PatchBytes);
+  const PatchLimits limits{ maxNodes, maxNodes * EdgesPerPatch };
 
-  std::int64_t run = LeastRun;
-  while (this->Pages.vertices() / run > std::int64_t(mostNodes) / 2)
+  std::int64_t run = MinRun;
+  while (this->Pages.vertices() / run > std::int64_t(maxNodes) / 2)
   {
     run *= 2;
   }
@@ -177,7 +177,7 @@ bool SpectralValues::compute()
   reservedGraph.reset();
 
   VertexAveraging averaging(this->Pages, this->Space, this->Values, static_cast<float>(closed));
-  for (; run > MostSmoothed; run /= 8)
+  for (; run > MaxSmoothed; run /= 8)
   {
     averaging.sweepRuns(run / 8, patches);
   }

@@ -17,9 +17,9 @@ namespace smg
 /** Default limit of the number of points of a preview. */
 inline constexpr std::int64_t DefaultPreviewPoints = 100000;
 /** The smallest limit that may be given. */
-inline constexpr std::int64_t LeastPreviewPoints = 8;
+inline constexpr std::int64_t MinPreviewPoints = 8;
 /** The largest limit that may be given. */
-inline constexpr std::int64_t MostPreviewPoints = 1000000;
+inline constexpr std::int64_t MaxPreviewPoints = 1000000;
 
 /**
  * Vertex column of a preview (int64): the stream index that each point has in the mesh. (The name
@@ -39,7 +39,7 @@ public:
   /**
    * Makes the preview: reads the mesh once, and its vertex columns once.
    * @param mesh the mesh
-   * @param maximumPoints limit of the number of points, LeastPreviewPoints to MostPreviewPoints. A
+   * @param maximumPoints limit of the number of points, MinPreviewPoints to MaxPreviewPoints. A
    * surface of fewer points is taken as it is.
    * @param progress progress callback; empty: none
    * @param name what error messages call the mesh; empty: its file name

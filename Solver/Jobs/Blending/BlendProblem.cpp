@@ -34,11 +34,11 @@ BlendedColumns::BlendedColumns(
   {
     this->add(name, description, mesh);
   }
-  if (this->Components > BlendDescription::MostComponents)
+  if (this->Components > BlendDescription::MaxComponents)
   {
     columns.fail(Key, "have " + std::to_string(this->Components) +
                         " components together; at most " +
-                        std::to_string(BlendDescription::MostComponents) +
+                        std::to_string(BlendDescription::MaxComponents) +
                         " are blended at once: blend them one after the other");
   }
 }

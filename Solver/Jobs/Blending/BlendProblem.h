@@ -5,7 +5,7 @@
 #include "Solver/Files/CheckedFile.h"
 #include "Solver/Jobs/Blending/PatchLabels.h"
 #include "Solver/Mesh/StreamCheck.h"
-#include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/FixedVertices.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Blend.h"
@@ -155,7 +155,7 @@ private:
   PatchedValues Open;
   SeamSteps Steps;
   std::vector<double> Mean; ///< gradients of a cell between patches
-  HeldVertices Held;
+  FixedVertices Held;
   StreamCheck Check;
   Vector Low, High; ///< the corners of the bounding box
   double Anchor;

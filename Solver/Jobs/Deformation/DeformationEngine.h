@@ -10,7 +10,7 @@
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/Iteration.h"
 #include "Solver/Multigrid/Engine/Pass.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 #include "Solver/Multigrid/Engine/StreamedSolution.h"
 #include "smg/Deform.h"
 #include "smg/Solve.h"
@@ -32,7 +32,7 @@ template <class Relaxation>
 class DeformationSteps
 {
 public:
-  DeformationSteps(SolveRun& run, Hierarchy<Relaxation>& hierarchy, RestShape& rest,
+  DeformationSteps(SolveContext& run, Hierarchy<Relaxation>& hierarchy, RestShape& rest,
     const DeformOptions& options, CellType cells)
     : Run(run)
     , Levels(hierarchy)
@@ -82,7 +82,7 @@ private:
   void addStep(const char* name, const Convergence& convergence);
   double positionScale() const;
 
-  SolveRun& Run;
+  SolveContext& Run;
   Hierarchy<Relaxation>& Levels;
   RestShape& Rest;
   Weights EdgeWeights;
@@ -236,7 +236,7 @@ public:
   DeformationEngine(Operators operators, const DeformOptions& options, CellType cells)
     : Set(std::move(operators))
     , EdgeWeights(options.weights)
-    , Run(std::make_unique<SolveRun>(RotationProblem::Columns, options))
+    , Run(std::make_unique<SolveContext>(RotationProblem::Columns, options))
     , Levels(*this->Run, RotationProblem::Columns)
     , Rest(this->Run->pool)
     , Steps(*this->Run, this->Levels, this->Rest, options, cells)
@@ -257,7 +257,7 @@ public:
 
   // The parts, for further deformations.
 
-  SolveRun& run() { return *this->Run; }
+  SolveContext& run() { return *this->Run; }
   Hierarchy<Relaxation>& levels() { return this->Levels; }
   RestShape& rest() { return this->Rest; }
   DeformationSteps<Relaxation>& steps() { return this->Steps; }
@@ -267,7 +267,7 @@ private:
 
   Operators Set;
   Weights EdgeWeights;
-  std::unique_ptr<SolveRun> Run;
+  std::unique_ptr<SolveContext> Run;
   Hierarchy<Relaxation> Levels;
   RestShape Rest;
   DeformationSteps<Relaxation> Steps;
@@ -276,7 +276,7 @@ private:
 template <OperatorSet Operators>
 void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
 {
-  SolveRun& run = *this->Run;
+  SolveContext& run = *this->Run;
   run.beginReport();
   this->Steps.begin(true);
   this->Steps.solve(
@@ -313,7 +313,7 @@ void DeformationEngine<Operators>::ask(MeshSource& mesh, Handles& handles)
 template <OperatorSet Operators>
 std::unique_ptr<Solution> DeformationEngine<Operators>::takeSolution()
 {
-  SolveRun& run = *this->Run;
+  SolveContext& run = *this->Run;
   auto displacements =
     std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
   auto solution =

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedHandles.h"
 #include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Problem/Coefficient.h"
 #include "Solver/Problem/NearestSelection.h"
 #include "Solver/Problem/Selection.h"
-#include "Solver/Problem/ValueOnMesh.h"
 #include "smg/Deform.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Error.h"
@@ -54,7 +54,7 @@ private:
   /** The values of a handle at each vertex. */
   struct Values
   {
-    ValueOnMesh target, rotation, logScale;
+    Coefficient target, rotation, logScale;
     std::vector<std::array<double, 3>> targets; ///< one for each nearest vertex, or none
   };
   struct Handle
@@ -147,7 +147,7 @@ std::vector<std::string> DescribedHandles::notes(MeshParts& parts) const
 namespace
 {
 
-constexpr double MostHandles = std::numeric_limits<std::uint8_t>::max();
+constexpr double MaxHandles = std::numeric_limits<std::uint8_t>::max();
 
 ValueRules vectorRules(bool positions)
 {
@@ -192,7 +192,7 @@ HandlesOnMesh::Handle HandlesOnMesh::compile(
   if (const auto* values = std::get_if<HandleDescription::Values>(&description.motion))
   {
     const auto valueOf = [&](const DataValue& value, const ValueRules& rules, const char* member)
-    { return ValueOnMesh(value, DataPlace::Vertices, rules, key + member, this->OfMesh); };
+    { return Coefficient(value, DataPlace::Vertices, rules, key + member, this->OfMesh); };
     handle.values.emplace(Values{ valueOf(values->target, vectorRules(true), ".target"),
       valueOf(values->rotation, vectorRules(false), ".rotation"),
       valueOf(values->logScale, { .components = { 1 } }, ".logScale"), {} });
@@ -286,7 +286,7 @@ void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
     if (held[i])
     {
       const double count = counts ? std::max(1.0, std::ceil(counts->value(i))) : 1.0;
-      to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
+      to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MaxHandles));
     }
   }
   handle.values ? this->setValues(handle, block, held, to)
@@ -312,9 +312,9 @@ void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
   std::span<const std::uint8_t> held, VertexHandles& to) const
 {
   const Values& values = *handle.values;
-  const auto set = [&](const ValueOnMesh& value, std::vector<double>& numbers)
+  const auto set = [&](const Coefficient& value, std::vector<double>& numbers)
   {
-    const ValueOnMesh::InBlock given = value.in(block);
+    const Coefficient::InBlock given = value.in(block);
     const auto components = static_cast<std::size_t>(value.components());
     for (std::size_t i = 0; i < held.size(); ++i)
     {

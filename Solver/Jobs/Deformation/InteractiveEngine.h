@@ -51,7 +51,7 @@ private:
 template <OperatorSet Operators>
 bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
 {
-  SolveRun& run = this->First.run();
+  SolveContext& run = this->First.run();
   Report& r = run.report;
   run.beginReport();
   checkSize(handles, r.vertices);

@@ -15,12 +15,12 @@ ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
 {
   // A longer window takes fewer passes, a shorter one less memory. Of tetrahedra, whose span is
   // long, fewer spans are needed.
-  constexpr std::int64_t LeastLength = 16384;
+  constexpr std::int64_t MinLength = 16384;
   const std::int64_t spans = mesh.cellType == CellType::Triangle ? 16 : 4;
   ChunkPlan plan;
   plan.cellType = mesh.cellType;
   plan.span = std::max<std::int64_t>(span, 1);
-  plan.length = std::max(LeastLength, spans * plan.span);
+  plan.length = std::max(MinLength, spans * plan.span);
   if (mesh.vertices > 0)
   {
     plan.length = std::max(std::min(plan.length, mesh.vertices), plan.span);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Estimate/Costs.h"
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 
@@ -85,9 +85,9 @@ int expectedCycles(const Rates& rates, const SolveOptions& options, double ease 
 double iterateBytes(int columns, const SolveOptions& options, int cycles)
 {
   constexpr double AllLevels = 1.45;
-  constexpr int LeastAccelerated = 4;
+  constexpr int MinAccelerated = 4;
   const bool accelerates =
-    options.acceleration != AccelerationKind::None && cycles >= LeastAccelerated;
+    options.acceleration != AccelerationKind::None && cycles >= MinAccelerated;
   const double generations = options.checkpoint.folder.empty() ? 2.0 : 3.0;
   return sizeof(double) * columns * (generations * AllLevels + (accelerates ? 2.0 : 0.0));
 }

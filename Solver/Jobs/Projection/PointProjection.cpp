@@ -16,7 +16,7 @@ namespace
 constexpr std::size_t BatchVertices = 65536;
 
 /** The window of rings grows to this size before cells are discarded for the first time. */
-constexpr std::int64_t LeastBytesToForgetAt = std::int64_t(16) << 20;
+constexpr std::int64_t MinBytesToForgetAt = std::int64_t(16) << 20;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -50,7 +50,7 @@ PointProjection::PointProjection(std::span<const double> points, const Influence
   , Found(points.size() / 3)
   , Squared(points.size() / 3, Infinity)
   , Bounds(NoBounds)
-  , BytesToForgetAt(std::min(memoryLimit, LeastBytesToForgetAt))
+  , BytesToForgetAt(std::min(memoryLimit, MinBytesToForgetAt))
 {
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -154,7 +154,7 @@ void PointProjection::forget()
                 "mesh with the order bfs.");
   }
   // Discarding costs as much as the remaining window: doubling the threshold amortises it.
-  this->BytesToForgetAt = std::min(this->MemoryLimit, std::max(LeastBytesToForgetAt, 2 * bytes));
+  this->BytesToForgetAt = std::min(this->MemoryLimit, std::max(MinBytesToForgetAt, 2 * bytes));
 }
 
 bool PointProjection::isInReach(std::size_t point, const std::array<double, 6>& bounds) const

@@ -102,7 +102,7 @@ std::size_t VertexGraph::walk(
 namespace
 {
 
-constexpr std::int64_t MostPlaces = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t MaxPlaces = std::numeric_limits<std::int32_t>::max();
 
 /** The memory per vertex and per corner of a cell, in the window and in a VertexGraph. */
 constexpr std::int64_t BytesOfVertex = 64;
@@ -153,9 +153,9 @@ std::span<const double, 3> RingWindow::positionAt(std::int32_t place) const
 void RingWindow::add(const MeshBlock& block)
 {
   const auto corners = static_cast<std::int64_t>(block.corners.size() / this->CornersOfCell);
-  if (this->vertices() + block.vertices() > MostPlaces || this->cells() + corners > MostPlaces)
+  if (this->vertices() + block.vertices() > MaxPlaces || this->cells() + corners > MaxPlaces)
   {
-    throw Error("more than " + std::to_string(MostPlaces) +
+    throw Error("more than " + std::to_string(MaxPlaces) +
                 " vertices or cells lie around the points of a handle: give fewer rings, or a "
                 "radius instead, or convert the mesh with the order bfs");
   }

@@ -72,7 +72,7 @@ public:
    * with theirs, before the terms are taken. */
   const OpenFacets& facets() const { return this->Facets.open(); }
   void exclude(FacetSet facets) { this->Inner = std::move(facets); }
-  WeightedEdges& edges() { return this->Edges; }
+  EdgeStiffness& edges() { return this->Edges; }
   /** What the part contributes to its vertices, VertexTerms::size() numbers each. */
   std::vector<double> takeTerms();
   /** The Dirichlet condition of a vertex of the part; -1: none. */
@@ -106,7 +106,7 @@ private:
   std::optional<VertexLoads> CellLoads, FacetLoads;
   Ring<double> EdgeWeights; // magnitudes of the edge weights, if there are facet loads
   ProblemFacets Facets;
-  WeightedEdges Edges; // from Dirichlet vertices to vertices outside the condition
+  EdgeStiffness Edges; // from Dirichlet vertices to vertices outside the condition
 
   FacetSet Inner; // facets that other parts have as well
 
@@ -118,11 +118,11 @@ private:
 };
 
 /** Values in memory as a solution. */
-class HeldSolution final : public Solution
+class InMemorySolution final : public Solution
 {
 public:
   /** `columns` values of each vertex, which another object owns. */
-  HeldSolution(std::span<const double> values, int columns)
+  InMemorySolution(std::span<const double> values, int columns)
     : Values(values)
     , Columns(columns)
   {

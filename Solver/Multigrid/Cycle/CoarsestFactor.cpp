@@ -70,7 +70,7 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
   }
   this->Factor.cholmod().print = 0; // failures are expected and handled
   this->Factor.setMode(matrix.rounding > 0.0 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodLDLt);
-  constexpr double MostShare = 0x1p-4, Growth = 8.0;
+  constexpr double MaxShare = 0x1p-4, Growth = 8.0;
   double share = matrix.rounding;
   const Eigen::SparseMatrix<double> first = this->stiffened(matrix, share);
   this->Factor.analyzePattern(first);
@@ -80,7 +80,7 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
   while (this->Factor.info() != Eigen::Success)
   {
     share *= Growth;
-    if (!(share > 0.0 && share <= MostShare))
+    if (!(share > 0.0 && share <= MaxShare))
     {
       throw Error(
         "the coarsest level's matrix could not be factorised: the weights of the mesh span too "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 
 #include <concepts>
@@ -78,8 +78,8 @@ concept RelaxesBlocks = requires(const RowBlock::Header& h,
   const RowBlock::Arrays<Index, Weight>& a, BlockRange nodes, std::int64_t stride, Real* x,
   const Real* b)
 {
-  R::template sweep<false, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
-  R::template sweep<true, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
+  R::template sweep<false, SimdPack<Real, Count>>(h, a, nodes, stride, x, b);
+  R::template sweep<true, SimdPack<Real, Count>>(h, a, nodes, stride, x, b);
 };
 
 /** The same for all blocks of such levels. */

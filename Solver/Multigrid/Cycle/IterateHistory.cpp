@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 
 #include <algorithm>
 #include <numeric>
@@ -93,11 +93,11 @@ void IterateHistory::combine(const Ring<double>& x, std::int64_t begin, std::int
 {
   if (this->Stride == 1)
   {
-    this->combineLanes<Lanes<double, 1>>(x, begin, end, 0);
+    this->combineLanes<SimdPack<double, 1>>(x, begin, end, 0);
   }
   for (int lane = 0; lane + 3 < this->Stride; lane += 4)
   {
-    this->combineLanes<Lanes<double, 4>>(x, begin, end, lane);
+    this->combineLanes<SimdPack<double, 4>>(x, begin, end, lane);
   }
 }
 
@@ -106,7 +106,7 @@ void IterateHistory::combineLanes(
   const Ring<double>& x, std::int64_t begin, std::int64_t end, int lane)
 {
   using Wide = typename Vectors::Vector;
-  using Single = Lanes<float, Vectors::count>;
+  using Single = SimdPack<float, Vectors::count>;
   double* value = x.at(begin) + lane;
   const double* before = this->Before.at(begin) + lane;
   float* step = this->Steps.at(begin) + lane;

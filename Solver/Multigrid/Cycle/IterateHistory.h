@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
-#include "Solver/Multigrid/Cycle/BlocksAhead.h"
+#include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "smg/Export.h"
 
@@ -198,7 +198,7 @@ private:
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
   std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
-  BlocksAhead<Buffer> Ahead;
+  BlockPrefetch<Buffer> Ahead;
   std::vector<Buffer> Packages;        // blocks that keep() is to unpack
   std::int64_t Kept = 0, Unpacked = 0; // ends of the nodes in Before and in Steps
   SpareBuffers Spare, Empty;
@@ -217,7 +217,7 @@ template <class Vectors>
 class ResidualKeeper
 {
   using Wide = typename Vectors::Vector;
-  using Single = Lanes<float, Vectors::count>;
+  using Single = SimdPack<float, Vectors::count>;
   using Narrow = typename Single::Vector;
 
 public:
@@ -287,11 +287,11 @@ private:
 
 /** Coarse levels have single precision and are not accelerated. */
 template <int Count>
-class ResidualKeeper<Lanes<float, Count>>
+class ResidualKeeper<SimdPack<float, Count>>
 {
 public:
   ResidualKeeper(IterateHistory*, std::int64_t, int) {}
-  void operator()(std::int64_t, typename Lanes<float, Count>::Vector) {}
+  void operator()(std::int64_t, typename SimdPack<float, Count>::Vector) {}
 };
 
 /**
@@ -300,9 +300,9 @@ public:
  * error x* - x loses in its squared energy norm is twice what J loses, since A is symmetric.
  *
  * So that a large mean of the solution does not drown this in rounding, x is counted from a number
- * c of each column: with alpha the row sums of A, -1/2 (x - c).(b - c alpha + r) differs from J by
- * a constant. c is the mean of b / alpha, weighted with |alpha|, which the first pass finds: near
- * what is prescribed. Where all alpha are 0, it is the mean of x.
+ * c of each column: with rowSum the row sums of A, -1/2 (x - c).(b - c rowSum + r) differs from J
+ * by a constant. c is the mean of b / rowSum, weighted with |rowSum|, which the first pass finds:
+ * near what is prescribed. Where all rowSum are 0, it is the mean of x.
  */
 class IterateEnergy
 {
@@ -334,14 +334,14 @@ public:
 
   /** Adds a node of unknown x: `lane` is the first of its columns that the vectors have. */
   template <class Vectors, class Vector>
-  void add(const double* x, const double* b, const Vector& r, double alpha, int lane)
+  void add(const double* x, const double* b, const Vector& r, double rowSum, int lane)
   {
     double* centre = this->Numbers.data() + lane;
     double* sum = centre + this->Stride;
     if (!this->HasCentre)
     {
-      const double weight = std::fabs(alpha);
-      const double sign = weight > 0.0 ? std::copysign(1.0, alpha) : 0.0;
+      const double weight = std::fabs(rowSum);
+      const double sign = weight > 0.0 ? std::copysign(1.0, rowSum) : 0.0;
       Vectors::store(sum, Vectors::load(sum) + sign * Vectors::load(b));
       Vectors::store(sum + this->Stride, Vectors::load(sum + this->Stride) + weight);
       double* plain = sum + 2 * this->Stride;
@@ -351,7 +351,7 @@ public:
     }
     const Vector c = Vectors::load(centre);
     Vectors::store(
-      sum, Vectors::load(sum) - 0.5 * (Vectors::load(x) - c) * (Vectors::load(b) - alpha * c + r));
+      sum, Vectors::load(sum) - 0.5 * (Vectors::load(x) - c) * (Vectors::load(b) - rowSum * c + r));
   }
 
   /** That of the pass, summed over the columns; not of the first pass. */
@@ -374,7 +374,7 @@ public:
 
 private:
   std::size_t Stride;
-  std::vector<double> Numbers; ///< c; sums of the energy, or of +-b; of |alpha|, of x, of 1
+  std::vector<double> Numbers; ///< c; sums of the energy, or of +-b; of |rowSum|, of x, of 1
   bool HasCentre = false;
 };
 

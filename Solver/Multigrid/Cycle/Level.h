@@ -296,8 +296,8 @@ private:
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
-  using One = Lanes<Real, 1>;
-  using Four = Lanes<Real, 4>;
+  using One = SimdPack<Real, 1>;
+  using Four = SimdPack<Real, 4>;
 
   // The upward part (LevelUp.txx).
 

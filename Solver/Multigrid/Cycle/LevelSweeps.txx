@@ -16,11 +16,12 @@ void relaxNodes(
 {
   if (stride == 1)
   {
-    Relaxation::template sweep<LowerOnly, Lanes<Real, 1>>(h, a, nodes, 1, x, b);
+    Relaxation::template sweep<LowerOnly, SimdPack<Real, 1>>(h, a, nodes, 1, x, b);
   }
   for (int lane = 0; lane + 3 < stride; lane += 4)
   {
-    Relaxation::template sweep<LowerOnly, Lanes<Real, 4>>(h, a, nodes, stride, x + lane, b + lane);
+    Relaxation::template sweep<LowerOnly, SimdPack<Real, 4>>(
+      h, a, nodes, stride, x + lane, b + lane);
   }
 }
 
@@ -124,11 +125,12 @@ void Level<Real, Relaxation>::prolongTo(std::int64_t begin, std::int64_t end)
       const float* coarse = this->Coarse->window().x().at(h.parentBase);
       if (stride == 1)
       {
-        prolong<One, Lanes<float, 1>>(h, a, nodes, 1, x, coarse, this->Unscale);
+        prolong<One, SimdPack<float, 1>>(h, a, nodes, 1, x, coarse, this->Unscale);
       }
       for (int lane = 0; lane + 3 < stride; lane += 4)
       {
-        prolong<Four, Lanes<float, 4>>(h, a, nodes, stride, x + lane, coarse + lane, this->Unscale);
+        prolong<Four, SimdPack<float, 4>>(
+          h, a, nodes, stride, x + lane, coarse + lane, this->Unscale);
       }
     });
 }
@@ -170,9 +172,9 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
       {
         const auto restrictLanes = [&]<int Count>(std::integral_constant<int, Count>, int lane)
         {
-          using Vectors = Lanes<Real, Count>;
+          using Vectors = SimdPack<Real, Count>;
           ResidualKeeper<Vectors> kept(this->History, h.first, lane);
-          restrictResidual<Residual, Vectors, Lanes<float, Count>>(h, arrays, nodes, stride,
+          restrictResidual<Residual, Vectors, SimdPack<float, Count>>(h, arrays, nodes, stride,
             x + lane, b + lane, coarse + lane, this->Scale, squares + lane, terms + lane,
             [&](std::int64_t k, const typename Vectors::Vector& r)
             {

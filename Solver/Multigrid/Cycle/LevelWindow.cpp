@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Multigrid/Cycle/LevelWindowState.txx"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
-#include "Solver/Multigrid/Cycle/BlocksAhead.h"
+#include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
 #include "smg/Export.h"
@@ -272,7 +272,7 @@ public:
   void rewriteB(F&& f);
 
   /** Moves the buffers of released blocks to `others` for reuse in the first pass. */
-  void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MostSpareRows); }
+  void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MaxSpareRows); }
 
   /** Between passes: saves all that later passes need. Of a level in memory this is its b, from
    * which the core cycle computes x. */
@@ -290,7 +290,7 @@ public:
 
 private:
   /** About the number of blocks packed per step; more would waste memory. */
-  static constexpr std::size_t MostSpareRows = 4;
+  static constexpr std::size_t MaxSpareRows = 4;
 
   const RowBlock& block(std::int64_t node) const
   {
@@ -345,7 +345,7 @@ private:
   bool RowsAreKept = false;
   std::vector<Real> Packed;
   std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
-  BlocksAhead<Incoming> Ahead;
+  BlockPrefetch<Incoming> Ahead;
   /** The state of loaded blocks, from `begin` to `end`, packed. */
   struct Arrived
   {

@@ -36,9 +36,9 @@ struct PlainResidual
 
 /**
  * The same as b_k - alpha_k x_k + sum_j w_kj (x_j - x_k): the large weights of slivers multiply
- * small differences, which reduces the rounding, and the sum over a patch does not lose alpha,
+ * small differences, which reduces the rounding, and the sum over a patch does not lose rowSum,
  * which may be smaller than the rounding of the diagonal. Edges to prescribed nodes are part of
- * alpha and b, and rounded like these.
+ * rowSum and b, and rounded like these.
  */
 struct ResidualOfDifferences
 {

@@ -86,10 +86,10 @@ public:
     std::int32_t parents = 0; ///< entries of all rows of P
     std::int8_t wide = 0;
     std::int8_t weightBytes = 0;
-    std::uint16_t alphaGroups = 0; ///< bit g: a row of group g has a non-zero sum
-    std::int32_t specials = 0;     ///< number of special nodes
-    std::int32_t values = 0;       ///< of patches that end here
-    std::int32_t precise = 0;      ///< weights in double precision
+    std::uint16_t rowSumGroups = 0; ///< bit g: a row of group g has a non-zero sum
+    std::int32_t specials = 0;      ///< number of special nodes
+    std::int32_t values = 0;        ///< of patches that end here
+    std::int32_t precise = 0;       ///< weights in double precision
     /**
      * neighbourReach: the largest node in rows 0 .. end of the group; patchReach: that, or the last
      * one of the patch of such a node, whose value is final only then after a sweep that relaxes
@@ -146,7 +146,7 @@ public:
     const Count* entryEnd;           // per node: end of its entries, from the start of the group
     const Count* parentEnd;          // per node: end of its parents, from the start of the group
     const std::int8_t* parentQuanta; // per parent
-    const double* alpha;             // per node of groups with sums: the row sum
+    const double* rowSum;            // per node of groups with sums: the row sum
     const Special* special;          // by ascending node
     const double* value;             // of patches
     const double* precise;           // of special nodes
@@ -157,8 +157,8 @@ public:
     Arrays<Index, double> ofPreciseRow(const Special& node, std::int64_t begin) const
     {
       return { this->precise + node.precise - begin, this->delta, this->parent, this->entryEnd,
-        this->parentEnd, this->parentQuanta, this->alpha, this->special, this->value, this->precise,
-        this->diagonal };
+        this->parentEnd, this->parentQuanta, this->rowSum, this->special, this->value,
+        this->precise, this->diagonal };
     }
   };
 
@@ -185,7 +185,7 @@ public:
     take(at, a.entryEnd, h.nodes);
     take(at, a.parentEnd, h.nodes);
     take(at, a.parentQuanta, h.parents);
-    take(at, a.alpha, alphas(h));
+    take(at, a.rowSum, rowSums(h));
     take(at, a.special, h.specials);
     take(at, a.value, h.values);
     take(at, a.precise, h.precise);
@@ -212,17 +212,17 @@ public:
   static double alphaOf(const Header& h, const Arrays<Index, Weight>& a, std::int64_t k)
   {
     const auto group = static_cast<unsigned>(k / Group);
-    const unsigned before = h.alphaGroups & ((1U << group) - 1);
-    return h.alphaGroups >> group & 1 ? a.alpha[std::popcount(before) * Group + k % Group] : 0.0;
+    const unsigned before = h.rowSumGroups & ((1U << group) - 1);
+    return h.rowSumGroups >> group & 1 ? a.rowSum[std::popcount(before) * Group + k % Group] : 0.0;
   }
 
-  /** The number of nodes of groups with alphas; all groups except the last one are full. */
-  static std::int32_t alphas(const Header& h)
+  /** The number of nodes of groups with rowSums; all groups except the last one are full. */
+  static std::int32_t rowSums(const Header& h)
   {
-    const std::int32_t room = std::popcount(h.alphaGroups) * static_cast<std::int32_t>(Group);
+    const std::int32_t room = std::popcount(h.rowSumGroups) * static_cast<std::int32_t>(Group);
     const std::int32_t last = (h.nodes - 1) / static_cast<std::int32_t>(Group);
     const std::int32_t missing = (last + 1) * static_cast<std::int32_t>(Group) - h.nodes;
-    return room - (h.alphaGroups >> last & 1 ? missing : 0);
+    return room - (h.rowSumGroups >> last & 1 ? missing : 0);
   }
 
   /** Bytes of the diagonals of this many nodes. */
@@ -242,7 +242,7 @@ public:
     return sizeof(Header) + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
            aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * count) +
            aligned(parents) + static_cast<std::size_t>(h.specials) * sizeof(Special) +
-           static_cast<std::size_t>(alphas(h) + h.values + h.precise) * sizeof(double);
+           static_cast<std::size_t>(rowSums(h) + h.values + h.precise) * sizeof(double);
   }
 
   /** Whether these bytes may be a block of the nodes [first, first + nodes), and are as many as its
@@ -259,7 +259,7 @@ public:
     return h.first == first && h.nodes == nodes && std::ranges::min(counts) >= 0 &&
            (h.wide == 0 || h.wide == 1) &&
            (h.weightBytes == sizeof(float) || h.weightBytes == sizeof(BFloat16)) &&
-           h.alphaGroups >> ((nodes - 1) / Group + 1) == 0 && storedBytes(h) == stored.size();
+           h.rowSumGroups >> ((nodes - 1) / Group + 1) == 0 && storedBytes(h) == stored.size();
   }
 
   /** The part of the block stored on disk. */
@@ -311,14 +311,14 @@ void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
   const Header& h = this->header();
   // The arrays are constant for users of a block; here they are filled.
   auto* diagonal = const_cast<double*>(a.diagonal);
-  const double* alpha = a.alpha;
+  const double* rowSum = a.rowSum;
   const Weight* weight = a.weight;
   const Special* special = a.special;
   const Special* lastSpecial = a.special + h.specials;
   for (std::int32_t k = 0; k < h.nodes; ++k)
   {
     const auto group = static_cast<std::size_t>(k / Group);
-    double sum = h.alphaGroups >> group & 1 ? *alpha++ : 0.0;
+    double sum = h.rowSumGroups >> group & 1 ? *rowSum++ : 0.0;
     const Weight* end = a.weight + h.entryStart[group] + a.entryEnd[k];
     special += special != lastSpecial && special->node < k ? 1 : 0;
     if (special != lastSpecial && special->node == k && special->precise >= 0)
@@ -332,7 +332,7 @@ void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
     {
       sum += static_cast<float>(*weight);
     }
-    diagonal[k] = usableDiagonal(sum);
+    diagonal[k] = nonZeroDiagonal(sum);
   }
 }
 

@@ -15,11 +15,11 @@ namespace
 using Header = RowBlock::Header;
 
 // The range of a WideIndex.
-static_assert(RowEntry::MostDistance < (1 << 23) && CoarseWindow <= (1 << 23));
+static_assert(RowEntry::MaxDistance < (1 << 23) && CoarseWindow <= (1 << 23));
 
 /** The inverse of the matrix on a patch multiplies the rounding of residuals, which are double on
  * the finest level and float on the others, by up to one over this. */
-constexpr double LeastPivotOfDoubles = 1e-9, LeastPivotOfFloats = 1e-5;
+constexpr double MinPivotOfDoubles = 1e-9, MinPivotOfFloats = 1e-5;
 
 /** The special nodes of a block in its format. */
 struct Specials
@@ -33,7 +33,7 @@ struct Specials
     const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)
   {
     const bool finest = rows.childReach(first) < 0;
-    this->LeastPivot = finest ? LeastPivotOfDoubles : LeastPivotOfFloats;
+    this->MinPivot = finest ? MinPivotOfDoubles : MinPivotOfFloats;
     for (std::int64_t i = first; i < first + nodes; ++i)
     {
       const Patch* patch = coarsening ? coarsening->patches.of(i) : nullptr;
@@ -65,7 +65,7 @@ struct Specials
   }
 
 private:
-  double LeastPivot = LeastPivotOfDoubles;
+  double MinPivot = MinPivotOfDoubles;
 
   /** Adds the values of a patch, at its last node. */
   void addValues(const Patch& patch, const double* matrix)
@@ -78,7 +78,7 @@ private:
     PatchMatrix inverse;
     inverse.order = patch.size;
     std::copy_n(matrix, entries, inverse.entry);
-    inverse.invert(this->LeastPivot);
+    inverse.invert(this->MinPivot);
     this->values.insert(this->values.end(), inverse.entry, inverse.entry + entries);
   }
 };
@@ -108,9 +108,9 @@ Header measure(
         { largestDelta, std::abs(row.front().delta()), std::abs(row.back().delta()) });
     }
     h.entries += static_cast<std::int32_t>(row.size());
-    if (rows.alpha(i) != 0.0)
+    if (rows.rowSum(i) != 0.0)
     {
-      h.alphaGroups = static_cast<std::uint16_t>(h.alphaGroups | 1U << group);
+      h.rowSumGroups = static_cast<std::uint16_t>(h.rowSumGroups | 1U << group);
     }
     h.neighbourReach[group] = rows.reach(i);
     h.patchReach[group] =
@@ -149,7 +149,7 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   const auto a = block.arrays<Index, Weight>();
   using Count = typename RowBlock::Arrays<Index, Weight>::Count;
   // The arrays are constant for users of a block; here they are filled.
-  auto* alpha = const_cast<double*>(a.alpha);
+  auto* rowSum = const_cast<double*>(a.rowSum);
   auto* weight = const_cast<Weight*>(a.weight);
   auto* delta = const_cast<Index*>(a.delta);
   auto* parent = const_cast<Index*>(a.parent);
@@ -164,9 +164,9 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   {
     const std::int64_t i = h.first + k;
     const auto group = static_cast<std::size_t>(k / RowBlock::Group);
-    if (h.alphaGroups >> group & 1)
+    if (h.rowSumGroups >> group & 1)
     {
-      *alpha++ = rows.alpha(i);
+      *rowSum++ = rows.rowSum(i);
     }
     for (const RowEntry& entry : rows.row(i))
     {

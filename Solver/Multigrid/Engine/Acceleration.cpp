@@ -15,7 +15,7 @@ constexpr double WorthwhileCycles = 4.0;
 constexpr double UsualFactor = 0.1;
 
 /** The bound of the eigenvalues is slightly above the measured factor. */
-constexpr double Margin = 1.05, LeastBound = 0.1, LargestBound = 0.98;
+constexpr double Margin = 1.05, MinBound = 0.1, LargestBound = 0.98;
 /** V-cycles after which the factor is that of the slowest errors. */
 constexpr int Settling = 2;
 
@@ -25,7 +25,7 @@ constexpr int Trial = 5;
 
 double boundFrom(double factor)
 {
-  return std::clamp(Margin * factor, LeastBound, LargestBound);
+  return std::clamp(Margin * factor, MinBound, LargestBound);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
     report.notes.push_back(std::to_string(counts.limitedCells) +
                            " cells are so flat that rounding would drown the others: their "
                            "stiffness was scaled down, by a factor of " +
-                           scientific(counts.leastFlatness) +
+                           scientific(counts.minFlatness) +
                            " at the least; there the operator is not that of finite elements");
   }
   if (counts.raisedRows > 0)
@@ -57,7 +57,7 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   counts.coincidentCells = assembly.weights().coincidentCells();
   counts.clampedWeights = assembly.clampedWeights();
   counts.limitedCells = assembly.weights().limitedCells();
-  counts.leastFlatness = assembly.weights().leastFlatness();
+  counts.minFlatness = assembly.weights().minFlatness();
   counts.raisedRows = assembly.raisedRows();
   counts.components = components.components();
   counts.freeComponents = components.freeComponents();

@@ -16,8 +16,8 @@ struct AssemblyCounts
   CellType type = CellType::Triangle;
   std::int64_t vertices = 0, cells = 0, prescribed = 0, held = 0;
   std::int64_t degenerateCells = 0, coincidentCells = 0, clampedWeights = 0;
-  std::int64_t limitedCells = 0; ///< see WeightPolicy
-  double leastFlatness = 1.0;    ///< of these
+  std::int64_t limitedCells = 0; ///< see StiffnessRules
+  double minFlatness = 1.0;      ///< of these
   std::int64_t raisedRows = 0;   ///< see Assembly
   std::int64_t components = 0, freeComponents = 0;
   double termSquares = 0.0; ///< see InitialResidual

@@ -18,7 +18,7 @@ namespace smg
 
 /** The number of entries that rows of any length usually have. On a cache line of its own, since
  * stages on different threads note theirs at the same time. */
-class alignas(64) UsualEntries
+class alignas(64) MeanRowLength
 {
 public:
   /** Notes a row with so many entries. */
@@ -52,7 +52,7 @@ class Coarsening
 public:
   /** `stiff`: those of the coarse level; `apart`: whether stages may run on several threads. */
   Coarsening(Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse,
-    StiffRows stiff = {}, bool apart = false)
+    SliverRows stiff = {}, bool apart = false)
     : Set(std::move(operators))
     , Data(pool, fine, coarse, stiff, apart)
     , Final(pool)
@@ -99,7 +99,7 @@ public:
     const std::int64_t coarse = this->usualCoarseRows(nodes);
     this->Limits.begin(nodes, coarse);
     this->Sweeps.begin(StepLimits::more(nodes));
-    this->begin(this->Lifted + this->Limits.lift.nodes());
+    this->begin(this->Chosen + this->Limits.choose.nodes());
     std::swap(this->Data.gathered, this->Data.arrived);
     this->seeProducts();
     this->seeInterpolation();
@@ -109,12 +109,12 @@ public:
     return coarse;
   }
   /** The rows that no stage has processed. */
-  std::int64_t waiting() const { return this->Data.fine.end() - this->Lifted; }
+  std::int64_t waiting() const { return this->Data.fine.end() - this->Chosen; }
 
   /** The stages up to the initial P. */
   void advanceLifting()
   {
-    this->lift();
+    this->choose();
     this->interpolateInitial();
   }
 
@@ -129,11 +129,11 @@ public:
   void advanceProducts()
   {
     this->Data.productSlots.extend(this->Data.knownCoarse);
-    this->multiply();
+    this->productAP();
   }
 
   /** The stage from A P to P^T A P. */
-  void advanceGathering() { this->gather(); }
+  void advanceGathering() { this->productPtAP(); }
 
   /** The stages from P^T A P to the coarse rows. */
   void advanceCoarseRows()
@@ -146,7 +146,7 @@ public:
   void handOver()
   {
     this->Final.moveTo(this->Data.coarse);
-    this->Data.coarse.Ended = this->Data.fine.Ended && this->Lifted == this->Data.fine.end() &&
+    this->Data.coarse.Ended = this->Data.fine.Ended && this->Chosen == this->Data.fine.end() &&
                               this->Finished == this->Data.coarseNodes;
   }
 
@@ -159,7 +159,7 @@ public:
     this->ReachDone = rows.unreached(this->ReachDone, this->Multiplied);
     this->PatchesDone = rows.unreached(this->PatchesDone, this->Packed);
     this->MatricesDone = rows.unreached(this->MatricesDone, this->PatchesDone);
-    d.lifted.release(this->RelaxedDone);
+    d.coarseIndex.release(this->RelaxedDone);
     d.initial.release(this->RelaxedDone);
     d.initialTotal.release(this->RelaxedDone);
     d.relaxed.release(this->RelaxedDone);
@@ -179,10 +179,10 @@ public:
     d.settledReach.release(this->Packed);
     d.parentReach.release(interpolationDone);
     const std::int64_t nextFine =
-      this->Gathered < d.coarseNodes ? d.liftedFrom[this->Gathered] : this->Lifted;
+      this->Gathered < d.coarseNodes ? d.finePoint[this->Gathered] : this->Chosen;
     d.fine.release(std::min(this->Multiplied, this->Packed),
       std::min({ this->RelaxedDone, this->ReachDone, this->MatricesDone, nextFine }));
-    d.liftedFrom.release(this->Gathered);
+    d.finePoint.release(this->Gathered);
     d.firstChild.release(this->Gathered);
     d.lastChild.release(this->Finished);
     d.releaseRaw(this->Finished);
@@ -208,7 +208,7 @@ private:
     this->Data.seenCoarse = this->Data.coarseNodes;
   }
 
-  /** Shows the interpolation so far to the stages from multiply() on. */
+  /** Shows the interpolation so far to the stages from productAP() on. */
   void seeInterpolation()
   {
     this->Seen = this->Interpolated;
@@ -217,16 +217,16 @@ private:
     this->Data.sparsifySlots.extend(this->Data.knownCoarse);
   }
 
-  /** Shows the products so far to the stages from gather() on. */
+  /** Shows the products so far to the stages from productPtAP() on. */
   void seeProducts() { this->SeenProducts = this->Multiplied; }
 
   /** The coarse rows that so many rows become, on average so far or in the last step. */
   std::int64_t usualCoarseRows(std::int64_t rows)
   {
-    const std::int64_t lifted = this->Lifted - this->Begin;
+    const std::int64_t chosen = this->Chosen - this->Begin;
     const std::int64_t coarse = this->Data.coarseNodes - this->CoarseBegin;
     const std::int64_t last = coarse - std::exchange(this->CoarseBefore, coarse);
-    return std::min(rows, std::max(last, lifted > 0 ? rows * coarse / lifted : rows));
+    return std::min(rows, std::max(last, chosen > 0 ? rows * coarse / chosen : rows));
   }
 
   /** Makes room for what this step adds to the data that several threads use. */
@@ -235,16 +235,16 @@ private:
     CoarseningData& d = this->Data;
     const std::int64_t rows =
       std::min(this->Rows - this->Interpolated, this->Limits.interpolate.nodes());
-    const std::int64_t lifts = this->Rows - this->Lifted;
-    d.lifted.reserve(this->Rows - d.lifted.first());
-    d.patches.reserve(lifts);
+    const std::int64_t choices = this->Rows - this->Chosen;
+    d.coarseIndex.reserve(this->Rows - d.coarseIndex.first());
+    d.patches.reserve(choices);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
     d.rowQuanta.reserve(this->Interpolated + rows - d.rowQuanta.first());
     d.patchMatrices.reserve(rows, this->PatchEntries.of(rows) + PatchMatrix::Entries);
     d.parentReach.reserve(rows);
-    d.liftedFrom.reserve(lifts);
-    d.firstChild.reserve(d.coarseNodes + lifts - d.firstChild.first());
-    d.lastChild.reserve(d.coarseNodes + lifts - d.lastChild.first());
+    d.finePoint.reserve(choices);
+    d.firstChild.reserve(d.coarseNodes + choices - d.firstChild.first());
+    d.lastChild.reserve(d.coarseNodes + choices - d.lastChild.first());
     this->reserveInitial();
     this->reserveProducts();
   }
@@ -256,7 +256,7 @@ private:
     const std::int64_t rows = std::min(this->Rows - this->Initial, this->Limits.initial.nodes());
     if (rows > 0)
     {
-      d.initial.reserve(rows, this->InitialEntries.of(rows) + d.mostInitial(this->Initial));
+      d.initial.reserve(rows, this->InitialEntries.of(rows) + d.maxInitial(this->Initial));
       d.initialTotal.reserve(this->Initial + rows - d.initialTotal.first());
     }
   }
@@ -266,29 +266,30 @@ private:
   {
     CoarseningData& d = this->Data;
     const std::int64_t rows =
-      std::min(this->Rows - this->Multiplied, this->Limits.multiply.nodes());
+      std::min(this->Rows - this->Multiplied, this->Limits.productAP.nodes());
     if (rows > 0)
     {
-      d.product.reserve(rows, this->ProductEntries.of(rows) + d.mostProducts(this->Multiplied));
+      d.product.reserve(rows, this->ProductEntries.of(rows) + d.maxProducts(this->Multiplied));
       d.productSum.reserve(this->Multiplied + rows - d.productSum.first());
       d.settledReach.reserve(rows);
     }
   }
 
-  void lift()
+  void choose()
   {
     CoarseningData& d = this->Data;
-    d.lifted.extend(this->Rows);
-    this->Limits.lift.run(
-      this->Lifted, this->Rows, [&](std::int64_t) { return !(this->Apart && d.patches.isFull()); },
+    d.coarseIndex.extend(this->Rows);
+    this->Limits.choose.run(
+      this->Chosen, this->Rows, [&](std::int64_t) { return !(this->Apart && d.patches.isFull()); },
       [&](std::int64_t i)
       {
         d.patches.add(d.fine);
-        const bool lifted = this->Set.lift(d, i);
-        d.lifted[i] = lifted ? CoarseningData::liftedTo(d.coarseNodes) : CoarseningData::Retained;
-        if (lifted)
+        const bool isCoarse = this->Set.isCoarse(d, i);
+        d.coarseIndex[i] =
+          isCoarse ? CoarseningData::coarseIndexOf(d.coarseNodes) : CoarseningData::FPoint;
+        if (isCoarse)
         {
-          d.liftedFrom.append(i);
+          d.finePoint.append(i);
           ++d.coarseNodes;
         }
       });
@@ -300,10 +301,10 @@ private:
   {
     CoarseningData& d = this->Data;
     this->Limits.initial.run(
-      this->Initial, this->Lifted,
+      this->Initial, this->Chosen,
       [&](std::int64_t i) {
-        return d.fine.reach(i) < this->Lifted &&
-               (!this->Apart || d.initial.hasRoom(d.mostInitial(i)));
+        return d.fine.reach(i) < this->Chosen &&
+               (!this->Apart || d.initial.hasRoom(d.maxInitial(i)));
       },
       [&](std::int64_t i)
       {
@@ -327,19 +328,19 @@ private:
       });
   }
 
-  void multiply()
+  void productAP()
   {
     CoarseningData& d = this->Data;
-    this->Limits.multiply.run(
+    this->Limits.productAP.run(
       this->Multiplied, this->Rows,
       [&](std::int64_t i) {
         return d.fine.reach(i) < this->Seen &&
-               (!this->Apart || d.product.hasRoom(d.mostProducts(i)));
+               (!this->Apart || d.product.hasRoom(d.maxProducts(i)));
       },
       [&](std::int64_t i)
       {
         d.productSum.extendRaw(i + 1);
-        this->Set.multiply(d, i);
+        this->Set.productAP(d, i);
         d.settledReach.append(d.patches.lastAround(d.fine, i));
         this->ProductEntries.add(d.product.size(i));
       });
@@ -349,22 +350,22 @@ private:
   bool canGather(std::int64_t c) const
   {
     const CoarseningData& d = this->Data;
-    const std::int64_t ring = d.fine.reach(d.liftedFrom[c]);
+    const std::int64_t ring = d.fine.reach(d.finePoint[c]);
     if (ring >= this->Rows || d.fine.reach(ring) >= this->Seen)
     {
       return false;
     }
-    return d.lastChild[c].row(d.liftedFrom[c]) < this->SeenProducts;
+    return d.lastChild[c].row(d.finePoint[c]) < this->SeenProducts;
   }
 
-  void gather()
+  void productPtAP()
   {
     CoarseningData& d = this->Data;
-    this->Limits.gather.run(
+    this->Limits.productPtAP.run(
       this->Gathered, d.knownCoarse, [&](std::int64_t c) { return this->canGather(c); },
       [&](std::int64_t c)
       {
-        this->Set.gather(d, c);
+        this->Set.productPtAP(d, c);
         if (!this->Apart)
         {
           this->sparsify(d.gathered);
@@ -408,10 +409,10 @@ private:
   std::int64_t CoarseBefore = 0;         // coarse nodes a step ago
   const std::int64_t Begin, CoarseBegin; // the first nodes
   std::int64_t Rows = Begin;             // of the fine level, that stages may read
-  std::int64_t Lifted = Begin, Initial = Begin, SeenInitial = Begin; // by fine node
+  std::int64_t Chosen = Begin, Initial = Begin, SeenInitial = Begin; // by fine node
   InterpolationSweeps<Operators> Sweeps;
   std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;
-  UsualEntries InitialEntries, PatchEntries, ProductEntries;
+  MeanRowLength InitialEntries, PatchEntries, ProductEntries;
   // By coarse node.
   std::int64_t Gathered = CoarseBegin, Sparsified = CoarseBegin, Finished = CoarseBegin;
   std::int64_t Packed = Begin, ProductDone = Begin;

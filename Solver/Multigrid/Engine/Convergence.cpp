@@ -19,7 +19,7 @@ constexpr double Diverged = 1e4;
 constexpr double Stagnating = 0.9;
 constexpr int Patience = 60, RoundingPatience = 2;
 /** Patience is half of the allowed V-cycles if that is less, but at least this. */
-constexpr int LeastPatience = 10;
+constexpr int MinPatience = 10;
 constexpr double NearRounding = 10.0;
 
 } // namespace
@@ -91,7 +91,7 @@ void Convergence::watch(double relative)
 {
   const bool rounding = this->Norm <= NearRounding * this->Rounding;
   const int patience =
-    rounding ? RoundingPatience : std::clamp(this->Limit / 2, LeastPatience, Patience);
+    rounding ? RoundingPatience : std::clamp(this->Limit / 2, MinPatience, Patience);
   const int n = this->cycles();
   const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
                                      : this->FirstNorm / this->Reference;

@@ -17,7 +17,7 @@ constexpr double Enough = 0.1;
 constexpr double Promising = 1e-3;
 /** How often that is estimated: where it is not much larger than the algebraic error for long, it
  * is nothing to stop by. */
-constexpr int MostMeasures = 6;
+constexpr int MaxMeasures = 6;
 /** The share up to which an algebraic error does not disturb that estimate. */
 constexpr double Undisturbing = 0.5;
 
@@ -38,7 +38,7 @@ bool ErrorBalance::add(double energy, double residual, double factor)
     }
     this->measure();
   }
-  if (this->isEnough() && this->isDisturbed() && this->Measures < MostMeasures)
+  if (this->isEnough() && this->isDisturbed() && this->Measures < MaxMeasures)
   {
     this->measure();
   }

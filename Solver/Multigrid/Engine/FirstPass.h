@@ -4,13 +4,13 @@
 #include "Solver/Assembly/Assembly.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Memory/Pool.h"
-#include "Solver/Mesh/MeshAhead.h"
+#include "Solver/Mesh/MeshPrefetch.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/HierarchyBuilder.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -31,8 +31,8 @@ class FirstPass
 {
 public:
   /** Every level gets a copy of the operators. The hierarchy must have no levels yet. */
-  FirstPass(
-    SolveRun& run, Hierarchy<typename Operators::Relaxation>& hierarchy, const Operators& operators)
+  FirstPass(SolveContext& run, Hierarchy<typename Operators::Relaxation>& hierarchy,
+    const Operators& operators)
     : Run(run)
     , Built(hierarchy)
     , Set(operators)
@@ -48,11 +48,11 @@ private:
   FirstResidual run(
     MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);
   FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
-  void readStream(MeshAhead& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
+  void readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
     HierarchyBuilder<Operators>& builder);
   FirstResidual note(const Assembly& assembly);
 
-  SolveRun& Run;
+  SolveContext& Run;
   Hierarchy<typename Operators::Relaxation>& Built;
   const Operators& Set;
 };
@@ -119,7 +119,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
   Assembly assembly(
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);
-  MeshAhead blocks(mesh, this->Run.isConcurrent());
+  MeshPrefetch blocks(mesh, this->Run.isConcurrent());
   // On threads of their own, the stages of the assembly need room for the next block.
   this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
@@ -134,7 +134,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
  * so are, with `apart`, the stages of the assembly.
  */
 template <OperatorSet Operators>
-void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& assembly,
+void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
   AssembledRows& rows, HierarchyBuilder<Operators>& builder)
 {
   auto& finest = this->Built.finest();
@@ -177,7 +177,7 @@ void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& a
   tasks.emplace_back([&finest] { finest.advanceDown(); });
   tasks.emplace_back([&blocks] { blocks.read(); });
   finest.addWriters(tasks);
-  LongestFirst order(static_cast<int>(tasks.size()));
+  LongestTaskFirst order(static_cast<int>(tasks.size()));
   while (!builder.complete())
   {
     builder.begin();
@@ -192,7 +192,7 @@ void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& a
     }
     finest.showProgress();
     // The problem is queried on the caller's thread.
-    this->Run.together(order, [&](int task) { tasks[static_cast<std::size_t>(task)](); });
+    this->Run.runConcurrently(order, [&](int task) { tasks[static_cast<std::size_t>(task)](); });
     finest.release();
     if (apart)
     {
@@ -231,8 +231,8 @@ FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
   const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
   // If the sources equal their mean, only the rounding of this difference of squares remains, which
   // does not measure the residual: then that of the sources themselves is used.
-  constexpr double LeastShare = 1e-14;
-  return { std::sqrt(shifted < LeastShare * whole ? whole : shifted),
+  constexpr double MinShare = 1e-14;
+  return { std::sqrt(shifted < MinShare * whole ? whole : shifted),
     roundingOf(assembly.residual().termSquares()) };
 }
 

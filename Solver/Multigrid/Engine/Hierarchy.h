@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Cycle/CoreCycle.h"
+#include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Solver/Multigrid/Engine/Levels.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include <cstdint>
 
@@ -20,7 +20,7 @@ public:
   using CoarseLevel = Level<float, Relaxation>;
 
   /** For a problem of `columns` columns; without levels. */
-  Hierarchy(SolveRun& run, int columns)
+  Hierarchy(SolveContext& run, int columns)
     : Run(run)
     , Columns(columns)
   {
@@ -79,11 +79,11 @@ private:
   void addCoarseLevel(int l, bool core);
   void factorize();
 
-  SolveRun& Run;
+  SolveContext& Run;
   int Columns;
   Levels<Relaxation> Built;
   int FirstCore = 0;
-  CoreCycle<Relaxation> Core;
+  CoreVCycle<Relaxation> Core;
   bool SlowestAtSlivers = false;
 };
 

@@ -31,7 +31,7 @@ void Hierarchy<Relaxation>::open(std::int64_t vertices)
 template <class Relaxation>
 int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
 {
-  // Upper bounds of the share of lifted nodes: 0.24 to 0.43 on the finest level, 0.14 to 0.31 on
+  // Upper bounds of the share of C-points: 0.24 to 0.43 on the finest level, 0.14 to 0.31 on
   // coarser ones.
   constexpr double FirstShare = 0.43, FurtherShare = 0.31;
   // Of a surface, with all coarser levels; those of solids have fewer nodes than these bounds.
@@ -196,11 +196,11 @@ void Hierarchy<Relaxation>::save(StateWriter& state)
 template <class Relaxation>
 void Hierarchy<Relaxation>::load(StateReader& state)
 {
-  constexpr std::int32_t MostLevels = 64;
+  constexpr std::int32_t MaxLevels = 64;
   state.part("hierarchy");
   std::int32_t levels = 0;
   state(levels, this->FirstCore, this->SlowestAtSlivers);
-  state.require(this->FirstCore >= 1 && this->FirstCore <= levels && levels <= MostLevels);
+  state.require(this->FirstCore >= 1 && this->FirstCore <= levels && levels <= MaxLevels);
   this->addFinestLevel();
   state(this->finest());
   const std::int64_t vertices = this->Run.report.vertices;

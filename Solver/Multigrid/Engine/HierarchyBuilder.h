@@ -34,12 +34,12 @@ public:
   /** `stiff` finds the stiff rows of each coarse level; `apart`: for several threads, the stages of
    * each of the finest levels, where most of the work is, are tasks of their own. */
   HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
-    StiffRows stiff, bool apart)
+    SliverRows stiff, bool apart)
     : Owner(pool)
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
-    , ApartLevels(canRunApart<Operators> && apart ? std::min(MostApart, firstCore) : 0)
+    , ApartLevels(canRunApart<Operators> && apart ? std::min(MaxApart, firstCore) : 0)
     , Stiff(stiff)
   {
     this->addRows();
@@ -170,7 +170,7 @@ public:
 
 private:
   static constexpr int ApartTasks = 6; // of a level
-  static constexpr int MostApart = 3;  // levels
+  static constexpr int MaxApart = 3;   // levels
 
   void advanceLevel(int l)
   {
@@ -297,7 +297,7 @@ private:
   Levels<Relaxation>& Built;
   int FirstCore;
   int ApartLevels; // whose stages are tasks
-  StiffRows Stiff;
+  SliverRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
   std::vector<std::int64_t> Advanced, Packed;

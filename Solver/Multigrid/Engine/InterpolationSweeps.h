@@ -55,7 +55,7 @@ private:
 /** Those of the stages of a coarsening, except for the sweeps. */
 struct StepLimits
 {
-  StepLimit lift, initial, interpolate, multiply, gather;
+  StepLimit choose, initial, interpolate, productAP, productPtAP;
 
   /** A few more nodes than the stages get on average, so that they catch up. */
   static std::int64_t more(std::int64_t nodes) { return nodes + nodes / 16; }
@@ -63,12 +63,12 @@ struct StepLimits
   /** Begins a step of so many nodes, which become so many coarse ones. */
   void begin(std::int64_t nodes, std::int64_t coarse)
   {
-    this->lift.begin(nodes);
-    for (StepLimit* limit : { &this->initial, &this->interpolate, &this->multiply })
+    this->choose.begin(nodes);
+    for (StepLimit* limit : { &this->initial, &this->interpolate, &this->productAP })
     {
       limit->begin(more(nodes));
     }
-    this->gather.begin(more(coarse));
+    this->productPtAP.begin(more(coarse));
   }
 };
 

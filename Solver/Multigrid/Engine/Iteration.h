@@ -6,7 +6,7 @@
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/Pass.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -24,7 +24,7 @@ class Iteration
 {
 public:
   /** Notes begin with `what`; `balance`: ends the V-cycles, too, if it is not null. */
-  Iteration(SolveRun& run, Hierarchy<Relaxation>& hierarchy, Convergence& convergence,
+  Iteration(SolveContext& run, Hierarchy<Relaxation>& hierarchy, Convergence& convergence,
     std::string what = "", ErrorBalance* balance = nullptr)
     : Run(run)
     , Levels(hierarchy)
@@ -50,7 +50,7 @@ private:
   bool hasRoom(KeptResiduals residuals) const;
   void emplaceHistory(KeptResiduals residuals);
 
-  SolveRun& Run;
+  SolveContext& Run;
   Hierarchy<Relaxation>& Levels;
   Convergence& Watched;
   std::string What;

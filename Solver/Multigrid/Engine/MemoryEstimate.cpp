@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 
-#include "Solver/Core/Lanes.h"
+#include "Solver/Core/SimdPack.h"
 #include "Solver/Multigrid/Cycle/Pipeline.h"
 
 #include <tbb/info.h>
@@ -22,7 +22,7 @@ constexpr std::int64_t TriangleBytes = 4100, TetrahedronBytes = 3300, ValueBytes
 constexpr std::int64_t FurtherSweepBytes = 250;
 constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
 
-/** Cotangent weights lift more nodes than uniform ones: percent of the bytes above. */
+/** Cotangent weights make more nodes coarse than uniform ones: percent of the bytes above. */
 constexpr std::int64_t CotangentPercent = 108;
 
 /** The windows hold at least the nodes of this many spans, unless the mesh has fewer. */
@@ -49,7 +49,7 @@ std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t leas
 /** Bytes per vertex in core. */
 constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
 
-std::int64_t leastMemory(const StreamInfo& info, int columns, Weights weights,
+std::int64_t minMemory(const StreamInfo& info, int columns, Weights weights,
   const SolveOptions& options, std::int64_t furtherCoreBytes)
 {
   const bool surface = info.cellType == CellType::Triangle;
@@ -76,7 +76,7 @@ std::int64_t leastMemory(const StreamInfo& info, int columns, Weights weights,
 std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
   const SolveOptions& options, std::int64_t furtherCoreBytes)
 {
-  return leastMemory(info, problem.columns(), problem.weights(), options, furtherCoreBytes);
+  return minMemory(info, problem.columns(), problem.weights(), options, furtherCoreBytes);
 }
 
 std::int64_t expectedMemory(
@@ -84,7 +84,7 @@ std::int64_t expectedMemory(
 {
   // Besides the windows there are the levels in core, and buffers.
   constexpr std::int64_t AboveMinimum = 130, CoreBytes = 70;
-  const std::int64_t least = leastMemory(info, columns, weights, options, 0);
+  const std::int64_t least = minMemory(info, columns, weights, options, 0);
   const std::int64_t windows = least * AboveMinimum / 100;
   if (options.inCore)
   {

@@ -4,7 +4,7 @@
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/Pipeline.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -23,7 +23,7 @@ namespace smg
  * what surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need
  * less than the first one, down to a third of it; on slivers they need up to 1.1 times as much. */
 inline std::int64_t passBytes(
-  const SolveRun& run, int stride, std::optional<std::int64_t> sparseness)
+  const SolveContext& run, int stride, std::optional<std::int64_t> sparseness)
 {
   std::int64_t bytes = run.plainPassPeak > 0 ? run.plainPassPeak + run.plainPassPeak / 10
                                              : run.firstPassPeak + run.firstPassPeak / 8;
@@ -55,7 +55,7 @@ public:
     bool inOneChain = false;
   };
 
-  Pass(SolveRun& run, Hierarchy<Relaxation>& hierarchy)
+  Pass(SolveContext& run, Hierarchy<Relaxation>& hierarchy)
     : Run(run)
     , Levels(hierarchy)
   {
@@ -81,7 +81,7 @@ private:
   Schedule schedule(const Further& further) const;
   std::int64_t chainsFor(std::int64_t step, const IterateHistory* history) const;
 
-  SolveRun& Run;
+  SolveContext& Run;
   Hierarchy<Relaxation>& Levels;
 };
 
@@ -123,7 +123,7 @@ void Pass<Relaxation>::stream(const Further& further)
   finest.addWriters(files);
   const std::int64_t nodes = finest.window().nodes();
   const int chains = stages.chains();
-  LongestFirst order(chains + static_cast<int>(files.size()));
+  LongestTaskFirst order(chains + static_cast<int>(files.size()));
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
@@ -134,7 +134,7 @@ void Pass<Relaxation>::stream(const Further& further)
     }
     // Nodes are written when all stages have finished them a step ago.
     finest.showProgress();
-    this->Run.together(order,
+    this->Run.runConcurrently(order,
       [&](int task)
       {
         if (task < chains)

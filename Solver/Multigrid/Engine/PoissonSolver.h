@@ -6,7 +6,7 @@
 #include "Solver/Multigrid/Engine/FirstPass.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/Iteration.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 #include "Solver/Multigrid/Engine/StreamedSolution.h"
 
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
   /** Prepares for a problem of `columns` columns. Nothing is read yet. */
   PoissonSolver(Operators operators, int columns, const SolveOptions& options)
     : Set(std::move(operators))
-    , Run(std::make_unique<SolveRun>(columns, options))
+    , Run(std::make_unique<SolveContext>(columns, options))
     , Levels(*this->Run, columns)
   {
   }
@@ -37,20 +37,20 @@ public:
   /** To be called once. */
   std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem);
 
-  SolveRun& run() { return *this->Run; }
+  SolveContext& run() { return *this->Run; }
 
 private:
   EnergySquares discretisation(Problem& problem);
 
   Operators Set;
-  std::unique_ptr<SolveRun> Run;
+  std::unique_ptr<SolveContext> Run;
   Hierarchy<typename Operators::Relaxation> Levels;
 };
 
 template <OperatorSet Operators>
 std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Problem& problem)
 {
-  SolveRun& run = *this->Run;
+  SolveContext& run = *this->Run;
   run.beginReport();
   std::optional<ErrorBalance> balance;
   if (run.options.tolerance == SolveOptions::AutomaticTolerance)

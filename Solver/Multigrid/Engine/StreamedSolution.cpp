@@ -8,7 +8,7 @@
 namespace smg
 {
 
-StreamedSolution::StreamedSolution(std::unique_ptr<SolveRun> run, LevelWindow<double> window)
+StreamedSolution::StreamedSolution(std::unique_ptr<SolveContext> run, LevelWindow<double> window)
   : Run(std::move(run))
   , Window(std::move(window))
 {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 #include "smg/Export.h"
 #include "smg/Solve.h"
 
@@ -18,7 +18,7 @@ class SMG_EXPORT StreamedSolution final : public Solution
 {
 public:
   /** `window` was created in `run` and holds only the solution. */
-  StreamedSolution(std::unique_ptr<SolveRun> run, LevelWindow<double> window);
+  StreamedSolution(std::unique_ptr<SolveContext> run, LevelWindow<double> window);
 
   std::int64_t vertices() const override { return this->Run->report.vertices; }
   int columns() const override { return this->Window.columns(); }
@@ -27,7 +27,7 @@ public:
   const Report& report() const override { return this->Run->report; }
 
 private:
-  std::unique_ptr<SolveRun> Run; // outlives the window, whose memory it accounts for
+  std::unique_ptr<SolveContext> Run; // outlives the window, whose memory it accounts for
   LevelWindow<double> Window;
 };
 

@@ -6,7 +6,7 @@
 #include "Solver/Multigrid/Setup/GatheredRows.h"
 #include "Solver/Multigrid/Setup/LevelRows.h"
 #include "Solver/Multigrid/Setup/Patches.h"
-#include "Solver/Multigrid/Setup/StiffRows.h"
+#include "Solver/Multigrid/Setup/SliverRows.h"
 
 #include <algorithm>
 #include <array>
@@ -135,12 +135,12 @@ private:
 struct CoarseningData
 {
   /** `apart`: whether the stages run on several threads. */
-  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, StiffRows stiffRows = {},
+  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, SliverRows stiffRows = {},
     bool apart = false)
     : fine(fineRows)
     , coarse(coarseRows)
     , stiff(stiffRows)
-    , lifted(pool)
+    , coarseIndex(pool)
     , patches(pool)
     , patchMatrices(pool)
     , initial(pool)
@@ -152,7 +152,7 @@ struct CoarseningData
     , settledReach(pool, fineRows.first() - 1)
     , product(pool)
     , productSum(pool)
-    , liftedFrom(pool, fineRows.first() - 1)
+    , finePoint(pool, fineRows.first() - 1)
     , firstChild(pool)
     , lastChild(pool)
     , raw(pool)
@@ -180,14 +180,14 @@ struct CoarseningData
 
   LevelRows& fine;
   LevelRows& coarse;
-  StiffRows stiff; ///< of the coarse level
+  SliverRows stiff; ///< of the coarse level
 
   // By fine node.
-  /** Its coarse node as by liftedTo(), or Retained. */
-  Ring<CoarseIndex> lifted;
-  static constexpr CoarseIndex Retained = ~CoarseIndex(0);
-  /** The low 31 bits, which are never Retained: entries store fewer. */
-  static CoarseIndex liftedTo(std::int64_t coarse)
+  /** Its coarse node as by coarseIndexOf(), or FPoint. */
+  Ring<CoarseIndex> coarseIndex;
+  static constexpr CoarseIndex FPoint = ~CoarseIndex(0);
+  /** The low 31 bits, which are never FPoint: entries store fewer. */
+  static CoarseIndex coarseIndexOf(std::int64_t coarse)
   {
     return static_cast<CoarseIndex>(coarse & INT32_MAX);
   }
@@ -206,7 +206,7 @@ struct CoarseningData
   Ring<float> productSum;          ///< sum of the row of A P
 
   // By coarse node.
-  MonotoneRing liftedFrom;               ///< its fine node
+  MonotoneRing finePoint;                ///< its fine node
   Ring<ChildLink> firstChild, lastChild; ///< of its column of P
   /** Rows of -P^T A P that sparsify() has not got: those of this step, and of the step before. */
   GatheredRows gathered, arrived;
@@ -226,20 +226,20 @@ struct CoarseningData
   Ring<std::uint64_t> rawLarge;
 
   /** Scratch of the stages for coarse nodes: `slots` of relaxInterpolation() and interpolate(),
-   * and, unless they run apart, of multiply(), gather() and sparsify(), too. */
+   * and, unless they run apart, of productAP(), productPtAP() and sparsify(), too. */
   SlotRing slots;
   std::array<SlotRing, 3> ownSlots; ///< empty unless the stages run apart
   SlotRing &productSlots, &gatherSlots, &sparsifySlots;
   /** The ends of the coarse nodes that the stages from relaxInterpolation() on know, and those from
-   * multiply() on. */
+   * productAP() on. */
   std::int64_t seenCoarse = 0, knownCoarse = 0;
 
   /** Upper bounds of the entries of row i of the initial P, and of A P. */
-  std::int64_t mostInitial(std::int64_t i) const
+  std::int64_t maxInitial(std::int64_t i) const
   {
     return static_cast<std::int64_t>(this->fine.row(i).size()) + 1;
   }
-  std::int64_t mostProducts(std::int64_t i) const
+  std::int64_t maxProducts(std::int64_t i) const
   {
     return RelaxedRow::Most * (static_cast<std::int64_t>(this->fine.row(i).size()) + 1);
   }
@@ -247,9 +247,9 @@ struct CoarseningData
   /** The sum of row i of the initial P. */
   float initialSum(std::int64_t i) const
   {
-    const auto alpha = static_cast<float>(std::max(0.0, this->fine.alpha(i)));
+    const auto rowSum = static_cast<float>(std::max(0.0, this->fine.rowSum(i)));
     const float total = this->initialTotal[i];
-    return this->lifted[i] != Retained ? 1.0F : total > alpha ? (total - alpha) / total : 0.0F;
+    return this->coarseIndex[i] != FPoint ? 1.0F : total > rowSum ? (total - rowSum) / total : 0.0F;
   }
 
   /** Appends the matrix of the patch that begins at node i, if one does, whose rows exist; returns
@@ -265,7 +265,7 @@ struct CoarseningData
   {
     std::copy_n(entries, row.size, this->raw.open(row.size));
     this->raw.close(row.size);
-    append(this->rawAlpha, c, row.alpha);
+    append(this->rawAlpha, c, row.rowSum);
     append(this->rawStrongest, c, row.strongest);
     append(this->rawDiagonal, c, row.diagonal);
     append(this->rawKept, c, static_cast<std::uint8_t>(row.kept));
@@ -317,7 +317,7 @@ private:
   /** Sets the next fine and coarse nodes. */
   void begin(std::int64_t i, std::int64_t c)
   {
-    this->lifted.release(i);
+    this->coarseIndex.release(i);
     this->patches.release(i);
     this->initial.release(i);
     this->initialTotal.release(i);
@@ -328,7 +328,7 @@ private:
     this->settledReach.release(i);
     this->product.release(i);
     this->productSum.release(i);
-    this->liftedFrom.release(c);
+    this->finePoint.release(c);
     this->firstChild.release(c);
     this->lastChild.release(c);
     this->releaseRaw(c);

@@ -19,7 +19,7 @@ std::int32_t* roomFor(std::vector<std::int32_t>& columns, std::int64_t count)
 
 } // namespace
 
-void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
+void GalerkinProduct::productAP(CoarseningData& data, std::int64_t i)
 {
   const std::int64_t near = data.knownCoarse;
   Slot* slots = data.productSlots.at(near);
@@ -46,7 +46,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
   }
   const std::int16_t* quanta = data.rowQuanta.at(i);
   const std::int32_t ownQuanta = *quanta;
-  double sum = data.fine.alpha(i) * ownQuanta;
+  double sum = data.fine.rowSum(i) * ownQuanta;
   for (const RowEntry& entry : row)
   {
     const std::int32_t delta = entry.delta();
@@ -94,8 +94,8 @@ void GalerkinProduct::sort(std::size_t size)
 double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
 {
   this->Children.clear();
-  double alpha = 0.0;
-  const std::int64_t nearFine = data.liftedFrom[c];
+  double rowSum = 0.0;
+  const std::int64_t nearFine = data.finePoint[c];
   for (ChildLink link = data.firstChild[c]; !link.none();)
   {
     const std::int64_t fine = link.row(nearFine);
@@ -106,15 +106,15 @@ double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
       __builtin_prefetch(product + 10 * line);
     }
     this->Children.push_back({ product, data.product.size(fine), entry.weight() });
-    alpha += static_cast<double>(entry.quanta()) / Quanta * data.productSum[fine];
+    rowSum += static_cast<double>(entry.quanta()) / Quanta * data.productSum[fine];
     link = entry.next;
   }
-  return alpha;
+  return rowSum;
 }
 
-void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
+void GalerkinProduct::productPtAP(CoarseningData& data, std::int64_t c)
 {
-  const double alpha = this->findChildren(data, c);
+  const double rowSum = this->findChildren(data, c);
   Slot* slots = data.gatherSlots.at(c);
   const std::uint32_t mark = data.gatherSlots.freshMark();
   std::int64_t columns = 0;
@@ -130,17 +130,17 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
     }
   }
   this->sort(static_cast<std::size_t>(columns));
-  this->append(data, c, alpha);
+  this->append(data, c, rowSum);
 }
 
-void GalerkinProduct::append(CoarseningData& data, std::int64_t c, double alpha)
+void GalerkinProduct::append(CoarseningData& data, std::int64_t c, double rowSum)
 {
   const Slot* slots = data.gatherSlots.at(c);
   CoarseEntry* out = data.gathered.open(static_cast<std::int64_t>(this->Sorted.size()));
   std::int32_t lower = 0;
   std::int64_t size = 0;
   float strongest = 0.0F, least = 0.0F;
-  double sum = alpha, terms = 0.0;
+  double sum = rowSum, terms = 0.0;
   for (const std::int32_t delta : this->Sorted)
   {
     if (delta != 0)
@@ -155,8 +155,8 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c, double alpha)
     }
   }
   const bool stiff = data.stiff(least);
-  data.gathered.close({ size, alpha, static_cast<float>(usableDiagonal(sum)), { strongest, stiff },
-    lower, stiff || terms > this->cancelling * sum });
+  data.gathered.close({ size, rowSum, static_cast<float>(nonZeroDiagonal(sum)),
+    { strongest, stiff }, lower, stiff || terms > this->cancelling * sum });
 }
 
 } // namespace smg

@@ -26,10 +26,10 @@ public:
   double cancelling = 1.5;
 
   /** Appends row i of A P. The rows of P up to reach(i) must exist. */
-  void multiply(CoarseningData& data, std::int64_t i);
+  void productAP(CoarseningData& data, std::int64_t i);
 
   /** Appends row c of P^T A P to `gathered`. All its children and their rows of A P must exist. */
-  void gather(CoarseningData& data, std::int64_t c);
+  void productPtAP(CoarseningData& data, std::int64_t c);
 
 private:
   /** A child of the node of the gathered row, and its row of A P. */
@@ -47,12 +47,12 @@ private:
   void sort(std::size_t size);
 
   /** Appends the row of node c, with the columns of Sorted and this row sum. */
-  void append(CoarseningData& data, std::int64_t c, double alpha);
+  void append(CoarseningData& data, std::int64_t c, double rowSum);
 
-  // Of multiply(), which may run on another thread than gather().
+  // Of productAP(), which may run on another thread than productPtAP().
   std::vector<std::int32_t> RowColumns;
 
-  // Of gather(), on another cache line.
+  // Of productPtAP(), on another cache line.
   alignas(64) std::vector<Child> Children;
   std::vector<std::int32_t> Columns, Sorted;
 };

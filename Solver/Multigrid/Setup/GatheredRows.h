@@ -73,7 +73,7 @@ static_assert(sizeof(CoarseEntry) == 7 && std::endian::native == std::endian::li
 struct GatheredRow
 {
   std::int64_t size;
-  double alpha; ///< the row sum of P^T A P
+  double rowSum; ///< the row sum of P^T A P
   float diagonal;
   StrongestWeight strongest;
   std::int32_t lower; ///< entries below the row

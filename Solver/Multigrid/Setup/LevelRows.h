@@ -23,7 +23,7 @@ class RowEntry
 {
 public:
   /** Of two nodes that share an edge. */
-  static constexpr std::int64_t MostDistance = (std::int64_t(1) << 23) - 1;
+  static constexpr std::int64_t MaxDistance = (std::int64_t(1) << 23) - 1;
 
   RowEntry() = default;
   RowEntry(std::int32_t delta, float weight)
@@ -33,7 +33,7 @@ public:
     this->setWeight(weight);
   }
 
-  /** From -MostDistance to MostDistance. */
+  /** From -MaxDistance to MaxDistance. */
   std::int32_t delta() const
   {
     std::int32_t shifted = 0;
@@ -53,7 +53,7 @@ private:
 };
 static_assert(sizeof(RowEntry) == 7 && std::endian::native == std::endian::little);
 
-/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see StiffRows),
+/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see SliverRows),
  * in four bytes, since every row of a window has them. */
 class StrongestWeight
 {
@@ -72,8 +72,8 @@ private:
   float Signed; // with the sign - if the row is stiff
 };
 
-/** The diagonal for divisions, given the sum of alpha and the weights. */
-inline double usableDiagonal(double sum)
+/** The diagonal for divisions, given the sum of rowSum and the weights. */
+inline double nonZeroDiagonal(double sum)
 {
   // The only node of a component without constraint: any correction is correct, and this diagonal
   // makes it zero.
@@ -81,45 +81,46 @@ inline double usableDiagonal(double sum)
   return sum > 0.0 ? sum : Isolated;
 }
 
-/** The diagonal of a row whose sum is alpha; `precise`: its weights in double precision, if any. */
+/** The diagonal of a row whose sum is rowSum; `precise`: its weights in double precision, if any.
+ */
 inline double diagonalOf(
-  std::span<const RowEntry> row, double alpha, std::span<const double> precise = {})
+  std::span<const RowEntry> row, double rowSum, std::span<const double> precise = {})
 {
-  double sum = alpha;
+  double sum = rowSum;
   if (!precise.empty())
   {
     for (const double weight : precise)
     {
       sum += weight;
     }
-    return usableDiagonal(sum);
+    return nonZeroDiagonal(sum);
   }
   for (const RowEntry& entry : row)
   {
     sum += entry.weight();
   }
-  return usableDiagonal(sum);
+  return nonZeroDiagonal(sum);
 }
 
 /** A row without its entries; see LevelRows::close(). */
 struct ClosedRow
 {
   std::int64_t size;
-  double alpha;
+  double rowSum;
   std::int64_t childReach;
   bool stiff;
   std::size_t precise; ///< weights in double precision
 };
 
 /** The rows of a level's matrix while the level is built, in node order: entries by ascending
- * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum. */
+ * column, A_ii = diagonal = rowSum + sum of the weights, so rowSum is the row sum. */
 class LevelRows
 {
 public:
   explicit LevelRows(Pool& pool)
     : Entries(pool)
     , Precise(pool)
-    , Alpha(pool)
+    , RowSum(pool)
     , Strongest(pool)
     , Reach(pool, 0)
     , ChildReach(pool, -1)
@@ -148,7 +149,7 @@ public:
   }
   double diagonal(std::int64_t i) const
   {
-    return diagonalOf(this->row(i), this->alpha(i), this->precise(i));
+    return diagonalOf(this->row(i), this->rowSum(i), this->precise(i));
   }
   /** The sum of the magnitudes of the weights of row i. */
   float magnitudes(std::int64_t i) const
@@ -160,7 +161,7 @@ public:
     }
     return sum;
   }
-  double alpha(std::int64_t i) const { return this->Alpha[i]; }
+  double rowSum(std::int64_t i) const { return this->RowSum[i]; }
   /** The largest weight of row i, 0 if there is none. */
   float strongest(std::int64_t i) const { return this->Strongest[i].weight(); }
   /** Whether row i is stiff. */
@@ -175,12 +176,12 @@ public:
   /** Returns room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
-  /** Ends the row begun by open(). `childReach` is that of this node alone; `stiff`: see StiffRows;
-   * `precise`: its weights in double precision, or none. */
-  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
+  /** Ends the row begun by open(). `childReach` is that of this node alone; `stiff`: see
+   * SliverRows; `precise`: its weights in double precision, or none. */
+  void close(std::int64_t size, double rowSum, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {
-    const ClosedRow row{ size, alpha, childReach, stiff, precise.size() };
+    const ClosedRow row{ size, rowSum, childReach, stiff, precise.size() };
     this->close({ &row, 1 }, this->Entries.opened(), precise.data());
   }
 
@@ -217,7 +218,7 @@ public:
   {
     this->Entries.release(row);
     this->Precise.release(row);
-    this->Alpha.release(row);
+    this->RowSum.release(row);
     this->Strongest.release(row);
     this->ChildReach.release(row);
     this->Reach.release(std::min(row, reach));
@@ -229,11 +230,11 @@ private:
   {
     const std::int64_t begin = this->end();
     const std::int64_t end = begin + static_cast<std::int64_t>(rows.size());
-    this->Alpha.extendRaw(end);
+    this->RowSum.extendRaw(end);
     this->Strongest.extendRaw(end);
     this->Reach.reserve(end - begin);
     this->ChildReach.reserve(end - begin);
-    double* alpha = this->Alpha.at(begin);
+    double* rowSum = this->RowSum.at(begin);
     StrongestWeight* strongest = this->Strongest.at(begin);
     std::int64_t i = begin;
     for (const ClosedRow& row : rows)
@@ -245,7 +246,7 @@ private:
       }
       const std::int64_t last = row.size > 0 ? i + std::max(0, entry[row.size - 1].delta()) : i;
       this->Entries.close(row.size);
-      *alpha++ = row.alpha;
+      *rowSum++ = row.rowSum;
       *strongest++ = { largest, row.stiff };
       this->Reach.append(last);
       this->ChildReach.append(row.childReach);
@@ -275,7 +276,7 @@ private:
 
   RaggedRing<RowEntry> Entries;
   RaggedRing<double> Precise;
-  Ring<double> Alpha;
+  Ring<double> RowSum;
   Ring<StrongestWeight> Strongest;
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0;

@@ -213,7 +213,7 @@ public:
   {
     this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
     this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
-    this->Room = this->Of.end() + std::max(LeastMorePatches, nodes / 4);
+    this->Room = this->Of.end() + std::max(MinMorePatches, nodes / 4);
     this->Of.reserve(this->Room + 1 - this->Of.first()); // a number may be left out
   }
   bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
@@ -268,7 +268,7 @@ private:
     double square;
     std::int64_t node;
   };
-  static constexpr std::int64_t LeastMorePatches = 256;
+  static constexpr std::int64_t MinMorePatches = 256;
 
   /** The patch of a number, given that less than 2^32 patches are in memory. */
   Patch& patch(std::uint32_t number) const

@@ -31,11 +31,11 @@ public:
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
   /** Ends the row begun by open(); see LevelRows::close. */
-  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
+  void close(std::int64_t size, double rowSum, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {
     this->Entries.close(size);
-    this->Closed.push_back({ size, alpha, childReach, stiff, precise.size() });
+    this->Closed.push_back({ size, rowSum, childReach, stiff, precise.size() });
     this->Precise.insert(this->Precise.end(), precise.begin(), precise.end());
     if (this->Closed.size() % Group == 0)
     {

@@ -36,7 +36,7 @@ enum class SeamGradient
 struct BlendDescription
 {
   /** Largest number of components of all columns together. */
-  static constexpr int MostComponents = 64;
+  static constexpr int MaxComponents = 64;
 
   /** Name of the column of one component with the patch of each vertex, or of each cell. Any
    * numbers name patches; integers must be below 2^53 in magnitude. With a column of the cells,

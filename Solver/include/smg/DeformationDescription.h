@@ -28,28 +28,28 @@ public:
   {
     std::array<double, 3> translation{};         ///< in the unit of the mesh
     std::array<double, 3> axis{ 0.0, 0.0, 1.0 }; ///< of rotation; any length but 0
-    /** Angle, from -MostDegrees to MostDegrees. It may exceed a half-turn: 200 is not -160. */
+    /** Angle, from -MaxDegrees to MaxDegrees. It may exceed a half-turn: 200 is not -160. */
     double degrees = 0.0;
     std::array<double, 3> center{}; ///< of rotation and scale, in the unit of the mesh
-    double scale = 1.0;             ///< factor, from LeastScale to MostScale
+    double scale = 1.0;             ///< factor, from MinScale to MaxScale
   };
 
   /** Smallest scale. Beyond this limit, and the next two, rounding leaves nothing of a mesh. */
-  static constexpr double LeastScale = 1e-20;
+  static constexpr double MinScale = 1e-20;
   /** Largest scale. */
-  static constexpr double MostScale = 1e20;
+  static constexpr double MaxScale = 1e20;
   /** Largest magnitude of an angle, degrees. */
-  static constexpr double MostDegrees = 1e6;
+  static constexpr double MaxDegrees = 1e6;
   /** The text of errors for a scale that is out of range. */
   static constexpr const char* ScaleRule = "must be greater than 0, between 1e-20 and 1e20";
   /** The text of errors for an angle that is out of range. */
   static constexpr const char* DegreesRule = "must be between -1e6 and 1e6 degrees";
-  /** Whether a scale is from LeastScale to MostScale. */
-  static constexpr bool isScale(double scale) { return scale >= LeastScale && scale <= MostScale; }
-  /** Whether an angle is from -MostDegrees to MostDegrees. */
+  /** Whether a scale is from MinScale to MaxScale. */
+  static constexpr bool isScale(double scale) { return scale >= MinScale && scale <= MaxScale; }
+  /** Whether an angle is from -MaxDegrees to MaxDegrees. */
   static constexpr bool isAngle(double degrees)
   {
-    return degrees >= -MostDegrees && degrees <= MostDegrees;
+    return degrees >= -MaxDegrees && degrees <= MaxDegrees;
   }
 
   /** The identity: every vertex stays where it is. */

@@ -120,7 +120,7 @@ struct Datum
 struct ProblemDescription
 {
   /** Largest number of columns. */
-  static constexpr int MostColumns = 64;
+  static constexpr int MaxColumns = 64;
 
   /** An exchange through a part of the boundary: (K grad u - q) . n = coefficient * (ambient - u).
    */
@@ -140,7 +140,7 @@ struct ProblemDescription
 
   /** The weights of the edges. */
   Weights weights = Weights::Cotangent;
-  /** Right-hand sides that are solved at once, 1 to MostColumns. */
+  /** Right-hand sides that are solved at once, 1 to MaxColumns. */
   int columns = 1;
   /** K in the cells: a positive number, the diagonal of a tensor (xx, yy, zz), or a symmetric
    * positive definite tensor (xx, yy, zz, xy, yz, xz). Not given: 1. Not with Weights::Uniform. */

@@ -121,10 +121,10 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
   {
     return names;
   }
-  if (info.nlinks > MostDatasets)
+  if (info.nlinks > MaxDatasets)
   {
     this->fail("the group " + inQuotes(group) + " has " + std::to_string(info.nlinks) +
-               " members, but at most " + std::to_string(MostDatasets) +
+               " members, but at most " + std::to_string(MaxDatasets) +
                " arrays are read: write fewer");
   }
   for (hsize_t i = 0; i < info.nlinks; ++i)
@@ -135,10 +135,10 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
     {
       continue;
     }
-    if (static_cast<std::uint64_t>(length) > MostNameBytes)
+    if (static_cast<std::uint64_t>(length) > MaxNameBytes)
     {
       this->fail("a name in the group " + inQuotes(group) + " has " + std::to_string(length) +
-                 " bytes, but at most " + std::to_string(MostNameBytes) + " are read: shorten it");
+                 " bytes, but at most " + std::to_string(MaxNameBytes) + " are read: shorten it");
     }
     std::string name(static_cast<std::size_t>(length) + 1, '\0');
     H5Lget_name_by_idx(
@@ -216,9 +216,9 @@ std::optional<std::string> Hdf5File::text(const std::string& object, const char*
     H5free_memory(value);
     return text;
   }
-  constexpr std::size_t MostBytes = 4096;
-  std::string text(std::min(H5Tget_size(type.id()), MostBytes), '\0');
-  if (H5Tget_size(type.id()) > MostBytes || H5Aread(handle.id(), type.id(), text.data()) < 0)
+  constexpr std::size_t MaxBytes = 4096;
+  std::string text(std::min(H5Tget_size(type.id()), MaxBytes), '\0');
+  if (H5Tget_size(type.id()) > MaxBytes || H5Aread(handle.id(), type.id(), text.data()) < 0)
   {
     return {};
   }
@@ -252,10 +252,10 @@ std::vector<std::int64_t> Hdf5File::integers(const std::string& dataset) const
 {
   const Hdf5Shape shape = this->shape(dataset);
   constexpr std::int64_t Most = std::int64_t(1) << 20;
-  constexpr std::uint64_t MostChunkBytes = std::uint64_t(16) << 20;
+  constexpr std::uint64_t MaxChunkBytes = std::uint64_t(16) << 20;
   const std::int64_t count = shape.rows() * shape.components();
   if (!shape.type || *shape.type >= ScalarType::Float32 || count > Most ||
-      shape.chunkBytes > MostChunkBytes)
+      shape.chunkBytes > MaxChunkBytes)
   {
     this->fail("the dataset " + inQuotes(dataset) + " should be a short list of integers");
   }

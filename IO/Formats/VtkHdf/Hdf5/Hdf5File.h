@@ -50,9 +50,9 @@ public:
   const std::string& name() const { return this->Name; }
   bool exists(const std::string& object) const;
   /** The names of the datasets of a group, in alphabetical order. Throws Error if it has more than
-   * MostDatasets members, or longer names than MostNameBytes. */
+   * MaxDatasets members, or longer names than MaxNameBytes. */
   std::vector<std::string> datasets(const std::string& group) const;
-  static constexpr std::uint64_t MostDatasets = 4096, MostNameBytes = 1024;
+  static constexpr std::uint64_t MaxDatasets = 4096, MaxNameBytes = 1024;
   Hdf5Shape shape(const std::string& dataset) const;
 
   /** An attribute of an object: a text, or none. */

@@ -94,12 +94,12 @@ void Hdf5Output::addDataset(
 {
   const Hdf5Silence silence;
   constexpr hsize_t ChunkBytes = hsize_t(1) << 18;
-  constexpr std::int64_t LeastRows = 64;
+  constexpr std::int64_t MinRows = 64;
   const auto width = static_cast<hsize_t>(std::max(1, components));
   const int rank = components > 0 ? 2 : 1;
   const std::array<hsize_t, 2> none{ 0, width };
   const std::array<hsize_t, 2> most{ H5S_UNLIMITED, width };
-  const auto expected = static_cast<hsize_t>(std::max(rows, LeastRows));
+  const auto expected = static_cast<hsize_t>(std::max(rows, MinRows));
   const std::array<hsize_t, 2> chunk{ std::clamp<hsize_t>(expected, 1,
                                         std::max<hsize_t>(1, ChunkBytes / (width * sizeOf(type)))),
     width };

@@ -63,8 +63,8 @@ std::vector<ColumnSpec> hdfColumns(const std::vector<VtkArray>& arrays)
 FileCounts readCounts(InputFile& file, const MeshPart& part)
 {
   const Hdf5File hdf(file.path(), file.name());
-  constexpr std::int64_t MostBytes = std::int64_t(16) << 20;
-  const VtkHdfLayout layout = vtkHdfLayout(hdf, part, MostBytes);
+  constexpr std::int64_t MaxBytes = std::int64_t(16) << 20;
+  const VtkHdfLayout layout = vtkHdfLayout(hdf, part, MaxBytes);
   FileCounts counts;
   // Points shared by partitions are counted in each.
   counts.counted = layout.pieces.size() == 1;

@@ -23,10 +23,10 @@ namespace
 class LayoutReader
 {
 public:
-  LayoutReader(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes)
+  LayoutReader(const Hdf5File& file, const MeshPart& part, std::int64_t maxBytes)
     : File(file)
     , Partition(part.partition)
-    , MostBytes(mostBytes)
+    , MaxBytes(maxBytes)
     , Step(file, part.timeStep)
   {
   }
@@ -98,7 +98,7 @@ private:
     const auto arrays =
       static_cast<std::int64_t>(this->PointArrays.size() + this->CellArrays.size());
     this->Layout.bytes = (this->Partition ? 1 : this->Parts) * (PieceBytes + ArrayBytes * arrays);
-    if (this->Layout.bytes > this->MostBytes)
+    if (this->Layout.bytes > this->MaxBytes)
     {
       this->File.fail(
         std::to_string(this->Parts) + " partitions take " +
@@ -236,9 +236,9 @@ private:
       const std::string dataset = VtkHdfRoot + group + '/' + name;
       const Hdf5Shape& shape = this->shapeOf(dataset);
       if (!shape.type || shape.extents.empty() || shape.extents.size() > 2 ||
-          shape.components() > MostComponents)
+          shape.components() > MaxComponents)
       {
-        if (this->Layout.otherArrays.size() < MostOtherArrays)
+        if (this->Layout.otherArrays.size() < MaxOtherArrays)
         {
           this->Layout.otherArrays.insert(name);
         }
@@ -370,11 +370,11 @@ private:
     return {};
   }
 
-  static constexpr std::int64_t MostComponents = 4096;
+  static constexpr std::int64_t MaxComponents = 4096;
 
   const Hdf5File& File;
   std::optional<std::int64_t> Partition;
-  std::int64_t MostBytes;
+  std::int64_t MaxBytes;
   VtkHdfStep Step;
   VtkHdfLayout Layout;
   std::vector<std::int64_t> Points;                                     ///< of each partition
@@ -388,9 +388,9 @@ private:
 
 } // namespace
 
-VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes)
+VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t maxBytes)
 {
-  return LayoutReader(file, part, mostBytes).read();
+  return LayoutReader(file, part, maxBytes).read();
 }
 
 namespace

@@ -28,9 +28,9 @@ struct VtkHdfLayout : VtkLayout
  * Reads the layout of a file of the type UnstructuredGrid or PolyData, versions 1 and 2 (VTK File
  * Formats, "VTKHDF"). Each partition is a piece, whose cells name its own points. Throws Error if
  * it has another type or no such part, if counts are inconsistent, or if it needs more than
- * `mostBytes` of memory.
+ * `maxBytes` of memory.
  */
-VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes);
+VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t maxBytes);
 
 class Hdf5File;
 

@@ -3,7 +3,7 @@
 
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/FixedVertices.h"
 #include "smg/Problem.h"
 
 #include <array>
@@ -44,11 +44,11 @@ private:
  * lumped mass of the mesh, or of a surface of other positions; L is the stiffness of the mesh, or
  * of that surface with EdgeConductivity.
  */
-class SmoothingProblem : public Problem
+class FairingProblem : public Problem
 {
 public:
   /** `values` are x. `held` and, if not null, `boundary` are prescribed. All must outlive this. */
-  SmoothingProblem(Pool& pool, double t, const VertexFile& values, HeldVertices& held,
+  FairingProblem(Pool& pool, double t, const VertexFile& values, FixedVertices& held,
     const BoundaryCurves* boundary);
 
   /** Takes the masses from the surface at these positions. */
@@ -72,7 +72,7 @@ private:
   std::int64_t Before; ///< bytes in use when this was made
   int Columns;
   double Time;
-  HeldVertices& Held;
+  FixedVertices& Held;
   const BoundaryCurves* Boundary;
   OpenTuples Values;
   std::optional<OpenTuples> Surface, Normals;

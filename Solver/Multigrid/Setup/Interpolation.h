@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Multigrid/Setup/CoarsePoints.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
-#include "Solver/Multigrid/Setup/Lifting.h"
 #include "smg/Export.h"
 
 #include <array>
@@ -12,26 +12,26 @@ namespace smg
 {
 
 /**
- * Extended interpolation: that of the paper, relaxed like the unknowns. A lifted node takes the
- * value of its coarse node. For a retained node j
+ * Extended interpolation: that of the paper, relaxed like the unknowns. A C-point takes the
+ * value of its coarse node. For an F-point j
  *
- *   P0_jk = w_jk / Z_j,  Z_j = alpha_j + sum of the w_jk,   k the strong lifted neighbours.
+ *   P0_jk = w_jk / Z_j,  Z_j = alpha_j + sum of the w_jk,   k the strong C-neighbours.
  *
  * Then one or several sweeps over the rows, in stream order and in place, solve row j for P_j
  *
  *   A_jj P_j = sum over all neighbours m of w_jm P_m,
  *
- * together with what retained neighbours with w_jm > 0 take from it ("extended+i": De Sterck,
+ * together with what F-neighbours with w_jm > 0 take from it ("extended+i": De Sterck,
  * Falgout, Nolting, Yang, Distance-two interpolation for parallel algebraic multigrid, 2008):
  *
  *   P_m = (Z_m P0_m + w_jm P_j) / (Z_m + w_jm)  before m is relaxed,
  *   P_m + w_jm / A_mm (P_j - the P_j before)    afterwards,
  *
- * where the rows of lower neighbours are those of this sweep; the retained nodes of a patch b (see
+ * where the rows of lower neighbours are those of this sweep; the F-points of a patch b (see
  * Patches) are relaxed together, at its last one: P_b = A_bb^-1 sum over m not in b of w_bm P_m. A
  * row has only columns that occur in P0 of a neighbour, and of these the `entries` with the largest
  * magnitudes. The others are distributed to them in proportion to their magnitudes, so the row
- * keeps its sum. Next to a stiff row (see StiffRows), where an error of P costs most, it has
+ * keeps its sum. Next to a stiff row (see SliverRows), where an error of P costs most, it has
  * RelaxedRow::Most of them: a chain of slivers that loses one end moves with the other. Entries may
  * be negative, which smooth functions across a sliver require.
  *
@@ -40,15 +40,15 @@ namespace smg
 class SMG_EXPORT ExtendedInterpolation
 {
 public:
-  IndependentSetLifting lifting;
+  IndependentSetCoarsening coarsePoints;
   /** Entries of a row of the finest level that does not belong to slivers (see
-   * IndependentSetLifting), and of all others, 2 to RelaxedRow::Most. */
+   * IndependentSetCoarsening), and of all others, 2 to RelaxedRow::Most. */
   int finestEntries = 4;
   int entries = 4;
   /** Sweeps, at least 1. */
   int sweeps = 2;
 
-  /** Appends row i of P0. Lifting is decided for the nodes up to reach(i). */
+  /** Appends row i of P0. The C-points are chosen among the nodes up to reach(i). */
   void initial(CoarseningData& data, std::int64_t i) const;
 
   /** Relaxes row i in a sweep. */

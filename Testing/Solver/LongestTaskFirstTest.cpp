@@ -10,7 +10,7 @@ namespace smg::testing
 namespace
 {
 
-std::vector<int> placesOf(const LongestFirst& order)
+std::vector<int> placesOf(const LongestTaskFirst& order)
 {
   std::vector<int> tasks;
   for (int place = 0; place < order.tasks(); ++place)
@@ -22,9 +22,9 @@ std::vector<int> placesOf(const LongestFirst& order)
 
 } // namespace
 
-TEST(LongestFirst, TasksAreSortedByTheirTimesInAllSteps)
+TEST(LongestTaskFirst, TasksAreSortedByTheirTimesInAllSteps)
 {
-  LongestFirst order(5);
+  LongestTaskFirst order(5);
   EXPECT_EQ(placesOf(order), (std::vector<int>{ 0, 1, 2, 3, 4 }));
   order.add(3, 2.0);
   order.add(1, 1.0);
@@ -37,9 +37,9 @@ TEST(LongestFirst, TasksAreSortedByTheirTimesInAllSteps)
   EXPECT_EQ(placesOf(order), (std::vector<int>{ 0, 4, 3, 1, 2 }));
 }
 
-TEST(LongestFirst, TheFirstTaskStaysTheFirst)
+TEST(LongestTaskFirst, TheFirstTaskStaysTheFirst)
 {
-  LongestFirst order(2);
+  LongestTaskFirst order(2);
   order.add(1, 1.0);
   order.sort();
   EXPECT_EQ(placesOf(order), (std::vector<int>{ 0, 1 }));

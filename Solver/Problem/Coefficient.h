@@ -44,12 +44,12 @@ std::array<double, 6> tensorOf(const double* numbers, int count);
 
 /** A value of a description on its mesh, block by block of the stream. Blocks are passed in order,
  * also those without vertices; the first block restarts it. */
-class ValueOnMesh
+class Coefficient
 {
 public:
   /** `key` is its place in the description. Throws Error if it violates the rules or the mesh has
    * no such column. */
-  ValueOnMesh(const DataValue& value, DataPlace place, const ValueRules& rules,
+  Coefficient(const DataValue& value, DataPlace place, const ValueRules& rules,
     const std::string& key, MeshColumns& columns);
 
   int components() const { return this->Components; }
@@ -77,12 +77,12 @@ public:
     void atCorner(std::size_t cell, std::int64_t corner, double* value) const;
 
   private:
-    friend class ValueOnMesh;
-    InBlock(const ValueOnMesh& value, const MeshBlock& block);
+    friend class Coefficient;
+    InBlock(const Coefficient& value, const MeshBlock& block);
     /** Copies a row of the column. */
     void copyRow(std::size_t row, double* value) const;
 
-    const ValueOnMesh& Value;
+    const Coefficient& Value;
     const MeshBlock& Block;
     const Column* Rows; ///< null: a constant or the position
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/DatumOnMesh.h"
+#include "Solver/Problem/PiecewiseCoefficient.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,15 +7,15 @@
 namespace smg
 {
 
-void DatumOnMesh::add(
+void PiecewiseCoefficient::add(
   const Where& where, const DataValue& value, const std::string& key, const std::string& valueKey)
 {
   auto selection = Selection::make(where, this->Place, this->Rules.preferred, key, *this->Columns);
   this->Entries.push_back({ std::move(selection),
-    ValueOnMesh(value, this->Place, this->Rules, valueKey, *this->Columns), valueKey });
+    Coefficient(value, this->Place, this->Rules, valueKey, *this->Columns), valueKey });
 }
 
-void DatumOnMesh::add(const Datum& datum, const std::string& key)
+void PiecewiseCoefficient::add(const Datum& datum, const std::string& key)
 {
   const std::vector<PlacedValue>& entries = datum.entries;
   if (entries.size() == 1 && std::holds_alternative<Everywhere>(entries[0].where))
@@ -30,18 +30,18 @@ void DatumOnMesh::add(const Datum& datum, const std::string& key)
   }
 }
 
-bool DatumOnMesh::selects() const
+bool PiecewiseCoefficient::selects() const
 {
   return std::ranges::any_of(this->Entries, [](const Entry& e) { return e.where != nullptr; });
 }
 
-bool DatumOnMesh::needsPreparing() const
+bool PiecewiseCoefficient::needsPreparing() const
 {
   return std::ranges::any_of(
     this->Entries, [](const Entry& e) { return e.where && e.where->needsPreparing(); });
 }
 
-void DatumOnMesh::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+void PiecewiseCoefficient::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   for (Entry& entry : this->Entries)
   {
@@ -52,7 +52,7 @@ void DatumOnMesh::prepare(const MeshBlock& block, const std::filesystem::path& s
   }
 }
 
-void DatumOnMesh::endPreparing(MeshParts* parts)
+void PiecewiseCoefficient::endPreparing(MeshParts* parts)
 {
   for (Entry& entry : this->Entries)
   {
@@ -63,7 +63,7 @@ void DatumOnMesh::endPreparing(MeshParts* parts)
   }
 }
 
-void DatumOnMesh::startBlock(const MeshBlock& block)
+void PiecewiseCoefficient::startBlock(const MeshBlock& block)
 {
   for (Entry& entry : this->Entries)
   {
@@ -75,7 +75,7 @@ void DatumOnMesh::startBlock(const MeshBlock& block)
   }
 }
 
-void DatumOnMesh::entriesAtVertices(std::span<std::int32_t> entry) const
+void PiecewiseCoefficient::entriesAtVertices(std::span<std::int32_t> entry) const
 {
   for (std::int32_t e = 0; e < this->entries(); ++e)
   {
@@ -93,7 +93,8 @@ void DatumOnMesh::entriesAtVertices(std::span<std::int32_t> entry) const
   }
 }
 
-void DatumOnMesh::entriesAtCells(const CellRange& cells, std::span<std::int32_t> entry) const
+void PiecewiseCoefficient::entriesAtCells(
+  const CellRange& cells, std::span<std::int32_t> entry) const
 {
   this->Selected.resize(entry.size());
   for (std::int32_t e = 0; e < this->entries(); ++e)
@@ -112,7 +113,8 @@ void DatumOnMesh::entriesAtCells(const CellRange& cells, std::span<std::int32_t>
   }
 }
 
-void DatumOnMesh::entriesAtFacets(const CellRange& cells, std::span<std::int32_t> entry) const
+void PiecewiseCoefficient::entriesAtFacets(
+  const CellRange& cells, std::span<std::int32_t> entry) const
 {
   const auto facets = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
   this->Selected.resize(entry.size() / facets);
@@ -135,7 +137,7 @@ void DatumOnMesh::entriesAtFacets(const CellRange& cells, std::span<std::int32_t
   }
 }
 
-void DatumOnMesh::require(const Entry& entry, const double* numbers, auto where) const
+void PiecewiseCoefficient::require(const Entry& entry, const double* numbers, auto where) const
 {
   if (entry.value.isConstant())
   {
@@ -147,13 +149,13 @@ void DatumOnMesh::require(const Entry& entry, const double* numbers, auto where)
   }
 }
 
-void DatumOnMesh::forEntries(
+void PiecewiseCoefficient::forEntries(
   const MeshBlock& block, std::span<const std::int32_t> entry, auto visit) const
 {
   for (std::int32_t e = 0; e < this->entries(); ++e)
   {
     const Entry& given = this->at(e);
-    const ValueOnMesh::InBlock value = given.value.in(block);
+    const Coefficient::InBlock value = given.value.in(block);
     for (std::size_t k = 0; k < entry.size(); ++k)
     {
       if (entry[k] == e)
@@ -164,10 +166,10 @@ void DatumOnMesh::forEntries(
   }
 }
 
-void DatumOnMesh::valuesAtVertices(const MeshBlock& block, std::span<const std::int32_t> entry,
-  double* values, std::size_t stride) const
+void PiecewiseCoefficient::valuesAtVertices(const MeshBlock& block,
+  std::span<const std::int32_t> entry, double* values, std::size_t stride) const
 {
-  const auto at = [&](const Entry& given, const ValueOnMesh::InBlock& value, std::size_t i)
+  const auto at = [&](const Entry& given, const Coefficient::InBlock& value, std::size_t i)
   {
     double* numbers = values + i * stride;
     value.atVertex(i, numbers);
@@ -176,11 +178,11 @@ void DatumOnMesh::valuesAtVertices(const MeshBlock& block, std::span<const std::
   this->forEntries(block, entry, at);
 }
 
-void DatumOnMesh::valuesAtCells(const CellRange& cells, std::span<const std::int32_t> entry,
-  double* values, std::size_t stride) const
+void PiecewiseCoefficient::valuesAtCells(const CellRange& cells,
+  std::span<const std::int32_t> entry, double* values, std::size_t stride) const
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
-  const auto in = [&](const Entry& given, const ValueOnMesh::InBlock& value, std::size_t c)
+  const auto in = [&](const Entry& given, const Coefficient::InBlock& value, std::size_t c)
   {
     double* numbers = values + c * stride;
     value.atCell(cells.first + c, cells.corners.data() + c * corners, numbers);
@@ -190,11 +192,11 @@ void DatumOnMesh::valuesAtCells(const CellRange& cells, std::span<const std::int
   this->forEntries(cells.block, entry, in);
 }
 
-void DatumOnMesh::valuesAtFacets(const CellRange& cells, std::span<const std::int32_t> entry,
-  double* values, std::size_t stride) const
+void PiecewiseCoefficient::valuesAtFacets(const CellRange& cells,
+  std::span<const std::int32_t> entry, double* values, std::size_t stride) const
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
-  const auto on = [&](const Entry& given, const ValueOnMesh::InBlock& value, std::size_t facet)
+  const auto on = [&](const Entry& given, const Coefficient::InBlock& value, std::size_t facet)
   {
     const std::size_t c = facet / corners;
     double* numbers = values + facet * (corners - 1) * stride;

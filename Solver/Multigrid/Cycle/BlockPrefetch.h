@@ -11,7 +11,7 @@ namespace smg
 
 /** Blocks that have been read ahead and are taken in order. */
 template <class Block>
-class BlocksAhead
+class BlockPrefetch
 {
 public:
   /** Calls `read` while there are `more`, until as many blocks are available as were taken since

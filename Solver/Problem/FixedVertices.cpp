@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/FixedVertices.h"
 
 #include "Solver/Problem/Selection.h"
 #include "Solver/Problem/VertexSetFile.h"
@@ -9,7 +9,7 @@
 namespace smg
 {
 
-HeldVertices::HeldVertices(
+FixedVertices::FixedVertices(
   const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns)
   : Memory(columns.memory())
 {
@@ -32,7 +32,7 @@ HeldVertices::HeldVertices(
   }
 }
 
-void HeldVertices::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+void FixedVertices::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   if (this->Boundary)
   {
@@ -44,7 +44,7 @@ void HeldVertices::prepare(const MeshBlock& block, const std::filesystem::path& 
   }
 }
 
-void HeldVertices::endPreparing(bool fixesBoundary)
+void FixedVertices::endPreparing(bool fixesBoundary)
 {
   this->BoundarySize = this->Boundary ? this->Boundary->finish() : 0;
   if (!fixesBoundary || this->BoundarySize == 0)
@@ -57,7 +57,7 @@ void HeldVertices::endPreparing(bool fixesBoundary)
   }
 }
 
-std::span<const std::uint8_t> HeldVertices::at(const MeshBlock& block)
+std::span<const std::uint8_t> FixedVertices::at(const MeshBlock& block)
 {
   this->Held.assign(static_cast<std::size_t>(block.vertices()), this->HoldsAll ? 1 : 0);
   const auto add = [this, &block](Selection& selection)

@@ -34,7 +34,7 @@ public:
   /** When the iteration ends. */
   struct Ending
   {
-    int mostCycles = 20;
+    int maxCycles = 20;
     /** Ends with the V-cycle that adds at most this share to the squared energy norm of x, of every
      * column. */
     double accuracy = 0.001;
@@ -61,7 +61,7 @@ public:
     const std::span<float> image = this->vector(2), residual = this->vector(3);
     std::ranges::fill(this->values(), 0.0F);
     std::vector<double> energy(this->Lanes), reduction(this->Lanes);
-    for (int k = 0; k < this->End.mostCycles; ++k)
+    for (int k = 0; k < this->End.maxCycles; ++k)
     {
       cycle();
       this->Of.residualAll(residual.data());
@@ -141,7 +141,7 @@ private:
  * is the coarsest one.
  */
 template <class Relaxation>
-class CoreCycle
+class CoreVCycle
 {
 public:
   using CoreLevel = Level<float, Relaxation>;

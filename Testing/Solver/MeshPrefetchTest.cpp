@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Mesh/MeshAhead.h"
+#include "Solver/Mesh/MeshPrefetch.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
@@ -68,13 +68,13 @@ IndexedTestMesh joinedStrips(int length)
 
 } // namespace
 
-TEST(MeshAhead, DeliversTheBlocksOfTheStreamInOrder)
+TEST(MeshPrefetch, DeliversTheBlocksOfTheStreamInOrder)
 {
   for (const bool ahead : { false, true })
   {
     CountedSource source(toStream(torus(30, 20)), 100);
     const std::int64_t blocks = (source.info().cells + 99) / 100;
-    MeshAhead stream(source, ahead);
+    MeshPrefetch stream(source, ahead);
     std::int64_t vertices = 0, cells = 0;
     for (int n = 1;; ++n)
     {
@@ -97,11 +97,11 @@ TEST(MeshAhead, DeliversTheBlocksOfTheStreamInOrder)
   }
 }
 
-TEST(MeshAhead, SaysAFailureWhenTheBlocksBeforeItHaveBeenUsed)
+TEST(MeshPrefetch, SaysAFailureWhenTheBlocksBeforeItHaveBeenUsed)
 {
   CountedSource source(toStream(torus(30, 20)), 100);
   source.Failing = 3;
-  MeshAhead stream(source, true);
+  MeshPrefetch stream(source, true);
   for (int n = 1; n < 3; ++n)
   {
     stream.advance();
@@ -112,7 +112,7 @@ TEST(MeshAhead, SaysAFailureWhenTheBlocksBeforeItHaveBeenUsed)
   expectError([&] { stream.block(); }, "the block cannot be read");
 }
 
-TEST(MeshAhead, DoesNotChangeTheSolution)
+TEST(MeshPrefetch, DoesNotChangeTheSolution)
 {
   const StreamMesh mesh = toStream(joinedStrips(900), TestOrder::Keep);
   ArrayProblem held = heldEnds(mesh, 1, Weights::Cotangent);
@@ -152,7 +152,7 @@ TEST(MeshAhead, DoesNotChangeTheSolution)
   }
 }
 
-TEST(MeshAhead, ASolveSaysTheFirstFailureOfTheStream)
+TEST(MeshPrefetch, ASolveSaysTheFirstFailureOfTheStream)
 {
   const StreamMesh mesh = toStream(torus(60, 40));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);

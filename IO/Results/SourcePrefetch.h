@@ -12,11 +12,11 @@ namespace smg
 
 /** A mesh stream whose next block is read while the current one is used, on a further thread, if it
  * may be read on any. */
-class SourceAhead : public MeshSource
+class SourcePrefetch : public MeshSource
 {
 public:
   /** With 1 thread it does not read ahead. */
-  SourceAhead(std::unique_ptr<MeshSource> source, int threads)
+  SourcePrefetch(std::unique_ptr<MeshSource> source, int threads)
     : Source(std::move(source))
     , Threads(threads != 1 && this->Source->readsOnAnyThread() ? 2 : 1)
     , Reads(

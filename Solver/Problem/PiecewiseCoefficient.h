@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/ValueOnMesh.h"
+#include "Solver/Problem/Coefficient.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,10 +18,10 @@ namespace smg
  * each place, and its value. Blocks are passed in order, also those without vertices; the first
  * block restarts it.
  */
-class DatumOnMesh
+class PiecewiseCoefficient
 {
 public:
-  DatumOnMesh(MeshColumns& columns, DataPlace place, ValueRules rules)
+  PiecewiseCoefficient(MeshColumns& columns, DataPlace place, ValueRules rules)
     : Columns(&columns)
     , Place(place)
     , Rules(std::move(rules))
@@ -73,7 +73,7 @@ private:
   struct Entry
   {
     std::unique_ptr<Selection> where; ///< null: everywhere
-    ValueOnMesh value;
+    Coefficient value;
     std::string key; ///< of the value
   };
 

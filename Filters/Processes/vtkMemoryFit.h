@@ -10,7 +10,7 @@ namespace smg
 {
 
 /** Whether the memory of the processes holds a problem. */
-struct MemoryVerdict
+struct MemoryFit
 {
   bool fits = false;
   std::string reason; ///< what is needed and what there is, for a note
@@ -18,6 +18,6 @@ struct MemoryVerdict
 
 /** Estimates the memory that the distributed engine needs for the pieces of all processes, with so
  * many right-hand sides. Called on all of them; returns the same on each. */
-MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller, int columns);
+MemoryFit estimateMemoryFit(vtkPointSet& piece, vtkMultiProcessController* controller, int columns);
 
 } // namespace smg

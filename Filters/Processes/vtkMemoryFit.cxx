@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Processes/vtkMemoryVerdict.h"
+#include "Filters/Processes/vtkMemoryFit.h"
 
 #include "Filters/Processes/vtkProcessParts.h"
 #include "IO/vtkMeshPieceData.h"
@@ -29,7 +29,7 @@ std::string gibibytes(double bytes)
 
 } // namespace
 
-MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller, int columns)
+MemoryFit estimateMemoryFit(vtkPointSet& piece, vtkMultiProcessController* controller, int columns)
 {
   const MPI_Comm communicator = communicatorOf(controller);
   if (communicator == MPI_COMM_NULL)
@@ -37,7 +37,7 @@ MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* control
     return { false, "the processes do not communicate by MPI" };
   }
   Team team(communicator);
-  MemoryVerdict verdict;
+  MemoryFit verdict;
   team.run(
     [&]
     {
@@ -51,9 +51,9 @@ MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* control
         verdict = { false, "the input is a preview of the mesh" };
         return;
       }
-      if (most[2] > static_cast<double>(mostPartVertices()))
+      if (most[2] > static_cast<double>(maxPartVertices()))
       {
-        verdict = { false, "a process has more than the " + std::to_string(mostPartVertices()) +
+        verdict = { false, "a process has more than the " + std::to_string(maxPartVertices()) +
                              " points that hypre can have in one" };
         return;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Cycle/CoreCycle.h"
+#include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Testing/Solver/CycleTesting.h"
 #include "Testing/Support/Combinations.h"
 
@@ -45,7 +45,7 @@ Eigen::MatrixXd denseCycle(const DenseHierarchy<>& h, int levels, int l, const E
 
 } // namespace
 
-TEST(CoreCycle, IsTheVCycle)
+TEST(CoreVCycle, IsTheVCycle)
 {
   Combinations combinations;
   const TestLevel surface =
@@ -64,7 +64,7 @@ TEST(CoreCycle, IsTheVCycle)
         DenseHierarchy<> h(level, levels, columns, 2);
         const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 8);
         setState(h.finest().window().b(), b);
-        CoreCycle<GaussSeidel> cycle;
+        CoreVCycle<GaussSeidel> cycle;
         cycle.setLevels(levelsOf(h, levels), level.nodes());
         const Eigen::MatrixXd expected = denseCycle(h, levels, 0, b);
         // Twice: a cycle leaves no state that affects the next one.
@@ -79,11 +79,11 @@ TEST(CoreCycle, IsTheVCycle)
   }
 }
 
-TEST(CoreCycle, ContractsTheErrorOnManyLevels)
+TEST(CoreVCycle, ContractsTheErrorOnManyLevels)
 {
   const TestLevel level = finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
   DenseHierarchy<> h(level, 5, 1, 2);
-  CoreCycle<GaussSeidel> cycle;
+  CoreVCycle<GaussSeidel> cycle;
   cycle.setLevels(levelsOf(h, 5), level.nodes());
   Eigen::MatrixXd b = randomMatrix(level.nodes(), 1, 9);
   const double before = b.norm();
@@ -96,7 +96,7 @@ TEST(CoreCycle, ContractsTheErrorOnManyLevels)
   EXPECT_LT(b.norm(), 1e-3 * before);
 }
 
-TEST(CoreCycle, SolvesALevelMuchSmallerThanTheFinest)
+TEST(CoreVCycle, SolvesALevelMuchSmallerThanTheFinest)
 {
   constexpr int Levels = 6;
   constexpr std::int64_t Much = 1000;
@@ -114,7 +114,7 @@ TEST(CoreCycle, SolvesALevelMuchSmallerThanTheFinest)
     }
     const auto error = [&](std::int64_t finest)
     {
-      CoreCycle<GaussSeidel> cycle;
+      CoreVCycle<GaussSeidel> cycle;
       cycle.setLevels(levelsOf(h, Levels), finest);
       setState(h.finest().window().b(), a * exact);
       cycle.run();
@@ -138,7 +138,7 @@ TEST(CoarsestSolver, SolvesComponentsWithAndWithoutConstraint)
   const TestLevel free = finestLevel(toStream(grid(9, 8, 0.2)), Weights::Clamped);
   TestLevel both = fixed;
   both.rows.insert(both.rows.end(), free.rows.begin(), free.rows.end());
-  both.alpha.insert(both.alpha.end(), free.alpha.begin(), free.alpha.end());
+  both.rowSum.insert(both.rowSum.end(), free.rowSum.begin(), free.rowSum.end());
   for (const int columns : { 1, 2 })
   {
     DenseHierarchy<> h(both, 1, columns, 1);

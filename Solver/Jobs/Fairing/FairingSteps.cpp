@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/ScratchAccount.h"
+#include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Jobs/Fairing/Smoother.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Report.h"
@@ -22,7 +22,7 @@ void addStep(Report& total, const Report& step, const std::string& name);
 
 } // namespace smg
 
-// The steps of Smoother.
+// The steps of MeshFairing.
 
 namespace smg
 {
@@ -35,7 +35,7 @@ constexpr std::int64_t ChunkVertices = 4096;
 
 } // namespace
 
-void Smoother::step(int k, Part part)
+void MeshFairing::step(int k, Part part)
 {
   if (this->hasCurves())
   {
@@ -51,13 +51,13 @@ void Smoother::step(int k, Part part)
     // The length over which presmoothing has spread the turn of an edge.
     const EdgeConductivity conductivity(
       this->Size / std::numbers::pi, *this->Options.keepEdges * Degree);
-    SmoothingProblem problem = this->problem(this->Time, &*this->Presmoothed);
+    FairingProblem problem = this->problem(this->Time, &*this->Presmoothed);
     problem.setEdges(*this->Normals, conductivity);
     this->solveStep(problem, name, part.of(0.5, 0.9), this->Next);
   }
   else
   {
-    SmoothingProblem problem = this->problem(this->Time, surface);
+    FairingProblem problem = this->problem(this->Time, surface);
     this->solveStep(problem, name, part.of(0.0, 0.8), this->Next);
   }
   if (this->movesPoints())
@@ -71,18 +71,18 @@ void Smoother::step(int k, Part part)
 }
 
 /** Presmooths the surface by one step of the whole size, which shows its edges without noise. */
-void Smoother::findEdges(int k, Part part)
+void MeshFairing::findEdges(int k, Part part)
 {
   const double root = this->Size / (2.0 * std::numbers::pi);
-  SmoothingProblem problem = this->problem(root * root, k > 0 ? &this->Result->values : nullptr);
+  FairingProblem problem = this->problem(root * root, k > 0 ? &this->Result->values : nullptr);
   this->solveStep(
     problem, "presmoothing " + std::to_string(k + 1), part.of(0.0, 0.9), *this->Presmoothed);
   this->findNormals(*this->Presmoothed, true, part.of(0.9, 1.0));
 }
 
-SmoothingProblem Smoother::problem(double t, const VertexFile* surface)
+FairingProblem MeshFairing::problem(double t, const VertexFile* surface)
 {
-  SmoothingProblem problem(this->Result->memory, t, this->Result->values, this->Held,
+  FairingProblem problem(this->Result->memory, t, this->Result->values, this->Held,
     this->hasCurves() ? &*this->Curves : nullptr);
   if (surface)
   {
@@ -91,8 +91,8 @@ SmoothingProblem Smoother::problem(double t, const VertexFile* surface)
   return problem;
 }
 
-void Smoother::solveStep(
-  SmoothingProblem& problem, const std::string& name, Part part, VertexFile& to)
+void MeshFairing::solveStep(
+  FairingProblem& problem, const std::string& name, Part part, VertexFile& to)
 {
   SolveOptions options = this->Options;
   const std::int64_t own = this->Result->memory.used(); // none of it by the problem, so far
@@ -125,7 +125,7 @@ void Smoother::solveStep(
 }
 
 /** The normals at the vertices of a surface; those of held vertices are 0 unless `ofHeld`. */
-void Smoother::findNormals(const VertexFile& positions, bool ofHeld, Part part)
+void MeshFairing::findNormals(const VertexFile& positions, bool ofHeld, Part part)
 {
   this->Normals->restart();
   PointNormals normals(this->Result->memory, positions, *this->Normals);
@@ -150,7 +150,7 @@ void Smoother::findNormals(const VertexFile& positions, bool ofHeld, Part part)
 
 /** Makes the result of the last step the current positions, moved along their normals by the
  * distance that keeps the volume. */
-void Smoother::keepVolume(Part part)
+void MeshFairing::keepVolume(Part part)
 {
   if (this->Options.keepVolume)
   {
@@ -184,7 +184,7 @@ void Smoother::keepVolume(Part part)
 
 /** The volume swept from the current positions to those of the last step, moved by `distance` along
  * their normals, which is set so that the volume is 0 if it is to be kept. */
-double Smoother::sweptVolume(Part part, double& distance)
+double MeshFairing::sweptVolume(Part part, double& distance)
 {
   SweptVolume volume;
   OpenTuples before(this->Result->memory, this->Result->values);
@@ -233,7 +233,7 @@ double Smoother::sweptVolume(Part part, double& distance)
   return volume.at(distance);
 }
 
-std::unique_ptr<Solution> Smoother::finish()
+std::unique_ptr<Solution> MeshFairing::finish()
 {
   Report& report = this->Result->total;
   if (report.volume)

@@ -11,7 +11,7 @@ namespace smg
 
 /** A vector of `Count` values of Real: right-hand sides that are contiguous in memory. */
 template <class Real, int Count>
-struct Lanes
+struct SimdPack
 {
   static constexpr int count = Count;
   using Vector __attribute__((vector_size(sizeof(Real) * Count))) = Real;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Setup/ExtendedInterpolation.h"
+#include "Solver/Multigrid/Setup/Interpolation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,26 +20,26 @@ int nearest(float value)
 
 void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
 {
-  constexpr CoarseIndex Retained = CoarseningData::Retained;
+  constexpr CoarseIndex FPoint = CoarseningData::FPoint;
   data.initialTotal.extendRaw(i + 1);
-  const CoarseIndex* lifted = data.lifted.at(i);
-  if (*lifted != Retained)
+  const CoarseIndex* coarseIndex = data.coarseIndex.at(i);
+  if (*coarseIndex != FPoint)
   {
-    *data.initial.open(1) = { *lifted, 1.0F };
+    *data.initial.open(1) = { *coarseIndex, 1.0F };
     data.initial.close(1);
     data.initialTotal[i] = 1.0F;
     return;
   }
   const auto row = data.fine.row(i);
-  const float strong = this->lifting.threshold(data, i);
+  const float strong = this->coarsePoints.threshold(data, i);
   CoarseEntry* out = data.initial.open(static_cast<std::int64_t>(row.size()));
   std::int64_t size = 0;
-  const auto alpha = static_cast<float>(std::max(0.0, data.fine.alpha(i)));
-  float sum = alpha;
+  const auto rowSum = static_cast<float>(std::max(0.0, data.fine.rowSum(i)));
+  float sum = rowSum;
   for (const RowEntry& entry : row)
   {
-    const CoarseIndex coarse = lifted[entry.delta()];
-    if (coarse != Retained && entry.weight() >= strong)
+    const CoarseIndex coarse = coarseIndex[entry.delta()];
+    if (coarse != FPoint && entry.weight() >= strong)
     {
       out[size++] = { coarse, entry.weight() };
       sum += entry.weight();
@@ -64,7 +64,7 @@ int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i)
     return RelaxedRow::Most;
   }
   return this->entries == this->finestEntries || data.fine.childReach(i) >= 0 ||
-             this->lifting.isOfSlivers(data, i)
+             this->coarsePoints.isOfSlivers(data, i)
            ? this->entries
            : this->finestEntries;
 }
@@ -159,12 +159,12 @@ namespace
 {
 
 /** A patch whose matrix is this close to singular is relaxed node by node. */
-constexpr double LeastPivot = 1e-6;
+constexpr double MinPivot = 1e-6;
 
 /** Row i is solved for together with what its neighbours take from it while this share of its
  * diagonal remains: below it, the neighbours are so strongly coupled among themselves that each
  * would count for several. */
-constexpr float LeastShare = 0.3F;
+constexpr float MinShare = 0.3F;
 
 /**
  * The current rows of P near row i, relaxed or the initial ones, as row i sees them: a retained
@@ -194,7 +194,7 @@ public:
     , I(i)
     , Initial(data.initial.near(i))
     , Total(data.initialTotal.at(i))
-    , Lifted(data.lifted.at(i))
+    , Coarse(data.coarseIndex.at(i))
     , Relaxed(data.relaxed.at(i))
     , RelaxedEnd(data.relaxed.end() - i)
   {
@@ -214,7 +214,7 @@ public:
   {
     const std::int32_t distance = entry.delta();
     const float w = entry.weight();
-    if (!(w > 0.0F) || this->Lifted[distance] != CoarseningData::Retained)
+    if (!(w > 0.0F) || this->Coarse[distance] != CoarseningData::FPoint)
     {
       return { w, 0.0F, 0.0F };
     }
@@ -238,7 +238,7 @@ private:
   std::int64_t I;
   RaggedRing<CoarseEntry>::Near Initial;
   const float* Total;
-  const CoarseIndex* Lifted;
+  const CoarseIndex* Coarse;
   const RelaxedRow* Relaxed;
   std::int64_t RelaxedEnd; // distance
 };
@@ -269,8 +269,8 @@ RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts
       ofOld += response.ofOld;
     }
   }
-  const bool follow = diagonal - ofItself > LeastShare * diagonal;
-  RowEquation equation{ follow ? ofItself : 0.0F, data.fine.alpha(i) };
+  const bool follow = diagonal - ofItself > MinShare * diagonal;
+  RowEquation equation{ follow ? ofItself : 0.0F, data.fine.rowSum(i) };
   const auto addRow = [&](const NewestRows::Row& row, float weight)
   {
     equation.lacking += static_cast<double>(weight) * (1.0F - row.sum);
@@ -297,30 +297,30 @@ RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts
 
 void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
 {
-  if (data.lifted[i] != CoarseningData::Retained)
+  if (data.coarseIndex[i] != CoarseningData::FPoint)
   {
     RelaxedRow& row = data.relaxed[i];
     row.sum = 1.0F;
     row.size = 1;
-    row.entry[0] = { data.lifted[i], 1.0F };
+    row.entry[0] = { data.coarseIndex[i], 1.0F };
     return;
   }
   if (const Patch* patch = data.patches.of(i))
   {
-    int retained[PatchMatrix::Most];
+    int fPoints[PatchMatrix::Most];
     int count = 0;
     for (int k = 0; k < patch->size; ++k)
     {
-      if (data.lifted[patch->member(k)] == CoarseningData::Retained)
+      if (data.coarseIndex[patch->member(k)] == CoarseningData::FPoint)
       {
-        retained[count++] = k;
+        fPoints[count++] = k;
       }
     }
     if (count > 1)
     {
-      if (patch->member(retained[count - 1]) == i)
+      if (patch->member(fPoints[count - 1]) == i)
       {
-        this->relaxPatch(data, *patch, retained, count);
+        this->relaxPatch(data, *patch, fPoints, count);
       }
       return;
     }
@@ -414,7 +414,7 @@ void ExtendedInterpolation::gatherOutside(
   }
 }
 
-/** Relaxes these retained members of a patch together. */
+/** Relaxes these F-points of a patch together. */
 void ExtendedInterpolation::relaxPatch(
   CoarseningData& data, const Patch& patch, const int* members, int count)
 {
@@ -430,7 +430,7 @@ void ExtendedInterpolation::relaxPatch(
     gatherOutside(data, patch.member(members[a]), patch, inside, sum);
     inverse.at(a, a) -= static_cast<double>(sum.ofItself);
   }
-  if (!inverse.invert(LeastPivot))
+  if (!inverse.invert(MinPivot))
   {
     for (int a = 0; a < count; ++a)
     {

@@ -11,11 +11,11 @@ namespace smg
 {
 
 /**
- * The lifting rule of the paper on strong edges: a greedy maximal independent set in stream order.
- * Node i is lifted iff none of the lower nodes that it strongly depends on is, or if its row is
- * stiff or exceeds. A node without edges is never lifted: relaxation solves it exactly.
+ * The choice of C-points of the paper on strong edges: a greedy maximal independent set in stream
+ * order. Node i is a C-point iff none of the lower nodes that it strongly depends on is, or if its
+ * row is stiff or exceeds. A node without edges is never a C-point: relaxation solves it exactly.
  */
-struct IndependentSetLifting
+struct IndependentSetCoarsening
 {
   /** An edge of row i is strong when w_ij >= strength * max_k w_ik; in [0, 1). */
   float strength = 0.1F;
@@ -43,10 +43,10 @@ struct IndependentSetLifting
    * represent it: next to constrained nodes with negative weights. */
   static bool exceeds(const CoarseningData& data, std::int64_t i)
   {
-    return data.fine.alpha(i) < -0.5 * static_cast<double>(data.patches.diagonal(i));
+    return data.fine.rowSum(i) < -0.5 * static_cast<double>(data.patches.diagonal(i));
   }
 
-  /** Whether node i is lifted; the nodes below i are decided. */
+  /** Whether node i is a C-point; the nodes below i are decided. */
   bool operator()(const CoarseningData& data, std::int64_t i) const
   {
     const auto row = data.fine.row(i);
@@ -55,14 +55,14 @@ struct IndependentSetLifting
       return true;
     }
     const float strong = this->threshold(data, i);
-    const CoarseIndex* lifted = data.lifted.at(i);
+    const CoarseIndex* coarseIndex = data.coarseIndex.at(i);
     for (const RowEntry& entry : row)
     {
       if (entry.delta() > 0)
       {
         break;
       }
-      if (entry.weight() >= strong && lifted[entry.delta()] != CoarseningData::Retained)
+      if (entry.weight() >= strong && coarseIndex[entry.delta()] != CoarseningData::FPoint)
       {
         return false;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/ValueOnMesh.h"
+#include "Solver/Problem/Coefficient.h"
 
 #include "smg/CellWeights.h"
 
@@ -13,7 +13,7 @@ namespace
 {
 
 /** Norms are sums of squares, which overflow for larger numbers. */
-constexpr double MostMagnitude = 1e150;
+constexpr double MaxMagnitude = 1e150;
 
 } // namespace
 
@@ -30,7 +30,7 @@ const char* ValueRules::complaint(const double* numbers, int count) const
     [this](double number)
     { return std::isfinite(number) || (this->missing && std::isnan(number)); });
   if (isFinite && std::any_of(numbers, numbers + count,
-                    [](double number) { return std::abs(number) > MostMagnitude; }))
+                    [](double number) { return std::abs(number) > MaxMagnitude; }))
   {
     return "must not be above 1e150 in magnitude, since its square would overflow";
   }
@@ -66,7 +66,7 @@ std::string choiceOf(const std::vector<int>& numbers)
 
 } // namespace
 
-ValueOnMesh::ValueOnMesh(const DataValue& value, DataPlace place, const ValueRules& rules,
+Coefficient::Coefficient(const DataValue& value, DataPlace place, const ValueRules& rules,
   const std::string& key, MeshColumns& columns)
   : Place(place)
   , Corners(cornersOf(columns.cellType()))
@@ -92,7 +92,7 @@ ValueOnMesh::ValueOnMesh(const DataValue& value, DataPlace place, const ValueRul
   this->Open = OpenValues<double>(columns.memory(), this->Components);
 }
 
-void ValueOnMesh::requireRules(const DataValue& value, const ValueRules& rules,
+void Coefficient::requireRules(const DataValue& value, const ValueRules& rules,
   const std::string& key, const MeshColumns& columns) const
 {
   if (this->What == Coordinates && !rules.positions)
@@ -120,7 +120,7 @@ void ValueOnMesh::requireRules(const DataValue& value, const ValueRules& rules,
   }
 }
 
-void ValueOnMesh::startBlock(const MeshBlock& block)
+void Coefficient::startBlock(const MeshBlock& block)
 {
   if (this->Place == DataPlace::Vertices || this->What == Constant || this->What == OfCells)
   {
@@ -141,14 +141,14 @@ void ValueOnMesh::startBlock(const MeshBlock& block)
   }
 }
 
-ValueOnMesh::InBlock::InBlock(const ValueOnMesh& value, const MeshBlock& block)
+Coefficient::InBlock::InBlock(const Coefficient& value, const MeshBlock& block)
   : Value(value)
   , Block(block)
   , Rows(value.What == OfVertices || value.What == OfCells ? &value.Values.in(block) : nullptr)
 {
 }
 
-void ValueOnMesh::InBlock::copyRow(std::size_t row, double* value) const
+void Coefficient::InBlock::copyRow(std::size_t row, double* value) const
 {
   for (int k = 0; k < this->Value.Components; ++k)
   {
@@ -156,7 +156,7 @@ void ValueOnMesh::InBlock::copyRow(std::size_t row, double* value) const
   }
 }
 
-void ValueOnMesh::InBlock::atVertex(std::size_t i, double* value) const
+void Coefficient::InBlock::atVertex(std::size_t i, double* value) const
 {
   if (this->Value.What == Constant)
   {
@@ -172,7 +172,7 @@ void ValueOnMesh::InBlock::atVertex(std::size_t i, double* value) const
   }
 }
 
-void ValueOnMesh::InBlock::atCell(
+void Coefficient::InBlock::atCell(
   std::size_t cell, const std::int64_t* corners, double* value) const
 {
   if (this->Value.What == Constant || this->Value.What == OfCells)
@@ -191,7 +191,7 @@ void ValueOnMesh::InBlock::atCell(
   }
 }
 
-void ValueOnMesh::InBlock::atCorner(std::size_t cell, std::int64_t corner, double* value) const
+void Coefficient::InBlock::atCorner(std::size_t cell, std::int64_t corner, double* value) const
 {
   if (this->Value.What == Constant)
   {

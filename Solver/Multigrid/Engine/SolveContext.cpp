@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Engine/SolveRun.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/ScratchAccount.h"
@@ -29,7 +29,7 @@ int scheduledThreads(int wanted)
 
 } // namespace
 
-SolveRun::SolveRun(int columns, const SolveOptions& solveOptions)
+SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   : options(solveOptions)
   , progress(solveOptions.progress)
   , pool(solveOptions.memoryLimit)
@@ -49,13 +49,13 @@ SolveRun::SolveRun(int columns, const SolveOptions& solveOptions)
   }
 }
 
-void SolveRun::beginReport()
+void SolveContext::beginReport()
 {
   this->Wall = {};
   this->CpuAtStart = processSeconds();
 }
 
-void SolveRun::finishReport()
+void SolveContext::finishReport()
 {
   Report& r = this->report;
   addAssemblyNotes(r, this->free.leavesUndetermined());
@@ -106,7 +106,7 @@ std::vector<Checkpoint::Item> itemsOf(const SolveOptions& options)
 
 } // namespace
 
-bool SolveRun::resume(std::vector<Checkpoint::Item> subject, Parts kept)
+bool SolveContext::resume(std::vector<Checkpoint::Item> subject, Parts kept)
 {
   if (this->options.checkpoint.folder.empty())
   {
@@ -129,7 +129,7 @@ bool SolveRun::resume(std::vector<Checkpoint::Item> subject, Parts kept)
   return true;
 }
 
-void SolveRun::endPass(double residual)
+void SolveContext::endPass(double residual)
 {
   Report::Pass pass{ residual, this->seconds(), this->traffic.bytesRead(),
     this->traffic.bytesWritten(), this->pool.peak() };
@@ -146,7 +146,7 @@ void SolveRun::endPass(double residual)
   }
 }
 
-void SolveRun::save(StateWriter& state)
+void SolveContext::save(StateWriter& state)
 {
   Report& r = this->report;
   r.seconds.total = this->seconds();
@@ -169,7 +169,7 @@ void SolveRun::save(StateWriter& state)
   }
 }
 
-void SolveRun::load(StateReader& state)
+void SolveContext::load(StateReader& state)
 {
   ReportState<StateReader> reported{ this->report };
   std::int64_t peak = 0;

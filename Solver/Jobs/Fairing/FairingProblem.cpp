@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Jobs/Fairing/SmoothingProblem.h"
+#include "Solver/Jobs/Fairing/FairingProblem.h"
 
 #include "Solver/Assembly/Elements.h"
 #include "Solver/Core/Vector.h"
@@ -60,8 +60,8 @@ std::array<double, 6> EdgeConductivity::at(
   return K;
 }
 
-SmoothingProblem::SmoothingProblem(Pool& pool, double t, const VertexFile& values,
-  HeldVertices& held, const BoundaryCurves* boundary)
+FairingProblem::FairingProblem(Pool& pool, double t, const VertexFile& values, FixedVertices& held,
+  const BoundaryCurves* boundary)
   : Memory(pool)
   , Before(pool.used())
   , Columns(values.lanes())
@@ -72,18 +72,18 @@ SmoothingProblem::SmoothingProblem(Pool& pool, double t, const VertexFile& value
 {
 }
 
-void SmoothingProblem::setSurface(const VertexFile& positions)
+void FairingProblem::setSurface(const VertexFile& positions)
 {
   this->Surface.emplace(this->Memory, positions);
 }
 
-void SmoothingProblem::setEdges(const VertexFile& normals, const EdgeConductivity& conductivity)
+void FairingProblem::setEdges(const VertexFile& normals, const EdgeConductivity& conductivity)
 {
   this->Normals.emplace(this->Memory, normals);
   this->Edges = conductivity;
 }
 
-void SmoothingProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
+void FairingProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
   this->Values.startBlock(block);
   for (std::optional<OpenTuples>* tuples : { &this->Surface, &this->Normals })
@@ -120,7 +120,7 @@ void SmoothingProblem::conditions(const MeshBlock& block, VertexConditions& cond
   }
 }
 
-void SmoothingProblem::cells(CellBatch& batch)
+void FairingProblem::cells(CellBatch& batch)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(batch.type));
   for (std::size_t c = 0; c < batch.cells(); ++c)
@@ -138,7 +138,7 @@ void SmoothingProblem::cells(CellBatch& batch)
   }
 }
 
-void SmoothingProblem::setWeights(
+void FairingProblem::setWeights(
   CellBatch& batch, std::size_t cell, const double* const* points) const
 {
   const CellWeights own = cellWeights(batch.type, points);
@@ -163,8 +163,8 @@ void SmoothingProblem::setWeights(
     }
   }
   // A triangle that has collapsed keeps its stiffness at rest, and hardly any mass.
-  constexpr double LeastShare = 1e-6;
-  batch.measure[cell] = std::max(own.measure, LeastShare * rest);
+  constexpr double MinShare = 1e-6;
+  batch.measure[cell] = std::max(own.measure, MinShare * rest);
 }
 
 } // namespace smg

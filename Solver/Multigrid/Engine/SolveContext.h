@@ -81,10 +81,10 @@ private:
 
 /** The shared data of all parts of a solve and of its solution: options, memory, scratch files,
  * threads, the components of the mesh, progress and report. */
-struct SMG_EXPORT SolveRun
+struct SMG_EXPORT SolveContext
 {
   /** For problems of `columns` columns. */
-  SolveRun(int columns, const SolveOptions& solveOptions);
+  SolveContext(int columns, const SolveOptions& solveOptions);
 
   /** Starts the times of the report. */
   void beginReport();
@@ -96,7 +96,7 @@ struct SMG_EXPORT SolveRun
   /** Performs the tasks of a step, concurrently, in the order for it: task(0) on the calling
    * thread. */
   template <class Task>
-  void together(LongestFirst& order, Task&& task)
+  void runConcurrently(LongestTaskFirst& order, Task&& task)
   {
     if (this->recorder)
     {

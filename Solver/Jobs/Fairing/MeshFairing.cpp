@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Jobs/Fairing/Smoother.h"
+#include "Solver/Jobs/Fairing/MeshFairing.h"
 
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Memory/Pool.h"
@@ -57,7 +57,7 @@ std::optional<NamedColumn> columnOf(
 
 } // namespace
 
-Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
+MeshFairing::MeshFairing(const StoredMesh& mesh, const SmoothingOptions& options)
   : Mesh(mesh)
   , Options(options)
   , Columns(mesh.info(), "smooth")
@@ -66,7 +66,7 @@ Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
       boundaryOf(options) == SmoothedBoundary::Fixed ||
         (this->movesPoints() && boundaryOf(options) == SmoothedBoundary::Free),
       this->Columns)
-  , Result(std::make_unique<SmoothedValues>(options, this->Column ? this->Column->components : 3))
+  , Result(std::make_unique<FairedValues>(options, this->Column ? this->Column->components : 3))
   , Next(this->Result->storage, this->Result->columns())
 {
   this->Columns.memory().setLimit(options.memoryLimit);
@@ -89,7 +89,7 @@ Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
   }
 }
 
-std::unique_ptr<Solution> Smoother::run()
+std::unique_ptr<Solution> MeshFairing::run()
 {
   // The survey reads the mesh once, a step several times.
   const double surveyed = 1.0 / (1.0 + 10.0 * this->Options.steps);
@@ -102,7 +102,7 @@ std::unique_ptr<Solution> Smoother::run()
   return this->finish();
 }
 
-void Smoother::read(Part part, const Visit& visit)
+void MeshFairing::read(Part part, const Visit& visit)
 {
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
   visitBlocks(*source, this->Options.progress, part.begin, part.end, visit);
@@ -110,7 +110,7 @@ void Smoother::read(Part part, const Visit& visit)
 }
 
 /** The first reading: what is held, the values, the lengths that sizes refer to. */
-void Smoother::survey(Part part)
+void MeshFairing::survey(Part part)
 {
   const CellType type = this->Mesh.info().cellType;
   StreamCheck check(type);
@@ -168,7 +168,7 @@ void Smoother::survey(Part part)
 
 /** Notes what makes the volume, and the normals along which it is kept, others than expected.
  * `closed`: of a surface without boundary. */
-void Smoother::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
+void MeshFairing::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
 {
   std::vector<std::string>& notes = this->Result->total.notes;
   if (turnedEdges > 0)
@@ -190,7 +190,7 @@ void Smoother::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
   }
 }
 
-void Smoother::keepValues(const MeshBlock& block)
+void MeshFairing::keepValues(const MeshBlock& block)
 {
   if (!this->Column)
   {
@@ -213,7 +213,7 @@ void Smoother::keepValues(const MeshBlock& block)
 }
 
 /** Fixes the vertices of the boundary that are held. */
-void Smoother::holdCurves(Part part)
+void MeshFairing::holdCurves(Part part)
 {
   if (!this->Options.hold.empty() && this->hasCurves())
   {
@@ -223,7 +223,7 @@ void Smoother::holdCurves(Part part)
 }
 
 /** Triangles that share no edges would be smoothed each for itself, to points. */
-void Smoother::requireWelded(const StreamCheck& check)
+void MeshFairing::requireWelded(const StreamCheck& check)
 {
   const CellType type = this->Mesh.info().cellType;
   const std::string note = unweldedNote(type, check.vertices(), check.cells());
@@ -234,7 +234,7 @@ void Smoother::requireWelded(const StreamCheck& check)
   noteUnwelded(type, check.vertices(), check.cells(), this->Result->total);
 }
 
-void Smoother::setSize(const MeshMeasures& measures)
+void MeshFairing::setSize(const MeshMeasures& measures)
 {
   const SmoothingSize size = this->Options.size;
   const double unit = size.unit == SmoothingSize::MeanEdges  ? measures.meanEdge()

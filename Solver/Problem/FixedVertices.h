@@ -20,12 +20,12 @@ namespace smg
 
 /** The vertices of several parts of a mesh, and of its boundary if that is fixed, block by block of
  * the stream. */
-class HeldVertices
+class FixedVertices
 {
 public:
   /** Throws Error if a part is not valid. `columns` must outlive this. `findsBoundary`: whether the
    * boundary is looked for. */
-  HeldVertices(const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns);
+  FixedVertices(const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns);
 
   /** The bytes that are kept of open vertices, accounted for in MeshColumns::memory(). */
   std::int64_t bytes() const { return this->Memory.used(); }

@@ -5,11 +5,11 @@
 #include "Solver/Files/CheckedFile.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
+#include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Jobs/Fairing/SmoothingProblem.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Problem/HeldVertices.h"
+#include "Solver/Problem/FixedVertices.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Smooth.h"
 #include "smg/Solve.h"
@@ -26,10 +26,10 @@ namespace smg
 
 /** The result of smoothing: values at the vertices, the memory or files that they are in, and the
  * report. */
-class SmoothedValues final : public Solution
+class FairedValues final : public Solution
 {
 public:
-  SmoothedValues(const SolveOptions& options, int columns)
+  FairedValues(const SolveOptions& options, int columns)
     : memory(options.memoryLimit)
     , scratch(options.inCore ? std::nullopt
                              : std::optional<ScratchFolder>(
@@ -58,11 +58,11 @@ public:
 };
 
 /** Smooths a mesh, see smooth(): surveys it, then takes step after step. */
-class Smoother
+class MeshFairing
 {
 public:
   /** The options must be valid. Throws Error if they do not fit the mesh. */
-  Smoother(const StoredMesh& mesh, const SmoothingOptions& options);
+  MeshFairing(const StoredMesh& mesh, const SmoothingOptions& options);
 
   /** To be called once. */
   std::unique_ptr<Solution> run();
@@ -93,8 +93,8 @@ private:
 
   void step(int k, Part part);
   void findEdges(int k, Part part);
-  SmoothingProblem problem(double t, const VertexFile* surface);
-  void solveStep(SmoothingProblem& problem, const std::string& name, Part part, VertexFile& to);
+  FairingProblem problem(double t, const VertexFile* surface);
+  void solveStep(FairingProblem& problem, const std::string& name, Part part, VertexFile& to);
   void findNormals(const VertexFile& positions, bool ofHeld, Part part);
   void keepVolume(Part part);
   double sweptVolume(Part part, double& distance);
@@ -106,8 +106,8 @@ private:
   double CpuAtStart = processSeconds();
   MeshColumns Columns;
   std::optional<NamedColumn> Column; ///< none: the positions
-  HeldVertices Held;
-  std::unique_ptr<SmoothedValues> Result; ///< with the current values
+  FixedVertices Held;
+  std::unique_ptr<FairedValues> Result; ///< with the current values
   std::optional<BoundaryCurves> Curves;
   VertexFile Next; ///< the values after the current step
   std::optional<VertexFile> Presmoothed, Normals;

@@ -13,11 +13,11 @@ namespace smg
 /** Reads a mesh stream a block ahead of its use, which is on another thread meanwhile, if the mesh
  * may be read on any. The two blocks, whose size is a choice of the mesh source, are not accounted
  * for. */
-class MeshAhead
+class MeshPrefetch
 {
 public:
   /** `wanted`: whether there is another thread to read on. */
-  MeshAhead(MeshSource& mesh, bool wanted)
+  MeshPrefetch(MeshSource& mesh, bool wanted)
     : Mesh(mesh)
     , Ahead(wanted && mesh.readsOnAnyThread())
   {

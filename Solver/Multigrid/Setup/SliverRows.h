@@ -17,7 +17,7 @@ namespace smg
  * The number of stiff rows is limited by the direct solve of the coarsest level, where most of them
  * may end: on a level of slivers only, the first rows are stiff.
  */
-class StiffRows
+class SliverRows
 {
 public:
   /**
@@ -28,16 +28,16 @@ public:
   static constexpr double Triangles = -2.0;
 
   /** No row is stiff. */
-  StiffRows() = default;
+  SliverRows() = default;
   /** Rows with a weight below `below` times `scale` are stiff; `scale`, the size of the
    * conductivity, is set when the first row arrives. */
-  explicit StiffRows(double below, const double& scale)
+  explicit SliverRows(double below, const double& scale)
     : Below(below)
     , Scale(&scale)
   {
   }
 
-  StiffRows(double below, const double&& scale) = delete; // it would be gone
+  SliverRows(double below, const double&& scale) = delete; // it would be gone
 
   /** Whether any row may be stiff. */
   bool any() const { return this->Scale != nullptr; }
@@ -51,7 +51,7 @@ public:
     }
     ++this->Rows;
     const bool stiff = static_cast<double>(least) < this->Below * *this->Scale &&
-                       this->Found < MostAtFirst + this->Rows / MostShare;
+                       this->Found < MaxAtFirst + this->Rows / MaxShare;
     this->Found += stiff ? 1 : 0;
     return stiff;
   }
@@ -60,7 +60,7 @@ public:
   std::int64_t found() const { return this->Found; }
 
 private:
-  static constexpr std::int64_t MostAtFirst = 4096, MostShare = 128;
+  static constexpr std::int64_t MaxAtFirst = 4096, MaxShare = 128;
 
   double Below = 0.0;
   const double* Scale = nullptr;
