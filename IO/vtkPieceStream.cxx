@@ -375,9 +375,10 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
   if (!array || array->GetNumberOfComponents() != 1)
   {
     throw Error(
-      where + " has no point GlobalIds, so it is no piece of a mesh stream: read the mesh with the "
-              "StreamingMeshReader, which makes them, and keep them in the filters between; save a "
-              "mesh of another source as .vsm first.");
+      where +
+      " has no point GlobalIds, so it is not a piece of a mesh stream: read the mesh with the "
+      "StreamingMeshReader, which makes them, and keep them in the filters between; save a "
+      "mesh of another source as .vsm first.");
   }
   std::vector<std::int64_t> ids(array->GetNumberOfTuples());
   for (std::size_t i = 0; i < ids.size(); ++i)

@@ -48,7 +48,7 @@ std::string toMebibytes(std::string& text)
   constexpr double Mebibyte = 1 << 20, Most = 1LL << 52;
   if (!(bytes >= Mebibyte && bytes <= Most * Mebibyte))
   {
-    return '\'' + text + "' is no size of at least 1 MiB";
+    return '\'' + text + "' is not a size of at least 1 MiB";
   }
   text = std::to_string(static_cast<std::int64_t>(bytes / Mebibyte));
   return {};
@@ -120,7 +120,7 @@ void CommonOptions::addCheckpointTo(CLI::App& command)
       "Folder from which the same command, run again, continues if it was killed; it is made, and "
       "removed when OUT is complete")
     ->check([](const std::string& folder)
-      { return folder.empty() ? std::string("an empty text is no folder") : std::string(); })
+      { return folder.empty() ? std::string("an empty text is not a folder") : std::string(); })
     ->type_name("DIR");
 }
 
@@ -304,7 +304,7 @@ std::string numberFromZero(const std::string& value)
   const std::optional<double> number = numberOf(value);
   return number && std::isfinite(*number) && *number >= 0.0
            ? std::string()
-           : '\'' + value + "' is no finite number of at least 0";
+           : '\'' + value + "' is not a finite number of at least 0";
 }
 
 std::vector<std::string> splitAtCommas(const std::string& list)

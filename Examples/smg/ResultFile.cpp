@@ -28,7 +28,7 @@ ResultFile::ResultFile(Options options)
   {
     const std::string why = isFormat && hasColumns
                               ? "this format cannot hold " + this->Files.columns
-                              : "this is no format of a result";
+                              : "this is not a format of a result";
     throw smg::Error(
       this->Files.out.string() + ": " + why + ": write it as " + this->choices() + '.' +
       (this->Files.welds ? " Formats in the order of the input are not possible with --weld."

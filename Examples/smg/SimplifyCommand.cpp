@@ -133,7 +133,7 @@ void addSimplifyCommand(CLI::App& program, Action& action)
       [](const std::string& given)
       {
         const std::optional<double> length = numberOf(given);
-        return length && *length > 0.0 ? std::string() : '\'' + given + "' is no number above 0";
+        return length && *length > 0.0 ? std::string() : '\'' + given + "' is not a number above 0";
       })
     ->type_name("LENGTH");
   command->add_flag(

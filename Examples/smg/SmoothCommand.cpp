@@ -132,8 +132,8 @@ private:
         {
           if (!readSize(text, this->Smooth.size))
           {
-            throw CLI::ValidationError(
-              "--size", '\'' + text + "' is no size: give a number above 0, as 2.5, 1% or 6edges");
+            throw CLI::ValidationError("--size",
+              '\'' + text + "' is not a size: give a number above 0, as 2.5, 1% or 6edges");
           }
         },
         "Size of the details that are halved: in the unit of the mesh, in % of the diagonal of its "

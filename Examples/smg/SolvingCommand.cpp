@@ -13,7 +13,7 @@ std::string SolvingCommand::checkTolerance(const std::string& text)
   const std::optional<double> tolerance = numberOf(text);
   return tolerance && *tolerance > 0.0 && *tolerance < 1.0
            ? std::string()
-           : '\'' + text + "' is no number between 0 and 1, both excluded";
+           : '\'' + text + "' is not a number between 0 and 1, both excluded";
 }
 
 void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result,

@@ -95,7 +95,7 @@ std::string unknownOption(const CLI::App& command)
         }
       }
     }
-    return name + " is no option of smg " + command.get_name() +
+    return name + " is not an option of smg " + command.get_name() +
            (nearest.empty() ? "" : ": did you mean --" + nearest + '?');
   }
   return {};

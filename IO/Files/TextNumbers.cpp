@@ -101,7 +101,7 @@ std::size_t TextNumbers::readAs(T* values, std::size_t count)
       {
         const char* const wordEnd = std::find_if(at, end, endsWord);
         this->File.fail(this->At + static_cast<std::size_t>(at - text.data()),
-          inQuotes({ at, static_cast<std::size_t>(wordEnd - at) }) + " is no number of type " +
+          inQuotes({ at, static_cast<std::size_t>(wordEnd - at) }) + " is not a number of type " +
             std::string(nameOf(scalarTypeOf<T>())) + ", where one should be");
       }
       ++done;

@@ -248,7 +248,7 @@ std::string_view TextScanner::tokenHere()
   if (length > MaxTokenBytes)
   {
     this->fail("a word has more than " + std::to_string(MaxTokenBytes) +
-               " bytes: this is no text, or the file is damaged");
+               " bytes: this is not text, or the file is damaged");
   }
   return { this->At, length };
 }
@@ -320,7 +320,7 @@ double TextScanner::toNumber(std::string_view token, const char* what, bool fini
   }
   if (result.ec != std::errc() || result.ptr != end)
   {
-    this->fail(inQuotes(token) + " is no number, where " + what + " should be");
+    this->fail(inQuotes(token) + " is not a number, where " + what + " should be");
   }
   return value;
 }
@@ -338,7 +338,7 @@ std::int64_t TextScanner::toInteger(std::string_view token, const char* what) co
   const std::optional<std::int64_t> value = parseInteger(token);
   if (!value)
   {
-    this->fail(inQuotes(token) + " is no integer, where " + what + " should be");
+    this->fail(inQuotes(token) + " is not an integer, where " + what + " should be");
   }
   return *value;
 }

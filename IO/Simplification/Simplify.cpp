@@ -200,7 +200,8 @@ void checkSimplifiedPath(const std::filesystem::path& path)
   const FileSuffix* suffix = suffixFor(restores ? FormatUse::Restore : FormatUse::Write, path);
   if (!suffix)
   {
-    throw Error(path.string() + ": this is no format of a surface: write it as " + choices + '.');
+    throw Error(
+      path.string() + ": this is not a format of a surface: write it as " + choices + '.');
   }
   checkHolds(path, *suffix, CellType::Triangle, choices);
   checkOutputPlace(path);

@@ -102,15 +102,15 @@ def test_errors():
     write_torus("torus.obj", 60, 30)
     usage = run("distance", "torus.obj", "out.vtp", code=2).stderr
     assert "--from or --wall is required" in usage
-    for wrong, sentence in (("--form", "--form is no option of smg distance: did you mean --from?"),
-                            ("--nothing-like-it", "--nothing-like-it is no option of smg distance (")):
+    for wrong, sentence in (("--form", "--form is not an option of smg distance: did you mean --from?"),
+                            ("--nothing-like-it", "--nothing-like-it is not an option of smg distance (")):
         assert sentence in run("distance", "torus.obj", "out.vtp", wrong, "x", code=2).stderr
     places = ("--from", '{"vertices": [0]}', "--quiet")
     for size in ("64", "64M", "64MiB", "0.1G", "0.1 GiB", "200MB", "1e5kb"):
         run("distance", "torus.obj", "out.vtp", *places, "--memory", size, "--scratch-limit", size)
     os.remove("out.vtp")
-    for size, sentence in (("2X", "'2X' has another unit"), ("1K", "'1K' is no size"), ("0", "range"),
-                           ("-3G", "'-3G' is no size"), ("nanG", "'nanG' is no size"), ("M", "M")):
+    for size, sentence in (("2X", "'2X' has another unit"), ("1K", "'1K' is not a size"), ("0", "range"),
+                           ("-3G", "'-3G' is not a size"), ("nanG", "'nanG' is not a size"), ("M", "M")):
         assert sentence in run("distance", "torus.obj", "out.vtp", *places, "--memory", size,
                                code=2).stderr
     for arguments, sentence in (

@@ -74,7 +74,7 @@ def test_errors():
         return simplify(*arguments, code=code).stderr
 
     assert "--vertices, --error or both is required" in error("torus.vsm", "x.ply", code=2)
-    assert "this is no format of a surface: write it as .vsm" in error("torus.vsm", "x.xyz", "--vertices", 9, "--dry-run")
+    assert "this is not a format of a surface: write it as .vsm" in error("torus.vsm", "x.xyz", "--vertices", 9, "--dry-run")
     assert "holds no triangles" in error("torus.vsm", "x.sva", "--vertices", 9)
     assert "there is no folder nowhere" in error("torus.vsm", "nowhere/x.ply", "--vertices", 9)
     assert "torus.vsm" in error("torus.vsm", "torus.vsm", "--vertices", 9)

@@ -99,7 +99,7 @@ def test_sizes():
     assert max(math.dist(a, b) for a, b in zip(points_of("a.obj"), points_of("b.obj"))) < 1e-3
     for size in ("0", "-1", "nan", "inf", "1km", "%", "edges", ""):
         error = smooth("torus.obj", "c.obj", "--size", size, code=2).stderr
-        assert "is no size" in error or "--size" in error, error
+        assert "is not a size" in error or "--size" in error, error
 
 
 def test_what_is_held_does_not_move():

@@ -89,7 +89,7 @@ void checkPieces(VsmReader& reader, std::span<const std::int64_t> corners)
     reader.readPiece(cells * p / pieces, cells * (p + 1) / pieces, piece);
     for (const std::int64_t place : piece.corners)
     {
-      mustHold(place >= 0 && place < piece.vertices(), "a corner is no vertex of the piece");
+      mustHold(place >= 0 && place < piece.vertices(), "a corner is not a vertex of the piece");
       mustHold(piece.ids[std::size_t(place)] == corners.front(), "the piece has other corners");
       corners = corners.subspan(1);
     }

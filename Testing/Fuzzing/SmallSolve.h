@@ -56,7 +56,7 @@ inline void checkSolution(Solution& solution, Missing missing = Missing::None)
   const auto count = [&](auto&& which) { return std::ranges::count_if(values, which); };
   mustHold(count([](double value) { return std::isnan(value); }) ==
              (missing == Missing::Undetermined ? report.held * solution.columns() : 0),
-    "a value of the solution is no number, or one that nothing determines is");
+    "a value of the solution is not a number, or one that nothing determines is");
   mustHold(
     missing == Missing::Unreached || count([](double value) { return std::isinf(value); }) == 0,
     "a value of the solution is infinite");

@@ -199,7 +199,8 @@ TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)
   this->expectError("a.off.gz", bytes + bytes.substr(0, 12), "truncated");
   this->expectError("a.off.gz", gzip(""), "the file is empty");
   // Errors of the parser name the file, not a scratch file.
-  this->expectError("a.off.gz", gzip("OFF\n1 0 0\n0 0 x\n"), "a.off.gz, line 3: 'x' is no number");
+  this->expectError(
+    "a.off.gz", gzip("OFF\n1 0 0\n0 0 x\n"), "a.off.gz, line 3: 'x' is not a number");
   this->expectError("a.gz", gzip("1 2 3"), "a.gz: the format is not known");
   this->expectDamageIsFound("b.off.gz", bytes);
 }

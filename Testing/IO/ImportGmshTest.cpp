@@ -309,7 +309,7 @@ TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
   this->expectRefused(Format2 + Nodes2 + Nodes2 + Elements2, "line 11: there are two sections");
   this->expectRefused(Format2 + Nodes2, "no triangles and no tetrahedra");
   this->expectRefused(Format2 + "$Nodes\n5\n1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n$EndNodes\n",
-    "line 10: '$EndNodes' is no integer");
+    "line 10: '$EndNodes' is not an integer");
   this->expectRefused(Format2 + "$Nodes\n3\n1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n$EndNodes\n",
     "line 9: '4' stands where '$EndNodes'");
   this->expectRefused(Format2 + "$Nodes\n999999999\n1 0 0 0\n", "line 5: 999999999 cannot be");

@@ -287,7 +287,7 @@ TEST_F(ImportLegacyVtk, WhatIsWrongIsSaidWithItsPlace)
     { begin + "POINTS -1 float\n", "number of points" },
     { begin + "POINTS 1 quaternion\n0 0 0\n", "type" },
     { begin + "POINTS 1 float\n0 nan 0\nPOLYGONS 1 4\n3 0 0 0\n", "point 0: " },
-    { begin + "POINTS 1 float\n0 x 0\nPOLYGONS 1 4\n3 0 0 0\n", "'x' is no number" },
+    { begin + "POINTS 1 float\n0 x 0\nPOLYGONS 1 4\n3 0 0 0\n", "'x' is not a number" },
     { begin + Square + "POLYGONS 1 4\n3 0 1 4\n", "cell 0: it names point 4" },
     { begin + Square + "POLYGONS 1 4\n3 0 1 -1\n", "names point -1" },
     { begin + Square + "POLYGONS 1 4\n-3 0 1 1\n", "-3 points" },

@@ -248,9 +248,9 @@ TEST_F(Scanner, ReadsNumbersAsFilesHaveThem)
 
 TEST_F(Scanner, WhatIsNoNumberIsRefusedWithItsPlace)
 {
-  const std::pair<const char*, const char*> numbers[] = { { "1,5", "'1,5' is no number" },
+  const std::pair<const char*, const char*> numbers[] = { { "1,5", "'1,5' is not a number" },
     { "nan", "not finite" }, { "-inf", "not finite" }, { "1e999", "not finite" },
-    { "+-1", "is no number" }, { "0x", "is no number" }, { "", "ends where the width" } };
+    { "+-1", "is not a number" }, { "0x", "is not a number" }, { "", "ends where the width" } };
   for (const auto& [text, complaint] : numbers)
   {
     InputFile file = this->open(std::string("\n\n") + text);
@@ -263,7 +263,7 @@ TEST_F(Scanner, WhatIsNoNumberIsRefusedWithItsPlace)
   TextScanner scanner(file);
   for (int i = 0; i < 3; ++i)
   {
-    expectError([&] { scanner.integer("x"); }, "is no integer");
+    expectError([&] { scanner.integer("x"); }, "is not an integer");
   }
 }
 

@@ -143,7 +143,7 @@ TEST_F(VtkArrays, SayWhichWordIsNoNumber)
     ConversionOptions options;
     options.threads = threads;
     expectError([&] { this->converted(in, options); },
-      "a.vtk, byte " + std::to_string(place) + ": 'x' is no number");
+      "a.vtk, byte " + std::to_string(place) + ": 'x' is not a number");
   }
 }
 

@@ -115,7 +115,7 @@ std::int64_t GmshInput::lineCount(const char* what, std::size_t minText, std::si
   const auto result = std::from_chars(token.data(), token.data() + token.size(), count);
   if (token.empty() || result.ec != std::errc() || result.ptr != token.data() + token.size())
   {
-    this->fail(inQuotes(token) + " is no integer, where " + what + " should be");
+    this->fail(inQuotes(token) + " is not an integer, where " + what + " should be");
   }
   this->checkCount(count, what, minBinary);
   return count;

@@ -248,7 +248,7 @@ private:
     {
       if (!(std::abs(value) < T(9e15)) || value != std::floor(value))
       {
-        this->In.fail("a corner is no integer");
+        this->In.fail("a corner is not an integer");
       }
     }
     const auto corner = static_cast<std::int64_t>(value);

@@ -117,7 +117,7 @@ void BinaryStreamReader::readCell(const std::byte* element, StreamEvent& event)
     if (index == 0 || (final && header.postOrder) || vertex < 0 || vertex >= most)
     {
       this->fail("the cell has index " + std::to_string(index) + " after " +
-                 std::to_string(this->Vertices) + " vertices, which is no vertex of this file" +
+                 std::to_string(this->Vertices) + " vertices, which is not a vertex of this file" +
                  (header.postOrder ? "." : " so far."));
     }
     event.corners[k] = vertex;

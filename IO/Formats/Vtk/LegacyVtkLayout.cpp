@@ -31,8 +31,9 @@ public:
     {
       if (!this->readGeometry(word) && !this->readAttribute(word))
       {
-        this->Scanner.fail(inQuotes(word) + " is no keyword of the format: the file is damaged, or "
-                                            "a count before is wrong");
+        this->Scanner.fail(inQuotes(word) +
+                           " is not a keyword of the format: the file is damaged, or "
+                           "a count before is wrong");
       }
     }
     this->check();

@@ -190,7 +190,7 @@ VtkArray LegacyVtkScanner::array(
   const auto known = typeOf(type);
   if (!known)
   {
-    this->fail(inQuotes(type) + " is no type of numbers that is read");
+    this->fail(inQuotes(type) + " is not a type of numbers that is read");
   }
   VtkArray array;
   array.name = name;

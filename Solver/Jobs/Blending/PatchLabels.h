@@ -34,7 +34,7 @@ public:
   void endPreparing();
 
   /** Reads the labels of the vertices of a block; the first block restarts it. Throws Error if one
-   * is no number. */
+   * is not a number. */
   void read(const MeshBlock& block, std::span<double> labels);
 
   /** Accounts for what is kept of open vertices. */
