@@ -36,9 +36,9 @@ struct vtkStreamingMeshSmoothing::Internals
     return array.empty() ? named(this->Self.Column) : array;
   }
 
-  smg::SmoothingOptions options(vtkPointSet& input) const
+  smg::Smoothing options(vtkPointSet& input) const
   {
-    smg::SmoothingOptions options;
+    smg::Smoothing options;
     this->Self.FillOptions(options);
     // Both enumerations have the same order.
     options.size = { this->Self.Size, static_cast<smg::SmoothingSize::Unit>(this->Self.SizeUnit) };

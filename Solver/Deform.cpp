@@ -7,6 +7,8 @@
 #include "Solver/Multigrid/Engine/ExtendedEngine.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
+#include "smg/DeformationDescription.h"
+#include "smg/DescribedHandles.h"
 #include "smg/Error.h"
 #include "smg/Solve.h"
 
@@ -49,6 +51,18 @@ std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const Defor
   DeformationEngine<Extended> engine(operatorsFor(cells), options, cells);
   engine.deform(mesh, handles);
   return engine.takeSolution();
+}
+
+std::unique_ptr<Solution> deform(const StoredMesh& mesh, const DeformationDescription& description,
+  const DeformOptions& options, const std::string& name)
+{
+  DeformOptions completed = options;
+  description.applyTo(completed);
+  DescribedHandles handles(description, mesh.info(), name);
+  const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
+  handles.prepare(*source(), completed.scratch, completed.memoryLimit);
+  identify(completed, mesh, "");
+  return deform(*source(), handles, completed);
 }
 
 struct InteractiveDeformation::Implementation

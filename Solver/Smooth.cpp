@@ -24,7 +24,7 @@ void requireThat(bool holds, const std::string& sentence)
 
 } // namespace
 
-void checkOptions(const SmoothingOptions& options)
+void checkOptions(const Smoothing& options)
 {
   requireThat(options.operators == Extended::name,
     "smoothing needs solutions, which the operator set " + options.operators +
@@ -46,10 +46,12 @@ void checkOptions(const SmoothingOptions& options)
     "free");
 }
 
-std::unique_ptr<Solution> smooth(const StoredMesh& mesh, const SmoothingOptions& options)
+std::unique_ptr<Solution> smooth(
+  const StoredMesh& mesh, const SmoothingDescription& description, const SolveOptions& options)
 {
-  checkOptions(options);
-  return MeshFairing(mesh, options).run();
+  const Smoothing smoothing{ options, description };
+  checkOptions(smoothing);
+  return MeshFairing(mesh, smoothing).run();
 }
 
 } // namespace smg

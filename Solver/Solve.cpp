@@ -4,7 +4,9 @@
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/ExtendedEngine.h"
 #include "Solver/Multigrid/Extended.h"
+#include "Solver/Problem/ComposeDescriptions.h"
 #include "Solver/Shi2006/Shi2006.h"
+#include "smg/DescribedProblem.h"
 #include "smg/Error.h"
 #include "smg/SolveWith.h"
 
@@ -97,6 +99,30 @@ std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveO
   auto solver = std::make_unique<Shi2006>(problem.columns(), options);
   solver->solve(mesh, problem);
   return solver;
+}
+
+void identify(SolveOptions& options, const StoredMesh& mesh, const std::string& text)
+{
+  CheckpointOptions& checkpoint = options.checkpoint;
+  if (!checkpoint.folder.empty())
+  {
+    checkpoint.mesh = checkpoint.mesh.empty() ? mesh.fingerprint() : checkpoint.mesh;
+    checkpoint.problem = checkpoint.problem.empty() ? text : checkpoint.problem;
+  }
+}
+
+std::unique_ptr<Solution> solve(const StoredMesh& mesh, const ProblemDescription& description,
+  const SolveOptions& options, const std::string& name)
+{
+  require(isPosed(description), name + " says nothing to solve for: give it dirichlet, source, "
+                                       "flux, robin, soft, field or initial");
+  DescribedProblem problem(description, mesh.info(), name);
+  const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
+  problem.prepare(*source(), options.scratch, options.memoryLimit);
+  SolveOptions completed = options;
+  completed.again = source;
+  identify(completed, mesh, textOf(description));
+  return solve(*source(), problem, completed);
 }
 
 } // namespace smg

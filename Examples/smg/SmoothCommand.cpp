@@ -97,7 +97,7 @@ protected:
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {
     this->applyTo(this->Smooth, std::move(progress));
-    return smg::smooth(mesh, this->Smooth);
+    return smg::smooth(mesh, this->Smooth, this->Smooth);
   }
 
   void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
@@ -167,7 +167,7 @@ private:
 
   PlacesOption Hold{ "--hold" };
   std::string Normals = "recompute";
-  smg::SmoothingOptions Smooth;
+  smg::Smoothing Smooth;
 };
 
 } // namespace

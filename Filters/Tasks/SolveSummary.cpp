@@ -55,7 +55,6 @@ std::string SolveSummary::outcome() const
   {
     return "";
   }
-  constexpr double MiB = 1 << 20;
   std::ostringstream text;
   const std::string place = this->where();
   text << place << (place.empty() ? "" : " ") << (this->converged ? "Converged" : "Not converged");

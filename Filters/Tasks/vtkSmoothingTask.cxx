@@ -26,7 +26,7 @@ namespace
 constexpr double SmoothShare = 0.9;
 
 /** The columns that the options name. */
-std::set<std::string> namesIn(const SmoothingOptions& options)
+std::set<std::string> namesIn(const Smoothing& options)
 {
   ProblemDescription held;
   for (const Where& part : options.hold)
@@ -65,10 +65,10 @@ std::unique_ptr<Solution> SmoothingTask::smoothed(
   const StoredMesh& mesh, bool inCore, const ProgressFunction& progress) const
 {
   const bool hasNormals = this->needsNormals && this->options.column.empty();
-  SmoothingOptions given = this->options;
+  Smoothing given = this->options;
   given.inCore = inCore;
   given.progress = partOf(progress, 0.0, hasNormals ? SmoothShare : 1.0);
-  std::unique_ptr<Solution> solution = smooth(mesh, given);
+  std::unique_ptr<Solution> solution = smooth(mesh, given, given);
   if (!hasNormals)
   {
     return solution;

@@ -17,7 +17,7 @@ namespace smg
 class SmoothingTask : public StreamedTask
 {
 public:
-  SmoothingOptions options;  ///< except for the progress function
+  Smoothing options;         ///< except for the progress function
   bool needsNormals = false; ///< of the vertices; tetrahedra have none
 
   void check() const override;

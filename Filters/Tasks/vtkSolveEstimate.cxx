@@ -147,8 +147,6 @@ std::optional<double> solveSeconds(
 namespace
 {
 
-constexpr double MiB = 1 << 20;
-
 template <class Value>
 void addColumn(vtkTable& table, const char* name, const SolveSummary& summary, Value value)
 {

@@ -28,6 +28,27 @@ OpenedMesh::OpenedMesh()
 
 OpenedMesh::~OpenedMesh() = default;
 
+const StreamInfo& OpenedMesh::info() const
+{
+  return this->Self->reader->info();
+}
+
+std::unique_ptr<MeshSource> OpenedMesh::source(
+  std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
+{
+  return this->Self->reader->source(std::move(vertexColumns), std::move(cellColumns));
+}
+
+std::string OpenedMesh::fingerprint() const
+{
+  return this->Self->reader->fingerprint();
+}
+
+std::filesystem::path OpenedMesh::file() const
+{
+  return this->Self->reader->file();
+}
+
 VsmReader& OpenedMesh::reader()
 {
   return *this->Self->reader;

@@ -42,7 +42,7 @@ std::vector<std::string> namesWithoutNormals(const std::vector<ColumnSpec>& spec
 
 struct MovedMesh::Implementation
 {
-  const VsmReader& mesh;
+  const StoredMesh& mesh;
   Solution& positions;
   NormalsOptions options;
   std::optional<VertexNormals> ofVertices; ///< if the stream has these
@@ -58,7 +58,7 @@ struct MovedMesh::Implementation
 };
 
 MovedMesh::MovedMesh(
-  const VsmReader& mesh, Solution& positions, MovedNormals normals, const NormalsOptions& options)
+  const StoredMesh& mesh, Solution& positions, MovedNormals normals, const NormalsOptions& options)
   : Self(new Implementation{ mesh, positions, options, {} })
 {
   const StreamInfo& info = mesh.info();
@@ -66,7 +66,8 @@ MovedMesh::MovedMesh(
   {
     throw Error("a solution of " + std::to_string(positions.columns()) + " columns for " +
                 std::to_string(positions.vertices()) + " vertices holds no positions of the " +
-                std::to_string(info.vertices) + " vertices of " + mesh.path().string());
+                std::to_string(info.vertices) + " vertices of " +
+                (mesh.file().empty() ? "the mesh" : mesh.file().string()));
   }
   if (normals == MovedNormals::Drop || info.cellType != CellType::Triangle)
   {

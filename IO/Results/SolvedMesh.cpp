@@ -4,11 +4,15 @@
 #include "IO/Results/SourcePrefetch.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "smg/DescribedProblem.h"
 #include "smg/Error.h"
+#include "smg/VsmReader.h"
+#include "smg/WriteMesh.h"
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -33,23 +37,36 @@ void append(
   columns.push_back(std::move(column));
 }
 
+std::vector<std::string> namesOf(const std::vector<ColumnSpec>& specs)
+{
+  std::vector<std::string> names;
+  std::ranges::transform(specs, std::back_inserter(names), &ColumnSpec::name);
+  return names;
+}
+
+/** The stream with all columns. */
+std::unique_ptr<MeshSource> wholeSource(const StoredMesh& mesh)
+{
+  return mesh.source(namesOf(mesh.info().vertexColumns), namesOf(mesh.info().cellColumns));
+}
+
 } // namespace
 
 struct SolvedMesh::Implementation
 {
   Implementation(
-    const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
-    : source(std::make_unique<SourcePrefetch>(mesh.source(), options.threads))
+    const StoredMesh& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
+    : source(std::make_unique<SourcePrefetch>(wholeSource(mesh), options.threads))
     , results(source->info(), problem, solution, options)
     , wanted(options)
     , info(source->info())
-    , file(mesh.path())
+    , file(mesh.file())
   {
     if (solution.vertices() != this->info.vertices)
     {
-      throw Error(this->file.string() + " has " + std::to_string(this->info.vertices) +
-                  " vertices, the solution " + std::to_string(solution.vertices()) +
-                  ": it is that of another mesh.");
+      throw Error((this->file.empty() ? "the mesh" : this->file.string()) + " has " +
+                  std::to_string(this->info.vertices) + " vertices, the solution " +
+                  std::to_string(solution.vertices()) + ": it is that of another mesh.");
     }
     const int columns = problem.columns();
     for (std::vector<ColumnSpec>* specs : { &this->info.vertexColumns, &this->info.cellColumns })
@@ -72,12 +89,12 @@ struct SolvedMesh::Implementation
   ProblemResults results;
   ResultOptions wanted;
   StreamInfo info;
-  std::filesystem::path file;
-  bool ended = false; ///< the stream has been read to its end
+  std::filesystem::path file; ///< empty: the mesh is in none
+  bool ended = false;         ///< the stream has been read to its end
 };
 
 SolvedMesh::SolvedMesh(
-  const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
+  const StoredMesh& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
   : Self(std::make_unique<Implementation>(mesh, problem, solution, options))
 {
 }
@@ -122,7 +139,7 @@ void SolvedMesh::finish(Report& report)
     throw Error("the results of a solution are known when its mesh has been read to the end");
   }
   this->Self->results.finish(report);
-  if (findColumn(this->Self->info.vertexColumns, OriginalIdSpec) < 0)
+  if (this->Self->file.empty() || findColumn(this->Self->info.vertexColumns, OriginalIdSpec) < 0)
   {
     return;
   }
@@ -134,6 +151,25 @@ void SolvedMesh::finish(Report& report)
       mesh.readVertexColumn(OriginalIdName, vertex, 1, id);
       return id.as<std::int64_t>()[0];
     });
+}
+
+Report write(const StoredMesh& mesh, const ProblemDescription& description, Solution& solution,
+  const std::filesystem::path& path, const ResultOptions& results)
+{
+  DescribedProblem problem(description, mesh.info());
+  problem.prepare(
+    *mesh.source(problem.vertexColumns(), problem.cellColumns()), {}, results.memoryLimit);
+  ResultOptions wanted = results;
+  wanted.gradient = wanted.gradient || description.gradientOutput;
+  wanted.flux = wanted.flux || description.fluxOutput;
+  SolvedMesh solved(mesh, problem, solution, wanted);
+  const auto notes =
+    writeMesh(solved, path, { .isolatedFrom = mesh.file(), .threads = results.threads });
+  Report report = solution.report();
+  solved.finish(report);
+  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  solution.removeCheckpoint();
+  return report;
 }
 
 } // namespace smg

@@ -12,6 +12,7 @@
 #include "smg/Distance.h"
 #include "smg/Smooth.h"
 
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkNew.h"
@@ -175,10 +176,10 @@ TEST_F(VtkMeshRegion, OneNameIsAUnionOfRegions)
 TEST_F(VtkMeshRegion, IsHeldBySmoothing)
 {
   this->Region->SetRegion(vtkMeshRegion::BOUNDARY);
-  SmoothingOptions options;
+  Smoothing options;
   options.column = "one";
   options.hold = { OnBoundary{}, ColumnMask{ "mask" } };
-  const Eigen::MatrixXd expected = valuesOf(*smooth(MemoryMesh(this->Mesh), options));
+  const Eigen::MatrixXd expected = valuesOf(*smooth(MemoryMesh(this->Mesh), options, options));
   const vtkNew<vtkStreamingMeshSmoothing> smoothing;
   smoothing->SetInputConnection(this->Region->GetOutputPort());
   smoothing->SetColumn("one");

@@ -9,6 +9,7 @@
 #include "smg/Smooth.h"
 #include "smg/VsmReader.h"
 
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkPolyData.h"
@@ -60,16 +61,16 @@ protected:
   }
 
   /** The values that smooth() computes. */
-  std::vector<double> smoothed(const SmoothingOptions& options) const
+  std::vector<double> smoothed(const smg::Smoothing& options) const
   {
     const MemoryMesh mesh(this->Mesh);
-    const std::unique_ptr<Solution> solution = smooth(mesh, options);
+    const std::unique_ptr<Solution> solution = smooth(mesh, options, options);
     std::vector<double> values(
       static_cast<std::size_t>(solution->vertices() * solution->columns()));
     solution->read(0, solution->vertices(), values);
     return values;
   }
-  StreamMesh movedBy(const SmoothingOptions& options) const
+  StreamMesh movedBy(const smg::Smoothing& options) const
   {
     StreamMesh mesh = this->Mesh;
     mesh.positions = this->smoothed(options);
@@ -99,7 +100,7 @@ TEST_F(VtkStreamingMeshSmoothing, EveryWayGivesThePointsOfTheLibrary)
 
 TEST_F(VtkStreamingMeshSmoothing, EveryPropertyIsAnOptionOfTheLibrary)
 {
-  SmoothingOptions options;
+  smg::Smoothing options;
   options.size = { 0.05, SmoothingSize::Diagonal };
   options.steps = 3;
   options.keepVolume = false;
@@ -133,7 +134,7 @@ TEST_F(VtkStreamingMeshSmoothing, EveryPropertyIsAnOptionOfTheLibrary)
 TEST_F(VtkStreamingMeshSmoothing, AnArrayIsSmoothedInsteadOfThePoints)
 {
   this->open(tetBox(8, 7, 6, 0.1));
-  SmoothingOptions options;
+  smg::Smoothing options;
   options.column = "Colours";
   const std::vector<double> expected = this->smoothed(options);
   this->Smoothing->SetColumn("Colours");

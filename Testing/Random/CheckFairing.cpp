@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A step of smoothing and a blend are elliptic problems: they are written as such for the oracle of
 // solves.
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Testing/Random/Evaluation.h"
 #include "Testing/Random/JobRuns.h"
 #include "Testing/Support/MemoryMesh.h"
@@ -95,7 +96,7 @@ void checkSmoothing(const Case& given, CheckedCase& to)
     [&](const CaseRun& run)
     {
       const MemoryMesh mesh(given.stream(), run.blockCells);
-      auto options = optionsOf<SmoothingOptions>(run, folder);
+      auto options = optionsOf<Smoothing>(run, folder);
       options.size = { size, SmoothingSize::Mesh };
       options.steps = steps;
       options.hold = asked.at("hold").empty() ? std::vector<Where>{}
@@ -105,7 +106,7 @@ void checkSmoothing(const Case& given, CheckedCase& to)
                                                : SmoothedBoundary::Free;
       options.keepVolume = asked.at("keepVolume");
       options.column = column;
-      const std::unique_ptr<Solution> solution = smooth(mesh, options);
+      const std::unique_ptr<Solution> solution = smooth(mesh, options, options);
       return Result{ valuesOf(*solution), solution->report() };
     },
     to);

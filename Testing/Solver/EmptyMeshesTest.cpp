@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Deformation/InteractiveDeformation.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Testing/Solver/DeformationTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemoryMesh.h"
@@ -196,11 +197,11 @@ TEST(EmptyMeshes, ADescribedSolutionIsNotANumberWhereNothingDeterminesIt)
 TEST(EmptyMeshes, WhatMovesKeepsWhatNothingDeterminesAndWarnsOnce)
 {
   const StreamMesh mesh = withoutWeights(true);
-  SmoothingOptions smoothing;
+  Smoothing smoothing;
   smoothing.boundary = SmoothedBoundary::Free;
   smoothing.steps = 2;
   const MemoryMesh whole(mesh);
-  const std::unique_ptr<Solution> smoothed = smooth(whole, smoothing);
+  const std::unique_ptr<Solution> smoothed = smooth(whole, smoothing, smoothing);
   const Eigen::MatrixXd values = valuesOf(*smoothed);
   for (int axis = 0; axis < 3; ++axis)
   {

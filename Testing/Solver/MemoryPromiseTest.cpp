@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whatever a job keeps of a stream counts within its memory limit, whose error names the bytes.
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Setup/RowBatch.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "smg/Blend.h"
@@ -189,11 +190,12 @@ TEST(MemoryPromise, HoldsWhileTheSeamsOfPatchesAreFound)
 
 TEST(MemoryPromise, HoldsWhileAMeshToSmoothIsSurveyed)
 {
-  SmoothingOptions options;
+  Smoothing options;
   options.memoryLimit = Limit;
   options.boundary = SmoothedBoundary::Fixed;
   // What finds the boundary, and the positions.
-  expectLimit("the solve", 17 + 24, [&](const EndlessMesh& mesh) { smooth(mesh, options); });
+  expectLimit(
+    "the solve", 17 + 24, [&](const EndlessMesh& mesh) { smooth(mesh, options, options); });
 }
 
 TEST(MemoryPromise, CountsWhatAProblemKeeps)

@@ -66,11 +66,11 @@ TEST(ScratchLimit, OfADeformation)
 TEST(ScratchLimit, OfSmoothing)
 {
   const StreamMesh mesh = surface();
-  SmoothingOptions options;
+  Smoothing options;
   static_cast<SolveOptions&>(options) = onFiles();
   options.steps = 2;
   expectScratchLimitKept(
-    options, [&](const SmoothingOptions& limited) { return Limited(smoothed(mesh, limited)); });
+    options, [&](const Smoothing& limited) { return Limited(smoothed(mesh, limited)); });
 }
 
 TEST(ScratchLimit, OfABlend)

@@ -86,7 +86,7 @@ TEST(SmoothEdges, ANoisyCubeKeepsThemAndBecomesFlat)
   const StreamMesh exact = toStream(cube(N));
   const StreamMesh rough = noisy(exact, 0.35); // 0.2 in the mean square, of edges of 1 and 1.4
   const Eigen::MatrixXd goal = pointsOf(exact);
-  SmoothingOptions options;
+  Smoothing options;
   options.size.value = 6.0;
   options.steps = 5;
   const Eigen::MatrixXd round = smoothed(rough, options).values;
@@ -107,7 +107,7 @@ TEST(SmoothEdges, AnAngleThatNothingTurnsByKeepsNone)
 {
   // Up to the surface of the stiffness, an isotropic step.
   const StreamMesh rough = noisy(toStream(cube(8)), 0.1);
-  SmoothingOptions options;
+  Smoothing options;
   options.tolerance = 1e-10;
   options.keepVolume = false;
   options.size = { 4.0, SmoothingSize::Mesh };

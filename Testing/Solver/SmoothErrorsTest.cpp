@@ -11,9 +11,9 @@ namespace smg::testing
 namespace
 {
 
-std::string errorOf(const StreamMesh& mesh, const std::function<void(SmoothingOptions&)>& change)
+std::string errorOf(const StreamMesh& mesh, const std::function<void(Smoothing&)>& change)
 {
-  SmoothingOptions options;
+  Smoothing options;
   change(options);
   return messageOf([&] { smoothed(mesh, options); });
 }
@@ -96,7 +96,7 @@ TEST(SmoothErrors, PositionsOfTetrahedra)
 TEST(SmoothErrors, EverythingHeldAndEmptyMeshesStayAsTheyAre)
 {
   const StreamMesh mesh = toStream(torus(9, 6));
-  SmoothingOptions options;
+  Smoothing options;
   options.hold = { smg::Everywhere{} };
   const Solved result = smoothed(mesh, options);
   EXPECT_TRUE(sameBits(result.values, pointsOf(mesh)));
@@ -114,7 +114,7 @@ TEST(SmoothErrors, MeshesWithoutAnyAreaStayAsTheyAre)
   const std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), DegenerateCell);
   mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
   EXPECT_SAYS(errorOf(mesh, [](auto&) {}), "give the size of the details to smooth in the unit");
-  SmoothingOptions options = plainStep();
+  Smoothing options = plainStep();
   options.keepEdges = 30.0;
   EXPECT_TRUE(sameBits(smoothed(mesh, options).values, pointsOf(mesh)));
 }
@@ -124,7 +124,7 @@ TEST(SmoothErrors, EdgesOfMeshesWithSlivers)
   for (const double height : { 1e-3, 1e-7, 1e-12 })
   {
     const StreamMesh mesh = toStream(sliverChains(13, 13, height));
-    SmoothingOptions options;
+    Smoothing options;
     options.steps = 2;
     options.keepEdges = 10.0;
     const Solved result = smoothed(mesh, options);
@@ -141,7 +141,7 @@ TEST(SmoothErrors, CancelledByTheProgressCallback)
   const MemoryMesh mesh(toStream(grid(30, 20)), 50);
   for (const double until : { 0.0, 0.1, 0.5, 0.95 })
   {
-    SmoothingOptions options;
+    Smoothing options;
     options.steps = 2;
     options.keepEdges = 30.0;
     options.hold = { Region::Sphere{ {}, 5 } };
@@ -153,14 +153,14 @@ TEST(SmoothErrors, CancelledByTheProgressCallback)
       last = std::max(last, done);
       return done <= until;
     };
-    EXPECT_THROW(smooth(mesh, options), Cancelled);
+    EXPECT_THROW(smooth(mesh, options, options), Cancelled);
   }
 }
 
 TEST(SmoothErrors, MemoryIsAccountedAndWithinTheLimit)
 {
   const StreamMesh mesh = noisy(toStream(grid(150, 100)), 0.1);
-  SmoothingOptions options;
+  Smoothing options;
   options.coreNodes = 500;
   const std::int64_t need = smoothed(mesh, options).report.pool_bytes_peak;
   options.memoryLimit = need + need / 10;

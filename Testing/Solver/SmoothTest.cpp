@@ -57,7 +57,7 @@ TEST(Smooth, AStepIsTheDirectSolve)
 
 TEST(Smooth, StepsHaveTheStiffnessAtRestAndTheMassOfTheSurfaceBefore)
 {
-  SmoothingOptions options = plainStep();
+  Smoothing options = plainStep();
   options.steps = 3;
   Eigen::MatrixXd x = pointsOf(Torus);
   const Eigen::SparseMatrix<double> L = stiffness(Torus, x);
@@ -77,7 +77,7 @@ TEST(Smooth, AFreeBoundaryIsThatOfTheDirectSolveAndAFixedOneDoesNotMove)
   const Eigen::MatrixXd x = pointsOf(Sheet);
   const Eigen::VectorXd mass = lumpedMass(Sheet, x);
   const Eigen::SparseMatrix<double> L = stiffness(Sheet, x);
-  SmoothingOptions options = plainStep(4.0);
+  Smoothing options = plainStep(4.0);
   EXPECT_LT(
     farthest(smoothed(Sheet, options).values, smoothDirectly(mass, L, timeOf(4.0, 1), x, {})),
     1e-9);
@@ -93,7 +93,7 @@ TEST(Smooth, AFreeBoundaryIsThatOfTheDirectSolveAndAFixedOneDoesNotMove)
 
 TEST(Smooth, ABoundaryIsSmoothedAsCurvesAndHoldsTheSurface)
 {
-  SmoothingOptions options = plainStep(4.0);
+  Smoothing options = plainStep(4.0);
   options.boundary = SmoothedBoundary::Smooth;
   options.steps = 2;
   // The boundary as a dense matrix: finite elements of edges with stiffness at rest.
@@ -148,7 +148,7 @@ TEST(Smooth, WhatIsHeldDoesNotMoveByABit)
   for (const auto boundary :
     { SmoothedBoundary::Smooth, SmoothedBoundary::Fixed, SmoothedBoundary::Free })
   {
-    SmoothingOptions options;
+    Smoothing options;
     options.boundary = boundary;
     options.steps = 2;
     options.hold = { Region::Sphere{ { 3, 3, 0 }, 3 }, Region::Vertices{ { 0, 5, 100 } } };
@@ -172,7 +172,7 @@ TEST(Smooth, TheVolumeOfAClosedSurfaceIsKept)
   const StreamMesh ball = noisy(toStream(sphere(4)), 0.02);
   const Eigen::MatrixXd x = pointsOf(ball);
   const double volume = enclosedVolume(ball, x);
-  SmoothingOptions options;
+  Smoothing options;
   options.size = { 1.0, SmoothingSize::Mesh };
   options.steps = 2;
   const Solved kept = smoothed(ball, options);
@@ -209,7 +209,7 @@ TEST(Smooth, ANoteSaysWhereTheVolumeIsNotThatOfTheSurface)
         std::swap(mesh.corners[3 * c], mesh.corners[3 * c + 1]);
       }
     }
-    SmoothingOptions options;
+    Smoothing options;
     options.size = { 0.5, SmoothingSize::Mesh };
     return smoothed(toStream(mesh), options).report.notes;
   };
@@ -223,7 +223,7 @@ TEST(Smooth, ANoteSaysWhereTheVolumeIsNotThatOfTheSurface)
   StreamMesh fins;
   fins.positions = { 0, 0, 0, 0, 0, 1, 1, 0, 0, -1, 1, 0, -1, -1, 0 };
   fins.corners = { 0, 1, 2, 0, 1, 3, 1, 0, 4 };
-  SmoothingOptions options;
+  Smoothing options;
   options.size = { 0.1, SmoothingSize::Mesh };
   for (const std::string& note : smoothed(fins, options).report.notes)
   {
@@ -247,7 +247,7 @@ TEST(Smooth, AnOpenSurfaceSweepsNoVolume)
     const double x = dome.positions[3 * v] - 12.0;
     dome.positions[3 * v + 2] += 0.02 * (200.0 - x * x);
   }
-  SmoothingOptions options = plainStep(10.0);
+  Smoothing options = plainStep(10.0);
   options.boundary = SmoothedBoundary::Fixed;
   const Solved flattened = smoothed(dome, options);
   EXPECT_TRUE(std::isnan(flattened.report.volume->before));
@@ -270,7 +270,7 @@ TEST(Smooth, AColumnIsSmoothedLikePositions)
   {
     u(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2)) = noise[k];
   }
-  SmoothingOptions options = plainStep(4.0);
+  Smoothing options = plainStep(4.0);
   options.boundary.reset();
   options.column = "noise";
   options.steps = 2;
@@ -301,7 +301,7 @@ TEST(Smooth, WavesOfTheSizeAreHalvedByAnyNumberOfSteps)
     wave.push_back(std::cos(2.0 * std::numbers::pi * strip.positions[3 * v] / (length / 4.0)));
   }
   strip.vertexColumns = { makeColumn<double>("wave", wave) };
-  SmoothingOptions options;
+  Smoothing options;
   options.column = "wave";
   options.size = { length / 4.0, SmoothingSize::Mesh };
   for (const int steps : { 1, 5 })
@@ -329,7 +329,7 @@ TEST(Smooth, SizesAreInTheUnitOfTheMeshInEdgesOrInDiagonals)
     lengths += (x.row(Torus.corners[k]) - x.row(Torus.corners[next])).norm();
   }
   const double edge = lengths / static_cast<double>(3 * Torus.cells());
-  SmoothingOptions options = plainStep(4.0 * edge);
+  Smoothing options = plainStep(4.0 * edge);
   const Eigen::MatrixXd expected = smoothed(Torus, options).values;
   options.size = SmoothingSize{};
   EXPECT_LT(farthest(smoothed(Torus, options).values, expected), 1e-12);
@@ -339,7 +339,7 @@ TEST(Smooth, SizesAreInTheUnitOfTheMeshInEdgesOrInDiagonals)
 
 TEST(Smooth, TheResultHasTheSameBitsForAllBlocksThreadsAndInCore)
 {
-  SmoothingOptions options;
+  Smoothing options;
   options.steps = 2;
   options.coreNodes = 50;
   for (const bool edges : { false, true })
@@ -369,7 +369,7 @@ TEST(Smooth, CellsWithoutAreaAndDuplicatesDoNoHarm)
   flags[1] = DegenerateCell;
   flags[2] = DuplicateCell;
   mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
-  SmoothingOptions options;
+  Smoothing options;
   options.steps = 2;
   const Solved result = smoothed(mesh, options);
   EXPECT_TRUE(sameBits(result.values, smoothed(Torus, options).values));

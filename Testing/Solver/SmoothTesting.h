@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Testing/Support/DirectSmoothing.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/SolveMesh.h"
@@ -26,9 +27,9 @@ inline StreamMesh noisy(StreamMesh mesh, double noise, std::uint64_t seed = 7)
 }
 
 /** Options of one accurate step of size 1 that do no more than solve it. */
-inline SmoothingOptions plainStep(double size = 1.0)
+inline Smoothing plainStep(double size = 1.0)
 {
-  SmoothingOptions options;
+  Smoothing options;
   options.size = { size, SmoothingSize::Mesh };
   options.keepVolume = false;
   options.boundary = SmoothedBoundary::Free;
@@ -45,10 +46,10 @@ inline double timeOf(double size, int steps)
 
 /** Smooths a mesh in memory. */
 inline Solved smoothed(
-  const StreamMesh& mesh, const SmoothingOptions& options, std::int64_t blockCells = 1000)
+  const StreamMesh& mesh, const Smoothing& options, std::int64_t blockCells = 1000)
 {
   const MemoryMesh stored(mesh, blockCells);
-  const std::unique_ptr<Solution> solution = smooth(stored, options);
+  const std::unique_ptr<Solution> solution = smooth(stored, options, options);
   return { valuesOf(*solution), solution->report() };
 }
 

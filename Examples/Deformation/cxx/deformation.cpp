@@ -7,9 +7,8 @@ rest of the mesh follows and keeps its details. A handle file defines the held r
 motion, as for the program smg: smg deform MESH OUT --handles bunny.json.
 
 What this lesson shows:
- 1. The class Handles defines, block by block, which vertices are held and their positions,
-    rotations and scales. DescribedHandles is an implementation based on a description, which the
-    program sets or reads from a file.
+ 1. A DeformationDescription says which vertices are held and how they move; a program sets it or
+    reads it from a file. (For handles that no description can say, derive from Handles.)
  2. deform() reads the mesh stream once, works on scratch files within a memory limit, and returns
     the new positions, which are read range by range. Two problems are solved on one hierarchy:
     first the rotations and scales between the handles, then the positions of the vertices.
@@ -27,7 +26,7 @@ Run it:
 
 #include <smg/Convert.h>
 #include <smg/Deform.h>
-#include <smg/DescribedHandles.h>
+#include <smg/DeformationDescription.h>
 #include <smg/DescriptionFiles.h>
 #include <smg/MovedMesh.h>
 #include <smg/WriteMesh.h>
@@ -36,22 +35,6 @@ Run it:
 
 namespace
 {
-
-/** The new positions of the vertices. */
-std::unique_ptr<smg::Solution> deform(const smg::VsmReader& mesh, const char* handleFile)
-{
-  const smg::DeformationDescription description = smg::readHandleFile(handleFile);
-  smg::DescribedHandles handles(description, mesh.info(), handleFile);
-  // Only the columns of the mesh that the handles need are read.
-  const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
-  smg::DeformOptions options;
-  options.memoryLimit = std::int64_t(128) << 20;
-  // Fails early if a handle holds no vertex.
-  handles.prepare(*source(), {}, options.memoryLimit);
-
-  description.applyTo(options); // weights, cycles or tolerance of the file
-  return smg::deform(*source(), handles, options);
-}
 
 void print(const smg::Report& report)
 {
@@ -78,11 +61,13 @@ int main(int argc, char** argv)
   {
     // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
-    const auto positions = deform(mesh->reader(), argv[2]);
+    smg::DeformOptions options;
+    options.memoryLimit = 128 * smg::MiB;
+    const auto positions = smg::deform(*mesh, smg::readHandleFile(argv[2]), options, argv[2]);
     print(positions->report());
 
     // Existing normals are recomputed.
-    const smg::MovedMesh moved(mesh->reader(), *positions, smg::MovedNormals::Recompute);
+    const smg::MovedMesh moved(*mesh, *positions, smg::MovedNormals::Recompute);
     for (const std::string& remark : smg::writeMesh(*moved.source(), argv[3]))
     {
       std::cout << remark << "\n";

@@ -45,7 +45,7 @@ int main(int argc, char** argv)
     description.from = { smg::NearestVertices{ { { -0.0175, 0.187, -0.02 } } } };
     smg::DistanceOptions options;
     options.memoryLimit = std::int64_t(128) << 20;
-    const auto distances = smg::distance(mesh->reader(), description, options);
+    const auto distances = smg::distance(*mesh, description, options);
 
     const smg::Report& report = distances->report();
     std::cout << report.vertices << " vertices: " << (report.converged ? "settled" : "not settled")

@@ -22,7 +22,6 @@ Run it:
 */
 
 #include <smg/Convert.h>
-#include <smg/DescribedProblem.h>
 #include <smg/Error.h>
 #include <smg/Solve.h>
 
@@ -44,8 +43,8 @@ constexpr int Bands = 24;
 smg::ProblemDescription feetAndEars()
 {
   smg::ProblemDescription problem;
-  problem.dirichlet = { { smg::Region::HalfSpace{ { 0, -1, 0 }, -Feet }, 0.0 },
-    { smg::Region::HalfSpace{ { 0, 1, 0 }, Ears }, 1.0 } };
+  problem.dirichlet = { { smg::halfSpace({ 0, -1, 0 }, -Feet), 0.0 },
+    { smg::halfSpace({ 0, 1, 0 }, Ears), 1.0 } };
   return problem;
 }
 
@@ -133,17 +132,12 @@ int main(int argc, char** argv)
   {
     // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
-    if (mesh->reader().info().cellType != smg::CellType::Triangle)
+    if (mesh->info().cellType != smg::CellType::Triangle)
     {
       throw smg::Error(std::string(argv[1]) + " has tetrahedra: this example needs triangles.");
     }
 
-    smg::DescribedProblem problem(feetAndEars(), mesh->reader().info());
-    smg::SolveOptions options;
-    options.memoryLimit = std::int64_t(64) << 20;
-    // Fails if a region is empty.
-    problem.prepare(*mesh->reader().source({}, {}), {}, options.memoryLimit);
-    const auto solution = smg::solve(*mesh->reader().source({}, {}), problem, options);
+    const auto solution = smg::solve(*mesh, feetAndEars(), { .memoryLimit = 64 * smg::MiB });
     const smg::Report& report = solution->report();
     // If every vertex is prescribed, there is no cycle and no residual.
     const double residual = report.residual();
@@ -152,7 +146,7 @@ int main(int argc, char** argv)
               << report.cycles << " cycles, relative residual " << residual << "\n";
 
     std::ofstream out(argv[2]);
-    const int segments = writeIsolines(*mesh->reader().source({}, {}), *solution, out);
+    const int segments = writeIsolines(*mesh->source({}, {}), *solution, out);
     out.close();
     if (!out)
     {

@@ -10,11 +10,10 @@ What this lesson shows:
  1. A problem is described in physical terms: conductivity, flux and heat transfer, each with its
     place: cells by a column of the mesh, boundary facets by regions. A facet is in a region if all
     its corners are. The file heat.json states the same problem for the program smg.
- 2. DescribedProblem evaluates the description on a mesh stream; prepare() evaluates the selections
-    and fails early if one is empty.
- 3. SolvedMesh is the mesh stream with the solution, and with the gradient and the flux in the
-    cells; a writer reads it block by block. After it has been read, the report contains the flow
-    through each condition, the maximum temperature, and the balance of all flows.
+ 2. solve() evaluates the description on the mesh stream, and fails early if a selection is empty.
+ 3. write() writes the mesh with the solution, and with the gradient and the flux in the cells,
+block by block. The report that it completes contains the flow through each condition, the maximum
+    temperature, and the balance of all flows.
 
 Run it:
 
@@ -28,10 +27,8 @@ Run it:
 */
 
 #include <smg/Convert.h>
-#include <smg/DescribedProblem.h>
 #include <smg/Solve.h>
 #include <smg/SolvedMesh.h>
-#include <smg/WriteMesh.h>
 
 #include <iostream>
 
@@ -41,8 +38,8 @@ namespace
 /** Lengths are in metres; z points up, from the chip to the fins. */
 smg::ProblemDescription chipAndHeatSink()
 {
-  const smg::Region::HalfSpace bottom{ { 0, 0, -1 }, -0.001 }; // z <= 1 mm
-  const smg::Region::HalfSpace air{ { 0, 0, 1 }, 0.005 };      // z >= 5 mm
+  const smg::Region bottom = smg::halfSpace({ 0, 0, -1 }, -0.001); // z <= 1 mm
+  const smg::Region air = smg::halfSpace({ 0, 0, 1 }, 0.005);      // z >= 5 mm
 
   smg::ProblemDescription heat;
   heat.conductivity = { { smg::Everywhere{}, 25.0 }, { smg::ColumnTag{ "Material", 2 }, 200.0 } };
@@ -81,23 +78,9 @@ int main(int argc, char** argv)
   {
     // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
-    smg::DescribedProblem problem(chipAndHeatSink(), mesh->reader().info());
-    // Only the columns of the mesh that the problem names are read.
-    const auto source = [&]
-    { return mesh->reader().source(problem.vertexColumns(), problem.cellColumns()); };
-    smg::SolveOptions options;
-    options.memoryLimit = std::int64_t(64) << 20;
-    problem.prepare(*source(), {}, options.memoryLimit);
-    const auto solution = smg::solve(*source(), problem, options);
-
-    smg::SolvedMesh solved(mesh->reader(), problem, *solution, { .gradient = true, .flux = true });
-    for (const std::string& remark : smg::writeMesh(solved, argv[2]))
-    {
-      std::cout << remark << "\n";
-    }
-    smg::Report report = solution->report();
-    solved.finish(report);
-    print(report);
+    const smg::ProblemDescription heat = chipAndHeatSink();
+    const auto solution = smg::solve(*mesh, heat, { .memoryLimit = 64 * smg::MiB });
+    print(smg::write(*mesh, heat, *solution, argv[2]));
     return 0;
   }
   catch (const std::exception& error)

@@ -34,14 +34,13 @@ Run it:
 namespace
 {
 
-smg::SmoothingOptions options()
+smg::SmoothingDescription allButTheHead()
 {
-  smg::SmoothingOptions options;
-  options.size = { 0.01, smg::SmoothingSize::Mesh }; // the unit of the bunny is 1 m
-  options.steps = 2;
-  options.hold = { smg::Region::Sphere{ { -0.07, 0.14, 0.01 }, 0.04 } };
-  options.memoryLimit = std::int64_t(128) << 20;
-  return options;
+  smg::SmoothingDescription smoothing;
+  smoothing.size = { 0.01, smg::SmoothingSize::Mesh }; // the unit of the bunny is 1 m
+  smoothing.steps = 2;
+  smoothing.hold = { smg::Region::Sphere{ { -0.07, 0.14, 0.01 }, 0.04 } };
+  return smoothing;
 }
 
 void print(const smg::Report& report)
@@ -69,11 +68,11 @@ int main(int argc, char** argv)
   {
     // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
-    const auto positions = smg::smooth(mesh->reader(), options());
+    const auto positions = smg::smooth(*mesh, allButTheHead(), { .memoryLimit = 128 * smg::MiB });
     print(positions->report());
 
     // Existing normals are recomputed.
-    const smg::MovedMesh moved(mesh->reader(), *positions, smg::MovedNormals::Recompute);
+    const smg::MovedMesh moved(*mesh, *positions, smg::MovedNormals::Recompute);
     for (const std::string& remark : smg::writeMesh(*moved.source(), argv[2]))
     {
       std::cout << remark << "\n";

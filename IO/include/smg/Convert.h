@@ -164,11 +164,17 @@ SMG_EXPORT ConversionReport convert(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options = {});
 
 /** A mesh file of any format, open as a .vsm file. */
-class SMG_EXPORT OpenedMesh
+class SMG_EXPORT OpenedMesh : public StoredMesh
 {
 public:
   /** Removes the converted file, if there is one. */
-  ~OpenedMesh();
+  ~OpenedMesh() override;
+
+  const StreamInfo& info() const override;
+  std::unique_ptr<MeshSource> source(
+    std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const override;
+  std::string fingerprint() const override;
+  std::filesystem::path file() const override;
 
   /** The reader of the .vsm file, valid as long as this. */
   VsmReader& reader();

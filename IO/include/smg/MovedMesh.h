@@ -52,7 +52,7 @@ public:
    * @throws Error if a new position is not finite in the precision of the mesh, or a file fails
    * @throws Cancelled if the progress callback returns false
    */
-  MovedMesh(const VsmReader& mesh, Solution& positions, MovedNormals normals,
+  MovedMesh(const StoredMesh& mesh, Solution& positions, MovedNormals normals,
     const NormalsOptions& options = {});
 
   ~MovedMesh();

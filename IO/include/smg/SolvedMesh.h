@@ -4,11 +4,12 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 #include "smg/Problem.h"
+#include "smg/ProblemDescription.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
-#include "smg/VsmReader.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -23,7 +24,7 @@ inline constexpr const char* GradientName = "Gradient";
 inline constexpr const char* FluxName = "Flux";
 
 /**
- * The stream of a .vsm file with all its columns and the solution of a problem on it: the vertex
+ * The stream of a mesh with all its columns and the solution of a problem on it: the vertex
  * column Solution and, if wanted, the cell columns Gradient and Flux (0 in cells without weight; on
  * surfaces, in the plane of the triangle). Columns of these names from an earlier solve are left
  * out.
@@ -40,8 +41,8 @@ public:
    * @throws Error if the solution has another number of columns than the problem, or of vertices
    * than the mesh, or the problem has edge targets
    */
-  SolvedMesh(
-    const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options = {});
+  SolvedMesh(const StoredMesh& mesh, Problem& problem, Solution& solution,
+    const ResultOptions& options = {});
 
   ~SolvedMesh() override;
 
@@ -51,8 +52,8 @@ public:
   /**
    * Adds the results to a copy of the solution's report: `conditions`, `energy`, `mean`, `minimum`,
    * `maximum`, `source`, `screening`, `balance`, and notes. To be called when the stream has been
-   * read to its end. The vertices of minima and maxima are original numbers if the mesh has the
-   * column OriginalId.
+   * read to its end. The vertices of minima and maxima are original numbers if the mesh is a
+   * .vsm file with the column OriginalId.
    */
   void finish(Report& report);
 
@@ -60,6 +61,22 @@ private:
   struct Implementation;
   std::unique_ptr<Implementation> Self;
 };
+
+/**
+ * Writes a mesh with the solution of a problem, the columns of SolvedMesh, and removes the
+ * solution's checkpoint.
+ * @param mesh the mesh of the solution, read once, and once more if the description selects parts
+ * of it
+ * @param problem the problem of the solution
+ * @param solution the solution
+ * @param path the file to write; see writeMesh()
+ * @param results what else to compute; also what the description asks for
+ * @return the report of the solution, completed by SolvedMesh::finish(), with a note for each thing
+ * that the format cannot hold
+ * @throws Error as SolvedMesh and writeMesh() do
+ */
+SMG_EXPORT Report write(const StoredMesh& mesh, const ProblemDescription& problem,
+  Solution& solution, const std::filesystem::path& path, const ResultOptions& results = {});
 
 /**
  * The stream of a mesh with a solution as vertex columns, which replace those of the same names.

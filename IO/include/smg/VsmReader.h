@@ -76,8 +76,8 @@ public:
   const std::string& header() const;
   /** How the columns are compressed. */
   Codec codec() const;
-  /** A text that is another one if anything in the file is; for CheckpointOptions::mesh. */
-  std::string fingerprint() const;
+  std::string fingerprint() const override;
+  std::filesystem::path file() const override { return this->path(); }
   /** Number of blocks of vertices, of 8192 each, the last one fewer. */
   std::int64_t vertexBlocks() const;
   /** Number of blocks of cells, of 8192 each, the last one fewer. */

@@ -20,15 +20,15 @@ struct WriteMeshOptions
   /** Compression of a .vsm file. */
   Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
-  std::filesystem::path scratch;
+  std::filesystem::path scratch{};
   /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
    * .vsm file; empty: none. */
-  std::filesystem::path isolatedFrom;
+  std::filesystem::path isolatedFrom{};
   /** Threads that compress the blocks of a .vsm file; 0: one per core. The file does not depend on
    * them. */
   int threads = 0;
   /** Progress callback; empty: none. */
-  ProgressFunction progress;
+  ProgressFunction progress{};
 };
 
 /**
@@ -64,11 +64,11 @@ SMG_EXPORT std::vector<std::string> writeFromVsm(const std::filesystem::path& vs
 struct RewriteOptions
 {
   /** Folder for scratch files; empty: the system's temporary folder. */
-  std::filesystem::path scratch;
+  std::filesystem::path scratch{};
   /** Memory for positions that are being sorted, bytes; less than 16 MiB counts as 16 MiB. */
   std::int64_t memory = std::int64_t(64) << 20;
   /** Progress callback; empty: none. */
-  ProgressFunction progress;
+  ProgressFunction progress{};
 };
 
 /**

@@ -151,7 +151,7 @@ Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
   return costs;
 }
 
-Costs smoothCosts(const StreamInfo& info, int components, const SmoothingOptions& options)
+Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& options)
 {
   const bool movesPoints = options.column.empty();
   const bool keepsVolume = options.keepVolume && movesPoints;

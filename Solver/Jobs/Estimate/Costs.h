@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Blend.h"
 #include "smg/Deform.h"
 #include "smg/Distance.h"
@@ -33,8 +34,7 @@ SMG_EXPORT Costs solveCosts(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
 SMG_EXPORT Costs deformCosts(const StreamInfo& info, const DeformOptions& options);
 /** `components`: of the smoothed column; 3 of positions. */
-SMG_EXPORT Costs smoothCosts(
-  const StreamInfo& info, int components, const SmoothingOptions& options);
+SMG_EXPORT Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& options);
 /** `components`: of all blended columns. */
 SMG_EXPORT Costs blendCosts(
   const StreamInfo& info, int components, SeamGradient seam, const SolveOptions& options);

@@ -20,7 +20,7 @@ namespace smg
 namespace
 {
 
-SmoothedBoundary boundaryOf(const SmoothingOptions& options)
+SmoothedBoundary boundaryOf(const Smoothing& options)
 {
   return options.boundary.value_or(
     options.column.empty() ? SmoothedBoundary::Smooth : SmoothedBoundary::Free);
@@ -57,7 +57,7 @@ std::optional<NamedColumn> columnOf(
 
 } // namespace
 
-MeshFairing::MeshFairing(const StoredMesh& mesh, const SmoothingOptions& options)
+MeshFairing::MeshFairing(const StoredMesh& mesh, const Smoothing& options)
   : Mesh(mesh)
   , Options(options)
   , Columns(mesh.info(), "smooth")

@@ -62,7 +62,7 @@ class MeshFairing
 {
 public:
   /** The options must be valid. Throws Error if they do not fit the mesh. */
-  MeshFairing(const StoredMesh& mesh, const SmoothingOptions& options);
+  MeshFairing(const StoredMesh& mesh, const Smoothing& options);
 
   /** To be called once. */
   std::unique_ptr<Solution> run();
@@ -101,7 +101,7 @@ private:
   std::unique_ptr<Solution> finish();
 
   const StoredMesh& Mesh;
-  SmoothingOptions Options;
+  Smoothing Options;
   Timer Wall;
   double CpuAtStart = processSeconds();
   MeshColumns Columns;

@@ -13,6 +13,11 @@
 namespace smg
 {
 
+/** What smooth() is asked for. */
+struct Smoothing : SolveOptions, SmoothingDescription
+{
+};
+
 /** Throws Error if an option is out of range, except for the name of the operator set; solve() does
  * so, too. */
 SMG_EXPORT void checkOptions(const SolveOptions& options);
@@ -20,7 +25,7 @@ SMG_EXPORT void checkOptions(const SolveOptions& options);
  * so, too. */
 SMG_EXPORT void checkOptions(const DeformOptions& options);
 /** The same for the options of smoothing; smooth() does so, too. */
-SMG_EXPORT void checkOptions(const SmoothingOptions& options);
+SMG_EXPORT void checkOptions(const Smoothing& smoothing);
 /** Throws Error, which begins with `what`, if the tolerance is SolveOptions::AutomaticTolerance. */
 SMG_EXPORT void refuseAutomaticTolerance(const SolveOptions& options, const std::string& what);
 /** Throws Error unless the library has an operator set of that name that supports the other
@@ -33,6 +38,9 @@ SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, Weights wei
 SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem);
 /** Throws Error if the problem has no column; solve() does so, too. */
 SMG_EXPORT void checkProblem(const Problem& problem);
+
+/** Sets the texts of a checkpoint that are empty: of the mesh, and this one of the problem. */
+void identify(SolveOptions& options, const StoredMesh& mesh, const std::string& text);
 
 /** Throws Error unless [first, first + count) is a range of a solution of `vertices` vertices and
  * there is room for its values. */

@@ -129,4 +129,18 @@ struct SMG_EXPORT DeformationDescription
   void applyTo(DeformOptions& options) const;
 };
 
+/**
+ * Deforms a stored mesh by the handles of a description, as DescribedHandles and the other deform()
+ * do.
+ * @param mesh the mesh, read once, and once more if the description selects parts of it
+ * @param description the handles; what it says of weights, cycles and tolerance goes before options
+ * @param options how to solve; the text of a checkpoint for the mesh is set if it is empty
+ * @param name what error messages call the description, for instance its file
+ * @return as the other deform()
+ * @throws Error as the other deform(), and if the description does not fit the mesh
+ */
+SMG_EXPORT std::unique_ptr<Solution> deform(const StoredMesh& mesh,
+  const DeformationDescription& description, const DeformOptions& options = {},
+  const std::string& name = "deformation");
+
 } // namespace smg

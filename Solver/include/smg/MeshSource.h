@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -139,6 +140,12 @@ public:
    */
   virtual std::unique_ptr<MeshSource> source(
     std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const = 0;
+
+  /** A text that is another one if anything of the mesh is; for CheckpointOptions::mesh. Empty:
+   * none is known. */
+  virtual std::string fingerprint() const { return {}; }
+  /** The .vsm file that has the mesh, for what is beside its stream; empty: there is none. */
+  virtual std::filesystem::path file() const { return {}; }
 };
 
 } // namespace smg

@@ -81,6 +81,22 @@ private:
   Shape What;
 };
 
+/** All points p with normal . p >= distance: see Region::HalfSpace. */
+inline Region halfSpace(const std::array<double, 3>& normal, double distance)
+{
+  return Region::HalfSpace{ normal, distance };
+}
+/** All points from `low` to `high`: see Region::Box. */
+inline Region box(const std::array<double, 3>& low, const std::array<double, 3>& high)
+{
+  return Region::Box{ low, high };
+}
+/** All points within `radius` of `center`: see Region::Sphere. */
+inline Region sphere(const std::array<double, 3>& center, double radius)
+{
+  return Region::Sphere{ center, radius };
+}
+
 /** The whole mesh. */
 struct Everywhere
 {

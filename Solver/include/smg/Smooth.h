@@ -38,9 +38,8 @@ enum class SmoothedBoundary
   Free   ///< it moves with the surface: (grad u) . n = 0
 };
 
-/** What to smooth and how: the options of a solve, which hold for each step, and these. `operators`
- * must be "extended". */
-struct SmoothingOptions : SolveOptions
+/** What to smooth, and how far. */
+struct SmoothingDescription
 {
   /** Waves of this length are halved by all steps together. Waves of a third of it are reduced to a
    * tenth by one step, and to less by more steps. */
@@ -75,7 +74,8 @@ struct SmoothingOptions : SolveOptions
  * three times more to keep volume or edges. A smoothed boundary is held in memory.
  *
  * @param mesh the mesh
- * @param options what to smooth and how
+ * @param description what to smooth, and how far
+ * @param options how to solve, in each step; `operators` must be "extended"
  * @return the smoothed positions (x, y, z) or the smoothed column, in stream order. Its report has
  * the steps in Report::steps, and Report::volume for positions.
  * @throws Error as solve(); if an option is out of range, a part in `hold` is not valid or holds no
@@ -83,7 +83,7 @@ struct SmoothingOptions : SolveOptions
  * to be smoothed
  * @throws Cancelled if the progress callback returns false
  */
-SMG_EXPORT std::unique_ptr<Solution> smooth(
-  const StoredMesh& mesh, const SmoothingOptions& options = {});
+SMG_EXPORT std::unique_ptr<Solution> smooth(const StoredMesh& mesh,
+  const SmoothingDescription& description = {}, const SolveOptions& options = {});
 
 } // namespace smg

@@ -5,6 +5,7 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 #include "smg/Problem.h"
+#include "smg/ProblemDescription.h"
 #include "smg/Report.h"
 
 #include <cstdint>
@@ -16,6 +17,9 @@
 
 namespace smg
 {
+
+/** Bytes of a mebibyte, for limits: 256 * MiB. */
+inline constexpr std::int64_t MiB = std::int64_t(1) << 20;
 
 /** How V-cycles are accelerated, from what the V-cycles before have found. */
 enum class AccelerationKind
@@ -79,7 +83,7 @@ struct SolveOptions
   static constexpr double AutomaticTolerance = 0.0;
   /** Opens the mesh that is solved on once more, from its first block. With AutomaticTolerance it
    * is read, and the problem is asked, once to six times after some V-cycles. */
-  std::function<std::unique_ptr<MeshSource>()> again;
+  std::function<std::unique_ptr<MeshSource>()> again{};
   /** Largest number of V-cycles, at least 1. */
   int maxCycles = 50;
   /** How V-cycles are accelerated. */
@@ -90,9 +94,9 @@ struct SolveOptions
    * depend on it; each takes some memory, as far as the limit allows. */
   int threads = 0;
   /** Folder for scratch files; empty: the system's temporary folder. */
-  std::filesystem::path scratch;
+  std::filesystem::path scratch{};
   /** Whether and where to keep what a killed solve needs to continue; not with `inCore`. */
-  CheckpointOptions checkpoint;
+  CheckpointOptions checkpoint{};
   /** Limit of the bytes of scratch files that exist at once; 0: none. */
   std::int64_t scratchLimit = 0;
   /** Keep all levels in memory and write no file. The result is the same, bit for bit. */
@@ -103,7 +107,7 @@ struct SolveOptions
    * result does not depend on it. */
   std::int64_t coreNodes = 50000;
   /** Progress callback; empty: none. */
-  ProgressFunction progress;
+  ProgressFunction progress{};
 };
 
 /** What to compute from a solution. */
@@ -160,5 +164,20 @@ public:
  */
 SMG_EXPORT std::unique_ptr<Solution> solve(
   MeshSource& mesh, Problem& problem, const SolveOptions& options = {});
+
+/**
+ * Solves the problem of a description on a stored mesh, as DescribedProblem and the other solve()
+ * do.
+ * @param mesh the mesh, read once, and once more if the description selects parts of it
+ * @param problem the problem
+ * @param options how to solve; `again`, and the texts of a checkpoint that are empty, are set
+ * @param name what error messages call the description, for instance its file
+ * @return as the other solve()
+ * @throws Error as the other solve(), and if the description gives nothing to solve for or does not
+ * fit the mesh
+ */
+SMG_EXPORT std::unique_ptr<Solution> solve(const StoredMesh& mesh,
+  const ProblemDescription& problem, const SolveOptions& options = {},
+  const std::string& name = "problem");
 
 } // namespace smg
