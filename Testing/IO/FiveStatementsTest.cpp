@@ -106,12 +106,15 @@ TEST_F(FiveStatements, ContinueAfterAKillAndStopAtTheTolerance)
   options.progress = [&calls](double) { return ++calls < 12; };
   EXPECT_THROW(solve(*mesh, field, options), Cancelled);
   options.progress = {};
-  const auto resumed = solve(*mesh, field, options);
-  EXPECT_EQ(valuesOf(*resumed), expected);
-  write(*mesh, field, *resumed, this->Folder / "field.ply");
-  // Another problem is not continued.
-  field.source = 2.0;
-  EXPECT_NO_THROW(solve(*mesh, field, options)->removeCheckpoint());
+  ProblemDescription other = field;
+  other.source = 2.0;
+  expectError([&] { solve(*mesh, other, options); }, "problem");
+  {
+    const auto resumed = solve(*mesh, field, options);
+    EXPECT_EQ(valuesOf(*resumed), expected);
+    write(*mesh, field, *resumed, this->Folder / "field.ply");
+  }
+  EXPECT_FALSE(std::filesystem::exists(options.checkpoint.folder));
 
   options = {};
   options.tolerance = SolveOptions::AutomaticTolerance;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Extended.h"
+#include "Solver/Multigrid/RowOperators.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "smg/SolveWith.h"
 
 #include <gtest/gtest.h>
+
+#include <map>
 
 // User-defined operator sets.
 
@@ -60,7 +63,119 @@ struct BadRelaxation : Extended
   static BadRelaxation forCells(CellType) { return {}; }
 };
 
+/** Direct interpolation from a maximal independent set of strong neighbours. */
+template <class Own>
+struct DirectRows : RowOperators<Own>
+{
+  bool isCPoint(const FineRow& row) const
+  {
+    return !row.empty() &&
+           (row.isSliver() ||
+             std::ranges::none_of(row.neighbours(), [&](const FineRow::Neighbour& other)
+               { return other.isCoarse && other.weight >= 0.25F * row.strongest(); }));
+  }
+  void weightsOf(const FineRow& row, InterpolationWeights& P) const
+  {
+    double coarse = 0.0;
+    for (const FineRow::Neighbour& other : row.neighbours())
+    {
+      coarse += other.isCoarse ? other.weight : 0.0F;
+    }
+    for (const FineRow::Neighbour& other : row.neighbours())
+    {
+      if (other.isCoarse && coarse > 0.0)
+      {
+        P.append(other.coarse, other.weight / (coarse + row.rowSum()));
+      }
+    }
+  }
+};
+
+struct Direct : DirectRows<Direct>
+{
+  static constexpr const char* name = "direct";
+};
+
+/** All four operators of its own: the same coarse points and interpolation, the plain Galerkin
+ * product by maps, nothing removed from it, over-relaxation. */
+struct AllOwn : DirectRows<AllOwn>
+{
+  static constexpr const char* name = "all-own";
+  using Relaxation = OverRelaxation;
+  using Row = std::map<std::int64_t, double>;
+
+  void productAP(CoarseningData& data, std::int64_t i) const
+  {
+    const std::int64_t near = data.knownCoarse;
+    Row row;
+    double sum = data.fine.rowSum(i) * data.rowQuanta[i];
+    const auto add = [&](std::int64_t node, double factor)
+    {
+      const InterpolationEntry* entries = data.interpolation.row(node);
+      for (std::int64_t e = 0; e < data.interpolation.size(node); ++e)
+      {
+        row[near + entries[e].offset(near)] += factor * entries[e].weight();
+      }
+    };
+    if (data.interpolation.size(i) > 0)
+    {
+      add(i, data.patches.diagonal(i));
+      for (const RowEntry& entry : data.fine.row(i))
+      {
+        const std::int64_t j = i + entry.delta();
+        add(j, -entry.weight());
+        sum += double(entry.weight()) * (data.rowQuanta[i] - data.rowQuanta[j]);
+      }
+    }
+    CoarseEntry* out = data.product.open(static_cast<std::int64_t>(row.size()));
+    for (const auto& [c, value] : row)
+    {
+      *out++ = { static_cast<CoarseIndex>(c), static_cast<float>(value) };
+    }
+    data.product.close(static_cast<std::int64_t>(row.size()));
+    data.productSum[i] = row.empty() ? 0.0F : static_cast<float>(sum / Quanta);
+  }
+
+  void productPtAP(CoarseningData& data, std::int64_t c) const
+  {
+    Row row;
+    double rowSum = 0.0;
+    for (ChildLink link = data.firstChild[c]; !link.none();)
+    {
+      const std::int64_t fine = link.row(data.finePoint[c]);
+      const InterpolationEntry& entry = data.interpolation.row(fine)[link.slot()];
+      const CoarseEntry* product = data.product.row(fine);
+      for (std::int64_t e = 0; e < data.product.size(fine); ++e)
+      {
+        row[product[e].offset(c)] += double(entry.weight()) * product[e].value();
+      }
+      rowSum += double(entry.quanta()) / Quanta * data.productSum[fine];
+      link = entry.next;
+    }
+    row.erase(0);
+    CoarseEntry* out = data.gathered.open(static_cast<std::int64_t>(row.size()));
+    std::int32_t lower = 0;
+    float strongest = 0.0F, least = 0.0F;
+    double sum = rowSum;
+    for (const auto& [distance, value] : row)
+    {
+      const auto weight = static_cast<float>(-value);
+      *out++ = { static_cast<CoarseIndex>(c + distance), weight };
+      lower += distance < 0 ? 1 : 0;
+      strongest = std::max(strongest, weight);
+      least = std::min(least, weight);
+      sum += weight;
+    }
+    const bool isSliver = data.stiff(least);
+    data.gathered.close({ static_cast<std::int64_t>(row.size()), rowSum,
+      static_cast<float>(nonZeroDiagonal(sum)), { strongest, isSliver }, lower, true });
+  }
+
+  void sparsify(CoarseningData& data, std::int64_t c) const { Sparsification{ 0.0F }(data, c); }
+};
+
 static_assert(OperatorSet<Extended> && OperatorSet<Custom>);
+static_assert(OperatorSet<Direct> && canRunApart<Direct> && OperatorSet<AllOwn>);
 static_assert(Relaxation<OverRelaxation> && Relaxation<GaussSeidel>);
 static_assert(!Relaxation<WithoutSweep> && !Relaxation<OnlyInDouble>);
 static_assert(!OperatorSet<BadRelaxation> && !OperatorSet<GaussSeidel>);
@@ -166,6 +281,49 @@ TEST(CustomOperators, OptionsAndProblemsAreCheckedAsBySolve)
   problem.Screening = -1;
   EXPECT_NE(messageOf([&] { solveWithSet<Custom>(mesh, problem, {}); }).find("screening"),
     std::string::npos);
+}
+
+template <OperatorSet Operators>
+class OwnRows : public ::testing::Test
+{
+};
+using AllOwnRows = ::testing::Types<Direct, AllOwn>;
+TYPED_TEST_SUITE(OwnRows, AllOwnRows);
+
+TYPED_TEST(OwnRows, ConvergeToTheDirectSolution)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    const Solved solved = solveWithSet<TypeParam>(mesh, problem, accurate());
+    EXPECT_TRUE(solved.report.converged);
+    EXPECT_LE(solved.report.cycles, 40);
+    EXPECT_GE(solved.report.levels.size(), 2u);
+    EXPECT_LT(relativeError(solved.values, solveDirectly(mesh, problem)), 1e-7);
+  }
+}
+
+TYPED_TEST(OwnRows, StreamAsInCoreBitForBit)
+{
+  SolveOptions options;
+  options.tolerance = 1e-12;
+  options.maxCycles = 3;
+  for (auto& [mesh, problem] : tasks())
+  {
+    options.inCore = true;
+    const Solved expected = solveWithSet<TypeParam>(mesh, problem, options);
+    options.inCore = false;
+    options.coreNodes = 0;
+    for (const std::int64_t blockNodes : { 64, 1 << 20 })
+    {
+      for (const int threads : { 1, 4 })
+      {
+        options.blockNodes = blockNodes;
+        options.threads = threads;
+        EXPECT_TRUE(
+          sameBits(solveWithSet<TypeParam>(mesh, problem, options).values, expected.values));
+      }
+    }
+  }
 }
 
 } // namespace smg::testing

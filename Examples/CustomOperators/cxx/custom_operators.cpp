@@ -6,9 +6,11 @@ What this lesson shows:
  1. An operator set is a type. A set that differs in a single operator derives from Extended, the
     default set, and hides that member: here the relaxation is SOR instead of Gauss-Seidel.
     solveWith() compiles the streaming multigrid for it.
- 2. The problem provides the weights cell by cell, in batches: here every cell consists of wires,
+ 2. A set in terms of rows derives from RowOperators and says which nodes are C-points and what an
+    F-point takes from them: here direct interpolation from strong neighbours.
+ 3. The problem provides the weights cell by cell, in batches: here every cell consists of wires,
     with a conductance of one over their length, instead of a sheet (cotangent weights).
- 3. Everything else, such as memory limit, scratch files and report, is as for solve().
+ 4. Everything else, such as memory limit, scratch files and report, is as for solve().
 
 Data that a sweep may read: the node, its row, and the neighbours that the row names. No other node
 is guaranteed to be in memory. There is one x per node: when a node is relaxed, its earlier
@@ -22,13 +24,16 @@ Run it:
 
     sheet, extended: converged after 8 cycles, relative residual 2.74882e-11
     sheet, over-relaxed: converged after 8 cycles, relative residual 9.97187e-12
+    sheet, direct: converged after 14 cycles, relative residual 7.25853e-11
     wires, extended: converged after 7 cycles, relative residual 6.56338e-11
     wires, over-relaxed: converged after 7 cycles, relative residual 3.41856e-11
+    wires, direct: converged after 12 cycles, relative residual 4.85812e-11
 */
 
 #include <smg/Convert.h>
 #include <smg/SolveWith.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -65,6 +70,38 @@ struct OverRelaxed : smg::Extended
   static OverRelaxed forCells(smg::CellType type) { return { Extended::forCells(type) }; }
 };
 
+/** Direct interpolation (Ruge and Stueben, 1987): an F-point takes from its strong C-neighbours
+ * what the weights say. */
+struct Direct : smg::RowOperators<Direct>
+{
+  static constexpr const char* name = "direct";
+
+  static bool isStrong(const smg::FineRow& row, const smg::FineRow::Neighbour& other)
+  {
+    return other.isCoarse && other.weight >= 0.25F * row.strongest();
+  }
+  bool isCPoint(const smg::FineRow& row) const
+  {
+    return !row.empty() && std::ranges::none_of(row.neighbours(),
+                             [&](const auto& other) { return isStrong(row, other); });
+  }
+  void weightsOf(const smg::FineRow& row, smg::InterpolationWeights& P) const
+  {
+    double sum = row.rowSum();
+    for (const auto& other : row.neighbours())
+    {
+      sum += isStrong(row, other) ? other.weight : 0.0F;
+    }
+    for (const auto& other : row.neighbours())
+    {
+      if (isStrong(row, other))
+      {
+        P.append(other.coarse, other.weight / sum);
+      }
+    }
+  }
+};
+
 /** 0 at the feet of the bunny, 1 at the tips of its ears; sheets or wires conduct in between. */
 struct FeetAndEars : smg::Problem
 {
@@ -98,7 +135,7 @@ struct FeetAndEars : smg::Problem
 };
 
 template <smg::OperatorSet Operators>
-void solveAndPrint(const smg::VsmReader& mesh, FeetAndEars& problem)
+void solveAndPrint(const smg::StoredMesh& mesh, FeetAndEars& problem)
 {
   smg::SolveOptions options;
   options.tolerance = 1e-10;
@@ -123,8 +160,9 @@ int main(int argc, char** argv)
     for (const bool wires : { false, true })
     {
       problem.wires = wires;
-      solveAndPrint<smg::Extended>(mesh->reader(), problem);
-      solveAndPrint<OverRelaxed>(mesh->reader(), problem);
+      solveAndPrint<smg::Extended>(*mesh, problem);
+      solveAndPrint<OverRelaxed>(*mesh, problem);
+      solveAndPrint<Direct>(*mesh, problem);
     }
     return 0;
   }

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Setup/Interpolation.h"
 
+#include "Solver/Multigrid/Setup/InterpolationRow.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 namespace smg
 {
-namespace
-{
-
-/** std::lround() of a number of a few digits, without a call: the sum is exact. */
-int nearest(float value)
-{
-  return static_cast<int>(static_cast<double>(value) + std::copysign(0.5, value));
-}
-
-} // namespace
-
 void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
 {
   constexpr CoarseIndex FPoint = CoarseningData::FPoint;
@@ -111,13 +102,12 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
 
 void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
 {
-  const std::int64_t near = data.seenCoarse;
   const RelaxedRow& row = data.relaxed[i];
   int rounded[RelaxedRow::Most];
-  int rest = nearest(row.sum * Quanta);
+  int rest = quantaOf(row.sum);
   for (int k = 0; k < row.size; ++k)
   {
-    rounded[k] = nearest(std::clamp(row.entry[k].value(), -1.0F, 1.0F) * Quanta);
+    rounded[k] = quantaOf(std::clamp(row.entry[k].value(), -1.0F, 1.0F));
     rest -= rounded[k];
   }
   // The first entry, the largest, receives the remainder as far as its range permits.
@@ -127,32 +117,15 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
     rounded[k] += taken;
     rest -= taken;
   }
-  InterpolationEntry* out = data.interpolation.open(row.size);
-  const auto rows = data.interpolation.near(i);
-  ChildLink* firstChild = data.firstChild.at(near);
-  ChildLink* lastChild = data.lastChild.at(near);
-  int size = 0;
-  std::int64_t reach = -1;
-  int sum = 0;
+  InterpolationRow out(data, i, row.size);
   for (int k = 0; k < row.size; ++k)
   {
-    if (rounded[k] == 0)
+    if (rounded[k] != 0)
     {
-      continue;
+      out.appendAt(row.entry[k].offset(data.seenCoarse), rounded[k]);
     }
-    const std::int32_t offset = row.entry[k].offset(near);
-    const ChildLink link(i, size);
-    ChildLink& last = lastChild[offset];
-    (last.none() ? firstChild[offset] : rows[last.distance(i)][last.slot()].next) = link;
-    last = link;
-    const std::int64_t coarse = near + offset;
-    out[size++] = InterpolationEntry(static_cast<CoarseIndex>(coarse), rounded[k]);
-    reach = std::max(reach, coarse);
-    sum += rounded[k];
   }
-  data.interpolation.close(size);
-  data.rowQuanta[i] = static_cast<std::int16_t>(sum);
-  data.parentReach.append(reach);
+  out.close();
 }
 
 namespace

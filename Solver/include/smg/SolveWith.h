@@ -5,6 +5,7 @@
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Multigrid/OperatorSet.h"
+#include "Solver/Multigrid/RowOperators.h"
 #include "smg/Solve.h"
 
 #include <memory>

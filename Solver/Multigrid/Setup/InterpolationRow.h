@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Setup/CoarseningData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace smg
+{
+
+/** The multiple of 1/Quanta that is nearest to a weight; halves are rounded away from 0. */
+inline int quantaOf(float weight)
+{
+  // std::lround() of a number of a few digits, without a call: the sum is exact.
+  const float scaled = weight * Quanta;
+  return static_cast<int>(static_cast<double>(scaled) + std::copysign(0.5, scaled));
+}
+
+/**
+ * Appends a row of the interpolation P to `CoarseningData::interpolation`, in the form that the
+ * Galerkin product reads: weights in multiples of 1/Quanta, each entry linked to the column of its
+ * coarse node, and the row's sum and reach. At most ChildLink::Slots entries.
+ */
+class InterpolationRow
+{
+public:
+  /** Opens row i, the next one, with room for `most` entries. */
+  InterpolationRow(CoarseningData& data, std::int64_t i, std::int64_t most)
+    : Data(data)
+    , Row(i)
+    , Near(data.seenCoarse)
+    , Out(data.interpolation.open(most))
+    , Rows(data.interpolation.near(i))
+    , FirstChild(data.firstChild.at(Near))
+    , LastChild(data.lastChild.at(Near))
+  {
+  }
+
+  /** Appends an entry: a coarse node, as by CoarseningData::coarseIndexOf(), which the row does not
+   * have yet, and the weight in multiples of 1/Quanta, from -Quanta to Quanta. 0: no entry. */
+  void append(CoarseIndex coarse, int quanta)
+  {
+    if (quanta == 0)
+    {
+      return;
+    }
+    this->appendAt(coarseDistance(coarse << 8, this->Near), quanta);
+  }
+  /** The same for the coarse node at this distance from seenCoarse. */
+  void appendAt(std::int32_t offset, int quanta)
+  {
+    const ChildLink link(this->Row, this->Size);
+    ChildLink& last = this->LastChild[offset];
+    (last.none() ? this->FirstChild[offset]
+                 : this->Rows[last.distance(this->Row)][last.slot()].next) = link;
+    last = link;
+    const std::int64_t node = this->Near + offset;
+    this->Out[this->Size++] = InterpolationEntry(static_cast<CoarseIndex>(node), quanta);
+    this->Reach = std::max(this->Reach, node);
+    this->Sum += quanta;
+  }
+
+  /** Ends the row. */
+  void close()
+  {
+    this->Data.interpolation.close(this->Size);
+    this->Data.rowQuanta[this->Row] = static_cast<std::int16_t>(this->Sum);
+    this->Data.parentReach.append(this->Reach);
+  }
+
+private:
+  CoarseningData& Data;
+  std::int64_t Row, Near;
+  InterpolationEntry* Out; // opened first: it may move the rows
+  RaggedRing<InterpolationEntry>::Near Rows;
+  ChildLink *FirstChild, *LastChild;
+  int Size = 0, Sum = 0;
+  std::int64_t Reach = -1;
+};
+
+} // namespace smg
