@@ -77,8 +77,4 @@ nlohmann::json readJsonFile(const std::string& path);
 /** The same for a string, named `name` in error messages. */
 nlohmann::json readJsonText(const std::string& text, const std::string& name);
 
-/** The error of an invalid JSON text with its position, for example `line 2, column 13: this is not
- * valid JSON: unexpected character 'x'`. Columns count characters of the line, from 1. */
-std::string jsonComplaint(const std::string& text);
-
 } // namespace smg

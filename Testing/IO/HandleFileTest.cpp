@@ -175,7 +175,8 @@ TEST_F(HandleFileText, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf(R"({"handles": {}})"), "handles: must be an array");
   EXPECT_CONTAINS(this->errorOf(R"({"handles": []})"), "handles: must have at least one");
   EXPECT_CONTAINS(this->errorOf(R"({"handle": []})"), "handle: is not known");
-  EXPECT_CONTAINS(this->errorOf("{\"handles\":\n[NaN]}"), "p.json, line 2, column 2: ");
+  EXPECT_CONTAINS(this->errorOf("{\"handles\":\n[NaN]}"),
+    "p.json: this is not valid JSON: parse error at line 2, column 2");
   EXPECT_CONTAINS(
     this->errorOf(R"({"handles": [1e999]})"), "p.json, line 1, column 14: the number");
   const auto withHandle = [this](const std::string& members)
