@@ -12,11 +12,17 @@
 
 #include <string>
 
+// The entry of the library: checks the options and chooses the engine. All checks that need neither
+// the mesh nor files come first, in sentences for users, so that a long computation does not fail
+// at its end for a reason known at its start. The same checks are public (CheckOptions.h): a
+// program can refuse an input before it converts a mesh.
+
 namespace smg
 {
 namespace
 {
 
+/** Throws Error with this sentence unless the condition holds. */
 void require(bool holds, const std::string& sentence)
 {
   if (!holds)
@@ -30,6 +36,7 @@ void require(bool holds, const std::string& sentence)
 void checkOptions(const SolveOptions& options)
 {
   require(options.sweeps >= 1 && options.sweeps <= 20, "the number of sweeps must be from 1 to 20");
+  // Written so that NaN fails.
   require((options.tolerance > 0.0 && options.tolerance < 1.0) ||
             options.tolerance == SolveOptions::AutomaticTolerance,
     "the tolerance must lie between 0 and 1, both excluded, or be automatic");
@@ -38,6 +45,8 @@ void checkOptions(const SolveOptions& options)
   require(options.scratchLimit >= 0, "the limit of scratch files must not be negative");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.blockNodes >= 1, "a stage must advance by at least one node");
+  // A checkpoint continues from scratch files, which a solve in core does not have, and must
+  // recognise its mesh and problem.
   const CheckpointOptions& checkpoint = options.checkpoint;
   require(checkpoint.folder.empty() || !options.inCore,
     "a solve in core has no checkpoint: solve out of core (without --in-core)");
@@ -54,6 +63,8 @@ void refuseAutomaticTolerance(const SolveOptions& options, const std::string& wh
 
 void checkAutomaticTolerance(const SolveOptions& options, Weights weights)
 {
+  // With uniform weights the operator is a graph Laplacian: there is no continuous problem to
+  // compare with.
   require(options.tolerance != SolveOptions::AutomaticTolerance || weights != Weights::Uniform,
     "uniform weights have no discretisation error: give a tolerance between 0 and 1, both "
     "excluded");
@@ -63,6 +74,7 @@ void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem
 {
   checkAutomaticTolerance(options, problem.weights());
   const bool isAutomatic = options.tolerance == SolveOptions::AutomaticTolerance;
+  // The discretisation error is estimated in an additional pass over the mesh.
   require(!isAutomatic || options.again,
     "an automatic tolerance needs SolveOptions::again, which opens the mesh once more");
   require(!isAutomatic || !problem.hasEdgeTargets(),
@@ -74,6 +86,7 @@ void checkOperators(const SolveOptions& options)
   require(options.operators == Extended::name || options.operators == Shi2006::name,
     "there is no operator set '" + options.operators + "': use " + Extended::name + " or " +
       Shi2006::name);
+  // The equations as printed in the paper: for comparison only.
   require(options.operators != Shi2006::name || options.inCore,
     std::string("the operator set ") + Shi2006::name +
       " keeps vectors on the edges of every level and works in core only: solve in core "
@@ -89,10 +102,13 @@ void checkProblem(const Problem& problem)
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
 {
   checkOperators(options);
+  // The default: compiled for its operator set, see ExtendedEngine.h.
   if (options.operators != Shi2006::name)
   {
     return solveWith<Extended>(mesh, problem, options);
   }
+  // solveWith() has the same checks; this method is not an operator set, and its iteration has no
+  // error to balance.
   checkOptions(options);
   refuseAutomaticTolerance(options, std::string("the operator set ") + Shi2006::name);
   checkProblem(problem);

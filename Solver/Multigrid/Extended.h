@@ -31,16 +31,21 @@ struct ExtendedParameters
   bool dropsNegative = false;
 
   /**
-   * The parameters that were best in experiments. A strength of 0.2 instead of 0.1 on surfaces
-   * costs 5 to 10 % of memory and time per V-cycle and saves up to a third of the V-cycles on real
-   * scans. Of slivers alone, 0.5 costs nothing and saves a sixth to a half of the V-cycles on
-   * lattices of obtuse triangles. On tetrahedra 0 treats the small weights of slivers as strong,
-   * and values above 0.1 cost more memory than they save V-cycles. Keeping rows that cancel little,
-   * and negative weights without a common neighbour, pays off only on surfaces.
+   * The parameters that measured best for each type of cell. docs/architecture.md ("The hierarchy")
+   * lists the alternatives that were tried.
    *
-   * Most of the set-up is the product from the finest level to the next one. Fewer entries there
-   * save some of it where slivers do not need them. A second sweep of the interpolation saves at
-   * most an eighth of the V-cycles on slivers, and needs one more ring in every window.
+   * Surfaces: a strength of 0.2 instead of 0.1 costs 5 to 10 % of memory and time per V-cycle and
+   * saves up to a third of the V-cycles on real scans. For sliver rows alone, 0.5 costs nothing and
+   * saves a sixth to a half of the V-cycles on lattices of obtuse triangles.
+   * Tetrahedra: a strength of 0 would count the small weights of slivers as strong, and values
+   * above 0.1 cost more memory than the V-cycles that they save are worth. Keeping all entries of
+   * rows that cancel only a little, and negative weights without a common neighbour, pays off only
+   * on surfaces.
+   *
+   * Most of the set-up is the Galerkin product from the finest level to the next one. Fewer entries
+   * per row of P there (finestEntries) save part of it where no sliver needs more. A second sweep
+   * of the interpolation saves at most an eighth of the V-cycles on slivers, and adds a ring to
+   * every window.
    */
   static ExtendedParameters forCells(CellType type)
   {
@@ -57,7 +62,8 @@ struct ExtendedParameters
     return parameters;
   }
 
-  /** For a given number of V-cycles: each is up to twice as effective, the set-up takes longer. */
+  /** For a small, fixed number of V-cycles: each V-cycle is up to twice as effective, and the
+   * set-up takes longer. */
   static ExtendedParameters forFewCycles(CellType type)
   {
     ExtendedParameters parameters = forCells(type);
@@ -72,18 +78,25 @@ struct ExtendedParameters
 };
 
 /**
- * The default operator set: the paper's choice of C-points on strong edges, extended interpolation,
- * the sparsified Galerkin product and Gauss-Seidel relaxation in stream order. Nodes with stiff
- * rows (see SliverRows) have their own coarse nodes. Unlike the paper's printed equations it
- * converges to the solution. The rate hardly depends on the size of the mesh where cells are well
- * shaped, or noisy but not refined; lattices of slivers, which refinement makes of bad cells, slow
- * it down (docs/performance.md).
+ * The default operator set. The C-points are those of the paper (Shi, Bao, Zhou 2009), a greedy
+ * maximal independent set in stream order, but only strong edges count; the interpolation is
+ * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row; the coarse operator
+ * is a sparsified Galerkin product; the smoother is Gauss-Seidel in stream order. A node with a
+ * stiff row (see SliverRows) always gets a coarse node of its own.
+ *
+ * Every step works in stream order on data that the window of a pass contains, so the hierarchy is
+ * the same, bit for bit, for any window, block size and number of threads.
+ *
+ * Unlike the equations printed in the paper (Solver/Shi2006) it converges to the solution. The rate
+ * hardly depends on the size of the mesh where cells are well shaped, or noisy but not refined;
+ * lattices of slivers, which refinement makes of bad cells, slow it down (docs/performance.md).
  */
 class Extended
 {
 public:
   static constexpr const char* name = "extended";
   using Relaxation = GaussSeidel;
+  /** The steps may run on different threads: see canRunApart. */
   using Apart = Extended;
 
   Extended() = default;

@@ -12,50 +12,55 @@ namespace smg
 {
 
 /**
- * An operator set: the pluggable part of the multigrid. A default-constructible, copyable type O
- * (every level gets a copy) with
+ * An operator set: the part of the multigrid that a program can replace. It is a
+ * default-constructible, copyable type O (every level gets a copy) with
  *
  *   const char* O::name             its name
- *   O O::forCells(CellType)         the set with the parameters that are best for such cells
- *   bool o.isCoarse(data, i)            choice of C-points: whether node i is one
+ *   O O::forCells(CellType)         the set with the best parameters for such cells
+ *   bool o.isCoarse(data, i)        choice of C-points: whether node i is one
  *   o.interpolateInitial(data, i)   interpolation in three steps: an initial row i of P,
- *   o.interpolationSweeps()         sweeps that improve the rows, at least 1, each with
- *   o.relaxInterpolation(data, i)   a relaxation of row i,
+ *   o.interpolationSweeps()         the number of sweeps that improve the rows, at least 1,
+ *   o.relaxInterpolation(data, i)   the relaxation of row i in such a sweep,
  *   o.interpolate(data, i)          and the final row i
- *   o.productAP(data, i)             coarse operator in three steps: row i of A P,
- *   o.productPtAP(data, c)               row c of P^T A P,
+ *   o.productAP(data, i)            coarse operator in three steps: row i of A P,
+ *   o.productPtAP(data, c)          row c of P^T A P,
  *   o.sparsify(data, c)             and its sparsification
- *   O::Relaxation                   see Solver/Multigrid/Cycle/GaussSeidel.h
+ *   O::Relaxation                   the smoother: see Solver/Multigrid/Cycle/GaussSeidel.h
  *   o.patchRings()                  optional: see Patches::setRings()
  *   O::Apart                        optional, the type O itself: see canRunApart
  *
  * Restriction is the transpose of interpolation. Coarsening calls each step once for each fine node
- * i or coarse node c, in ascending order, on windows that hold only the following data; a step that
- * reads anything else reads released memory. `data.fine` are the rows of the fine level.
+ * i or coarse node c, in ascending order. The windows guarantee only the following data; a step
+ * that reads anything else reads released memory. `data.fine` has the rows of the fine level; with
+ * a row come its row sum, its stiffness and `data.patches.diagonal()`.
  *
- * - `isCoarse` may read row i and `coarseIndex` of the nodes below, and returns the decision. A
- * node whose row is stiff (see SliverRows) should be a C-point.
- * - `interpolateInitial` may read row i and `coarseIndex` of its neighbours, and appends row i of
- *   `initial` and its `initialTotal`.
- * - `relaxInterpolation` may read row i, and of i and its neighbours `coarseIndex`, `initial` and
- *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i; for the nodes of a
- *   patch, all of which it may then read in this way, when called for the last node.
- * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, chained by columns
- *   from `firstChild` to `lastChild`, and sets `rowQuanta` and `parentReach`.
- * - `productAP` may read row i and `interpolation` of i and its neighbours. It appends row i of
- *   `product` and sets `productSum`.
- * - `productPtAP` may read the chain of column c and `product` of its rows. It appends row c to
- *   `gathered`, by ascending column; the row is stiff if `data.stiff`, called once, returns true.
- * - `sparsify`, which follows it, finds the gathered rows in `raw`. It may read those up to c that
- *   have neighbours from c on, and modify their upper entries, those with delta > 0; their weights
- *   are finally copied to the lower ones. CoarseEntry::remove() marks an entry as removed.
+ * - `isCoarse` may read row i and the `coarseIndex` of nodes below i, and returns the decision. A
+ *   node whose row is stiff (see SliverRows) should be a C-point.
+ * - `interpolateInitial` may read row i and the `coarseIndex` of its neighbours. It appends row i
+ *   of `initial` and its `initialTotal`.
+ * - `relaxInterpolation` may read, of i and its neighbours, the rows, `coarseIndex`, `initial`,
+ *   `initialTotal` and `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i.
+ *   It may instead set all rows of a patch in the call for the last node of the patch; in that call
+ *   it may read the same data of every member and of the neighbours of the members.
+ * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, links its entries
+ *   into the chains of their columns (`firstChild` to `lastChild`), sets `rowQuanta` and appends to
+ *   `parentReach`.
+ * - `productAP` may read row i, and `interpolation` and `rowQuanta` of i and its neighbours. It
+ *   appends row i of `product` and sets `productSum`.
+ * - `productPtAP` may read the chain of column c, and `product` and `productSum` of the rows in it.
+ *   It appends row c to `gathered`, by ascending column. It calls `data.stiff` once; the row is
+ *   stiff if that returns true.
+ * - `sparsify`, which follows, finds the gathered rows in `raw`. Of the rows up to c, those with a
+ *   neighbour at or above c are in memory. It may modify their upper entries, those with delta > 0,
+ *   and mark an entry as removed (CoarseEntry::remove()); finishRow() later copies the upper
+ *   weights to the mirrored lower entries.
  *
- * Requirements of the engine: a node without edges is an F-point; each C-point has a child; P
- * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse
- * operator is exactly symmetric, with row sums rowSum that are zero where no constraint reaches,
- * before and after sparsification; a step depends only on what it may read, not on when it is
- * called. To replace one step, derive from Extended and hide that member, see
- * Examples/CustomOperators.
+ * What the engine requires: a node without edges is an F-point; each C-point has a child; the
+ * entries of P lie in [-1, 1], are multiples of 1/Quanta and belong to coarse nodes within two
+ * rings; the coarse operator is exactly symmetric, and before and after sparsification its row sums
+ * are rowSum, which is zero where no constraint reaches; a step depends only on what it may read,
+ * not on when it is called. To replace a single step, derive from Extended and hide that member, as
+ * Examples/CustomOperators does.
  */
 template <class O>
 concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
@@ -83,16 +88,20 @@ concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
   requires Relaxation<typename O::Relaxation>;
 };
 
-/** Whether five threads may run the steps up to interpolateInitial(), those up to interpolate(),
- * productAP(), productPtAP() and sparsify(): these share no data but those of CoarseningData, and
- * rows of P have at most RelaxedRow::Most entries. A set derived from such a one must say so again,
- * since it may replace any step. */
+/**
+ * Whether five threads may run the steps of a set at the same time: one those up to
+ * interpolateInitial(), one those up to interpolate(), and one each productAP(), productPtAP() and
+ * sparsify(). It requires that these groups share no data except through CoarseningData, and that
+ * rows of P have at most RelaxedRow::Most entries. A set declares it by an alias Apart of its own
+ * type. A derived set has to declare it again, since it may replace any step.
+ */
 template <class O>
 inline constexpr bool canRunApart = requires
 {
   requires std::same_as<typename O::Apart, O>;
 };
 
+/** The rings of a patch: set.patchRings() if the set has that member, otherwise 1. */
 template <class O>
 int patchRingsOf(const O& set)
 {

@@ -9,7 +9,9 @@
 namespace smg
 {
 
-/** Blocks that have been read ahead and are taken in order. */
+/** Blocks that were read ahead (prefetched) and are taken in order. fill() runs beside the
+ * stages of a step, take() before the step. fill() prefetches as many blocks as the step before
+ * took, so the memory follows the speed of the pass and does not depend on that of the disk. */
 template <class Block>
 class BlockPrefetch
 {
@@ -26,7 +28,7 @@ public:
     }
   }
 
-  /** The next block: one that has been read ahead, or the result of `read`. */
+  /** The next block: a prefetched one, or else the result of `read`. */
   template <class Read>
   Block take(Read&& read)
   {

@@ -7,9 +7,25 @@
 #include <cmath>
 #include <numeric>
 
+// The direct solve on the coarsest level. It has at most a thousand nodes (CoarsestNodes), or more
+// where coarsening stalled, so a sparse Cholesky factorisation is cheap; it is made once and used
+// by every V-cycle.
+//
+// Two things keep a plain factorisation from working. Components without constraint make the matrix
+// singular: findFloating() and project() remove their kernel. And the weights are those of coarse
+// levels, rounded to single precision or BFloat16: stiffened() restores definiteness. Adding s |w|
+// to the weight w of an edge adds a positive semidefinite matrix with zero row sums, so constants
+// and everything that is nearly constant along strong edges are hardly affected, while adding to
+// the diagonal alone would tie free components to zero.
+//
+// The order of elimination and all sums depend on the matrix alone: the factor has the same bits
+// whether the coarse levels were built from windows or in core.
+
 namespace smg
 {
 
+/** Finds the components by union-find over the edges; a component floats if none of its nodes is
+ * anchored. */
 void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
 {
   const std::size_t nodes = matrix.diagonal.size();
@@ -19,6 +35,7 @@ void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
   {
     while (above[static_cast<std::size_t>(i)] != i)
     {
+      // Path halving: the paths become shorter while they are followed.
       Eigen::Index& next = above[static_cast<std::size_t>(i)];
       i = next = above[static_cast<std::size_t>(next)];
     }
@@ -28,6 +45,7 @@ void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
   {
     const Eigen::Index a = root(entry.row());
     const Eigen::Index b = root(entry.col());
+    // The root is the first node of the component, which is the one to be pinned.
     above[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
   std::vector<bool> anchored(nodes);
@@ -49,7 +67,7 @@ void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
 namespace
 {
 
-/** Bytes of a factor with so many entries, and of the matrix that it is made of. */
+/** The bytes of a factor with this number of entries, and of the matrix that it is made of. */
 std::int64_t factorBytes(double entries, const CoarsestMatrix& matrix)
 {
   constexpr double EntryBytes = sizeof(double) + sizeof(int);
@@ -69,10 +87,15 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
     return;
   }
   this->Factor.cholmod().print = 0; // failures are expected and handled
+  // L L^T fails if the matrix is not definite, which tells that it needs more stiffening. An exact
+  // matrix may be indefinite, which L D L^T permits.
   this->Factor.setMode(matrix.rounding > 0.0 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodLDLt);
+  // If a sixteenth of the weights is not enough, their rounding is not the cause.
   constexpr double MaxShare = 0x1p-4, Growth = 8.0;
   double share = matrix.rounding;
   const Eigen::SparseMatrix<double> first = this->stiffened(matrix, share);
+  // The pattern does not depend on the share, so one analysis serves all attempts. It tells the
+  // size of the factor before memory is taken for it.
   this->Factor.analyzePattern(first);
   this->Memory.reset();
   this->Memory.emplace(pool, factorBytes(this->Factor.cholmod().lnz, matrix));
@@ -90,7 +113,8 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
   }
 }
 
-/** The matrix with every edge stiffened by this share of the magnitude of its weight. */
+/** The matrix with every edge stiffened by this share of the magnitude of its weight: a positive
+ * semidefinite addition with zero row sums. */
 Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
   const CoarsestMatrix& matrix, double share) const
 {
@@ -103,6 +127,8 @@ Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
     const double more = share * std::fabs(entry.value());
     diagonal[static_cast<std::size_t>(entry.row())] += more;
     diagonal[static_cast<std::size_t>(entry.col())] += more;
+    // A pinned node becomes an equation of its own, x = 0: its row and column are left out, but its
+    // weights stay in the diagonals of its neighbours.
     if (!this->pinned(entry.row()) && !this->pinned(entry.col()))
     {
       triplets.emplace_back(entry.row(), entry.col(), entry.value() - more);
@@ -117,9 +143,8 @@ Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
   return sparse;
 }
 
-/**
- * Subtracts the mean over each floating component from b, and sets b to zero at the pinned node.
- */
+/** Subtracts from b its mean over each floating component, the part outside the range of the
+ * matrix, and sets b to zero at pinned nodes. The sums run in node order. */
 void CoarsestFactor::project(Eigen::MatrixXd& b) const
 {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(b.rows(), b.cols());
@@ -145,6 +170,8 @@ void CoarsestFactor::project(Eigen::MatrixXd& b) const
   }
 }
 
+/** x = A^-1 b. Floating components get one of their solutions; the others differ by a constant,
+ * which does not change a residual, since the row sums are zero. */
 Eigen::MatrixXd CoarsestFactor::solve(Eigen::MatrixXd b) const
 {
   if (b.rows() == 0)

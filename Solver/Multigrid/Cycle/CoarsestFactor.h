@@ -13,32 +13,34 @@
 namespace smg
 {
 
-/** A symmetric matrix of the coarsest level. */
+/** The symmetric matrix of the coarsest level. */
 struct CoarsestMatrix
 {
   std::vector<Eigen::Triplet<double>> lower; ///< entries below the diagonal
   std::vector<double> diagonal;
-  std::vector<bool> anchored; ///< per node: whether the row sum is not zero
+  std::vector<bool> anchored; ///< per node: whether its row sum differs from zero
   double rounding = 0.0;      ///< relative error of the entries below the diagonal
 };
 
 /**
- * The Cholesky factor of the matrix of the coarsest level. A component without an anchored node
- * determines its solution only up to a constant: its first node is pinned to zero, and the mean of
- * its right-hand side is subtracted.
+ * The Cholesky factor of the matrix of the coarsest level, by CHOLMOD. A component without an
+ * anchored node determines its solution only up to a constant: its first node is pinned to zero,
+ * and the mean of its right-hand side is subtracted.
  *
- * An exact matrix, definite or not, is factorised as L D L^T. If its entries are rounded, the small
- * eigenvalues of modes that only slivers resist may be lost, so that the matrix is barely or no
- * longer definite. Every edge is then stiffened by about that rounding, which hardly affects weakly
- * constrained modes, and by more until the matrix is definite, which is factorised as L L^T.
+ * An exact matrix, definite or not, is factorised as L D L^T. Rounding of the entries may destroy
+ * the small eigenvalues of modes that only slivers resist, so that the matrix is barely definite or
+ * indefinite. Where entries are rounded, every edge is therefore stiffened by about that rounding,
+ * which hardly affects weakly constrained modes, and by more until the matrix is definite, and the
+ * result is factorised as L L^T.
  */
 class CoarsestFactor
 {
 public:
-  /** The factor is accounted for in `pool`, from its analysis on. Throws Error above the limit, if
-   * a pivot of an exact matrix is zero, or if a rounded matrix is far from definite. */
+  /** Factorises the matrix. The pool accounts for the factor from its analysis on. Throws Error
+   * above the memory limit, if a pivot of an exact matrix is zero, or if a rounded matrix is
+   * far from definite. */
   void factorize(const CoarsestMatrix& matrix, Pool& pool);
-  /** Solves for one right-hand side per column. */
+  /** Solves for each column of b. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
   /** The number of components without an anchored node. */
   std::int64_t floatingComponents() const;

@@ -6,14 +6,22 @@
 #include <cfloat>
 #include <cmath>
 
+// Connects the blocks of the coarsest level with CoarsestFactor: reads the matrix from the packed
+// rows and moves b and x, which are in single precision, to and from the columns of Eigen. The
+// factor is hidden behind a pointer so that files which include the V-cycle do not include CHOLMOD.
+
 namespace smg
 {
 namespace
 {
 
+/** The matrix of the level with its weights as they are stored, so rounded as the relaxation of
+ * this level sees them. */
 CoarsestMatrix matrixOf(LevelWindow<float>& level)
 {
   CoarsestMatrix matrix;
+  // The rounding of floats, in which sliver rows are stored: blocks in BFloat16 have no special
+  // nodes (see packRows()).
   matrix.rounding = 2.0 * FLT_EPSILON;
   level.forRange(0, level.nodes(), level.up(),
     [&](const auto& h, const auto& a, BlockRange range, float*, float*)
@@ -21,6 +29,8 @@ CoarsestMatrix matrixOf(LevelWindow<float>& level)
       for (std::int64_t k = range.begin; k < range.end; ++k)
       {
         const std::int64_t i = h.first + k;
+        // The row sum, recomputed from the diagonal: zero up to the rounding of this sum where no
+        // constraint reaches, since the diagonal is the row sum plus the weights.
         double sum = a.diagonal[k];
         double terms = a.diagonal[k];
         const BlockRange row = entriesOf(h, a, k);
@@ -29,13 +39,15 @@ CoarsestMatrix matrixOf(LevelWindow<float>& level)
           const double weight = a.weight[e];
           sum -= weight;
           terms += std::fabs(weight);
+          // The matrix is symmetric: one triangle suffices.
           if (a.delta[e] < 0)
           {
             matrix.lower.emplace_back(i, i + a.delta[e], -weight);
           }
         }
         matrix.diagonal.push_back(a.diagonal[k]);
-        // Row sums of a free component are exactly zero, up to the rounding of this sum.
+        // Row sums of a free component are exactly zero: what remains is the rounding of this sum,
+        // relative to its terms.
         matrix.anchored.push_back(std::fabs(sum) > 8.0 * DBL_EPSILON * terms);
       }
     });
@@ -72,6 +84,7 @@ void CoarsestSolver::solve(LevelWindow<float>& level) const
     const float* from = level.b().at(i);
     for (int lane = 0; lane < stride; ++lane)
     {
+      // With all lanes, the padded ones, too: these are zero and stay zero.
       b(i, lane) = from[lane];
     }
   }

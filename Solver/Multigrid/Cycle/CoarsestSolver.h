@@ -10,10 +10,10 @@ namespace smg
 {
 
 /**
- * The direct solve on the coarsest level, with a CoarsestFactor that is computed once. One node of
- * each unconstrained component (with zero row sums) is pinned to zero: its correction is determined
- * up to a constant, which is arbitrary. The part of b outside the range of the matrix, the mean
- * over such a component, is omitted.
+ * The direct solve on the coarsest level, by a CoarsestFactor that is computed once. In each
+ * component without a constraint (zero row sums) one node is pinned to zero, since its correction
+ * is determined only up to a constant, which is arbitrary; the mean of b over such a component,
+ * which lies outside the range of the matrix, is omitted.
  */
 class SMG_EXPORT CoarsestSolver
 {

@@ -7,6 +7,16 @@
 #include <numeric>
 #include <utility>
 
+// The stages of acceleration in a pass: load() and keep() copy the iterate before the upward part
+// changes it, combine() replaces T(y_k) by the accelerated iterate between the last sweep and
+// restriction, and ResidualKeeper updates the vectors of conjugate residuals while restriction
+// computes the residual. The formulas are at IterateHistory and StepWeights.
+//
+// Acceleration needs no additional pass: its weights come from inner products of the pass before. A
+// scratch file, level0.history, has the vectors of a block of nodes as one record, steps first,
+// then the residuals of the sampled nodes; it is read and rewritten in every pass, like the state
+// of the level.
+
 namespace smg
 {
 
@@ -20,6 +30,8 @@ void IterateHistory::startPass(const StepWeights& weights)
   this->Weights = weights;
   this->Written = this->Read = this->Kept = this->Unpacked = 0;
   std::fill(this->Sums.begin(), this->Sums.end(), 0.0);
+  // y_k exists only during a pass. In memory, steps and residuals stay from pass to pass; from disk
+  // they are read anew.
   this->Before.restart();
   if (this->Stream)
   {
@@ -32,12 +44,16 @@ void IterateHistory::startPass(const StepWeights& weights)
 void IterateHistory::load(std::int64_t end)
 {
   this->Before.extendRaw(end);
+  // Whole blocks, so possibly beyond `end`; the rings only grow here, while no other thread uses
+  // them.
   while (this->Steps.end() < end)
   {
     this->loadBlock();
   }
 }
 
+/** Runs with the first stage of the finest level, so x is still as it was loaded, and may touch
+ * only what load() has added. */
 void IterateHistory::keep(const Ring<double>& x)
 {
   const std::int64_t end = this->Before.end();
@@ -58,6 +74,7 @@ void IterateHistory::keep(const Ring<double>& x)
 
 void IterateHistory::readAhead()
 {
+  // Nothing is on disk before the first pass with this history has ended.
   this->Ahead.fill([this] { return this->Stream && !this->First && this->Read < this->Nodes; },
     [this] { return this->readBlock(); });
 }
@@ -78,6 +95,7 @@ void IterateHistory::loadBlock()
 {
   const std::int64_t begin = this->Steps.end();
   const std::int64_t end = this->blockEnd(begin);
+  // No iterate before the first one: zero steps, which a momentum of zero multiplies anyway.
   if (this->First)
   {
     this->Steps.extend(end);
@@ -89,6 +107,8 @@ void IterateHistory::loadBlock()
   this->Packages.push_back(this->Ahead.take([this] { return this->readBlock(); }));
 }
 
+/** y_{k+1} = y_k + correction (T(y_k) - y_k) + momentum (y_k - y_{k-1}), one column or four at a
+ * time. */
 void IterateHistory::combine(const Ring<double>& x, std::int64_t begin, std::int64_t end)
 {
   if (this->Stride == 1)
@@ -117,6 +137,8 @@ void IterateHistory::combineLanes(
     const Wide old = Vectors::load(before);
     const Wide change = correction * (Vectors::load(value) - old) +
                         momentum * __builtin_convertvector(Single::load(step), Wide);
+    // The step is stored as it was computed, before the sum is rounded: later passes extrapolate
+    // it.
     Vectors::store(value, old + change);
     Single::store(step, __builtin_convertvector(change, typename Single::Vector));
     value += this->Stride;
@@ -135,6 +157,7 @@ void IterateHistory::write(std::int64_t done)
   {
     const std::int64_t begin = this->Written;
     const std::int64_t end = this->blockEnd(begin);
+    // A block is a record of the file: it is written as a whole or not yet.
     if (end > done)
     {
       break;
@@ -158,7 +181,8 @@ void IterateHistory::release()
   }
 }
 
-/** Fills items [begin, end) of a ring; returns the remaining part of `packed`. */
+/** Fills items [begin, end) of a ring from packed values; returns what follows these. An item
+ * has one vector of `Columns` values (steps) or three (residuals). */
 const float* IterateHistory::unpack(
   Ring<float>& ring, std::int64_t begin, std::int64_t end, const float* packed) const
 {
@@ -167,7 +191,7 @@ const float* IterateHistory::unpack(
   return packed + vectors * this->Columns;
 }
 
-/** Appends items [begin, end) of a ring to Packed. */
+/** Appends items [begin, end) of a ring to Packed, without padding. */
 void IterateHistory::pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end)
 {
   const std::int64_t vectors = (end - begin) * (ring.lanes() / this->Stride);
@@ -185,6 +209,7 @@ void IterateHistory::endPass()
   }
 }
 
+/** The sums determine the weights of the next pass; everything else is in the file. */
 void IterateHistory::save(StateWriter& state)
 {
   state.part("history");
@@ -194,6 +219,7 @@ void IterateHistory::save(StateWriter& state)
 
 void IterateHistory::load(StateReader& state)
 {
+  // A checkpoint of another number of columns must not change the size.
   const std::size_t sums = this->Sums.size();
   state.part("history");
   state(this->Sums);
@@ -204,6 +230,7 @@ void IterateHistory::load(StateReader& state)
 
 ResidualProducts IterateHistory::products() const
 {
+  // Over all lanes; those that pad the columns are zero.
   const auto sum = [this](int n)
   {
     const double* first = this->Sums.data() + static_cast<std::ptrdiff_t>(n * this->Stride);

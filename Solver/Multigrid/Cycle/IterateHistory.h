@@ -27,7 +27,7 @@ struct StepWeights
   double correction = 1.0, momentum = 0.0;
   /** The weights of conjugate residuals; see IterateHistory. */
   double conjugation = 0.0, length = 0.0;
-  /** Whether conjugate residuals start: z_k = y_k. */
+  /** Whether conjugate residuals (re)start, with z_k = y_k. */
   bool begin = false;
 };
 
@@ -37,31 +37,37 @@ struct ResidualProducts
   double aa = 0.0, aq = 0.0, qq = 0.0, za = 0.0, zq = 0.0;
 };
 
-/** The nodes at which conjugate residuals keep their vectors. */
+/** For which nodes conjugate residuals keep their vectors. */
 enum class KeptResiduals
 {
   None,
-  Few, ///< one of as many groups as possible, where memory is short
-  Sampled,
-  All ///< for bad cells, which make the residuals of few nodes dominant
+  Few,     ///< the smallest sample, where memory is short
+  Sampled, ///< a sample that depends on the size of the level
+  All      ///< for bad cells, where the residuals of few nodes dominate
 };
 
 /**
- * The data of the iterates of the finest level that acceleration keeps between passes: the step
- * y_k - y_{k-1} and, for conjugate residuals, three additional vectors. In single precision, since
- * their rounding errors vanish with the steps as the iterates converge; on disk if the level is.
+ * What acceleration keeps of the iterates of the finest level between passes: the step y_k -
+ * y_{k-1} and, for conjugate residuals, three more vectors. They are in single precision, since
+ * their rounding errors vanish with the steps as the iterates converge, and on disk if the level
+ * is: per node and column 4 bytes, and 12 more for nodes with residuals.
  *
  * The iterates y_k are those whose residual a pass computes: after the sweeps before restriction.
  *
- * Conjugate residuals (Stiefel 1955; with a V-cycle as preconditioner, one pass a step): let z_k be
- * the best combination of iterates so far and y_k = T(z_{k-1}). The direction added by y_k has the
- * image a = A (y_k - z_{k-1}) = r(z_{k-1}) - r(y_k), which is made conjugate: q_k = a - conjugation
- * q_{k-1}. Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no separate pass:
- * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
- * momentum. The stored vectors are z: r(z_k), q and a; their inner products yield the next weights
- * before the next pass. If sampled, large meshes store one of up to sixteen groups of nodes, which
- * determines the two weights of a step well enough: residuals differ between regions, so the groups
- * are small and distributed over the mesh.
+ * Conjugate residuals (Stiefel 1955; here with a V-cycle as preconditioner and one pass per step):
+ * let z_k be the best combination of iterates so far, and y_k = T(z_{k-1}). The direction that y_k
+ * adds has the image a = A (y_k - z_{k-1}) = r(z_{k-1}) - r(y_k), which is made conjugate to the
+ * one before: q_k = a - conjugation q_{k-1}. Then r(z_k) = r(z_{k-1}) - length q_k. T is affine, so
+ * T(z_k) needs no pass of its own: T(z_k) = y_k + length u_k with u_k = T(y_k) - y_k - conjugation
+ * u_{k-1}, which is a step with a momentum.
+ *
+ * The stored vectors are r(z_k), called z below, q and a. Their inner products yield the weights of
+ * the next pass before it starts; within a pass they would be known too late. On large meshes one
+ * of up to sixteen groups of nodes is sampled, which determines the two weights of a step well
+ * enough. Residuals differ between regions, so the groups are small (64 nodes) and spread over the
+ * mesh.
+ *
+ * The inner products are summed in node order, so they do not depend on windows or threads.
  */
 class SMG_EXPORT IterateHistory
 {
@@ -81,7 +87,7 @@ public:
   {
   }
 
-  /** Of how many groups of nodes one keeps residuals; 0: none does. */
+  /** One of this many groups of nodes keeps residuals; 0: none does. */
   static std::int64_t sparseness(std::int64_t nodes, KeptResiduals residuals)
   {
     return residuals == KeptResiduals::Few       ? RowBlock::Groups
@@ -91,7 +97,7 @@ public:
   }
   std::int64_t sparseness() const { return this->Every; }
 
-  /** The maximum bytes per node in memory. */
+  /** The largest number of bytes per node in memory. */
   static std::int64_t nodeBytes(int stride, KeptResiduals residuals)
   {
     constexpr std::int64_t Single = sizeof(float);
@@ -104,18 +110,18 @@ public:
   bool keepsResiduals() const { return this->Every > 0; }
 
   void startPass(const StepWeights& weights);
-  /** Loads the blocks up to node `end`; keep() completes them. */
+  /** Loads the blocks up to node `end`, packed; keep() unpacks them. */
   void load(std::int64_t end);
-  /** Stores the iterate x of the nodes that load() has loaded, which are not modified yet. Other
-   * threads may access nodes below these. */
+  /** Copies y_k from x for the nodes that load() has loaded, before any stage of this pass
+   * modifies them, and unpacks the loaded blocks. Other threads may access nodes below these. */
   void keep(const Ring<double>& x);
-  /** x of nodes [begin, end), which is T(y_k), becomes y_{k+1}. */
+  /** Turns x of nodes [begin, end), which is T(y_k), into y_{k+1}. */
   void combine(const Ring<double>& x, std::int64_t begin, std::int64_t end);
-  // Levels of single precision, the coarse ones, are not accelerated.
+  // Coarse levels, which have single precision, are not accelerated.
   void keep(const Ring<float>&) {}
   void combine(const Ring<float>&, std::int64_t, std::int64_t) {}
 
-  /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
+  /** Prefetches as many blocks as load() has taken since the last call. Other threads may access
    * loaded blocks. */
   void readAhead();
   /** Writes the blocks below `done`, whose residuals are known. Other threads may access blocks
@@ -125,7 +131,7 @@ public:
   void release();
   void endPass();
 
-  /** Between passes, with a scratch file: saves all that later passes need. */
+  /** Between passes, with a scratch file: saves and restores all that later passes need. */
   void save(StateWriter& state);
   void load(StateReader& state);
 
@@ -141,8 +147,9 @@ private:
   static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
   static constexpr std::int64_t ManyNodes = std::int64_t(1) << 23;
 
-  /** The sampling interval of groups, a power of two, so that every block has the same number of
-   * sampled groups. With one in 16, levels with fewer than ManyNodes nodes converge more slowly. */
+  /** The sampling interval of groups: a power of two, so that every block has the same number of
+   * sampled groups. With one group in 16, levels of fewer than ManyNodes nodes converge more
+   * slowly. */
   static std::int64_t sparsenessFor(std::int64_t nodes)
   {
     if (nodes >= ManyNodes)
@@ -152,14 +159,15 @@ private:
     const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, 8);
   }
-  /** The sampled one of `Every` groups of a block, pseudo-random to avoid correlation with a
-   * pattern of the mesh. */
+  /** Which one of `Every` groups of a block is sampled: pseudo-random, so that it does not
+   * correlate with a pattern of the mesh. */
   std::int64_t sampledGroup(std::int64_t block) const
   {
     constexpr std::uint32_t Golden = 2654435769U;
     return (static_cast<std::uint32_t>(block) * Golden >> 16) % this->Every;
   }
-  /** The number of nodes below `end` with residuals: those of one of `Every` groups; none if 0. */
+  /** The number of nodes below `end` that keep residuals: the index of the next such node in
+   * Residuals. */
   std::int64_t sampledBelow(std::int64_t end) const
   {
     if (this->Every == 0)
@@ -180,7 +188,7 @@ private:
   }
   Buffer readBlock();
   void loadBlock();
-  // On disk nodes have no padding.
+  // In memory each node has `Stride` values, on disk `Columns`.
   const float* unpack(
     Ring<float>& ring, std::int64_t begin, std::int64_t end, const float* packed) const;
   void pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end);
@@ -190,16 +198,16 @@ private:
   int Stride;
   std::int64_t Every; // one of this many groups of nodes keeps residuals; 0: none
   StepWeights Weights;
-  Ring<double> Before; // y_k
-  Ring<float> Steps;
-  Ring<float> Residuals; // of those nodes: z, q and a, `Stride` values each
-  std::vector<double> Sums;
+  Ring<double> Before;      // y_k, in double precision: T(y_k) - y_k is a small difference
+  Ring<float> Steps;        // y_k - y_{k-1}
+  Ring<float> Residuals;    // of sampled nodes: z, q and a, `Stride` values each
+  std::vector<double> Sums; // the inner products of each lane
   bool First = true;
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
-  std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
+  std::int64_t Read = 0; // nodes of the blocks read so far; Ahead has those not taken yet
   BlockPrefetch<Buffer> Ahead;
-  std::vector<Buffer> Packages;        // blocks that keep() is to unpack
+  std::vector<Buffer> Packages;        // loaded blocks that keep() has to unpack
   std::int64_t Kept = 0, Unpacked = 0; // ends of the nodes in Before and in Steps
   SpareBuffers Spare, Empty;
   std::vector<float> Packed;
@@ -208,11 +216,9 @@ private:
   void combineLanes(const Ring<double>& x, std::int64_t begin, std::int64_t end, int lane);
 };
 
-/**
- * Receives the residuals of y_{k+1} from restriction, in node order, for the block of a level that
- * begins with node `first`: the `Vectors::count` values from `lane` on. Does nothing without a
- * history that keeps residuals.
- */
+/** Receives the residuals of y_{k+1} from restriction, in node order, for a block of the level
+ * that begins with node `first`: the `Vectors::count` values from `lane` on. It does nothing
+ * without a history that keeps residuals. */
 template <class Vectors>
 class ResidualKeeper
 {
@@ -247,7 +253,7 @@ public:
   ResidualKeeper(const ResidualKeeper&) = delete;
   ResidualKeeper& operator=(const ResidualKeeper&) = delete;
 
-  /** Node first + k. */
+  /** The residual of node first + k. */
   void operator()(std::int64_t k, Wide residual)
   {
     const std::int64_t group = k / RowBlock::Group;
@@ -265,6 +271,7 @@ private:
     const Wide oldZ = __builtin_convertvector(Single::load(at), Wide);
     const Wide oldQ = __builtin_convertvector(Single::load(at + this->Stride), Wide);
     const Wide oldA = __builtin_convertvector(Single::load(at + 2 * this->Stride), Wide);
+    // The recurrences of the class comment, from old z, q, a to the new ones.
     const Wide q = w.begin ? Wide{} : oldA - w.conjugation * oldQ;
     const Wide z = w.begin ? residual : oldZ - w.length * q;
     const Wide a = z - residual;
@@ -285,7 +292,7 @@ private:
   Wide Sum[IterateHistory::Products] = {};
 };
 
-/** Coarse levels have single precision and are not accelerated. */
+/** Coarse levels are not accelerated. */
 template <int Count>
 class ResidualKeeper<SimdPack<float, Count>>
 {
@@ -295,14 +302,14 @@ public:
 };
 
 /**
- * The energy J(x) = 1/2 x.A x - b.x of the iterate of each pass, up to a constant, from the
- * residual r = b - A x that the restriction of the finest level has: J = -1/2 x.(b + r). What the
- * error x* - x loses in its squared energy norm is twice what J loses, since A is symmetric.
+ * The energy J(x) = 1/2 x.A x - b.x of the iterate of each pass, up to a constant. It needs no pass
+ * of its own: restriction on the finest level has the residual r = b - A x, and J = -1/2 x.(b + r).
+ * The squared energy norm of the error x* - x falls by twice what J falls, since A is symmetric.
  *
- * So that a large mean of the solution does not drown this in rounding, x is counted from a number
- * c of each column: with rowSum the row sums of A, -1/2 (x - c).(b - c rowSum + r) differs from J
- * by a constant. c is the mean of b / rowSum, weighted with |rowSum|, which the first pass finds:
- * near what is prescribed. Where all rowSum are 0, it is the mean of x.
+ * A large mean of the solution would drown this in rounding, so x is counted from a number c for
+ * each column: with rowSum the row sums of A, -1/2 (x - c).(b - c rowSum + r) differs from J by a
+ * constant. c is the mean of b / rowSum, weighted with |rowSum|, over the nodes of the first pass:
+ * close to the prescribed values. Where all row sums are 0, c is the mean of x.
  */
 class IterateEnergy
 {
@@ -332,7 +339,7 @@ public:
       this->Numbers.begin() + static_cast<std::ptrdiff_t>(this->Stride), this->Numbers.end(), 0.0);
   }
 
-  /** Adds a node of unknown x: `lane` is the first of its columns that the vectors have. */
+  /** Adds a node whose value is an unknown; `lane` is the first of the columns in the vectors. */
   template <class Vectors, class Vector>
   void add(const double* x, const double* b, const Vector& r, double rowSum, int lane)
   {
@@ -354,7 +361,7 @@ public:
       sum, Vectors::load(sum) - 0.5 * (Vectors::load(x) - c) * (Vectors::load(b) - rowSum * c + r));
   }
 
-  /** That of the pass, summed over the columns; not of the first pass. */
+  /** The energy of the pass, summed over the columns; not of the first pass, which only finds c. */
   double value() const
   {
     double sum = 0.0;

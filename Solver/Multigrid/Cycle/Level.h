@@ -16,10 +16,20 @@ namespace smg
 {
 
 /**
- * A level in a pass: its window and its stages. Real is double on the finest level, float on the
- * others, which only precondition. A stage may advance over a group of nodes when the stage before
- * it has passed the largest index that the group needs; so the arithmetic is that of the in-core
- * method, in the same order, for any window.
+ * A level in a pass: its window and its stages. Real is double on the finest level and float on the
+ * others, which only precondition.
+ *
+ * The schedule follows from one rule: a stage may advance over a group of nodes once the stage
+ * before it has passed the largest index that the group depends on. For a sweep this is the largest
+ * neighbour (RowBlock::Header::reach()), for restriction the largest parent, for the first sweep on
+ * a coarse level the largest child. Nodes below have then been processed by both stages, nodes
+ * above only by the earlier one: exactly the state that Gauss-Seidel in stream order has when all
+ * stages run one after the other over the whole level. The results are therefore the bits of the
+ * in-core method, for any window, step and number of threads.
+ *
+ * The paper instead keeps counters in each node and notifies neighbours (section 2.2). Cursors need
+ * no counters per node, and little more memory if the span of the stream order is close to its
+ * width.
  */
 template <class Real, class Relaxation>
 class Level
@@ -39,7 +49,8 @@ public:
   const LevelCursors& cursors() const { return this->At; }
   void setCoarse(CoarseLevel* coarse) { this->Coarse = coarse; }
   void setFine(const LevelCursors* fine) { this->Fine = fine; }
-  /** A core level does not take part in the passes: the core cycle processes it between them. */
+  /** Makes this a core level: it takes no part in the passes; the core cycle processes it
+   * between them. */
   void setCore() { this->Core = true; }
   bool core() const { return this->Core; }
 
@@ -60,7 +71,7 @@ public:
     }
   }
 
-  /** Between passes: saves all that later passes need. */
+  /** Between passes: saves and restores all that later passes need. */
   void save(StateWriter& state)
   {
     state.part("level");
@@ -82,9 +93,10 @@ public:
   }
 
   /**
-   * Restriction of the next pass multiplies by `scale`, a power of two, and its prolongation
-   * divides by the previous scale: so the numbers in single precision depend neither on units nor
-   * on the size of the residual.
+   * Restriction in the next pass multiplies by `scale`, a power of two, and the prolongation of
+   * that pass, which finishes the V-cycle before, divides by the scale before. So the numbers in
+   * single precision depend neither on units nor on the size of the residual, and nothing is
+   * rounded by scaling.
    */
   void setScale(Real scale)
   {
@@ -92,21 +104,22 @@ public:
     this->Scale = scale;
   }
 
-  /** The next prolongation adds nothing: the coarse levels have been given another right-hand side.
-   */
+  /** The next prolongation adds nothing, since the coarse levels have another right-hand side:
+   * setScale() then divides by infinity. */
   void leaveOutCorrection() { this->Scale = std::numeric_limits<Real>::infinity(); }
 
-  /** In a pass after LevelWindow::renew(), on the finest level: the state of the downward part is
-   * complete for nodes below `end`. */
+  /** On the finest level, in a pass after LevelWindow::renew(): the state of the downward part
+   * is complete for nodes below `end`. */
   void setRenewed(std::int64_t end) { this->At.renewed = end; }
 
-  /** On the finest level: accelerates the iterates in this pass, which has started. */
+  /** On the finest level: accelerates the iterates of this pass, which has started; null: it
+   * does not. */
   void setHistory(IterateHistory* history) { this->History = history; }
-  /** On the finest level: sums the energies of the iterates there; null: no. */
+  /** On the finest level: sums the energies of the iterates there; null: it does not. */
   void setEnergy(IterateEnergy* energy) { this->Energy = energy; }
 
-  /** The end of the nodes from `end` on whose x is final in the upward part, for a stage that
-   * `follows` it. */
+  /** The end of the nodes from `end` on whose x is final in the upward part, as seen by a stage
+   * that `follows` it on the same thread, or does not. */
   std::int64_t finishedUp(std::int64_t end, bool follows) const
   {
     const std::int64_t swept = this->At.postSweep.back().seen(follows);
@@ -116,7 +129,9 @@ public:
   /** Adds the next block of rows while the hierarchy is built. */
   void append(RowBlock block)
   {
-    // Nodes of a patch may be in blocks before that of its last one.
+    // Already with the first member of a patch: the last one, where the sweep relaxes it, may be in
+    // a later block. Special nodes need not be in patches, though; then stages wait longer than
+    // necessary, with the same result.
     const RowBlock::Header& h = block.header();
     this->Patched = this->Patched || h.specials > 0;
     if (this->Coarse)
@@ -127,16 +142,18 @@ public:
     this->Window.append(std::move(block));
   }
 
-  /** Loads, here and on the coarser levels, all data that the upward part to `node` needs. */
+  /** Loads, on this and the coarser levels, all data that the upward part needs to finish nodes
+   * 0 .. node. */
   void load(std::int64_t node);
 
-  /** Adds the stages of the upward part, those of coarser levels first. They finish the V-cycle as
-   * far as load() has wanted it. */
+  /** Adds the stages of the upward part, those of coarser levels first. They finish the V-cycle
+   * as far as load() was asked for. */
   void addUpward(Pipeline& pipeline);
   /** Adds the stages of the downward part, those of coarser levels last. */
   void addDownward(Pipeline& pipeline);
 
-  /** Advances every stage of the downward part, here and on the coarser levels. */
+  /** Advances every stage of the downward part, on this and the coarser levels, as far as
+   * possible. */
   void advanceDown()
   {
     for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
@@ -151,7 +168,8 @@ public:
     }
   }
 
-  /** Shows the cursors, here and on the coarser levels, to the stages on other threads. */
+  /** Publishes the cursors of this and the coarser levels for stages on other threads; between
+   * two steps. */
   void showProgress()
   {
     this->At.show();
@@ -161,8 +179,8 @@ public:
     }
   }
 
-  /** Adds what reads ahead what load() will take next, here and on the coarser levels. It may run
-   * beside all else. */
+  /** Adds tasks that prefetch what load() will take next, on this and the coarser levels. They
+   * may run beside all stages. */
   void addReaders(std::vector<std::function<void()>>& tasks)
   {
     tasks.emplace_back([this] { this->Window.readAhead(); });
@@ -176,8 +194,8 @@ public:
     }
   }
 
-  /** Adds what writes what the downward part has finished, here and on the coarser levels. It may
-   * run beside all else. */
+  /** Adds tasks that write what the downward part has finished, on this and the coarser levels.
+   * They may run beside all stages. */
   void addWriters(std::vector<std::function<void()>>& tasks)
   {
     tasks.emplace_back([this] { this->writeWindow(); });
@@ -191,7 +209,7 @@ public:
     }
   }
 
-  /** Releases written data that are not needed any more. */
+  /** Releases written data that no stage needs any more; between two steps. */
   void release()
   {
     this->Window.release(this->At.restricted);
@@ -205,8 +223,8 @@ public:
     }
   }
 
-  /** Shows the cursors, writes what the downward part has finished, and releases data that are not
-   * needed any more. */
+  /** Publishes the cursors, writes what the downward part has finished, and releases what no
+   * stage needs any more. */
   void settle()
   {
     this->showProgress();
@@ -217,30 +235,31 @@ public:
   /** Whether all nodes have passed all stages of the pass. */
   bool finished() const { return this->At.restricted == this->Window.nodes(); }
 
-  /** Whether x of node `node`, which load() has wanted, is final in the upward part, for a stage
-   * that `follows` it. */
+  /** Whether x of node `node`, for which load() was asked, is final in the upward part, as seen
+   * by a stage that `follows` it. */
   bool isFinal(std::int64_t node, bool follows) const
   {
     return this->Core || this->At.postSweep.back().seen(follows) > this->finalWith(node);
   }
 
-  /** Prepares b of nodes 0 .. node for restriction: sets it to zero, once the previous V-cycle
-   * needs neither their b nor their x. Returns whether this was possible. */
+  /** Prepares b of nodes 0 .. node for restriction, that is, sets it to zero, once the V-cycle
+   * before needs neither the b nor the x of these nodes. Returns whether this was possible. */
   bool prepare(std::int64_t node);
 
-  /** ||b - A x||^2 of each column, as computed by the restriction of the last pass. */
+  /** ||b - A x||^2 of each column, from the restriction of the last pass. */
   std::span<const Real> squares() const { return std::span(this->Squares).first(this->lanes()); }
-  /** The same of the terms A_ii x_i, on the finest level. */
+  /** The same for the terms A_ii x_i, on the finest level. */
   std::span<const Real> termSquares() const
   {
     return std::span(this->Squares).subspan(this->lanes());
   }
 
-  // The whole of a core level at once, with the same kernels.
+  // A whole core level at once, with the same kernels.
 
   void relaxDown()
   {
     const std::int64_t nodes = this->Window.nodes();
+    // The first sweep starts from x = 0, which need not be stored first.
     this->sweep<true>(0, nodes, this->Window.down(), true);
     for (std::size_t s = 1; s < this->At.preSweep.size(); ++s)
     {
@@ -271,7 +290,8 @@ private:
   }
   void writeWindow()
   {
-    // An unfinished patch may change nodes before it.
+    // If the last sweep relaxes patches, the end of an unfinished patch may still change nodes
+    // before it.
     this->Window.write((this->endPatched() ? this->At.restricted : this->At.combined).shown());
   }
   void writeHistory()
@@ -282,16 +302,19 @@ private:
     }
   }
 
-  /** About the time that stages take for a node, relative to a sweep. */
+  /** The time that a stage takes per node, relative to a sweep; only used to cut the pipeline. */
   static constexpr double ProlongCost = 0.8, CombineCost = 0.5, RestrictCost = 1.4;
 
-  /** The end of the nodes from `cursor` on that sweep s of `sweeps` does not touch any more. */
+  /** The end of the nodes from `cursor` on whose neighbours sweep s of `sweeps` has passed, and
+   * does not touch any more: the first sweep relaxes patches, whose nodes change at the end of
+   * the patch. */
   std::int64_t reachable(
     std::int64_t cursor, const std::vector<Cursor>& sweeps, std::size_t s, bool follows) const
   {
     return this->Window.reachable(cursor, sweeps[s].seen(follows), s == 0 && this->Patched);
   }
-  /** Whether the last sweep of each half relaxes patches. */
+  /** Whether the last sweep of each half of the V-cycle is also its first one, which relaxes
+   * patches. */
   bool endPatched() const { return this->Patched && this->At.preSweep.size() == 1; }
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
@@ -317,12 +340,15 @@ private:
 
   using State = typename LevelWindow<Real>::State;
 
-  /** One sweep over nodes [begin, end); `patches`: which relaxes the nodes of a patch together. The
-   * first one of each half of a V-cycle does: what a sweep relaxes one by one, the next one need
-   * not wait for longer than for neighbours, so the window is shorter. */
+  /**
+   * One sweep over nodes [begin, end); with `patches` it relaxes the nodes of a patch together.
+   * Only the first sweep of each half of a V-cycle does: behind a sweep that relaxes node by node
+   * the next stage waits for neighbours only, not for the ends of patches, so the window is
+   * shorter.
+   */
   template <bool LowerOnly>
   void sweep(std::int64_t begin, std::int64_t end, State& state, bool patches);
-  /** Processes a special node in a sweep. */
+  /** Relaxes a special node in a sweep. */
   template <bool LowerOnly, class Arrays>
   void relaxSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
     State& state, bool patches);
@@ -337,7 +363,7 @@ private:
 
   LevelWindow<Real> Window;
   LevelCursors At;
-  std::vector<Real> Squares; // of the residual, then of its terms
+  std::vector<Real> Squares; // squares of the residual, then of its terms, a lane each
   CoarseLevel* Coarse = nullptr;
   const LevelCursors* Fine = nullptr;
   IterateHistory* History = nullptr;
@@ -346,7 +372,7 @@ private:
   Real Unscale = 1;
   bool First = true;
   bool Core = false;
-  bool Patched = false; // some nodes are relaxed together with later ones
+  bool Patched = false; // some nodes may be relaxed together with later ones
 };
 
 } // namespace smg

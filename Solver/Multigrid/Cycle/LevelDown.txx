@@ -3,7 +3,9 @@
 
 #include "Solver/Multigrid/Cycle/Level.h"
 
-// The stages of the downward part: the sweeps that begin a V-cycle, acceleration, restriction.
+// The stages of the downward part, which begins a V-cycle: pre-smoothing, acceleration, residual
+// and restriction. Each stage moves its cursor as far as the rule at Level allows. Stages of the
+// finest level come first; each level follows the one that restricts to it.
 
 namespace smg
 {
@@ -20,6 +22,7 @@ void Level<Real, Relaxation>::addDownward(Pipeline& pipeline)
   {
     pipeline.add(nodes, [this, s](bool follows) { this->preSweep(s, follows); });
   }
+  // Without a history the stage only passes the cursor on.
   pipeline.add(
     this->History ? CombineCost * nodes : 0.0, [this](bool follows) { this->combine(follows); });
   pipeline.add(RestrictCost * nodes, [this](bool follows) { this->restrictDown(follows); });
@@ -32,6 +35,8 @@ void Level<Real, Relaxation>::preSweep(std::size_t s, bool follows)
   Cursor& cursor = this->At.preSweep[s];
   const std::int64_t end = s == 0 ? this->firstPreSweepEnd(follows)
                                   : this->reachable(cursor, this->At.preSweep, s - 1, follows);
+  // On coarse levels x starts from zero: the first sweep reads the nodes below only, which it has
+  // set itself.
   if (s == 0 && this->Fine)
   {
     this->sweep<true>(cursor, end, this->Window.down(), true);
@@ -50,12 +55,16 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
   std::int64_t end = this->At.preSweep.front();
   if (!this->Fine)
   {
+    // The first pass has no upward part: initial values are final. Later, the last sweep of the
+    // upward part must have passed all neighbours, or, where another problem begins, the stage that
+    // fills the new state.
     return this->First ? this->Window.loaded()
            : this->Window.isApart()
              ? this->At.renewed.seen(follows)
              : this->reachable(end, this->At.postSweep, this->At.postSweep.size() - 1, follows);
   }
-  // b must be complete; the upper neighbours are zero, so they need not be loaded.
+  // b must be complete: restriction has passed the last child of the group. The upper neighbours
+  // count as zero, so they need not be loaded.
   const std::int64_t restricted = this->Fine->restricted.seen(follows);
   while (end < this->Window.loaded())
   {
@@ -69,7 +78,8 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
   return end;
 }
 
-/** Acceleration may modify a node when no sweep reads it any more. */
+/** Acceleration may modify a node once no sweep reads it any more. Restriction then takes the
+ * residual of the accelerated iterate. */
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::combine(bool follows)
 {
@@ -84,6 +94,8 @@ void Level<Real, Relaxation>::combine(bool follows)
 }
 
 template <class Real, class Relaxation>
+/** Restricts as far as the last stage has passed all neighbours, and as far as the coarse level
+ * can take it: its b must have been set to zero. */
 void Level<Real, Relaxation>::restrictDown(bool follows)
 {
   const std::int64_t limit = this->Window.reachable(
@@ -103,6 +115,12 @@ void Level<Real, Relaxation>::restrictDown(bool follows)
 }
 
 template <class Real, class Relaxation>
+/**
+ * x and b of a coarse node are used by two V-cycles in one pass: first as correction of the V-cycle
+ * that ends, then as residual equation of the one that begins. One pair of vectors suffices, since
+ * the second use begins only when the first one has ended for the node: when the last sweep has
+ * passed its neighbours, which read x, and the finer level has prolongated to all its children.
+ */
 bool Level<Real, Relaxation>::prepare(std::int64_t node)
 {
   if (this->First || this->Core)
@@ -113,6 +131,7 @@ bool Level<Real, Relaxation>::prepare(std::int64_t node)
   {
     const RowBlock::Header& h = this->Window.header(this->At.reset);
     const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
+    // Published cursors, since these stages may run on other threads at this time.
     if (this->At.postSweep.back().shown() <= h.reach(g, this->endPatched()) ||
         this->Fine->prolonged.shown() <= h.childReach[g])
     {

@@ -6,10 +6,15 @@
 #include <algorithm>
 #include <type_traits>
 
+// The kernels of a level, applied to ranges of nodes that the stages choose. One column is computed
+// as such, several in groups of four lanes (SimdPack); the stride is 1 or a multiple of four.
+// Special nodes (RowBlock::Special) interrupt the ranges: rows with weights in double precision,
+// and patches.
+
 namespace smg
 {
 
-/** One sweep over `nodes`, relaxed one by one. */
+/** One sweep over `nodes`, which are relaxed one by one. */
 template <bool LowerOnly, class Relaxation, class Real, class Arrays>
 void relaxNodes(
   const RowBlock::Header& h, const Arrays& a, BlockRange nodes, int stride, Real* x, const Real* b)
@@ -42,6 +47,9 @@ void Level<Real, Relaxation>::sweep(
     });
 }
 
+/** A node outside patches, or in a sweep that ignores them, is relaxed alone, by its precise
+ * weights if it has some. A node of a patch waits for the last member, which relaxes all of
+ * them. */
 template <class Real, class Relaxation>
 template <bool LowerOnly, class Arrays>
 void Level<Real, Relaxation>::relaxSpecial(const RowBlock::Header& h, const Arrays& a,
@@ -60,6 +68,7 @@ void Level<Real, Relaxation>::relaxSpecial(const RowBlock::Header& h, const Arra
   }
   if (node.size == 0)
   {
+    // x is not initialised in this sweep, but the last member and nodes between read it as zero.
     if (LowerOnly)
     {
       std::fill_n(x + node.node * static_cast<std::int64_t>(stride), stride, Real{});
@@ -76,7 +85,8 @@ void Level<Real, Relaxation>::relaxSpecial(const RowBlock::Header& h, const Arra
   }
 }
 
-/** Relaxes the patch that ends at `node`, the columns from `lane` on. */
+/** Relaxes the patch that ends at `node`, for the columns from `lane` on. Its members may lie in
+ * earlier blocks of the window. */
 template <class Real, class Relaxation>
 template <bool LowerOnly, class Vectors, class Arrays>
 void Level<Real, Relaxation>::relaxPatch(
@@ -110,6 +120,7 @@ void Level<Real, Relaxation>::relaxPatch(
       [&](const auto& header, const auto& rows, std::int64_t own)
       { findResidual(header, rows, own, k); });
   }
+  // The values of the patch are the distances of the other members, then the inverse.
   findResidual(h, a, node.node, node.size - 1);
   correctPatch<LowerOnly, Vectors>(
     node.size, distance, distance + node.size - 1, residual, stride, state.x.at(last) + lane);
@@ -122,6 +133,8 @@ void Level<Real, Relaxation>::prolongTo(std::int64_t begin, std::int64_t end)
   this->Window.forRange(begin, end, this->Window.up(),
     [&](const auto& h, const auto& a, BlockRange nodes, Real* x, Real*)
     {
+      // A ring is contiguous around any item in memory: parents of the block are relative to this
+      // one.
       const float* coarse = this->Coarse->window().x().at(h.parentBase);
       if (stride == 1)
       {
@@ -168,6 +181,8 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
       float* coarse = this->Coarse->window().b().at(h.parentBase);
       Real* squares = this->Squares.data();
       Real* terms = squares + stride;
+      // Special nodes of the finest level get the residual by differences, all others the plain
+      // one.
       const auto restrictNodes = [&]<class Residual>(Residual, const auto& arrays, BlockRange nodes)
       {
         const auto restrictLanes = [&]<int Count>(std::integral_constant<int, Count>, int lane)
@@ -210,7 +225,8 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
     });
 }
 
-/** Adds node k of a block, whose residual is r, to the energy of the iterate, if that is wanted. */
+/** Adds node k of a block, whose residual is r, to the energy of the iterate, if that is wanted.
+ * Nodes without entries have prescribed values and do not count. */
 template <class Real, class Relaxation>
 template <class Vectors, class Arrays>
 void Level<Real, Relaxation>::addEnergy(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
@@ -223,7 +239,7 @@ void Level<Real, Relaxation>::addEnergy(const RowBlock::Header& h, const Arrays&
       return;
     }
     const BlockRange row = entriesOf(h, a, k);
-    if (row.begin < row.end) // else prescribed
+    if (row.begin < row.end)
     {
       const std::int64_t at = k * this->Window.stride();
       this->Energy->template add<Vectors>(x + at, b + at, r, RowBlock::alphaOf(h, a, k), lane);

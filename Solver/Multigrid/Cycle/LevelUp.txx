@@ -3,7 +3,10 @@
 
 #include "Solver/Multigrid/Cycle/Level.h"
 
-// The stages of the upward part: prolongation and the sweeps that finish a V-cycle.
+// The stages of the upward part, which finishes a V-cycle: prolongation and post-smoothing. It
+// works by demand: load() asks for nodes of the finest level, and asks the stages before, and
+// through prolongation the coarser levels, for what these nodes need. Nothing is loaded before it
+// is needed, which keeps the windows of the coarse levels short.
 
 namespace smg
 {
@@ -25,6 +28,8 @@ void Level<Real, Relaxation>::addUpward(Pipeline& pipeline)
 }
 
 template <class Real, class Relaxation>
+/** Asks the last sweep for node `node`, and if that sweep relaxes patches, for the ends of the
+ * patches around it. */
 void Level<Real, Relaxation>::load(std::int64_t node)
 {
   const int last = static_cast<int>(this->At.postSweep.size());
@@ -36,11 +41,10 @@ void Level<Real, Relaxation>::load(std::int64_t node)
   }
 }
 
-/**
- * The node that the last sweep of the upward part must reach for x of the loaded nodes 0 .. node to
- * be final: if that sweep relaxes patches, the last node of one changes the others. The finest
- * level may defer this to later steps.
- */
+/** The node that the last sweep of the upward part must reach for x of nodes 0 .. node to be
+ * final, given that these are loaded: if that sweep relaxes patches, the end of a patch still
+ * changes its other members. On the finest level this may wait for later steps, and it is
+ * `node` itself. */
 template <class Real, class Relaxation>
 std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
 {
@@ -52,11 +56,13 @@ std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
   return h.reach(LevelWindow<Real>::groupIn(h, node), true);
 }
 
-/** Wants stage `stage` of the upward part to process node `node`, and loads all that it needs. */
+/** Asks stage `stage` of the upward part (0: prolongation) to process node `node`, and loads all
+ * that it needs, backwards through the stages. */
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 {
   std::int64_t& wanted = this->At.wanted[static_cast<std::size_t>(stage)];
+  // Already asked for: the recursion ends here, so its cost is one visit per group and stage.
   if (this->Core || wanted > node)
   {
     return;
@@ -71,6 +77,8 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
   }
   else
   {
+    // Stage 1 is the first sweep, which relaxes patches: behind it, stage 2 needs the patches to be
+    // complete.
     this->load(stage - 1, h.reach(g, stage == 2 && this->Patched));
   }
 }
@@ -78,6 +86,7 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::prolongUp(bool follows)
 {
+  // The first stage of the level: makes the loaded state available to those behind it.
   this->Window.unpack();
   if (this->History)
   {
@@ -88,6 +97,7 @@ void Level<Real, Relaxation>::prolongUp(bool follows)
   while (end < this->At.wanted.front())
   {
     const RowBlock::Header& h = this->Window.header(end);
+    // Groups have the largest parent of all rows so far, so a group is ready when that parent is.
     if (!this->Coarse->isFinal(h.parentReach[LevelWindow<Real>::groupIn(h, end)], follows))
     {
       break;

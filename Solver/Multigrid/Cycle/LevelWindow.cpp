@@ -8,6 +8,19 @@
 #include <string>
 #include <utility>
 
+// The window of a level over the stream. A block of 1024 nodes goes through these steps in a pass:
+// readBlock(), ahead of need and on any thread, reads rows and packed state; loadBlock() makes room
+// in the rings, between two steps, when no stage runs; unpack() copies the state into them, as part
+// of the first stage; the stages use the block; write() packs and appends its state, beside the
+// stages of later nodes; release() gives back its memory.
+//
+// Rows are used in place, in the buffer that was read: only the diagonals are computed (RowBlock).
+// x and b are rings with mirrored memory, so that a neighbour is x + stride * delta without a test
+// for the end of the ring.
+//
+// Order matters for the memory, not for the result: the arithmetic is that of the stages, and the
+// window only decides what is in memory when.
+
 namespace smg
 {
 
@@ -17,6 +30,8 @@ void LevelWindow<Real>::useScratch(const ScratchFolder& folder, ScratchTraffic& 
   const std::string level = "level" + std::to_string(this->Index);
   this->Rows.emplace(folder, level + ".rows", traffic.add("rows", this->Index));
   this->Values.emplace(folder, level + ".state", traffic.add("state", this->Index));
+  // b of the finest level stays the same during a problem: in a file of its own it is read in every
+  // pass, but written once. b of coarse levels is new in every pass and shares a file with x.
   if (this->finest())
   {
     this->RightSide.emplace(folder, level + ".b", traffic.add("right_side", this->Index));
@@ -28,6 +43,7 @@ void LevelWindow<Real>::startPass(bool first)
 {
   this->First = first;
   this->Written = 0;
+  // In memory: everything is there already, except a separate state of the downward part.
   if (!this->Rows)
   {
     if (this->Next)
@@ -41,6 +57,7 @@ void LevelWindow<Real>::startPass(bool first)
   this->FirstBlock = 0;
   this->Now.x.restart();
   this->Now.b.restart();
+  // The file of rows is written in the first pass only, x in every pass, b when it is new.
   this->Rows->startPass(first);
   this->Values->startPass(true);
   if (this->RightSide)
@@ -62,6 +79,7 @@ void LevelWindow<Real>::renew(int columns, bool apart)
 template <class Real>
 void LevelWindow<Real>::endPass()
 {
+  // After a pass that two problems share, the state is that of the second one.
   this->Columns = this->WrittenColumns;
   if (!this->Rows)
   {
@@ -79,12 +97,15 @@ void LevelWindow<Real>::endPass()
   {
     this->RightSide->endPass();
   }
+  // The pass has rewritten what readX() may have cached.
   this->CachedBlock = -1;
 }
 
 template <class Real>
 void LevelWindow<Real>::append(RowBlock block)
 {
+  // What exists already stays: on the finest level the state that came with the rows, on coarse
+  // levels b as far as the finer level restricts to it.
   this->extendState(block.end());
   this->Nodes = this->Loaded = block.end();
   this->Blocks.push_back(std::move(block));
@@ -110,9 +131,11 @@ template <class Real>
 auto LevelWindow<Real>::readBlock() -> Incoming
 {
   const std::int64_t nodes = std::min(RowBlock::Nodes, this->Nodes - this->Read);
+  // Into buffers of their own, not into the rings, which other threads use at this time.
   RowBlock block = this->readRows(*this->Rows, nodes);
   const auto values = static_cast<std::size_t>(nodes * this->Columns);
   Buffer state = this->SpareState.take(2 * values * sizeof(Real));
+  // The same layout in both cases, x and then b.
   if (this->RightSide)
   {
     this->Values->read(state.bytes().first(values * sizeof(Real)));
@@ -126,7 +149,8 @@ auto LevelWindow<Real>::readBlock() -> Incoming
   return { std::move(block), std::move(state) };
 }
 
-/** Reads the next block, of `nodes` nodes. */
+/** Reads the rows of the next block, which has `nodes` nodes, and computes their diagonals,
+ * which are not on disk. */
 template <class Real>
 RowBlock LevelWindow<Real>::readRows(ScratchStream& from, std::int64_t nodes)
 {
@@ -144,6 +168,8 @@ void LevelWindow<Real>::loadBlock()
   Incoming next = this->Ahead.take([this] { return this->readBlock(); });
   const std::int64_t begin = next.rows.first();
   const std::int64_t end = next.rows.end();
+  // Growing a ring may move it: only here, between two steps. Both are the same state, except in a
+  // pass that two problems share.
   for (State* state : { &this->up(), &this->down() })
   {
     state->x.extendRaw(end);
@@ -172,6 +198,7 @@ void LevelWindow<Real>::unpack()
 template <class Real>
 void LevelWindow<Real>::readRightSide(std::span<Real> b)
 {
+  // A block of zeros has no bytes, but is read all the same: the file counts blocks.
   const bool zero = this->RightSide->nextBytes() == 0;
   this->RightSide->read(std::as_writable_bytes(zero ? std::span<Real>() : b));
   if (zero)
@@ -194,6 +221,7 @@ void LevelWindow<Real>::write(std::int64_t done)
   {
     return;
   }
+  // Blocks are records of the files: each is written as a whole, once all its nodes are done.
   while (this->Written < done)
   {
     const std::int64_t begin = this->Written;
@@ -213,6 +241,7 @@ void LevelWindow<Real>::write(std::int64_t done)
     this->pack(state.b, this->WrittenColumns, begin, end, this->Packed.data() + values);
     const auto packed = std::as_bytes(std::span<const Real>(this->Packed));
     this->Values->append(this->RightSide ? packed.first(packed.size() / 2) : packed);
+    // b of the finest level: when it is new, after assembly or for the second problem.
     if (this->RightSide && (this->First || this->Next))
     {
       this->appendRightSide(std::span<const Real>(this->Packed).last(values));
@@ -229,6 +258,8 @@ void LevelWindow<Real>::release(std::int64_t done)
     return;
   }
   this->EmptyState.giveTo(this->SpareState);
+  // Rows and b are needed by their own node only: released as soon as the block has passed the last
+  // stage and is on disk.
   while (!this->Blocks.empty() && this->Blocks.front().end() <= std::min(done, this->Written))
   {
     const RowBlock& front = this->Blocks.front();
@@ -240,6 +271,7 @@ void LevelWindow<Real>::release(std::int64_t done)
     this->Blocks.pop_front();
     ++this->FirstBlock;
   }
+  // x is read by neighbours: it waits until the largest neighbour of the block has passed, too.
   while (!this->Passed.empty() && this->Passed.front().reach < done)
   {
     const std::int64_t end = this->Passed.front().end;
@@ -265,6 +297,7 @@ void LevelWindow<Real>::unpack(
 }
 
 template <class Real>
+/** Makes a streamed level a core level, if the hierarchy turns out to end with it. */
 void LevelWindow<Real>::moveToMemory()
 {
   if (!this->Rows)
@@ -282,6 +315,7 @@ void LevelWindow<Real>::moveToMemory()
   {
     spare->clear();
   }
+  // Without files, the window takes the level as one in memory from here on.
   this->Rows.reset();
   this->Values.reset();
   this->RightSide.reset();
@@ -296,6 +330,7 @@ void LevelWindow<Real>::keepSolution()
   }
   this->Blocks.clear();
   this->Now.b.clear();
+  // On disk, the file of values has x; in memory, the ring has it.
   if (this->Rows)
   {
     this->Now.x.clear();
@@ -316,6 +351,7 @@ void LevelWindow<Real>::readX(std::int64_t first, std::int64_t count, Real* valu
   {
     const std::int64_t block = first / RowBlock::Nodes;
     const std::int64_t begin = block * RowBlock::Nodes;
+    // Consecutive ranges often share a block, which is read and verified once.
     if (block != this->CachedBlock)
     {
       this->Packed.resize(this->Values->bytes(block) / sizeof(Real));

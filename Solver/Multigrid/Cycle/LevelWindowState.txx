@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <string>
 
-// What a checkpoint has of a level, between two passes.
+// What a checkpoint contains of a level, between two passes. Streamed levels have everything in
+// scratch files in the folder of the checkpoint; only the places of the blocks are saved. Core
+// levels are in memory: their rows are written to a file once, at the first save(), and their b
+// with every state, since the core cycle computes x from it. All that is read is checked: counts,
+// sizes and checksums.
 
 namespace smg
 {
@@ -18,8 +22,8 @@ void LevelWindow<Real>::keepRows(const ScratchFolder& folder, ScratchTraffic& tr
     folder, "level" + std::to_string(this->Index) + ".core", traffic.add("rows", this->Index));
 }
 
-/** Calls f(begin, end, b) for the nodes of every block of a level in memory; b has room for their
- * right-hand side. */
+/** Calls f(begin, end, b) for every block of a level in memory; b has room for the right-hand
+ * side of its nodes. */
 template <class Real>
 template <class F>
 void LevelWindow<Real>::forBlocks(F&& f)
@@ -74,7 +78,7 @@ void LevelWindow<Real>::load(StateReader& state)
   state(this->Columns, nodes);
   state.require(nodes >= 0 && this->Columns > 0 && strideOf(this->Columns) == this->Stride);
   this->WrittenColumns = this->Columns;
-  // None if all vertices are constrained.
+  // Rounded up; none if the level has no nodes.
   const std::int64_t blocks = nodes / RowBlock::Nodes + (nodes % RowBlock::Nodes != 0 ? 1 : 0);
   const auto checkRows = [&](std::int64_t index, std::span<const std::byte> rows)
   {

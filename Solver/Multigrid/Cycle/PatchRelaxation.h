@@ -12,9 +12,8 @@
 namespace smg
 {
 
-/**
- * b_k + sum_j w_kj x_j of node k of a block, with x_k and the nodes from `limit` on taken as zero.
- */
+/** b_k + sum_j w_kj x_j of node k of a block, with x taken as zero for node k and for all nodes
+ * from `limit` on. Members of the patch below `limit` are zero at that time. */
 template <class Vectors, class Real, class Arrays>
 typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
   std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
@@ -28,8 +27,9 @@ typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& 
   return sum;
 }
 
-/** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given the residuals and the inverse; x
- * points to the last one, the others are at `distance`. LowerOnly: x was zero. */
+/** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given their residuals and the inverse
+ * of the matrix on the patch. x points to the last member; the others are at `distance`.
+ * LowerOnly: x of the last member was zero and is not read. */
 template <bool LowerOnly, class Vectors, class Real>
 void correctPatch(int size, const double* distance, const double* inverse,
   const typename Vectors::Vector* residual, std::int64_t stride, Real* x)
@@ -51,7 +51,7 @@ void correctPatch(int size, const double* distance, const double* inverse,
 }
 
 /** Calls plain(range) for the subranges of `nodes` without special nodes, and special(node) for
- * each special node, in order. */
+ * each special node, in node order. */
 template <class Arrays, class Plain, class OfSpecial>
 void visitNodes(
   const RowBlock::Header& h, const Arrays& a, BlockRange nodes, Plain&& plain, OfSpecial&& special)
@@ -75,7 +75,7 @@ void visitNodes(
   }
 }
 
-/** The special node with index `node` of a block, which must exist. */
+/** The special node with index `node` in the block, which must exist. */
 template <class Arrays>
 const RowBlock::Special& specialOf(const RowBlock::Header& h, const Arrays& a, std::int64_t node)
 {
@@ -83,8 +83,8 @@ const RowBlock::Special& specialOf(const RowBlock::Header& h, const Arrays& a, s
     [](const RowBlock::Special& s, std::int64_t n) { return s.node < n; });
 }
 
-/** Calls f(arrays) with the arrays of the weights of row k, which is special: on the finest level
- * (Real is double) they may be the additional weights in double precision. */
+/** Calls f(arrays) with the arrays for the row of a special node: on the finest level (Real is
+ * double), its weights may be the additional ones in double precision. */
 template <class Real, class Arrays, class F>
 void visitSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, F&& f)
 {

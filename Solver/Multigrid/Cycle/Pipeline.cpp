@@ -5,12 +5,18 @@
 #include <numeric>
 #include <utility>
 
+// Cuts a sequence of stages into chains of similar cost. Stages cannot be reordered, so a chain is
+// an interval; each stage goes to the chain in whose share of the total cost its middle lies. The
+// cut only decides which stages may run at the same time: it changes the memory of a pass, but not
+// a bit of its result.
+
 namespace smg
 {
 
 void Pipeline::add(double cost, Advance advance)
 {
   this->Stages.push_back({ cost, std::move(advance) });
+  // Until cut() is called all stages are one chain.
   this->Ends.assign(1, this->Stages.size());
 }
 
@@ -31,7 +37,8 @@ void Pipeline::cut(int chains)
   {
     total += stage.cost;
   }
-  // A chain has the stages whose middles lie in its share of the whole.
+  // A chain has the stages whose middles lie in its share of the whole. A stage longer than a share
+  // leaves the next chain empty, which is then left out: there may be fewer chains.
   this->Ends.clear();
   double before = 0.0;
   int chain = 0;
@@ -60,6 +67,7 @@ void Pipeline::advance(int chain) const
   const std::size_t first = this->begin(chain);
   for (std::size_t s = first; s < this->begin(chain + 1); ++s)
   {
+    // The first stage of a chain sees published cursors only.
     this->Stages[s].advance(s > first);
   }
 }

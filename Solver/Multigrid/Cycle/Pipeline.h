@@ -13,29 +13,32 @@ namespace smg
 {
 
 /**
- * The stages that the nodes pass one after the other, cut into chains of consecutive stages that
- * take about the same time. Chains may run on different threads, each on other nodes: the more
- * chains, the more nodes lie between the first stage and the last one.
+ * The stages that nodes pass one after the other, cut into chains of consecutive stages that take
+ * about the same time. Chains may run on different threads, each on other nodes. The more chains,
+ * the more nodes lie between the first stage and the last one, and the larger the windows.
+ *
+ * A chain starts a step with the cursors that the other chains had published at its beginning.
+ * Neither the results nor the memory depend on which thread is faster.
  */
 class SMG_EXPORT Pipeline
 {
 public:
-  /** Advances a stage as far as possible; it `follows` the one before it on the same thread, or
-   * that may be advancing on another one. */
+  /** Advances a stage as far as possible. It `follows` the stage before it on the same thread,
+   * or that one may be advancing on another thread at the same time. */
   using Advance = std::function<void(bool follows)>;
 
-  /** Appends a stage, which takes about `cost`, in any unit. */
+  /** Appends a stage that takes about `cost`, in any unit. */
   void add(double cost, Advance advance);
   /** Cuts the stages into at most this many chains, at least 1. */
   void cut(int chains);
   /** Makes a chain of each stage. */
   void cutAll();
 
-  /** The number of chains for this many threads: twice as many, since chains are of unequal length.
-   */
+  /** The number of chains for a number of threads: twice as many, since chains are not equally
+   * long and a thread should find another one when it is done. */
   static int chainsFor(int threads) { return threads == 1 ? 1 : 2 * threads; }
-  /** The nodes of a step, given those for a few threads: many need longer ones, in which the time
-   * of each stage is closer to its mean. */
+  /** The nodes of a step, given the usual number for a few threads. Many threads need longer
+   * steps, in which the time of each stage is closer to its mean. */
   static std::int64_t stepFor(int threads, std::int64_t nodes)
   {
     constexpr int Many = 6;
@@ -62,7 +65,7 @@ private:
   };
 
   std::vector<Stage> Stages;
-  std::vector<std::size_t> Ends; // of the chains, in Stages
+  std::vector<std::size_t> Ends; // of each chain, the end of its stages in Stages
 };
 
 } // namespace smg

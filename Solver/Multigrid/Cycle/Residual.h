@@ -8,7 +8,8 @@
 namespace smg
 {
 
-/** b_k - A_kk x_k + sum_j w_kj x_j of node k of a block. */
+/** b_k - A_kk x_k + sum_j w_kj x_j of node k of a block. Sums even and odd entries separately,
+ * as GaussSeidel does. */
 struct PlainResidual
 {
   template <class Vectors, class Real, class Arrays>
@@ -35,10 +36,10 @@ struct PlainResidual
 };
 
 /**
- * The same as b_k - alpha_k x_k + sum_j w_kj (x_j - x_k): the large weights of slivers multiply
- * small differences, which reduces the rounding, and the sum over a patch does not lose rowSum,
- * which may be smaller than the rounding of the diagonal. Edges to prescribed nodes are part of
- * rowSum and b, and rounded like these.
+ * The same residual in the form b_k - alpha_k x_k + sum_j w_kj (x_j - x_k), alpha_k the row sum.
+ * The large weights of slivers then multiply small differences, which reduces the rounding, and the
+ * sum over a patch does not lose the row sum, which may be smaller than the rounding of the
+ * diagonal. Edges to prescribed nodes are part of the row sum and of b, and are rounded like these.
  */
 struct ResidualOfDifferences
 {

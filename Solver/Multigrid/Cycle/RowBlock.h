@@ -16,7 +16,7 @@
 namespace smg
 {
 
-/** The upper half of a float: its range with 8 bits of precision, rounded to nearest. */
+/** The upper half of a float: the range of a float with 8 bits of precision, rounded to nearest. */
 class BFloat16
 {
 public:
@@ -37,15 +37,15 @@ private:
   std::uint16_t Bits = 0;
 };
 
-/** An index of a wide block in three bytes, enough for distances of rows and of parents. It is read
- * together with the preceding byte in one load, and therefore only in place in a block. */
+/** An index of a wide block in three bytes, enough for distances of rows and of parents. It is
+ * read in one load together with the byte before it, and therefore only in place, in a block. */
 class WideIndex
 {
 public:
   WideIndex() = default;
   /** From -2^23 to 2^23 - 1. */
   explicit WideIndex(std::int32_t index) { std::memcpy(this->Bytes.data(), &index, sizeof(*this)); }
-  /** A copy would have another preceding byte. */
+  /** A copy would have another byte before it. */
   WideIndex(const WideIndex&) = delete;
   WideIndex& operator=(const WideIndex&) = default;
 
@@ -62,13 +62,15 @@ private:
 static_assert(sizeof(WideIndex) == 3 && std::endian::native == std::endian::little);
 
 /**
- * The rows and the interpolation of up to `Nodes` consecutive nodes of a level in the format on
- * disk, used in place without decoding. Columns are distances of 16 bits ("narrow") or, if a
- * distance or a count does not fit, of 24 bits ("wide"; counts: 32). Each group of `Group` nodes
- * stores the largest indices that the cursors need.
+ * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, in the format on
+ * disk, which is used in place without decoding. Columns are stored as distances, of 16 bits
+ * ("narrow"), or, if a distance or a count of the block does not fit, of 24 bits ("wide", with
+ * counts of 32 bits). For each group of `Group` nodes the header has the largest indices that the
+ * cursors need.
  *
- * The diagonals are not stored on disk: sumDiagonals() computes them from the row sums, most of
- * which are zero, and the weights. They follow the stored data.
+ * Diagonals are not stored on disk. sumDiagonals() computes them from the row sums, most of which
+ * are zero, and the weights, and appends them to the stored data: whatever the rounding of the
+ * weights, a row has exactly its row sum.
  */
 class RowBlock
 {
@@ -88,36 +90,37 @@ public:
     std::int8_t weightBytes = 0;
     std::uint16_t rowSumGroups = 0; ///< bit g: a row of group g has a non-zero sum
     std::int32_t specials = 0;      ///< number of special nodes
-    std::int32_t values = 0;        ///< of patches that end here
+    std::int32_t values = 0;        ///< numbers of patches that end in this block
     std::int32_t precise = 0;       ///< weights in double precision
     /**
-     * neighbourReach: the largest node in rows 0 .. end of the group; patchReach: that, or the last
-     * one of the patch of such a node, whose value is final only then after a sweep that relaxes
-     * patches. childReach, parentReach: the largest child and parent in these rows.
+     * By group, all for rows 0 .. the end of the group, so that they never decrease.
+     * neighbourReach: the largest node in these rows. patchReach: the same, or the last member of
+     * the patches of these nodes: after a sweep that relaxes patches the nodes are final only then.
+     * childReach, parentReach: the largest child and the largest parent of these rows.
      */
     std::array<std::int64_t, Groups> neighbourReach{}, patchReach{}, childReach{}, parentReach{};
-    /** The begins of the entries and the parents of the groups. */
+    /** Where the entries and the parents of each group begin. */
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
 
-    /** What a stage must have finished for the next one to process the group: `patched`: that stage
-     * relaxes patches. */
+    /** The node that a stage must have passed for the next one to process the group; `patched`:
+     * that stage relaxes patches. */
     std::int64_t reach(std::size_t group, bool patched) const
     {
       return (patched ? this->patchReach : this->neighbourReach)[group];
     }
   };
 
-  /** A node whose row has double precision, or that belongs to a patch: a few strongly coupled
-   * nodes that the first sweep of each half of a V-cycle relaxes together when it reaches the last
-   * one. */
+  /** A node that kernels treat by itself: its row has weights in double precision, or it belongs
+   * to a patch, a few strongly coupled nodes that the first sweep of each half of a V-cycle
+   * relaxes together when it reaches the last of them. */
   struct Special
   {
     std::int16_t node; ///< index in the block
-    /** The number of nodes relaxed with this one, which is the last of them; 0: a node of a patch
-     * before the last. */
+    /** The number of nodes relaxed at this one: those of its patch at the last member, 0 at the
+     * other members, 1 outside patches. */
     std::int16_t size;
-    /** The begin of the values of the patch: the (negative) distances of the nodes before this one,
-     * and the lower triangle of the inverse of the matrix on the patch. */
+    /** At the last member, where the values of the patch begin: the (negative) distances of the
+     * other members, then the lower triangle of the inverse of the matrix on the patch. */
     std::int32_t value;
     std::int32_t precise; ///< begin of the weights of the row in double precision; -1: none
     std::int32_t reserved;
@@ -127,13 +130,14 @@ public:
   static_assert(sizeof(Special) == 16);
 
   /**
-   * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide). An index is read
-   * in place, never from a copy.
+   * The arrays of a block; Index is std::int16_t (narrow) or WideIndex (wide) and is read in place,
+   * never from a copy.
    *
-   * Weight is float on the finest level. On coarse levels, which only precondition, it is BFloat16;
-   * the diagonals are computed from the rounded weights, so that row sums stay exact. Blocks of
-   * coarse levels with rows whose weights nearly cancel have floats, the precision of the entries
-   * of the coarse operator (CoarseEntry); such rows of the finest level also have double precision.
+   * Weight is float on the finest level. Coarse levels only precondition: there it is BFloat16,
+   * unless the block has special nodes or the problem may have stiff rows, where it is float, the
+   * precision of the coarse operator (CoarseEntry). Diagonals are computed from the rounded
+   * weights, so row sums stay exact. On the finest level, rows of slivers have additional weights
+   * in double precision.
    */
   template <class Index, class Weight>
   struct Arrays
@@ -148,12 +152,12 @@ public:
     const std::int8_t* parentQuanta; // per parent
     const double* rowSum;            // per node of groups with sums: the row sum
     const Special* special;          // by ascending node
-    const double* value;             // of patches
-    const double* precise;           // of special nodes
+    const double* value;             // of patches, see Special::value
+    const double* precise;           // weights of special nodes
     const double* diagonal;          // per node
 
-    /** The same with the weights of the row of a special node in double precision, for that row
-     * only, whose entries begin at `begin`. */
+    /** The same with the weights of a special node in double precision; valid for its row only,
+     * whose entries begin at `begin`. */
     Arrays<Index, double> ofPreciseRow(const Special& node, std::int64_t begin) const
     {
       return { this->precise + node.precise - begin, this->delta, this->parent, this->entryEnd,
@@ -163,7 +167,8 @@ public:
   };
 
   RowBlock() = default;
-  /** Takes the bytes of a block from packRows() or a file, with room for the diagonals. */
+  /** Takes the bytes of a block, from packRows() or a file, with room for the diagonals at their
+   * end. */
   explicit RowBlock(Buffer buffer)
     : Bytes(std::move(buffer))
   {
@@ -193,7 +198,7 @@ public:
     return a;
   }
 
-  /** Calls f(arrays) with the arrays of this block, which belongs to a level of type Real. */
+  /** Calls f(arrays) with the arrays of this block, for a level whose unknowns have type Real. */
   template <class Real, class F>
   void visit(F&& f) const
   {
@@ -216,7 +221,8 @@ public:
     return h.rowSumGroups >> group & 1 ? a.rowSum[std::popcount(before) * Group + k % Group] : 0.0;
   }
 
-  /** The number of nodes of groups with rowSums; all groups except the last one are full. */
+  /** The number of row sums stored: one for each node of the groups with a non-zero sum. All
+   * groups except the last one are full. */
   static std::int32_t rowSums(const Header& h)
   {
     const std::int32_t room = std::popcount(h.rowSumGroups) * static_cast<std::int32_t>(Group);
@@ -245,8 +251,8 @@ public:
            static_cast<std::size_t>(rowSums(h) + h.values + h.precise) * sizeof(double);
   }
 
-  /** Whether these bytes may be a block of the nodes [first, first + nodes), and are as many as its
-   * counts require. */
+  /** Whether these bytes may be a block of the nodes [first, first + nodes) and have the size
+   * that its counts require: a check of files before they are used in place. */
   static bool fits(std::span<const std::byte> stored, std::int64_t first, std::int64_t nodes)
   {
     Header h;
@@ -309,7 +315,7 @@ template <class Index, class Weight>
 void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
 {
   const Header& h = this->header();
-  // The arrays are constant for users of a block; here they are filled.
+  // Users of a block see constant arrays; the diagonals are filled here.
   auto* diagonal = const_cast<double*>(a.diagonal);
   const double* rowSum = a.rowSum;
   const Weight* weight = a.weight;
@@ -320,9 +326,11 @@ void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
     const auto group = static_cast<std::size_t>(k / Group);
     double sum = h.rowSumGroups >> group & 1 ? *rowSum++ : 0.0;
     const Weight* end = a.weight + h.entryStart[group] + a.entryEnd[k];
+    // Special nodes are sorted: one step suffices, since k grows by one.
     special += special != lastSpecial && special->node < k ? 1 : 0;
     if (special != lastSpecial && special->node == k && special->precise >= 0)
     {
+      // The precise weights stand for the floats of this row.
       for (const double* precise = a.precise + special->precise; weight < end; ++weight)
       {
         sum += *precise++;

@@ -7,6 +7,14 @@
 #include <span>
 #include <vector>
 
+// Packs rows of the set-up into the format of the passes. A block is written once and read in every
+// later pass, so its bytes count: distances of 16 bits, weights of 2 or 4 bytes, interpolation
+// weights of one byte, row sums only for groups that have some.
+//
+// A block is packed once everything that refers to its rows is known: interpolation, patches of the
+// neighbours, and the reaches that the cursors will need. Patches are inverted here, once, so that
+// sweeps only multiply.
+
 namespace smg
 {
 namespace
@@ -14,21 +22,23 @@ namespace
 
 using Header = RowBlock::Header;
 
-// The range of a WideIndex.
+// A WideIndex must have room for every distance of rows and of parents.
 static_assert(RowEntry::MaxDistance < (1 << 23) && CoarseWindow <= (1 << 23));
 
-/** The inverse of the matrix on a patch multiplies the rounding of residuals, which are double on
- * the finest level and float on the others, by up to one over this. */
+/** Limits of PatchMatrix::invert(). The inverse of the matrix on a patch amplifies the rounding
+ * of residuals, which are double on the finest level and float on the others, by up to one over
+ * these. */
 constexpr double MinPivotOfDoubles = 1e-9, MinPivotOfFloats = 1e-5;
 
-/** The special nodes of a block in its format. */
+/** The special nodes of a block, in the format of the block. */
 struct Specials
 {
   std::vector<RowBlock::Special> nodes;
   std::vector<double> values, precise;
-  /** Whether a row has weights that nearly cancel. */
+  /** Whether the block has a stiff row or a special node: its weights are not to be rounded. */
   bool cancelling = false;
 
+  /** Finds the special nodes of the block of these nodes. */
   void find(
     const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)
   {
@@ -44,6 +54,8 @@ struct Specials
         continue;
       }
       RowBlock::Special node{ static_cast<std::int16_t>(i - first), 1, 0, -1, 0 };
+      // The inverse is stored once, at the last member, where the sweep relaxes the patch; the
+      // others are marked to wait for it.
       if (patch && i < patch->last())
       {
         node.size = 0;
@@ -67,7 +79,8 @@ struct Specials
 private:
   double MinPivot = MinPivotOfDoubles;
 
-  /** Adds the values of a patch, at its last node. */
+  /** Adds the values of a patch, at its last node: distances, which are negative, and the
+   * inverse. */
   void addValues(const Patch& patch, const double* matrix)
   {
     for (int k = 0; k + 1 < patch.size; ++k)
@@ -78,12 +91,14 @@ private:
     PatchMatrix inverse;
     inverse.order = patch.size;
     std::copy_n(matrix, entries, inverse.entry);
+    // Where a pivot is too small this is a generalised inverse, which leaves the node as it is.
     inverse.invert(this->MinPivot);
     this->values.insert(this->values.end(), inverse.entry, inverse.entry + entries);
   }
 };
 
-/** Computes the header of the block: its counts, reaches, and whether it fits narrow indices. */
+/** Computes the header of the block: its counts, its reaches, and whether its indices fit 16
+ * bits. */
 Header measure(
   const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)
 {
@@ -112,6 +127,7 @@ Header measure(
     {
       h.rowSumGroups = static_cast<std::uint16_t>(h.rowSumGroups | 1U << group);
     }
+    // Reaches are those of rows 0 .. i: assigned for each row, the last one of the group remains.
     h.neighbourReach[group] = rows.reach(i);
     h.patchReach[group] =
       coarsening ? std::max(rows.reach(i), coarsening->settledReach[i]) : rows.reach(i);
@@ -121,6 +137,9 @@ Header measure(
     {
       const InterpolationEntry* p = coarsening->interpolation.row(i);
       const std::int64_t count = coarsening->interpolation.size(i);
+      // Parents are relative to the first parent of the block, so that distances stay small
+      // whatever the shift between the numbers of the two levels. A block without parents keeps
+      // base 0, which nothing uses.
       if (count > 0 && !based)
       {
         h.parentBase = coarsening->knownCoarse + p->offset(coarsening->knownCoarse);
@@ -136,6 +155,7 @@ Header measure(
     largestCount = std::max<std::int64_t>(
       { largestCount, h.entries - h.entryStart[group], h.parents - h.parentStart[group] });
   }
+  // Counts of a group are unsigned, hence twice the range.
   constexpr std::int64_t narrow = std::numeric_limits<std::int16_t>::max();
   h.wide = largestDelta > narrow || largestParent > narrow || largestCount > 2 * narrow ? 1 : 0;
   return h;
@@ -148,7 +168,7 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   const Header& h = block.header();
   const auto a = block.arrays<Index, Weight>();
   using Count = typename RowBlock::Arrays<Index, Weight>::Count;
-  // The arrays are constant for users of a block; here they are filled.
+  // Users of a block see constant arrays; they are filled here.
   auto* rowSum = const_cast<double*>(a.rowSum);
   auto* weight = const_cast<Weight*>(a.weight);
   auto* delta = const_cast<Index*>(a.delta);
@@ -164,6 +184,7 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   {
     const std::int64_t i = h.first + k;
     const auto group = static_cast<std::size_t>(k / RowBlock::Group);
+    // Groups without any non-zero row sum store none.
     if (h.rowSumGroups >> group & 1)
     {
       *rowSum++ = rows.rowSum(i);
@@ -173,6 +194,7 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
       weight[entries] = Weight(entry.weight());
       delta[entries++] = static_cast<Index>(entry.delta());
     }
+    // Ends are relative to the group, so that 16 bits suffice.
     entryEnd[k] = static_cast<Count>(entries - h.entryStart[group]);
     if (coarsening)
     {
@@ -209,6 +231,7 @@ RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const Coarsening
 {
   Specials specials;
   specials.find(rows, coarsening, first, nodes);
+  // Rounding to 8 bits would destroy the balance of weights that nearly cancel.
   const bool rounds = mayRound && !specials.cancelling;
   Header header = measure(rows, coarsening, first, nodes);
   header.weightBytes = rounds ? sizeof(BFloat16) : sizeof(float);
@@ -216,6 +239,7 @@ RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const Coarsening
   header.values = static_cast<std::int32_t>(specials.values.size());
   header.precise = static_cast<std::int32_t>(specials.precise.size());
   Buffer buffer = buffers.take(RowBlock::storedBytes(header) + RowBlock::diagonalBytes(nodes));
+  // Also the padding: blocks go to disk, with checksums, and shall be the same in every run.
   std::fill_n(buffer.data(), buffer.size(), std::byte{});
   *reinterpret_cast<Header*>(buffer.data()) = header;
   RowBlock block(std::move(buffer));

@@ -9,11 +9,9 @@
 namespace smg
 {
 
-/**
- * Copies the rows [first, first + nodes) of a level, and its interpolation and patches if
- * `coarsening` is not null, to a block in one of the buffers. Its weights are floats, or BFloat16
- * if `mayRound` and no row is special.
- */
+/** Packs the rows [first, first + nodes) of a level into a block in one of the buffers, with
+ * their interpolation and patches if `coarsening` is not null. The weights are floats, or
+ * BFloat16 if `mayRound`, no node is special and no row is stiff. */
 SMG_EXPORT RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows,
   const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes, bool mayRound);
 

@@ -10,7 +10,7 @@ namespace smg
 {
 
 /** Prolongation to the nodes of a block: x += scale P x_coarse. coarseX points to coarse node
- * parentBase. */
+ * parentBase, to which the parents of the block are relative. */
 template <class Vectors, class CoarseVectors, class Real, class Arrays>
 void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::int64_t stride,
   Real* x, const float* coarseX, Real scale)
@@ -23,6 +23,8 @@ void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::
     {
       const auto value = CoarseVectors::load(coarseX + a.parent[e] * stride);
       const float weight = static_cast<float>(a.parentQuanta[e]) * Quantum;
+      // On the finest level the product is formed in double precision: the coarse correction is a
+      // float, the sum is not.
       sum += (static_cast<Real>(weight) * scale) *
              __builtin_convertvector(value, typename Vectors::Vector);
     }
@@ -31,10 +33,13 @@ void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::
 }
 
 /**
- * Residual, computed by `Residual`, and restriction of the nodes of a block: r = b - A x, b_coarse
- * += P^T r. Adds the squares of r to `squares` (`stride` values) and, on the finest level, those of
- * the terms A_kk x_k to `terms` (except for rows without entries: prescribed values), in node
- * order, and calls keep(k, r) for each node k. coarseB points to coarse node parentBase.
+ * Residual and restriction for the nodes of a block: r = b - A x, computed by `Residual`, and
+ * b_coarse += scale P^T r. coarseB points to coarse node parentBase.
+ *
+ * Adds the squares of r to `squares` (`stride` values) and, on the finest level, the squares of the
+ * terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed. Both are
+ * summed in node order, so the norm of the residual does not depend on windows or threads. Calls
+ * keep(k, r) for each node k.
  */
 template <class Residual, class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
 void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
@@ -54,6 +59,7 @@ void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nod
       termTotal += term * term;
     }
     keep(k, residual);
+    // Scaled before it is rounded to single precision: the scale keeps it near 1.
     const auto coarse = __builtin_convertvector(residual * scale, typename CoarseVectors::Vector);
     const BlockRange parents = parentsOf(h, a, k);
     for (std::int64_t p = parents.begin; p < parents.end; ++p)

@@ -17,13 +17,15 @@ namespace smg
 {
 
 /**
- * Solves the equations of a core level more accurately than one V-cycle, by conjugate gradients
- * that V-cycles from this level on precondition: one V-cycle over many levels reduces smooth errors
- * slowly, since each level contributes to its error. On a level much smaller than the finest one
- * this takes hardly any time and saves V-cycles of the finest level.
+ * Solves the equations of a core level more accurately than one V-cycle does, by conjugate
+ * gradients preconditioned by V-cycles from this level on. Each level adds to the error of a
+ * V-cycle, so a V-cycle over many levels reduces smooth errors slowly. On a level much smaller than
+ * the finest one the iteration takes hardly any time, and it saves V-cycles of the finest level,
+ * which are passes.
  *
- * The flexible form permits V-cycles that are not quite symmetric (Notay, SIAM Journal on
- * Scientific Computing 22, 2000, 1444-1460). Each column has its own coefficients.
+ * The flexible form permits V-cycles that are not quite symmetric, as with forward Gauss-Seidel
+ * (Notay, SIAM Journal on Scientific Computing 22, 2000, 1444-1460). Each column has its own
+ * coefficients. It takes four vectors of the level in single precision.
  */
 template <class Relaxation>
 class CoreIteration
@@ -35,12 +37,12 @@ public:
   struct Ending
   {
     int maxCycles = 20;
-    /** Ends with the V-cycle that adds at most this share to the squared energy norm of x, of every
-     * column. */
+    /** It ends with the V-cycle that adds at most this share to the squared energy norm of x,
+     * for every column: an error of about 3 %. */
     double accuracy = 0.001;
   };
 
-  /** For `level`, all of whose nodes are in memory. */
+  /** For a level whose nodes are all in memory. */
   CoreIteration(CoreLevel& level, Ending ending)
     : Of(level)
     , End(ending)
@@ -50,7 +52,8 @@ public:
   {
   }
 
-  /** Computes x of the level from its b, which is lost; cycle() computes x from b by a V-cycle. */
+  /** Computes x of the level from its b, which is overwritten; cycle() must compute x from b by
+   * a V-cycle. */
   template <class Cycle>
   void operator()(Cycle&& cycle)
   {
@@ -63,8 +66,10 @@ public:
     std::vector<double> energy(this->Lanes), reduction(this->Lanes);
     for (int k = 0; k < this->End.maxCycles; ++k)
     {
+      // z = M^-1 r. A z comes from r minus the residual after the V-cycle, without another product.
       cycle();
       this->Of.residualAll(residual.data());
+      // Energies of the first iteration are 0, so that it has no conjugation.
       const std::vector<double> conjugation = this->ratios(this->dots(z, image), energy);
       for (std::size_t i = 0; i < this->Size; ++i)
       {
@@ -78,6 +83,7 @@ public:
       bool isAccurate = true;
       for (std::size_t lane = 0; lane < this->Lanes; ++lane)
       {
+        // What this direction adds to the squared energy norm of x.
         const double gain = length[lane] * descent[lane];
         reduction[lane] += gain;
         isAccurate = isAccurate && gain <= this->End.accuracy * reduction[lane];
@@ -108,7 +114,7 @@ private:
     return this->values().subspan(v * this->Size, this->Size);
   }
 
-  /** The scalar products of each column. */
+  /** The scalar products of a and b, lane by lane, in double precision and in node order. */
   std::vector<double> dots(std::span<const float> a, std::span<const float> b) const
   {
     std::vector<double> sums(this->Lanes);
@@ -118,7 +124,7 @@ private:
     }
     return sums;
   }
-  /** a / b of each column; 0 where b is not positive: a column that is zero, or solved. */
+  /** a / b, lane by lane; 0 where b is not positive, as for a column that is zero or solved. */
   static std::vector<double> ratios(std::vector<double> a, const std::vector<double>& b)
   {
     for (std::size_t lane = 0; lane < a.size(); ++lane)
@@ -135,19 +141,18 @@ private:
   Buffer Memory;
 };
 
-/**
- * The part of a V-cycle on the levels in memory (core levels), performed between two passes. The
- * first of them that is much smaller than the finest level is solved by a CoreIteration, unless it
- * is the coarsest one.
- */
+/** The part of a V-cycle on the levels in memory (core levels), performed between two passes.
+ * The first of them that is much smaller than the finest level is solved by a CoreIteration,
+ * unless it is the coarsest one, which is solved directly. */
 template <class Relaxation>
 class CoreVCycle
 {
 public:
   using CoreLevel = Level<float, Relaxation>;
 
-  /** `levels` from the finest core level to the coarsest one; `finest`: the number of nodes of the
-   * finest level; 0: none is iterated. */
+  /** Sets the levels, from the finest core level to the coarsest one, and factorises that.
+   * `finest`: the number of nodes of the finest level, to which sizes are compared; 0: none is
+   * iterated. */
   void setLevels(std::vector<CoreLevel*> levels, std::int64_t finest)
   {
     this->Levels = std::move(levels);
@@ -158,11 +163,11 @@ public:
     this->Coarsest.factorize(this->Levels.back()->window());
   }
 
-  /** Computes x of the finest core level from its b, which may be lost. */
+  /** Computes x of the finest core level from its b, which may be overwritten. */
   void run() { this->solve(0); }
 
 private:
-  /** A level with this share of the finest level's nodes is much smaller. */
+  /** A level with at most one node for this many of the finest level is much smaller. */
   static constexpr std::int64_t SmallShare = 128;
 
   /** Computes x of level l from its b. */
@@ -197,7 +202,7 @@ private:
   }
 
   std::vector<CoreLevel*> Levels;
-  std::size_t Iterated = 0; // index of the level that is iterated
+  std::size_t Iterated = 0; // index of the level that CoreIteration solves
   CoarsestSolver Coarsest;
 };
 

@@ -4,23 +4,31 @@
 #include <algorithm>
 #include <cmath>
 
+// The choice between plain V-cycles, conjugate residuals and Chebyshev polynomials. All of them
+// take one pass per V-cycle; they differ in what IterateHistory keeps, and in what must be known
+// before they start.
+//
+// Decisions follow from residuals, which do not depend on windows or threads, and from the memory
+// limit, so an accelerated solve is as reproducible as a plain one.
+
 namespace smg
 {
 namespace
 {
 
-/** Conjugate residuals need two V-cycles to start and pay off from the next one on. */
+/** Conjugate residuals need two V-cycles to start, and pay off only with some more. */
 constexpr double WorthwhileCycles = 4.0;
-/** The assumed factor of a V-cycle before one has been measured. */
+/** The assumed factor of a V-cycle while none has been measured. */
 constexpr double UsualFactor = 0.1;
 
-/** The bound of the eigenvalues is slightly above the measured factor. */
+/** The bound of the eigenvalues is set slightly above the measured factor: a polynomial diverges
+ * for eigenvalues beyond its bound, and loses little with a bound that is too large. */
 constexpr double Margin = 1.05, MinBound = 0.1, LargestBound = 0.98;
-/** V-cycles after which the factor is that of the slowest errors. */
+/** The number of V-cycles after which the measured factor is that of the slowest errors. */
 constexpr int Settling = 2;
 
-/** Cycles of a polynomial that must reduce the residual in total. Conjugate residuals may stagnate
- * for longer until they have found the slowest errors of slivers. */
+/** A polynomial must have reduced the residual in total over this number of V-cycles. Conjugate
+ * residuals may stagnate for longer, until they have found the slowest errors of slivers. */
 constexpr int Trial = 5;
 
 double boundFrom(double factor)
@@ -39,18 +47,25 @@ const char* Acceleration::nameOf(AccelerationKind kind)
 
 Acceleration::Acceleration(AccelerationKind wanted, const Convergence& convergence)
   : Watched(convergence)
+  // Automatic is for solves that stop at a tolerance: a method that saves V-cycles saves nothing if
+  // their number is fixed.
   , Wanted(wanted == AccelerationKind::Automatic && convergence.fixed() ? AccelerationKind::None
                                                                         : wanted)
 {
 }
 
-/** Whether so many plain V-cycles remain that a faster method compensates for its start. */
+/** Whether enough plain V-cycles remain, by the factor measured so far, for a faster method to
+ * make up for its start. */
 bool Acceleration::pays() const
 {
+  // A factor of 1 or more is no estimate of the remaining V-cycles, but acceleration is most needed
+  // then.
   const double factor = this->Watched.cycles() == 0 ? UsualFactor : this->Watched.factor();
   return factor >= 1.0 || this->Watched.cyclesLeft(factor) >= WorthwhileCycles;
 }
 
+/** Starts the wanted method if it is time: conjugate residuals at once (Automatic: if they pay),
+ * polynomials when a factor is known that tells their bound. */
 void Acceleration::begin()
 {
   switch (this->Wanted)
@@ -86,6 +101,7 @@ void Acceleration::decide()
     this->begin();
     return;
   }
+  // Conjugate residuals minimise what they measure and are left alone.
   const std::vector<double>& r = this->Watched.residuals();
   const int since = this->Watched.cycles() - this->Begun;
   if (this->Polynomial && since > Trial && r.back() >= r[r.size() - 1 - Trial])
@@ -98,13 +114,13 @@ void Acceleration::decide()
   }
 }
 
-/**
- * With the bound b the residual decreases by s = b / (1 + sqrt(1 - b^2)) per step. If it decreases
- * by s g, g > 1, there are eigenvalues beyond: |t| = b (g + 1/g) / 2, where C_k(t / b) grows by g
- * per step.
- */
+/** With the bound b the residual decreases by s = b / (1 + sqrt(1 - b^2)) per step. If it
+ * decreases by s g with g > 1, there are eigenvalues beyond the bound: the largest t has |t| =
+ * b (g + 1/g) / 2, where C_k(t / b) grows by g per step. The polynomial then starts again with
+ * that bound. */
 void Acceleration::watchPolynomial()
 {
+  // Less is within the fluctuation of single steps.
   constexpr double Tolerated = 1.2;
   const std::vector<double>& r = this->Watched.residuals();
   if (this->Watched.cycles() - this->Begun <= Settling)
@@ -113,6 +129,7 @@ void Acceleration::watchPolynomial()
   }
   const double b = this->Bound;
   const double expected = b / (1 + std::sqrt(1 - b * b));
+  // Over two steps, since single ones alternate.
   const double growth = std::sqrt(r.back() / r[r.size() - 3]) / expected;
   if (growth > Tolerated && b < LargestBound)
   {
@@ -130,6 +147,7 @@ StepWeights Acceleration::next(const ResidualProducts& products)
 
 void Acceleration::saveMemory()
 {
+  // One vector is the least that any method keeps.
   if (this->Kind == AccelerationKind::Chebyshev)
   {
     this->giveUp("it would need more than the memory limit");

@@ -18,8 +18,8 @@ namespace smg
 /**
  * Chebyshev acceleration of an iteration whose error is multiplied by a matrix with eigenvalues in
  * [-bound, bound] (Golub and Varga 1961): after k steps the error is that of the polynomial C_k(t /
- * bound) / C_k(1 / bound), the smallest on that interval. V-cycles both under- and overshoot,
- * because coarse operators are sparsified: on scans the measured interval is equally long on the
+ * bound) / C_k(1 / bound), the smallest one on that interval. V-cycles both under- and overshoot,
+ * because coarse operators are sparsified. On scans the measured interval reaches as far to the
  * negative side, and polynomials for [0, bound] are slower than no acceleration.
  */
 class Chebyshev
@@ -49,14 +49,16 @@ private:
 
 /**
  * The weights of conjugate residuals, which minimise the residual over the combinations of
- * iterates; see IterateHistory for the vectors. Only the last direction is kept conjugate, which is
- * sufficient for a symmetric V-cycle; forward Gauss-Seidel is nearly symmetric. Restarts if the
- * products break down.
+ * iterates; IterateHistory has the vectors and the formulas. Only the last direction is kept
+ * conjugate, which is sufficient for a symmetric V-cycle, and forward Gauss-Seidel is nearly
+ * symmetric. It restarts if the products break down.
  */
 class ConjugateResiduals
 {
 public:
-  /** The weights of the next step, from the products of the last pass. */
+  /** The weights of the next step, from the products of the last pass. A start takes two passes:
+   * one that stores z, a plain V-cycle that gives the first direction; from the third step on
+   * there are weights. */
   StepWeights next(const ResidualProducts& p)
   {
     if (this->Steps++ == 0)
@@ -65,10 +67,11 @@ public:
     }
     if (this->Steps == 2)
     {
-      return {}; // a plain V-cycle from z gives the first direction
+      return {}; // a plain V-cycle from z makes the first direction
     }
     const double conjugation = p.qq > 0.0 ? p.aq / p.qq : 0.0;
     const double length = (p.za - conjugation * p.zq) / (p.aa - conjugation * p.aq);
+    // Also false for NaN: an extreme length means that the products are rounding only.
     if (!(std::fabs(length) >= 1 / Longest && std::fabs(length) <= Longest))
     {
       *this = {};
@@ -87,8 +90,8 @@ private:
   double Length = 0.0;
 };
 
-/** Decides before each V-cycle whether and how it is accelerated. Solves with a fixed number of
- * V-cycles are not accelerated. */
+/** Decides before each V-cycle whether and how it is accelerated, from the residuals so far.
+ * Solves with a fixed number of V-cycles are not accelerated automatically. */
 class SMG_EXPORT Acceleration
 {
 public:
@@ -99,12 +102,13 @@ public:
   AccelerationKind kind() const { return this->Kind; }
   /** Decides; to be called before each V-cycle. */
   void decide();
-  /** The weights of the next V-cycle if it is accelerated. `products`: of the history of the last
-   * one. */
+  /** The weights of the next V-cycle if it is accelerated. `products`: from the history after
+   * the last one. */
   StepWeights next(const ResidualProducts& products);
   bool isWanted() const { return this->Wanted != AccelerationKind::None; }
-  /** The memory limit has no room for what kind() keeps: takes Chebyshev polynomials, which keep
-   * least, from the third V-cycle on, or if there is no room for these either, none. */
+  /** To be called if the memory limit has no room for what kind() keeps: falls back to Chebyshev
+   * polynomials, which keep the least, from the third V-cycle on, or, if there is no room for
+   * these either, to none. */
   void saveMemory();
 
   /** "none", or the method that was last used: "chebyshev" or "cg". */
@@ -132,7 +136,7 @@ private:
   std::optional<Chebyshev> Polynomial;
   ConjugateResiduals Directions;
   double Bound = 0.0;
-  int Begun = 0; // V-cycles before the polynomial began
+  int Begun = 0; // V-cycles before the method began
   AccelerationKind Used = AccelerationKind::None;
   std::string Note;
 };

@@ -8,6 +8,11 @@
 #include <cmath>
 #include <string>
 
+// Puts what the assembly counted into the report, and says in words where the operator is not that
+// of finite elements, or where nothing determines a value: the user cannot see these in the result.
+// A note is for information; a warning says that the result may not be what was meant. The engine
+// on several processes uses the same functions with its own counts.
+
 namespace smg
 {
 
@@ -38,6 +43,7 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   }
   report.components = counts.components;
   report.free_components = counts.freeComponents;
+  // Before any V-cycle: the norm of the residual would be infinite and no tolerance could be met.
   if (!std::isfinite(counts.termSquares))
   {
     throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
@@ -67,8 +73,8 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
 
 void addAssemblyNotes(Report& report, bool leavesUndetermined)
 {
-  // A deformation, whose steps have been added, raises weights by default and takes the operator
-  // for no more than a measure of details.
+  // A deformation, whose steps are in the report by now, raises weights by default and uses the
+  // operator only as a measure of details.
   if (report.clamped_weights > 0 && report.steps.empty())
   {
     report.notes.push_back(

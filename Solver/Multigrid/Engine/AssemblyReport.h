@@ -10,14 +10,14 @@
 namespace smg
 {
 
-/** What an assembly counted. */
+/** What an assembly has counted. */
 struct AssemblyCounts
 {
   CellType type = CellType::Triangle;
   std::int64_t vertices = 0, cells = 0, prescribed = 0, held = 0;
   std::int64_t degenerateCells = 0, coincidentCells = 0, clampedWeights = 0;
   std::int64_t limitedCells = 0; ///< see StiffnessRules
-  double minFlatness = 1.0;      ///< of these
+  double minFlatness = 1.0;      ///< the smallest factor by which one of these was scaled
   std::int64_t raisedRows = 0;   ///< see Assembly
   std::int64_t components = 0, freeComponents = 0;
   double termSquares = 0.0; ///< see InitialResidual
@@ -25,12 +25,12 @@ struct AssemblyCounts
 
 /** Adds the counts to the report. Throws Error if sums overflowed. */
 SMG_EXPORT void reportAssembly(const AssemblyCounts& counts, Report& report);
-/** The same of an assembly. */
+/** The same for the counts of an assembly and its components. */
 SMG_EXPORT void reportAssembly(
   const Assembly& assembly, const Components& components, Report& report);
 
-/** Adds the notes on the data of reportAssembly(), when the steps of a deformation are known;
- * `leavesUndetermined`: see FreeComponents. */
+/** Adds notes and warnings on the data of reportAssembly(). To be called at the end of a solve,
+ * when the steps of a deformation are in the report; `leavesUndetermined`: see FreeComponents. */
 SMG_EXPORT void addAssemblyNotes(Report& report, bool leavesUndetermined);
 
 } // namespace smg

@@ -8,6 +8,8 @@
 namespace smg
 {
 
+/** The difference vertices - count cannot overflow, as first + count could: both are at least 0
+ * when it is formed. */
 void checkVertexRange(
   std::int64_t first, std::int64_t count, std::size_t room, std::int64_t vertices)
 {

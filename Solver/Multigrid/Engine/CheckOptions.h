@@ -18,23 +18,25 @@ struct Smoothing : SolveOptions, SmoothingDescription
 {
 };
 
-/** Throws Error if an option is out of range, except for the name of the operator set; solve() does
- * so, too. */
+/** Throws Error if an option is out of range; the name of the operator set is not checked.
+ * solve() does so, too. */
 SMG_EXPORT void checkOptions(const SolveOptions& options);
-/** The same for the options of a deformation, including the name of the operator set; deform() does
+/** The same for the options of a deformation, with the name of the operator set; deform() does
  * so, too. */
 SMG_EXPORT void checkOptions(const DeformOptions& options);
 /** The same for the options of smoothing; smooth() does so, too. */
 SMG_EXPORT void checkOptions(const Smoothing& smoothing);
-/** Throws Error, which begins with `what`, if the tolerance is SolveOptions::AutomaticTolerance. */
+/** Throws Error, in a sentence that begins with `what`, if the tolerance is
+ * SolveOptions::AutomaticTolerance. */
 SMG_EXPORT void refuseAutomaticTolerance(const SolveOptions& options, const std::string& what);
-/** Throws Error unless the library has an operator set of that name that supports the other
+/** Throws Error unless the library has the operator set of that name and it supports the other
  * options; solve() does so, too. */
 SMG_EXPORT void checkOperators(const SolveOptions& options);
 /** Throws Error if the tolerance is SolveOptions::AutomaticTolerance and these weights have no
  * discretisation error; solve() does so, too. */
 SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, Weights weights);
-/** The same, and if the problem or the options do not allow that; solve() does so, too. */
+/** The same, and if the problem or the other options do not permit an automatic tolerance;
+ * solve() does so, too. */
 SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem);
 /** Throws Error if the problem has no column; solve() does so, too. */
 SMG_EXPORT void checkProblem(const Problem& problem);

@@ -16,19 +16,19 @@
 namespace smg
 {
 
-/** The number of entries that rows of any length usually have. On a cache line of its own, since
- * stages on different threads note theirs at the same time. */
+/** The mean number of entries of rows, from which room is reserved. On a cache line of its own,
+ * since stages on different threads update theirs at the same time. */
 class alignas(64) MeanRowLength
 {
 public:
-  /** Notes a row with so many entries. */
+  /** Counts a row with this number of entries. */
   void add(std::int64_t entries)
   {
     ++this->Rows;
     this->Entries += entries;
   }
 
-  /** Some more than so many rows had on average so far. */
+  /** Somewhat more entries than this number of rows had on average so far. */
   std::int64_t of(std::int64_t rows) const
   {
     constexpr std::int64_t AtFirst = 8;
@@ -41,16 +41,33 @@ private:
 };
 
 /**
- * Builds a level from the next finer one, as far as the rows of that exist. Every stage has a
- * cursor, the next node to process; it may process a node when the stages it depends on have passed
- * the largest index that the node needs. Data that no stage needs any more are released. Nodes are
- * numbered from the first rows of the two levels on.
+ * Builds a level from the next finer one, as far as the rows of that exist. The stages are those of
+ * the operator set (OperatorSet), each with a cursor, the next node to process:
+ *
+ *   choose              needs the row of i,
+ *   interpolateInitial  the choice at all neighbours,
+ *   relaxInterpolation  P0, or the rows of the sweep before, of all neighbours,
+ *   interpolate         row i from the last sweep, with its patch,
+ *   productAP           P of all neighbours,
+ *   productPtAP         by coarse node: the final list of its children, and their rows of A P,
+ *   sparsify            the product rows up to this one,
+ *   finish              the sparsification of all neighbours.
+ *
+ * A stage may process a node when the stages before it have passed the largest index that the node
+ * needs; all these bounds are monotone, so comparing cursors suffices. Data that no stage needs any
+ * more are released. Every step reads only what its bound guarantees, so the coarse level is the
+ * same for any number of rows at a time and any number of threads.
+ *
+ * The windows of the stages follow each other within a few rings of the stream: the memory is
+ * proportional to the span of the stream order. Nodes are numbered from the first rows of the two
+ * levels on.
  */
 template <OperatorSet Operators>
 class Coarsening
 {
 public:
-  /** `stiff`: those of the coarse level; `apart`: whether stages may run on several threads. */
+  /** `stiff`: finds the stiff rows of the coarse level; `apart`: whether stages may run on
+   * several threads. */
   Coarsening(Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse,
     SliverRows stiff = {}, bool apart = false)
     : Set(std::move(operators))
@@ -64,16 +81,15 @@ public:
   }
 
   const CoarseningData& data() const { return this->Data; }
-  /** Rows with final interpolation and neighbours' patches, as seen by the stages after it. */
+  /** The end of the rows of A P: their interpolation and the patches of their neighbours are
+   * final. As published to the stages after productAP(). */
   std::int64_t multiplied() const { return this->SeenProducts; }
   /** Declares that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
-  /**
-   * Advances every stage as far as possible on the existing rows, or on those below `rows`. The
-   * coarse level gets its new rows by handOver(), so several levels may advance on different
-   * threads.
-   */
+  /** Advances every stage as far as possible on the existing rows, or on those below `rows`, on
+   * one thread. The coarse level gets its new rows by handOver(), so that several levels may
+   * advance on different threads. */
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
     this->begin(rows);
@@ -88,14 +104,16 @@ public:
     this->release();
   }
 
-  // The same on five threads: between beginApart() and release(), the following may run at the same
-  // time, each on what the one before it has done in earlier steps.
+  // The same on five threads: between beginApart() and release(), the five functions below may run
+  // at the same time. Each works on what the one before it had done in earlier steps: beginApart()
+  // publishes the cursors, and reserves the room that the step will need, so that no ring moves
+  // while another thread reads it.
 
-  /** Begins a step in which stages usually process so many nodes at most, see StepLimit; returns
-   * about how many coarse rows these become. */
+  /** Begins a step in which each stage usually processes at most this number of nodes, see
+   * StepLimit. Returns about how many coarse rows these become. */
   std::int64_t beginApart(std::int64_t nodes)
   {
-    assert(&this->Data.productSlots != &this->Data.slots); // made for it
+    assert(&this->Data.productSlots != &this->Data.slots); // made for several threads
     const std::int64_t coarse = this->usualCoarseRows(nodes);
     this->Limits.begin(nodes, coarse);
     this->Sweeps.begin(StepLimits::more(nodes));
@@ -108,7 +126,7 @@ public:
     this->Apart = true;
     return coarse;
   }
-  /** The rows that no stage has processed. */
+  /** The number of rows that no stage has processed. */
   std::int64_t waiting() const { return this->Data.fine.end() - this->Chosen; }
 
   /** The stages up to the initial P. */
@@ -142,7 +160,7 @@ public:
     this->finish();
   }
 
-  /** Appends the new final coarse rows to the coarse level. */
+  /** Appends the new final coarse rows to the coarse level; between two steps. */
   void handOver()
   {
     this->Final.moveTo(this->Data.coarse);
@@ -150,7 +168,8 @@ public:
                               this->Finished == this->Data.coarseNodes;
   }
 
-  /** Releases data that no stage needs any more. */
+  /** Releases data that no stage needs any more; between two steps. A node is needed by a stage
+   * until that has passed all rows that contain it, which LevelRows::unreached() finds. */
   void release()
   {
     CoarseningData& d = this->Data;
@@ -190,7 +209,8 @@ public:
   }
 
 private:
-  /** Lets the stages read the existing rows below `rows`. */
+  /** Lets the stages read the existing rows below `rows`. Refuses a stream order for which a
+   * window would have more coarse nodes than entries can distinguish. */
   void begin(std::int64_t rows)
   {
     this->Rows = std::min(rows, this->Data.fine.end());
@@ -201,14 +221,14 @@ private:
     }
   }
 
-  /** Shows the coarse nodes and the initial P so far to the stages of advanceInterpolation(). */
+  /** Publishes the coarse nodes and P0 so far to the stages of advanceInterpolation(). */
   void seeLifting()
   {
     this->SeenInitial = this->Initial;
     this->Data.seenCoarse = this->Data.coarseNodes;
   }
 
-  /** Shows the interpolation so far to the stages from productAP() on. */
+  /** Publishes P so far to the stages from productAP() on. */
   void seeInterpolation()
   {
     this->Seen = this->Interpolated;
@@ -217,10 +237,11 @@ private:
     this->Data.sparsifySlots.extend(this->Data.knownCoarse);
   }
 
-  /** Shows the products so far to the stages from productPtAP() on. */
+  /** Publishes A P so far to the stages from productPtAP() on. */
   void seeProducts() { this->SeenProducts = this->Multiplied; }
 
-  /** The coarse rows that so many rows become, on average so far or in the last step. */
+  /** The number of coarse rows that this number of rows becomes, on average so far or as in the
+   * last step. */
   std::int64_t usualCoarseRows(std::int64_t rows)
   {
     const std::int64_t chosen = this->Chosen - this->Begin;
@@ -229,7 +250,8 @@ private:
     return std::min(rows, std::max(last, chosen > 0 ? rows * coarse / chosen : rows));
   }
 
-  /** Makes room for what this step adds to the data that several threads use. */
+  /** Reserves room for what this step adds to the data that several threads use. Rings grow only
+   * here. */
   void reserve()
   {
     CoarseningData& d = this->Data;
@@ -249,7 +271,8 @@ private:
     this->reserveProducts();
   }
 
-  /** Of the initial rows, too, which are as long as those of the level at most. */
+  /** The same for P0: room for rows of the mean length, and for the longest that the next one
+   * may be, so that the stage always advances. */
   void reserveInitial()
   {
     CoarseningData& d = this->Data;
@@ -261,7 +284,7 @@ private:
     }
   }
 
-  /** The rows of A P are of any length: there is room for rows of the usual one. */
+  /** The same for A P. */
   void reserveProducts()
   {
     CoarseningData& d = this->Data;
@@ -283,6 +306,7 @@ private:
       this->Chosen, this->Rows, [&](std::int64_t) { return !(this->Apart && d.patches.isFull()); },
       [&](std::int64_t i)
       {
+        // First, since the choice needs the diagonal of the row.
         d.patches.add(d.fine);
         const bool isCoarse = this->Set.isCoarse(d, i);
         d.coarseIndex[i] =
@@ -297,6 +321,7 @@ private:
     d.lastChild.extend(d.coarseNodes);
   }
 
+  /** P0 of a row needs the choice at all neighbours. */
   void interpolateInitial()
   {
     CoarseningData& d = this->Data;
@@ -313,6 +338,8 @@ private:
       });
   }
 
+  /** Sweeps, then the final rows. The matrix of a patch is taken when the row of its first node
+   * is final: all its rows exist then, and may be released soon. */
   void interpolate()
   {
     CoarseningData& d = this->Data;
@@ -328,6 +355,8 @@ private:
       });
   }
 
+  /** A row of A P needs P of all neighbours. By then the patches of the neighbours are complete,
+   * too: their ends are noted for the blocks. */
   void productAP()
   {
     CoarseningData& d = this->Data;
@@ -346,7 +375,8 @@ private:
       });
   }
 
-  /** Whether all children of c, which lie within two rings of it, and their products exist. */
+  /** Whether all children of c and their rows of A P exist. Children lie within two rings of the
+   * C-point: once P of these is final, the chain of c is complete. */
   bool canGather(std::int64_t c) const
   {
     const CoarseningData& d = this->Data;
@@ -358,6 +388,8 @@ private:
     return d.lastChild[c].row(d.finePoint[c]) < this->SeenProducts;
   }
 
+  /** Products in the order of coarse nodes. On one thread each row is sparsified at once; apart,
+   * the rows of a step wait for the next one. */
   void productPtAP()
   {
     CoarseningData& d = this->Data;
@@ -373,7 +405,7 @@ private:
       });
   }
 
-  /** Processes rows that have been gathered. */
+  /** Sparsifies rows that were gathered. */
   void sparsify(GatheredRows& rows)
   {
     CoarseningData& d = this->Data;
@@ -385,7 +417,8 @@ private:
       });
   }
 
-  /** A coarse row is final when its last neighbour has been processed. */
+  /** A coarse row is final when its last neighbour was sparsified: later rows do not change its
+   * entries. */
   void finish()
   {
     CoarseningData& d = this->Data;
@@ -408,7 +441,7 @@ private:
 
   std::int64_t CoarseBefore = 0;         // coarse nodes a step ago
   const std::int64_t Begin, CoarseBegin; // the first nodes
-  std::int64_t Rows = Begin;             // of the fine level, that stages may read
+  std::int64_t Rows = Begin;             // end of the rows of the fine level that stages may read
   std::int64_t Chosen = Begin, Initial = Begin, SeenInitial = Begin; // by fine node
   InterpolationSweeps<Operators> Sweeps;
   std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;

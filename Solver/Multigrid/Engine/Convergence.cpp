@@ -7,23 +7,29 @@
 #include <cmath>
 #include <cstdio>
 
+// When a solve ends. The norm of the residual comes for free from the restriction of each pass. A
+// small residual is no proof of a small error, but it is what can be compared with the rounding of
+// its own terms: below that, more V-cycles change nothing.
+
 namespace smg
 {
 namespace
 {
 
-/** A residual that exceeds the initial one by this factor will not recover. */
+/** A residual above this multiple of the initial one does not recover. */
 constexpr double Diverged = 1e4;
-/** A residual that has not decreased by this share in so many V-cycles has stagnated; fewer are
- * sufficient if it is of the size of the rounding of its terms. */
+/** A residual stagnates if it is still above this share of its value some V-cycles ago: 60 at
+ * most, 2 if it is of the size of the rounding of its terms. */
 constexpr double Stagnating = 0.9;
 constexpr int Patience = 60, RoundingPatience = 2;
-/** Patience is half of the allowed V-cycles if that is less, but at least this. */
+/** Half of the allowed V-cycles if that is less than 60, but at least this many. */
 constexpr int MinPatience = 10;
 constexpr double NearRounding = 10.0;
 
 } // namespace
 
+/** About two units in the last place for each term, whose squares add up as for independent
+ * errors. */
 double roundingOf(double termSquares)
 {
   constexpr double Rounding = 4e-16;
@@ -37,6 +43,9 @@ std::string scientific(double value)
   return text;
 }
 
+/** The reference of relative residuals is at least the rounding, so that a start from the
+ * solution does not divide by zero. If it starts there, reaching the rounding is all that is
+ * asked. */
 Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
   : Fixed(stopping.cycles > 0)
   , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
@@ -49,10 +58,13 @@ Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
 void Convergence::begin(double norm, bool mayEnd)
 {
   this->Norm = norm;
+  // The first sweeps may increase the residual; divergence is measured from the larger of both.
   this->FirstNorm = std::max(this->Reference, norm);
   this->Done = this->Converged = mayEnd && !this->Fixed && norm <= this->Goal;
 }
 
+/** Order matters: an overflow is an error even of the last V-cycle, divergence only if the goal
+ * is not met, and a fixed number of V-cycles asks for neither tolerance nor patience. */
 void Convergence::add(double norm, double rounding)
 {
   this->Rounding = std::max(this->Rounding, rounding);
@@ -79,6 +91,7 @@ void Convergence::add(double norm, double rounding)
     this->Done = this->Converged = this->cycles() >= this->Limit;
     return;
   }
+  // A note is about the present state only.
   this->Note.clear();
   if (!this->Converged)
   {
@@ -87,6 +100,8 @@ void Convergence::add(double norm, double rounding)
   this->Done = this->Done || this->Converged;
 }
 
+/** Ends a solve that has not converged if it stagnates or has used up its V-cycles. Stagnation
+ * at the rounding counts as convergence. */
 void Convergence::watch(double relative)
 {
   const bool rounding = this->Norm <= NearRounding * this->Rounding;

@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** The stopping criterion of the V-cycles of a problem. */
+/** The stopping criterion for the V-cycles of a problem. */
 struct Stopping
 {
   double tolerance = 1e-6; ///< of the residual, relative to the initial one
@@ -25,24 +25,31 @@ struct Stopping
 struct FirstResidual
 {
   double norm = 0.0;     ///< ||b - A x_0||
-  double rounding = 0.0; ///< part of it due to the rounding of its terms
+  double rounding = 0.0; ///< the part of it that is due to the rounding of its terms
 };
 
-/** Tracks the residual of a problem over the V-cycles and decides when to stop. */
+/**
+ * Follows the residual of a problem over the V-cycles and decides when to stop: at the tolerance,
+ * at the limit of rounding, when it stagnates, at the largest number of V-cycles, or, with an
+ * Error, when it diverges or overflows. The relative residual is ||b - A x|| / ||b - A x_0||, x_0
+ * the initial values.
+ */
 class SMG_EXPORT Convergence
 {
 public:
-  /** Initial values that solve the problem up to rounding cannot be improved. */
+  /** Initial values that solve the problem up to rounding cannot be improved: the goal is then
+   * the rounding. */
   Convergence(const Stopping& stopping, const FirstResidual& first);
 
-  /** Before the first V-cycle: the norm after the first sweeps. It may already end the solve,
-   * unless the right-hand side has changed since. */
+  /** To be called before the first V-cycle, with the norm after the first sweeps. This may
+   * already end the solve, unless the right-hand side has changed since. */
   void begin(double norm, bool mayEnd = true);
-  /** After a V-cycle; `rounding`: the part of the norm due to the rounding of its terms, if that is
-   * more than initially. Throws Error if the residual diverges or overflows. */
+  /** To be called after a V-cycle; `rounding`: the part of the norm that is due to the rounding
+   * of its terms, if that is more than initially. Throws Error if the residual diverges or
+   * overflows. */
   void add(double norm, double rounding = 0.0);
 
-  /** The last V-cycle was enough for another reason than its residual. */
+  /** The last V-cycle was enough, for another reason than its residual. */
   void end()
   {
     this->Done = this->Converged = true;
@@ -56,16 +63,17 @@ public:
   int cycles() const { return static_cast<int>(this->Residuals.size()); }
   /** Whether the next V-cycle is the last allowed one. */
   bool isLast() const { return this->cycles() + 1 >= this->Limit; }
-  /** The last ||b - A x||, and its values relative to the initial one after each V-cycle. */
+  /** The last ||b - A x||, and the relative residual after each V-cycle. */
   double norm() const { return this->Norm; }
   const std::vector<double>& residuals() const { return this->Residuals; }
   /** Whether the number of V-cycles is given. */
   bool fixed() const { return this->Fixed; }
   /** The factor of ||b - A x|| in the last V-cycle. */
   double factor() const { return this->Norm / this->NormBefore; }
-  /** V-cycles to the tolerance if each multiplies the residual by `factor`, in (0, 1). */
+  /** The number of V-cycles to the tolerance if each multiplies the residual by `factor`, in (0,
+   * 1). */
   double cyclesLeft(double factor) const;
-  /** All but the stopping criterion, which is that of the constructor. */
+  /** Saves or restores all but the stopping criterion, which is that of the constructor. */
   template <class State>
   void exchange(State& state)
   {

@@ -6,19 +6,24 @@
 #include <cstdio>
 #include <utility>
 
+// Balances two estimates that cost differently: the algebraic error comes with every pass, the
+// discretisation error needs the mesh once more. All errors here are squares of energy norms, hence
+// the squares of shares below.
+
 namespace smg
 {
 namespace
 {
 
-/** The algebraic error that is small enough, over that of the discretisation. */
+/** The algebraic error that is small enough, over the discretisation error. */
 constexpr double Enough = 0.1;
-/** The residual from which on it pays to estimate that of the discretisation. */
+/** The relative residual from which on the discretisation error is worth an estimate. */
 constexpr double Promising = 1e-3;
-/** How often that is estimated: where it is not much larger than the algebraic error for long, it
- * is nothing to stop by. */
+/** The most estimates of the discretisation error. Where it is not much larger than the
+ * algebraic error for a long time, it is nothing to stop by. */
 constexpr int MaxMeasures = 6;
-/** The share up to which an algebraic error does not disturb that estimate. */
+/** An algebraic error up to this share does not disturb the estimate, which is made with the
+ * iterate. */
 constexpr double Undisturbing = 0.5;
 
 } // namespace
@@ -30,6 +35,8 @@ bool ErrorBalance::add(double energy, double residual, double factor)
   {
     return false;
   }
+  // The first estimate waits for a promising residual; a later one replaces an estimate that the
+  // algebraic error of its time disturbed, and only where it would decide.
   if (this->Measures == 0)
   {
     if (residual > Promising)
@@ -45,12 +52,15 @@ bool ErrorBalance::add(double energy, double residual, double factor)
   return this->isEnough() && !this->isDisturbed();
 }
 
-/** Whether the algebraic error was too large when that of the discretisation was estimated. */
+/** Whether the algebraic error was too large at the time of the last estimate. */
 bool ErrorBalance::isDisturbed() const
 {
   return this->AtMeasure > Undisturbing * Undisturbing * this->Mesh.error;
 }
 
+/** Estimates the algebraic error from the last energies. It stays Unknown where the energy did
+ * not fall, as may happen with acceleration or at the limit of rounding, or where the factors
+ * promise no convergence. */
 void ErrorBalance::estimate(double energy, double factor)
 {
   this->Energies.push_back(energy);
@@ -63,6 +73,8 @@ void ErrorBalance::estimate(double energy, double factor)
   }
   const double* last = this->Energies.data() + n - 1;
   const double fall = 2.0 * (last[-1] - last[0]);
+  // The more pessimistic of what is known: an error that is underestimated would end the solve too
+  // early.
   const double slower = n == 2 ? factor : std::max(factor, before);
   double q = slower * slower;
   if (n > 2 && last[-2] > last[-1])

@@ -15,16 +15,18 @@ namespace smg
 
 /**
  * Stops V-cycles when more of them would not bring the result nearer to the solution of the
- * continuous problem: when the algebraic error is below a tenth of that of the discretisation, both
+ * continuous problem: when the algebraic error is below a tenth of the discretisation error, both
  * in the energy norm.
  *
  * The squared algebraic error falls in V-cycle k by f_k = 2 (J_{k-1} - J_k), see IterateEnergy
- * (Hestenes and Stiefel 1952; Meurant and Tichy 2013). If further V-cycles multiply it by q, it is
- * f_k q / (1 - q). For q the larger one of f_k / f_{k-1} and the squared factors of the last two
- * residuals is taken. The discretisation error is estimated on the mesh, which is read again for
- * that, with the iterate. That costs about two V-cycles: so it is done once the residual is small
- * enough that as a rule few V-cycles are left, and again, up to five times, if the algebraic error
- * of that time turns out not to have been small beside it.
+ * (Hestenes and Stiefel 1952; Meurant and Tichy 2013). If each further V-cycle multiplies it by q,
+ * the error that is left is f_k q / (1 - q). For q the largest of f_k / f_{k-1} and the squared
+ * factors of the last two residuals is taken.
+ *
+ * The discretisation error is estimated with the present iterate, in an additional pass over the
+ * mesh that costs about two V-cycles. That is done once the residual is so small that as a rule few
+ * V-cycles are left, and again, up to five times, if the algebraic error at that time turns out not
+ * to have been small beside it.
  */
 class SMG_EXPORT ErrorBalance
 {
@@ -32,7 +34,7 @@ public:
   /** Estimates the discretisation error with the present iterate. */
   using Measure = std::function<EnergySquares()>;
 
-  /** The relative residual at which they end as a rule. */
+  /** The relative residual at which such solves end as a rule; for the progress. */
   static constexpr double UsualResidual = 1e-4;
 
   explicit ErrorBalance(Measure measure)
@@ -40,11 +42,11 @@ public:
   {
   }
 
-  /** After a V-cycle, with the energy of its iterate, the relative residual, and the factor of
-   * that: whether the errors are as far apart as that. */
+  /** To be called after a V-cycle, with the energy of its iterate, the relative residual, and
+   * the factor by which that fell. Returns whether the algebraic error is small enough. */
   bool add(double energy, double residual, double factor);
 
-  /** Adds the errors of the last iterate, as far as they are known, and a note. */
+  /** Adds the errors of the last iterate to the report, as far as they are known, and a note. */
   void report(Report& report) const;
 
   template <class State>
@@ -65,12 +67,12 @@ private:
 
   Measure Estimate;
   std::vector<double> Energies; ///< after each V-cycle
-  double Factor = 1.0;          ///< of the last residual
+  double Factor = 1.0;          ///< by which the last residual fell
   double Algebraic = Unknown;   ///< squared, after the last V-cycle
-  double Known = Unknown;       ///< the last one that was not unknown
+  double Known = Unknown;       ///< the last value that was not Unknown
   EnergySquares Mesh;
   double AtMeasure = Unknown; ///< Algebraic when Mesh was estimated
-  int Measures = 0;           ///< how often it was
+  int Measures = 0;           ///< number of estimates
 };
 
 } // namespace smg

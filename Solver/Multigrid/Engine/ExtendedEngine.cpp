@@ -4,6 +4,7 @@
 namespace smg
 {
 
+// The kernels are compiled here, with the flags of the library: the same bits on every machine.
 template class Level<double, GaussSeidel>;
 template class Level<float, GaussSeidel>;
 template class Hierarchy<GaussSeidel>;

@@ -10,8 +10,8 @@
 namespace smg
 {
 
-// The parts of a solve with the default operator set, instantiated once in the library for solve()
-// and deform().
+// The parts of a solve with the default operator set, instantiated once in the library, for solve()
+// and deform(). Programs with operators of their own instantiate the templates for these.
 extern template class Level<double, GaussSeidel>;
 extern template class Level<float, GaussSeidel>;
 extern template class Hierarchy<GaussSeidel>;

@@ -24,8 +24,16 @@
 namespace smg
 {
 
-/** The first pass of a solve: reads the mesh, assembles the finest level, builds all others from
- * it, relaxes and restricts, all in one sweep. */
+/**
+ * The first pass of a solve: reads the mesh, assembles the finest level, builds all others from it,
+ * relaxes and restricts, in one sweep over the stream. That a hierarchy can be built in a single
+ * streaming pass is a result of the paper (Shi, Bao, Zhou 2009).
+ *
+ * A step of the pass assembles one block of the mesh, advances the coarsening of every streamed
+ * level, and advances the downward part of the V-cycle, each on what the others had done in earlier
+ * steps. With several threads the steps are the same for any number of them, and the result is the
+ * same for one thread as well.
+ */
 template <OperatorSet Operators>
 class FirstPass
 {
@@ -39,8 +47,9 @@ public:
   {
   }
 
-  /** Performs the pass and completes the hierarchy. `listener`: see Assembly; `furtherCoreBytes`:
-   * bytes per vertex that the caller will need in core. */
+  /** Performs the pass and completes the hierarchy; returns the residual of the initial values.
+   * `listener`: see Assembly; `furtherCoreBytes`: bytes per vertex that the caller will need in
+   * core. */
   FirstResidual operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
 
@@ -61,6 +70,8 @@ template <OperatorSet Operators>
 FirstResidual FirstPass<Operators>::operator()(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
+  // What one thread is expected to need: more threads take more memory only where the limit leaves
+  // room.
   SolveOptions alone = this->Run.options;
   alone.threads = 1;
   this->Run.expectedBytes =
@@ -87,6 +98,7 @@ FirstResidual FirstPass<Operators>::run(
 {
   const Timer building;
   const SolveOptions& options = this->Run.options;
+  // Before the mesh is read: a limit that is certainly too low fails at once.
   const std::int64_t need = estimateMemory(mesh.info(), problem, options, furtherCoreBytes);
   if (need > options.memoryLimit)
   {
@@ -100,7 +112,8 @@ FirstResidual FirstPass<Operators>::run(
   const FirstResidual residual = this->build(mesh, problem, listener);
   if (this->Run.free.projectRightSide(this->Built.window(), this->Run.report))
   {
-    // The coarse levels have the right-hand side before that, of a problem without a solution.
+    // The coarse levels were given the right-hand side before the projection, of a problem without
+    // a solution: their correction is left out.
     this->Built.finest().leaveOutCorrection();
   }
   this->Run.report.seconds.build = building.seconds();
@@ -120,7 +133,8 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);
   MeshPrefetch blocks(mesh, this->Run.isConcurrent());
-  // On threads of their own, the stages of the assembly need room for the next block.
+  // The stages of the assembly run as tasks of their own only if the next block is read ahead: they
+  // need the number of its vertices to reserve room.
   this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
   this->Built.endPass();
@@ -128,11 +142,10 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
   return this->note(assembly);
 }
 
-/**
- * In each step the next block of the mesh is assembled, every streamed level is coarsened, and the
- * downward part of the V-cycle advances, all concurrently, each on the data of the previous steps;
- * so are, with `apart`, the stages of the assembly.
- */
+/** In each step the next block of the mesh is assembled, every streamed level is coarsened, and
+ * the downward part of the V-cycle advances, all as tasks that may run at the same time, each
+ * on the data of earlier steps. With `apart`, the stages of the assembly are tasks of their own
+ * as well. */
 template <OperatorSet Operators>
 void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
   AssembledRows& rows, HierarchyBuilder<Operators>& builder)
@@ -181,6 +194,8 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
   while (!builder.complete())
   {
     builder.begin();
+    // A block of the mesh may have many more rows than a step: no further block is read while rows
+    // wait, since these take memory.
     waits = builder.isBusy();
     if (!waits)
     {
@@ -191,16 +206,18 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
       assembly.beginApart(blocks.vertices());
     }
     finest.showProgress();
-    // The problem is queried on the caller's thread.
+    // Task 0, which asks the problem, runs on the thread of the caller.
     this->Run.runConcurrently(order, [&](int task) { tasks[static_cast<std::size_t>(task)](); });
     finest.release();
     if (apart)
     {
       assembly.release();
     }
+    // Between two steps: what moves may be memory that tasks read.
     rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
     builder.finestRows().Ended = !more && assembly.isClosed();
     builder.handOver();
+    // Vertices that wait for cells are in memory like nodes.
     this->Run.resident.add(assembly.openVertices() - open);
     open = assembly.openVertices();
     this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
@@ -214,23 +231,25 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
   this->Run.labels.finish();
 }
 
-/** Adds the data of the assembly and the levels to the report, and those for later passes to the
- * hierarchy. */
+/** Adds the data of the assembly and of the levels to the report, and what later passes need to
+ * the hierarchy. Returns the residual of the initial values. */
 template <OperatorSet Operators>
 FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
 {
+  // With more stiff rows than this share, the slowest errors may be local to them; see Iteration.
   constexpr std::int64_t StiffShare = 512;
   this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
   Report& r = this->Run.report;
   this->Run.components.settle();
   reportAssembly(assembly, this->Run.components, r);
   r.levels = this->Built.levels().sizes;
+  // Vertices with given values have an empty row, but are not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
   const double whole = assembly.residual().squares();
   const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
   // If the sources equal their mean, only the rounding of this difference of squares remains, which
-  // does not measure the residual: then that of the sources themselves is used.
+  // does not measure the residual: then the sources themselves do.
   constexpr double MinShare = 1e-14;
   return { std::sqrt(shifted < MinShare * whole ? whole : shifted),
     roundingOf(assembly.residual().termSquares()) };

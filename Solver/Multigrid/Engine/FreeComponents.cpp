@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <limits>
 
+// The values of free components are shifted when they are read, not on disk: a shift per component
+// and column is all that is kept, and a vertex finds its own through its label.
+
 namespace smg
 {
 
@@ -20,6 +23,7 @@ void noteFreeComponents(Report& report)
   const std::string note =
     std::to_string(report.free_components) + " of " + std::to_string(report.components) +
     " components have no prescribed value: they keep the mean of their initial values";
+  // If all components are free, as in a pure Neumann problem, this was meant.
   if (report.free_components < report.components)
   {
     report.warn(note);
@@ -31,10 +35,12 @@ void noteFreeComponents(Report& report)
 void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<double> values)
 {
   const auto columns = static_cast<std::size_t>(this->Columns);
+  // Mostly there is nothing to do, and no label is read.
   const bool shifts = !this->MeanShifts.empty();
   for (std::int64_t i = 0; (shifts || this->LeavesUndetermined) && i < count; ++i)
   {
     const std::int64_t vertex = first + i;
+    // Labels are stored in blocks; consecutive vertices share one.
     const std::int32_t label =
       this->Labels.block(vertex / Block).labels[static_cast<std::size_t>(vertex % Block)];
     const auto of = values.subspan(static_cast<std::size_t>(i) * columns, columns);
@@ -44,6 +50,7 @@ void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<
     }
     for (std::size_t k = 0; label >= 0 && shifts && k < columns; ++k)
     {
+      // Labels that were joined later lead to the root, which has the shift.
       of[k] -= this->MeanShifts[static_cast<std::size_t>(this->Parts.root(label)) * columns + k];
     }
   }

@@ -18,15 +18,17 @@ namespace smg
 /** The note that the sources of free components do not sum to zero; `share`: see
  * Components::incompatibility(). */
 SMG_EXPORT std::string incompatibilityNote(double share);
-/** Notes how many components are free, as a warning if others are not. */
+/** Notes how many components are free; as a warning if others are not. */
 SMG_EXPORT void noteFreeComponents(Report& report);
 
 /**
- * What the equations leave open. Makes the solution of components without constraint unique:
- * subtracts the mean of their sources, and keeps the mean of their initial values, both weighted
- * with the lumped masses. Values that nothing determines keep the initial value or become not a
- * number, as the problem wants. A State of the finest level provides nodes(), rewriteB() and
- * readX(), like LevelWindow.
+ * What the equations leave open. A component without any constraint (a free component) has a
+ * solution only if its right-hand side sums to zero, and then up to a constant. Its solution is
+ * made unique: the mean of its sources is subtracted, and the mean of its initial values is kept,
+ * both weighted with the lumped masses. Values that nothing determines keep the initial value or
+ * become not a number, as the problem wants.
+ *
+ * A State of the finest level provides nodes(), rewriteB() and readX(), like LevelWindow.
  */
 class SMG_EXPORT FreeComponents
 {
@@ -38,13 +40,13 @@ public:
   {
   }
 
-  /** A component without constraint has a solution only if its right-hand side sums to zero:
-   * otherwise subtracts the mean of the source, notes this in the report and returns true. */
+  /** Makes the right-hand sides of free components sum to zero where they do not: subtracts the
+   * mean of the source, notes this in the report and returns true. */
   template <class State>
   bool projectRightSide(State& level, Report& report);
 
-  /** After the solve: prepares complete(). `report` has the counts of the assembly, and gets notes.
-   */
+  /** To be called after the solve: prepares complete(). `report` has the counts of the assembly
+   * and gets notes. */
   template <class State>
   void fix(State& level, const Problem& problem, Report& report)
   {
@@ -55,14 +57,15 @@ public:
   /** Whether values that nothing determines become not a number. */
   bool leavesUndetermined() const { return this->LeavesUndetermined; }
 
-  /** Completes the values of vertices [first, first + count). */
+  /** Completes the values of the vertices [first, first + count): shifts those of free
+   * components, and marks what is undetermined. */
   void complete(std::int64_t first, std::int64_t count, std::span<double> values);
 
 private:
   static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
 
-  /** Calls f(place, root, weight) for the vertices of a block that belong to a free component;
-   * `place`: index in the block, `weight`: that in its means. */
+  /** Calls f(place, root, weight) for the vertices of a block that belong to free components:
+   * the index in the block, the component, and the weight of the vertex in its means. */
   template <class F>
   void forFree(std::int64_t block, F&& f);
   template <class State>
@@ -116,7 +119,8 @@ bool FreeComponents::projectRightSide(State& level, Report& report)
   return true;
 }
 
-/** Computes by how much the values of free components are to be shifted. */
+/** Computes by how much the values of free components are to be shifted: one pass over the
+ * solution, in node order. */
 template <class State>
 void FreeComponents::fixMeans(State& level, Report& report)
 {

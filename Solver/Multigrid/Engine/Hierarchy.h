@@ -10,8 +10,8 @@
 namespace smg
 {
 
-/** The levels of a solve: streamed ones, which take part in the passes, and those in core, which
- * the core cycle processes between two passes. */
+/** The levels of a solve: streamed ones, which take part in the passes, and core levels, which
+ * are in memory as a whole and which the core cycle processes between two passes. */
 template <class Relaxation>
 class Hierarchy
 {
@@ -19,7 +19,7 @@ public:
   using FineLevel = Level<double, Relaxation>;
   using CoarseLevel = Level<float, Relaxation>;
 
-  /** For a problem of `columns` columns; without levels. */
+  /** For a problem of `columns` columns; there are no levels yet. */
   Hierarchy(SolveContext& run, int columns)
     : Run(run)
     , Columns(columns)
@@ -28,16 +28,18 @@ public:
 
   // Before and in the first pass.
 
-  /** Adds the streamed levels and the finest core level, without rows yet, for a mesh with this
-   * number of vertices; 0 or less: unknown. */
+  /** Adds the streamed levels and the finest core level, without rows, for a mesh with this
+   * number of vertices; 0 or less: unknown. Their number must be known before the first row, so
+   * it follows from the usual sizes of levels. */
   void open(std::int64_t vertices);
-  /** The levels, to add rows to them. */
+  /** The levels, for adding rows. */
   Levels<Relaxation>& levels() { return this->Built; }
-  /** Adds level l, a core level. */
+  /** Adds core level l. */
   void addCoreLevel(int l) { this->addCoarseLevel(l, true); }
-  /** Completes the hierarchy after the last row; factorises level `coarsest`, the coarsest one. */
+  /** Completes the hierarchy after the last row: level `coarsest`, the coarsest one, is
+   * factorised. */
   void close(int coarsest);
-  /** Whether the slowest errors may be local to some vertices of slivers, see Iteration. */
+  /** Sets whether the slowest errors may be local to some vertices of slivers, see Iteration. */
   void setSlowestAtSlivers(bool are) { this->SlowestAtSlivers = are; }
 
   // Afterwards.
@@ -49,27 +51,27 @@ public:
   bool slowestAtSlivers() const { return this->SlowestAtSlivers; }
 
   void startPass(bool first);
-  /** Throws Error unless all nodes have passed all stages. */
+  /** Ends a pass. Throws Error unless all nodes have passed all stages. */
   void endPass();
-  /** The core levels' part of a V-cycle. */
+  /** Performs the part of a V-cycle on the core levels. */
   void runCore();
   /** In core, between two passes: sets the right-hand sides of the coarse levels to zero. */
   void zeroCoarse();
-  /** The next pass ends one problem and begins another one with this number of columns, see
+  /** The next pass ends one problem and begins another with this number of columns, see
    * LevelWindow::renew(). */
   void renew(int columns);
 
   /** Between passes: saves the levels. */
   void save(StateWriter& state);
-  /** Instead of the first pass: restores the levels, and factorises the coarsest one. */
+  /** In place of the first pass: restores the levels, and factorises the coarsest one. */
   void load(StateReader& state);
 
-  /** ||b - A x||, as computed by the restriction of the last pass. */
+  /** ||b - A x||, from the restriction of the last pass. */
   double residualNorm() const;
-  /** The part of it due to the rounding of its terms. */
+  /** The part of it that is due to the rounding of its terms. */
   double roundingNorm() const;
 
-  /** Returns the window of the finest level, which holds the solution; releases the rest. */
+  /** Returns the window of the finest level, with the solution; releases everything else. */
   LevelWindow<double> takeWindow();
 
 private:

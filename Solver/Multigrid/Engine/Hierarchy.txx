@@ -13,6 +13,12 @@
 #include <utility>
 #include <vector>
 
+// Which levels are streamed is decided before the first row exists, from upper bounds of the shares
+// of C-points. If the hierarchy turns out to end earlier, close() moves the coarsest streamed level
+// to memory; if a core level is larger than expected, it only takes more memory. The decision
+// depends on the options, the limit of memory and the number of vertices only, not on whether the
+// solve is in core, so that both compute the same.
+
 namespace smg
 {
 
@@ -27,14 +33,15 @@ void Hierarchy<Relaxation>::open(std::int64_t vertices)
   }
 }
 
-/** The finest level in memory, from the usual sizes of levels. */
+/** The number of the finest core level, from the usual sizes of levels. */
 template <class Relaxation>
 int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
 {
-  // Upper bounds of the share of C-points: 0.24 to 0.43 on the finest level, 0.14 to 0.31 on
-  // coarser ones.
+  // Upper bounds of the share of C-points: 0.24 to 0.43 were measured on the finest level, 0.14 to
+  // 0.31 on coarser ones.
   constexpr double FirstShare = 0.43, FurtherShare = 0.31;
-  // Of a surface, with all coarser levels; those of solids have fewer nodes than these bounds.
+  // Bytes per node of the finest core level of a surface, with all coarser levels; those of solids
+  // have fewer nodes than the bounds above.
   constexpr std::int64_t BytesPerCoreNode = 200;
   constexpr int UnknownSize = 4;
   if (vertices <= 0)
@@ -42,6 +49,7 @@ int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
     return UnknownSize;
   }
   const SolveOptions& options = this->Run.options;
+  // Core levels shall take at most a third of the memory limit.
   const auto most =
     static_cast<double>(std::min(options.coreNodes, options.memoryLimit / 3 / BytesPerCoreNode));
   double nodes = FirstShare * static_cast<double>(vertices);
@@ -105,6 +113,7 @@ void Hierarchy<Relaxation>::setCore(CoarseLevel& level)
 template <class Relaxation>
 void Hierarchy<Relaxation>::close(int coarsest)
 {
+  // The hierarchy is shorter than expected: its coarsest level was streamed.
   if (coarsest < this->FirstCore)
   {
     this->FirstCore = coarsest;
@@ -162,6 +171,7 @@ void Hierarchy<Relaxation>::runCore()
   this->Run.report.seconds.coarse += coarse.seconds();
 }
 
+/** For the first V-cycle of a further problem in core, which restricts onto them. */
 template <class Relaxation>
 void Hierarchy<Relaxation>::zeroCoarse()
 {
@@ -174,6 +184,8 @@ void Hierarchy<Relaxation>::zeroCoarse()
 template <class Relaxation>
 void Hierarchy<Relaxation>::renew(int columns)
 {
+  // Only the finest level has two states in that pass: on coarse levels the downward part starts
+  // from zero in any case.
   this->window().renew(columns, true);
   for (auto& level : this->Built.coarse)
   {
@@ -196,6 +208,7 @@ void Hierarchy<Relaxation>::save(StateWriter& state)
 template <class Relaxation>
 void Hierarchy<Relaxation>::load(StateReader& state)
 {
+  // A check of the file, far beyond any hierarchy.
   constexpr std::int32_t MaxLevels = 64;
   state.part("hierarchy");
   std::int32_t levels = 0;
@@ -210,6 +223,7 @@ void Hierarchy<Relaxation>::load(StateReader& state)
     this->addCoarseLevel(l, l >= this->FirstCore);
     state(*this->Built.coarse.back());
   }
+  // The factor is not in the checkpoint: it is made again, with the same bits.
   this->factorize();
 }
 

@@ -17,22 +17,30 @@ namespace smg
 
 /**
  * Builds the hierarchy while the rows of the finest level arrive. Levels below `firstCore` are
- * built in the same sweep, window by window; those from `firstCore` on, which are in memory, after
- * it.
+ * built in the same sweep, window by window; those from `firstCore` on, which are in memory as a
+ * whole, after it.
+ *
+ * For each level it has a Coarsening, which makes the rows of the next level, and packs rows into
+ * blocks of the window once the stages of the passes can use them. All levels advance by steps. In
+ * a step each works on what the finer one handed over after the step before, so the levels, and
+ * with `apart` even the stages of the three finest ones, are tasks that need not wait for each
+ * other.
  */
 template <OperatorSet Operators>
 class HierarchyBuilder
 {
 public:
   using Relaxation = typename Operators::Relaxation;
-  /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of the
-   * nodes of the next finer level, which has few strong edges or many stiff rows. */
+  /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of
+   * the nodes of the next finer level: such a level has few strong edges or many stiff rows,
+   * and further ones would shrink as little. */
   static constexpr double StalledShare = 0.8;
-  /** The rows of the finest level that a step processes if its stages are tasks of their own. */
+  /** The number of rows of the finest level that a step processes if its stages are tasks of
+   * their own. */
   static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
 
-  /** `stiff` finds the stiff rows of each coarse level; `apart`: for several threads, the stages of
-   * each of the finest levels, where most of the work is, are tasks of their own. */
+  /** `stiff` finds the stiff rows of each coarse level. `apart`: for several threads, the stages
+   * of each of the finest levels, where most of the work is, are tasks of their own. */
   HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
     SliverRows stiff, bool apart)
     : Owner(pool)
@@ -49,10 +57,10 @@ public:
     }
   }
 
-  /** The rows of the finest level, to be appended to between two steps. */
+  /** The rows of the finest level, to which the assembly appends between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
 
-  /** Whether the finest level has rows enough for a step: more would take memory. */
+  /** Whether the finest level has enough rows for a step: more would only take memory. */
   bool isBusy() const
   {
     return this->ApartLevels > 0 && this->Steps.front()->waiting() > StepNodes;
@@ -68,12 +76,12 @@ public:
     }
   }
 
-  /** Number of tasks of a step, which may run on different threads: data for other levels are
-   * handed over afterwards. */
+  /** The number of tasks of a step, which may run on different threads. What they make for other
+   * levels is handed over afterwards. */
   int tasks() const { return this->FirstCore + (ApartTasks - 1) * this->ApartLevels; }
 
-  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or some
-   * of them. */
+  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or
+   * some of them. */
   void advance(int task)
   {
     if (task >= ApartTasks * this->ApartLevels)
@@ -81,7 +89,8 @@ public:
       this->advanceLevel(task - (ApartTasks - 1) * this->ApartLevels);
       return;
     }
-    // The longest tasks of a level first: no thread is to begin one when the others have finished.
+    // The longest tasks of a level come first, so that no thread begins one when the others have
+    // finished.
     const int l = task % this->ApartLevels;
     Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
     switch (task / this->ApartLevels)
@@ -137,9 +146,10 @@ public:
   }
 
   /**
-   * Builds the core levels when the streamed ones are complete; `addLevel(l)` adds level l, called
-   * for those coarser than firstCore. Returns the coarsest level. It may be a streamed one, if that
-   * is small enough; coarser levels are not to be used.
+   * Builds the core levels when the streamed ones are complete. It calls `addLevel(l)` for each
+   * level l that is coarser than firstCore, and returns the number of the coarsest level. That may
+   * be a streamed one, if it is small enough; the coarser ones that exist already are then not
+   * used.
    */
   template <class AddLevel>
   int finish(AddLevel&& addLevel)
@@ -169,7 +179,7 @@ public:
   }
 
 private:
-  static constexpr int ApartTasks = 6; // of a level
+  static constexpr int ApartTasks = 6; // tasks of a level: see advance()
   static constexpr int MaxApart = 3;   // levels
 
   void advanceLevel(int l)
@@ -177,7 +187,7 @@ private:
     const auto k = static_cast<std::size_t>(l);
     const std::int64_t end = this->Rows[k]->end();
     std::int64_t& rows = this->Advanced[k];
-    // A few rows at a time: their intermediate data are released before the next ones.
+    // A few rows at a time, whose intermediate data are released before the next ones.
     do
     {
       rows = std::min(end, rows + RowBlock::Nodes);
@@ -186,8 +196,9 @@ private:
     } while (rows < end);
   }
 
-  /** Builds core level l, whose rows are complete, and the rows of the next one, even if that is
-   * not used, so that the coarsest level does not depend on whether it is streamed. */
+  /** Packs core level l, whose rows are complete, and builds the rows of the next one, even if
+   * that is not used: the interpolation and the patches of the blocks must not depend on
+   * whether the coarsest level was streamed. */
   void build(int l)
   {
     this->addStep();
@@ -202,7 +213,7 @@ private:
     this->close(l);
   }
 
-  /** Nodes of a level whose rows are complete. */
+  /** The number of nodes of a level whose rows are complete. */
   std::int64_t nodes(int l) const
   {
     const auto k = static_cast<std::size_t>(l);
@@ -215,7 +226,7 @@ private:
            StalledShare * static_cast<double>(this->nodes(l - 1));
   }
 
-  /** Stores the size of level l and releases its rows, which have been packed. */
+  /** Notes the size of level l and releases its rows, all of which have been packed. */
   void close(int l)
   {
     const auto k = static_cast<std::size_t>(l);
@@ -245,7 +256,8 @@ private:
       *this->Rows[l], *this->Rows[l + 1], this->Stiff, static_cast<int>(l) < this->ApartLevels));
   }
 
-  /** Passes the packed blocks of level l to its window, and reuses the buffers of old ones. */
+  /** Passes the packed blocks of level l to its window, and takes the buffers of released ones
+   * for reuse. */
   void append(int l)
   {
     if (l == 0)
@@ -269,7 +281,8 @@ private:
     level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
   }
 
-  /** Packs the final blocks of level l. */
+  /** Packs the blocks of level l whose nodes are all final: interpolation, and the patches of
+   * neighbours. The last block may be shorter. */
   void pack(int l)
   {
     const auto k = static_cast<std::size_t>(l);
@@ -296,7 +309,7 @@ private:
   Operators Set;
   Levels<Relaxation>& Built;
   int FirstCore;
-  int ApartLevels; // whose stages are tasks
+  int ApartLevels; // number of levels whose stages are tasks
   SliverRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;

@@ -13,15 +13,15 @@ namespace smg
 {
 
 /**
- * The nodes that a stage may process in a step of several concurrent stages. The step lasts as long
- * as its longest stage: so a stage that gets many nodes at once distributes them over several
- * steps. While it cannot keep up, it may process more in each step, so that what waits for it
- * remains a small multiple of what it got at once.
+ * The number of nodes that a stage may process in a step of several concurrent stages. A step lasts
+ * as long as its longest stage, so a stage that gets many nodes at once distributes them over
+ * several steps. While it cannot keep up, its limit grows from step to step, so that what waits for
+ * it stays a small multiple of what it got at once.
  */
 class StepLimit
 {
 public:
-  /** Begins a step of usually at most so many nodes, but some in any case. */
+  /** Begins a step of usually at most this number of nodes; a few are permitted in any case. */
   void begin(std::int64_t nodes)
   {
     constexpr std::int64_t Least = 16;
@@ -31,13 +31,14 @@ public:
   }
   std::int64_t nodes() const { return this->Most; }
 
-  /** Calls work(i) for i from `next` on, below `end` and as long as may(i): for as many nodes as
-   * the step may have. */
+  /** Calls work(i) for i from `next` on, as long as i is below `end`, may(i) is true, and the
+   * step permits it. */
   template <class May, class Work>
   void run(std::int64_t& next, std::int64_t end, May&& may, Work&& work)
   {
     const std::int64_t limit = next + this->Most;
-    // Cursors of stages on other threads are in the same cache line: this one is stored once.
+    // Cursors of stages on other threads share the cache line: this one is stored once, not for
+    // each node.
     std::int64_t at = next;
     for (end = std::min(end, limit); at < end && may(at); ++at)
     {
@@ -52,7 +53,7 @@ private:
   bool Reached = false;
 };
 
-/** Those of the stages of a coarsening, except for the sweeps. */
+/** The limits of the stages of a coarsening, except for the sweeps. */
 struct StepLimits
 {
   StepLimit choose, initial, interpolate, productAP, productPtAP;
@@ -60,7 +61,7 @@ struct StepLimits
   /** A few more nodes than the stages get on average, so that they catch up. */
   static std::int64_t more(std::int64_t nodes) { return nodes + nodes / 16; }
 
-  /** Begins a step of so many nodes, which become so many coarse ones. */
+  /** Begins a step of this number of nodes, which become that number of coarse ones. */
   void begin(std::int64_t nodes, std::int64_t coarse)
   {
     this->choose.begin(nodes);
@@ -72,7 +73,8 @@ struct StepLimits
   }
 };
 
-/** The sweeps over the rows of P, each of which follows the one before it. */
+/** The sweeps over the rows of P, each one behind the sweep before it. A sweep may relax row i
+ * once the sweep before has relaxed all neighbours of i, together with their patches. */
 template <OperatorSet Operators>
 class InterpolationSweeps
 {
@@ -83,7 +85,7 @@ public:
   {
   }
 
-  /** Begins a step in which each sweep usually relaxes so many rows at most. */
+  /** Begins a step in which each sweep usually relaxes at most this number of rows. */
   void begin(std::int64_t rows)
   {
     for (Sweep& sweep : this->Sweeps)
@@ -92,7 +94,7 @@ public:
     }
   }
 
-  /** Advances on the initial rows below `end`. */
+  /** Advances all sweeps on the rows of P0 below `end`. */
   void advance(Operators& set, CoarseningData& data, std::int64_t end)
   {
     std::int64_t before = end;
@@ -102,6 +104,8 @@ public:
         sweep.next, end, [&](std::int64_t i) { return data.fine.reach(i) < before; },
         [&](std::int64_t i)
         {
+          // The first sweep to arrive appends the row, as Pending: neighbours read P0 until it is
+          // relaxed, which for a node of a patch is later.
           if (i == data.relaxed.end())
           {
             data.relaxed.extendRaw(i + 1);
@@ -109,7 +113,7 @@ public:
           }
           set.relaxInterpolation(data, i);
         });
-      // A patch is relaxed at its last node.
+      // A patch is relaxed at its last node: rows before it are final only then.
       while (sweep.settled < sweep.next && data.patches.last(sweep.settled) < sweep.next)
       {
         ++sweep.settled;
@@ -122,7 +126,8 @@ public:
   std::int64_t settled() const { return this->Sweeps.back().settled; }
 
 private:
-  /** The next row, and up to where all have been relaxed. */
+  /** The cursor of a sweep: the next row, and the end of the rows that have really been relaxed,
+   * which patches hold back. */
   struct Sweep
   {
     std::int64_t next, settled;

@@ -18,12 +18,17 @@ namespace smg
 
 /**
  * The V-cycles of a problem after the first pass, one per pass, accelerated where that pays off.
+ *
+ * Whether acceleration has room depends on the memory limit and on what earlier passes needed,
+ * never on the number of threads: the solution depends on it. Where a bound of the need exceeds the
+ * limit, the first of these passes is not accelerated, has one chain of stages, and measures what
+ * passes need; then as much is kept as fits (KeptResiduals).
  */
 template <class Relaxation>
 class Iteration
 {
 public:
-  /** Notes begin with `what`; `balance`: ends the V-cycles, too, if it is not null. */
+  /** Notes begin with `what`. If `balance` is not null, it may end the V-cycles, too. */
   Iteration(SolveContext& run, Hierarchy<Relaxation>& hierarchy, Convergence& convergence,
     std::string what = "", ErrorBalance* balance = nullptr)
     : Run(run)
@@ -35,11 +40,12 @@ public:
   {
   }
 
-  /** Performs V-cycles until convergence or, with `spareLast`, until only the last allowed one is
-   * left. */
+  /** Performs V-cycles until convergence or, with `spareLast`, until only the last permitted one
+   * is left, which shares its pass with the next problem. */
   void operator()(bool spareLast);
 
-  /** Between passes: saves all that later passes need, except the hierarchy and the convergence. */
+  /** Between passes: saves and restores all that later passes need, except the hierarchy and the
+   * convergence. */
   void save(StateWriter& state);
   void load(StateReader& state);
 
@@ -56,7 +62,7 @@ private:
   std::string What;
   ErrorBalance* Balance;
   Acceleration Faster;
-  KeptResiduals Kept = KeptResiduals::None; // by the history
+  KeptResiduals Kept = KeptResiduals::None; // by the history, for a checkpoint
   std::optional<IterateHistory> History;
 };
 
@@ -76,6 +82,7 @@ void Iteration<Relaxation>::operator()(bool spareLast)
     {
       this->History->startPass(this->Faster.next(this->History->products()));
     }
+    // The peak of this pass alone, should it be the one that measures.
     this->Run.pool.restartPeak();
     pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
     if (measures)
@@ -97,13 +104,16 @@ void Iteration<Relaxation>::operator()(bool spareLast)
     this->Run.report.acceleration = this->Faster.used();
   }
   this->Faster.addNotes(this->Run.report.notes, this->What);
+  // Its memory is free for the results, or for the next problem.
   this->History.reset();
 }
 
-/** Whether the next pass measures what later passes need, usually less than the first one; this
- * decides whether acceleration fits. Only the first later pass does, since windows grow with
- * several chains, and none with checkpoints, since a solve that continues has less memory left
- * over. */
+/**
+ * Whether the next pass measures what later passes need, usually less than the first pass needed;
+ * that decides whether acceleration fits. Only the first of the later passes does, since windows
+ * grow with several chains; none does with a checkpoint, since a solve that continues has less
+ * memory left over.
+ */
 template <class Relaxation>
 bool Iteration<Relaxation>::measuresMemory() const
 {
@@ -128,12 +138,14 @@ void Iteration<Relaxation>::addHistory()
   }
 }
 
+/** Takes the best history that fits: residuals of all vertices or of a sample, as the mesh
+ * needs; else the smallest sample; else the acceleration makes do with less. */
 template <class Relaxation>
 void Iteration<Relaxation>::emplaceHistoryWithRoom()
 {
-  // The slowest errors may be local to some vertices of slivers, too few of which are in a sample:
-  // so on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample is
-  // sufficient.
+  // The slowest errors may be local to a few vertices of slivers, too few of which are in a sample.
+  // So it is on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample
+  // suffices.
   const KeptResiduals residuals = this->Faster.kind() != AccelerationKind::ConjugateGradients
                                     ? KeptResiduals::None
                                   : this->Levels.slowestAtSlivers() ? KeptResiduals::All
@@ -152,12 +164,12 @@ void Iteration<Relaxation>::emplaceHistoryWithRoom()
   }
 }
 
-/** Whether the memory limit has room for a history with these residuals. The number of threads must
- * not matter, since the solution depends on it. */
+/** Whether the memory limit has room for a history with these residuals. The number of threads
+ * must not matter, since the solution depends on the answer. */
 template <class Relaxation>
 bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
 {
-  constexpr std::int64_t Pages = std::int64_t(1) << 16; // memory grows by pages, and ahead
+  constexpr std::int64_t Pages = std::int64_t(1) << 16; // rings grow by pages, and ahead of need
   const Pool& pool = this->Run.pool;
   const LevelWindow<double>& window = this->Levels.window();
   const std::int64_t nodes = window.nodes();
@@ -168,7 +180,7 @@ bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
   }
   if (this->Run.isAmple && this->Run.expectedBytes > 0)
   {
-    return true; // the first pass is not of one thread
+    return true; // the limit is far above the need: permitsTasks()
   }
   return passBytes(this->Run, window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
          pool.limit();

@@ -14,7 +14,8 @@ namespace smg
 /** Coarsening ends at a level of at most this many nodes, which is factorised. */
 inline constexpr std::int64_t CoarsestNodes = 1000;
 
-/** The levels of a multigrid: the finest one in double, the others in single precision. */
+/** The levels of a multigrid hierarchy: the finest one in double, the others in single
+ * precision, since they only precondition. */
 template <class Relaxation>
 struct Levels
 {

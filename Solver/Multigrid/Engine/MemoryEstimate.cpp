@@ -8,32 +8,38 @@
 
 #include <algorithm>
 
+// Memory before the mesh is read. Out of core the windows have a number of nodes proportional to
+// the span of the stream order, because a stage waits for the largest neighbour of its node: so the
+// bytes are a constant times the span, and that constant depends on the type of the cells, the
+// number of columns and the sweeps. The constants are measured (docs/performance.md, "Estimates").
+
 namespace smg
 {
 namespace
 {
 
-// Measured on surfaces and tetrahedral meshes of 40 thousand to 3 million vertices, rounded down to
-// the minimum, so that a solve that fits is not refused.
+// Measured on surfaces and tetrahedral meshes of 40 thousand to 3 million vertices. Each constant
+// is the smallest of all meshes, so that a solve that fits is not refused.
 
-/** Bytes of all windows per node of the stream's span, and per value of its state: in the first
- * pass with two sweeps, for each further sweep, and in a later pass for each sweep. */
+/** Bytes of the windows of all levels per node of the span of the stream, and per value of the
+ * state of a node: in the first pass with two sweeps, for each further sweep, and for each
+ * sweep in a later pass. */
 constexpr std::int64_t TriangleBytes = 4100, TetrahedronBytes = 3300, ValueBytes = 280;
 constexpr std::int64_t FurtherSweepBytes = 250;
 constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
 
-/** Cotangent weights make more nodes coarse than uniform ones: percent of the bytes above. */
+/** Cotangent weights lead to more C-points than uniform ones: percent of the bytes above. */
 constexpr std::int64_t CotangentPercent = 108;
 
-/** The windows hold at least the nodes of this many spans, unless the mesh has fewer. */
+/** The windows contain at least the nodes of this many spans, unless the mesh has fewer. */
 constexpr std::int64_t WindowSpans = 30;
 
-/** What lies between the tasks of the first pass: measured 3 MiB for surfaces of 40 thousand
- * vertices, 6 MiB for those of 3 and 11 million, and less for solids. Longer steps for many threads
- * take up to three times as much, again less for solids. */
+/** What waits between concurrent tasks: measured 3 MiB for surfaces of 40 thousand vertices, 6
+ * MiB for those of 3 and 11 million, and less for solids. The longer steps for many threads
+ * (Pipeline::stepFor()) take up to three times as much, again less for solids. */
 constexpr std::int64_t BetweenTasks = std::int64_t(6) << 20;
 
-/** The bytes between tasks for so many threads, 0: one per core; out of core. */
+/** The bytes between tasks out of core, for this number of threads; 0: one per core. */
 std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t least)
 {
   if (threads == 1)
@@ -49,6 +55,8 @@ std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t leas
 /** Bytes per vertex in core. */
 constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
 
+/** The larger one of the first pass, which builds the hierarchy, and of a later one, which has
+ * the windows of two V-cycles: with many sweeps the later ones need more. */
 std::int64_t minMemory(const StreamInfo& info, int columns, Weights weights,
   const SolveOptions& options, std::int64_t furtherCoreBytes)
 {
@@ -59,6 +67,7 @@ std::int64_t minMemory(const StreamInfo& info, int columns, Weights weights,
     return info.vertices * ((surface ? TriangleCoreBytes : TetrahedronCoreBytes) +
                              ValueCoreBytes * stride + furtherCoreBytes);
   }
+  // An unknown span permits no statement; 0 refuses nothing.
   if (info.span < 0)
   {
     return 0;
@@ -82,7 +91,7 @@ std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
 std::int64_t expectedMemory(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options)
 {
-  // Besides the windows there are the levels in core, and buffers.
+  // Besides the windows there are the core levels, and buffers. AboveMinimum is in percent.
   constexpr std::int64_t AboveMinimum = 130, CoreBytes = 70;
   const std::int64_t least = minMemory(info, columns, weights, options, 0);
   const std::int64_t windows = least * AboveMinimum / 100;
@@ -97,9 +106,11 @@ std::int64_t expectedMemory(
 bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOptions& options)
 {
   SolveOptions several = options;
+  // For any number of threads the same: with two, whatever was asked for.
   several.threads = 2;
   const std::int64_t expected = expectedMemory(info, problem.columns(), problem.weights(), several);
-  // Slivers need up to twice as much as expected, and acceleration a fifth more.
+  // Slivers need up to twice as much as expected, and acceleration a fifth more: hence the factor
+  // of 2.5.
   return options.memoryLimit > expected / 2 * 5;
 }
 

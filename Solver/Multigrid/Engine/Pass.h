@@ -18,10 +18,12 @@
 namespace smg
 {
 
-/** The bytes of the pool that a pass out of core needs in one chain, with a history of this
- * sparseness (0: of steps alone) or without one, if there are `stride` values a node: bounds of
- * what surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need
- * less than the first one, down to a third of it; on slivers they need up to 1.1 times as much. */
+/**
+ * The bytes of the pool that a pass out of core needs in one chain, with a history of this
+ * sparseness (0: steps alone) or without one, for `stride` values per node: bounds of what
+ * surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need less
+ * than the first one, down to a third of it; on slivers they need up to 1.1 times as much.
+ */
 inline std::int64_t passBytes(
   const SolveContext& run, int stride, std::optional<std::int64_t> sparseness)
 {
@@ -29,7 +31,7 @@ inline std::int64_t passBytes(
                                              : run.firstPassPeak + run.firstPassPeak / 8;
   if (sparseness)
   {
-    // In the window, and blocks that are read ahead and written behind.
+    // In the window, and in blocks that are prefetched or wait to be written.
     const std::int64_t nodes = run.valueNodes + 6 * RowBlock::Nodes;
     const std::int64_t values = nodes * stride * std::int64_t(sizeof(double));
     bytes += values * 5 / 4 + (*sparseness > 0 ? values * 7 / 4 / *sparseness : 0);
@@ -37,7 +39,15 @@ inline std::int64_t passBytes(
   return bytes;
 }
 
-/** A pass over the levels that finishes a V-cycle and begins the next one. */
+/**
+ * A pass over the levels, which finishes a V-cycle and begins the next one. k V-cycles take k + 1
+ * passes with the first one, as in the paper.
+ *
+ * The pass moves over the finest level in steps. In each step load() makes available what the
+ * upward part needs up to the end of the step, the chains of stages and the files advance as tasks
+ * that may run at the same time, and release() returns what all stages have passed. Chains see the
+ * cursors that the others had at the beginning of the step.
+ */
 template <class Relaxation>
 class Pass
 {
@@ -45,13 +55,13 @@ public:
   /** Optional further actions of a pass. */
   struct Further
   {
-    /** Called after loading the finest level. */
+    /** Called in each step after the finest level was loaded. */
     std::function<void()> loaded;
-    /** A stage between the upward and the downward part of the finest level. */
+    /** A further stage between the upward and the downward part of the finest level. */
     Pipeline::Advance beforeDown;
-    /** Accelerates. */
+    /** The history of the iterates, if the pass is accelerated. */
     IterateHistory* history = nullptr;
-    /** Takes as little memory as it can. */
+    /** Whether the pass has one chain of stages, which takes the least memory. */
     bool inOneChain = false;
   };
 
@@ -61,12 +71,12 @@ public:
   {
   }
 
-  /** Performs a pass, after the part of the core levels; `scale` is the approximate size of its
-   * residuals. */
+  /** Performs the part of the V-cycle on the core levels, then a pass; `scale` is the
+   * approximate size of the residuals in it. */
   void operator()(double scale, const Further& further = {});
 
-  /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are in
-   * the finest window. */
+  /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are
+   * in the window of the finest level. */
   void begin();
 
 private:
@@ -103,7 +113,8 @@ void Pass<Relaxation>::operator()(double scale, const Further& further)
   this->Levels.endPass();
 }
 
-/** Restriction scales numbers of this size to about 1. */
+/** Lets restriction scale numbers of this size to about 1: by a power of two, so that nothing is
+ * rounded, and by 1 if the size is not a usable number. */
 template <class Relaxation>
 void Pass<Relaxation>::setScale(double typical)
 {
@@ -127,12 +138,13 @@ void Pass<Relaxation>::stream(const Further& further)
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
+    // Rings grow here only, when no task runs.
     finest.load(last);
     if (further.loaded)
     {
       further.loaded();
     }
-    // Nodes are written when all stages have finished them a step ago.
+    // The cursors at the beginning of the step: also the tasks that write nodes use them.
     finest.showProgress();
     this->Run.runConcurrently(order,
       [&](int task)
@@ -149,14 +161,16 @@ void Pass<Relaxation>::stream(const Further& further)
     finest.release();
     this->Run.progress.update(static_cast<double>(last) / static_cast<double>(nodes));
   }
-  // The upward part is finished before the downward part can be.
+  // All is loaded now. The upward part runs to its end; the downward part, which relies on
+  // published cursors, follows in a second round.
   stages.advance();
   finest.showProgress();
   stages.advance();
   finest.settle();
 }
 
-/** The stages of the pass, in chains. */
+/** The stages of the pass, cut into chains. A recorder measures each stage, so it gets a chain
+ * of each. */
 template <class Relaxation>
 Pipeline Pass<Relaxation>::stages(const Further& further, int chains)
 {
@@ -177,8 +191,8 @@ Pipeline Pass<Relaxation>::stages(const Further& further, int chains)
   return stages;
 }
 
-/** The length of the steps and the number of chains that the threads need, as far as the memory
- * suffices. */
+/** The length of the steps and the number of chains for the threads, as far as the memory
+ * suffices. Shorter steps are preferred to fewer chains. */
 template <class Relaxation>
 auto Pass<Relaxation>::schedule(const Further& further) const -> Schedule
 {
@@ -194,8 +208,8 @@ auto Pass<Relaxation>::schedule(const Further& further) const -> Schedule
   return { step, static_cast<int>(std::clamp(chains, std::int64_t(1), wanted)) };
 }
 
-/** The number of chains for which the memory suffices: each takes a step's nodes. In core all nodes
- * are in memory anyway. */
+/** The number of chains for which the memory suffices: each keeps the nodes of a step in memory.
+ * In core all nodes are in memory anyway. */
 template <class Relaxation>
 std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, const IterateHistory* history) const
 {
@@ -206,7 +220,8 @@ std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, const IterateHistory
   }
   const std::optional<std::int64_t> sparseness =
     history ? std::optional(history->sparseness()) : std::nullopt;
-  // The pass that two problems share has the values of both.
+  // At least a bit more than the first pass needed, since a pass that two problems share has the
+  // values of both.
   const std::int64_t first = this->Run.firstPassPeak;
   const std::int64_t need =
     std::max(first + first / 16, passBytes(this->Run, this->Levels.window().stride(), sparseness));

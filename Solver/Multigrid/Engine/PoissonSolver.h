@@ -18,12 +18,14 @@
 namespace smg
 {
 
-/** Solves one problem: the first pass, then a pass for each V-cycle. */
+/** Solves one problem: the first pass, then a pass for each V-cycle. The parts are the ones that
+ * a deformation composes differently: SolveContext, Hierarchy, FirstPass, Iteration,
+ * StreamedSolution. */
 template <OperatorSet Operators>
 class PoissonSolver
 {
 public:
-  /** Prepares for a problem of `columns` columns. Nothing is read yet. */
+  /** Prepares for a problem of `columns` columns; nothing is read yet. */
   PoissonSolver(Operators operators, int columns, const SolveOptions& options)
     : Set(std::move(operators))
     , Run(std::make_unique<SolveContext>(columns, options))
@@ -58,13 +60,14 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
     run.energy.emplace(problem.columns());
     balance.emplace([&] { return this->discretisation(problem); });
   }
-  constexpr double Least = 1e-13; // of an automatic tolerance
+  constexpr double Least = 1e-13; // the tolerance if it is automatic
   const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
   run.progress.begin(
     { balance ? ErrorBalance::UsualResidual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0,
     true);
   Convergence convergence(stopping, {});
   Iteration iteration(run, this->Levels, convergence, "", balance ? &*balance : nullptr);
+  // What a checkpoint has of this solve, in the order in which it is saved and restored.
   const auto exchange = [&](auto& state)
   {
     state(this->Levels, convergence, iteration);
@@ -77,6 +80,8 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
   {
     const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
     convergence = Convergence(stopping, first);
+    // The residual after the first sweeps does not count if the right-hand side was projected after
+    // them.
     convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0);
     run.endPass(1.0);
   }
@@ -99,8 +104,8 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
   return solution;
 }
 
-/** Reads the mesh once more to estimate the error of its finite elements, with the iterate of the
- * last pass. */
+/** Reads the mesh once more to estimate the discretisation error, with the iterate of the last
+ * pass. */
 template <OperatorSet Operators>
 EnergySquares PoissonSolver<Operators>::discretisation(Problem& problem)
 {

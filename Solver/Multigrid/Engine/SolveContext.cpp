@@ -14,21 +14,29 @@
 #include <span>
 #include <utility>
 
+// What surrounds a solve: memory, scratch files, threads, the report, and checkpoints. A checkpoint
+// has what later passes need and the options on which the result may depend; threads and folders
+// are not among these, so a solve may continue with others.
+
 namespace smg
 {
 namespace
 {
 
-/** The number of threads that a pass is scheduled for, given the requested one; 0: one per core. */
+/** The number of threads that a pass is scheduled for, from the requested number; 0: one per
+ * core. */
 int scheduledThreads(int wanted)
 {
-  // A pass has about that many stages of similar length.
+  // A pass has about this number of stages of similar length: more threads would find nothing to
+  // do.
   constexpr int Most = 16;
   return std::min(Most, wanted > 0 ? wanted : tbb::info::default_concurrency());
 }
 
 } // namespace
 
+/** The arena has no more threads than the machine: a larger request only changes how passes are
+ * cut into tasks. */
 SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   : options(solveOptions)
   , progress(solveOptions.progress)
@@ -61,6 +69,8 @@ void SolveContext::finishReport()
   addAssemblyNotes(r, this->free.leavesUndetermined());
   r.peak_nodes = this->resident.peak;
   r.pool_bytes_peak = this->pool.peak();
+  // The larger one: the passes so far may have been those of an earlier program, which this one
+  // continues.
   r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());
   r.scratch_bytes_peak = this->scratch ? this->scratch->account().peak() : 0;
   r.bytes_read = this->traffic.bytesRead();
@@ -79,6 +89,8 @@ void SolveContext::finishReport()
 namespace
 {
 
+/** 17 significant digits determine a double: two options are equal if and only if their texts
+ * are. */
 std::string exact(double value)
 {
   char text[32];
@@ -91,7 +103,8 @@ std::string hashOf(const std::string& text)
   return std::to_string(checksum(std::as_bytes(std::span(text))));
 }
 
-/** The options that a result may depend on. */
+/** The options on which the result may depend. The memory limit and the size of core levels are
+ * among them: they decide which levels are streamed and how V-cycles are accelerated. */
 std::vector<Checkpoint::Item> itemsOf(const SolveOptions& options)
 {
   return { { "mesh", hashOf(options.checkpoint.mesh) },
@@ -133,6 +146,7 @@ void SolveContext::endPass(double residual)
 {
   Report::Pass pass{ residual, this->seconds(), this->traffic.bytesRead(),
     this->traffic.bytesWritten(), this->pool.peak() };
+  // The counters run over the whole solve: what earlier passes had is subtracted.
   for (const Report::Pass& before : this->report.by_pass)
   {
     pass.seconds -= before.seconds;
@@ -140,12 +154,15 @@ void SolveContext::endPass(double residual)
     pass.written -= before.written;
   }
   this->report.by_pass.push_back(pass);
+  // After the pass is in the report, which is part of the state.
   if (this->checkpoint)
   {
     this->checkpoint->save(this->report.passes, [this](StateWriter& state) { this->save(state); });
   }
 }
 
+/** Times and memory so far go into the report first, so that the program which continues adds
+ * its own to them. */
 void SolveContext::save(StateWriter& state)
 {
   Report& r = this->report;
@@ -173,15 +190,17 @@ void SolveContext::load(StateReader& state)
 {
   ReportState<StateReader> reported{ this->report };
   std::int64_t peak = 0;
+  // Files must exist before their places are restored.
   this->labels.useScratch(*this->scratch, this->traffic.add("labels"));
   state.part("run");
   state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
     this->plainPassPeak, this->valueNodes, this->components, this->labels);
   this->pool.raisePeak(peak);
   this->SecondsBefore = this->report.seconds.total;
+  // As if this program had started earlier by the time that the others took.
   this->CpuAtStart -= this->report.cpu_seconds;
   this->Kept.load(state);
-  // Last, since the other parts have counted nodes and added files.
+  // Last, since restoring the other parts has counted nodes and added files.
   state.part("counts");
   std::uint64_t kinds = 0;
   state(this->resident, kinds);

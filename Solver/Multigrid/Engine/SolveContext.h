@@ -27,11 +27,9 @@
 namespace smg
 {
 
-/**
- * Performs the tasks of the steps of a solve one after the other and keeps their processor times,
- * from which a model tells how long they take on any number of threads
- * (Testing/Benchmarks/ScheduleModel.h).
- */
+/** Performs the tasks of each step of a solve one after the other and keeps their processor
+ * times. From these a model computes how long the steps take on any number of threads
+ * (Testing/Benchmarks/ScheduleModel.h). */
 class StepRecorder
 {
 public:
@@ -46,7 +44,7 @@ public:
     std::vector<Step> steps;
   };
 
-  /** Starts a pass with stages of these costs; none in the first pass. */
+  /** Starts a pass with stages of these costs; there are none in the first pass. */
   void startPass(std::vector<double> costs)
   {
     this->Passes.push_back({ std::move(costs), {} });
@@ -79,8 +77,8 @@ private:
   double Since = 0.0;
 };
 
-/** The shared data of all parts of a solve and of its solution: options, memory, scratch files,
- * threads, the components of the mesh, progress and report. */
+/** What all parts of a solve, and its solution, share: options, memory, scratch files, threads,
+ * the components of the mesh, progress and report. */
 struct SMG_EXPORT SolveContext
 {
   /** For problems of `columns` columns. */
@@ -88,13 +86,14 @@ struct SMG_EXPORT SolveContext
 
   /** Starts the times of the report. */
   void beginReport();
-  /** Since the start, with the programs from whose checkpoint this one continues. */
+  /** Seconds since the start, including those of the programs from whose checkpoint this one
+   * continues. */
   double seconds() const { return this->SecondsBefore + this->Wall.seconds(); }
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
 
-  /** Performs the tasks of a step, concurrently, in the order for it: task(0) on the calling
-   * thread. */
+  /** Performs the tasks of a step on the threads, in this order; task(0) on the calling thread.
+   * With a recorder, one after the other. */
   template <class Task>
   void runConcurrently(LongestTaskFirst& order, Task&& task)
   {
@@ -113,11 +112,12 @@ struct SMG_EXPORT SolveContext
       });
     if (this->scheduled > 1)
     {
-      order.sort(); // no task of one thread waits for another
+      order.sort(); // on one thread the order does not matter
     }
   }
 
-  /** Whether the tasks of a step may run at once: then more of them are worth while. */
+  /** Whether the tasks of a step may run at the same time: then it is worth while to have more
+   * of them. */
   bool isConcurrent() const { return this->scheduled > 1 || this->recorder; }
 
   /** How the parts of a solve save and restore what later passes need. */
@@ -126,17 +126,15 @@ struct SMG_EXPORT SolveContext
     std::function<void(StateWriter&)> save;
     std::function<void(StateReader&)> load;
   };
-  /**
-   * To be called before the first pass: with a checkpoint, endPass() saves these parts, and a
-   * solve of the same options and `subject` continues from its last state. Returns whether this
-   * one does; then the first pass has been.
-   */
+  /** To be called before the first pass. With a checkpoint, endPass() saves these parts, and a
+   * solve with the same options and `subject` continues from the last saved state. Returns
+   * whether this one does; then there is no first pass. */
   bool resume(std::vector<Checkpoint::Item> subject, Parts kept);
-  /** After a pass that left this relative residual: reports it, and saves the state, with a
-   * checkpoint. */
+  /** To be called after a pass that left this relative residual: reports it and, with a
+   * checkpoint, saves the state. */
   void endPass(double residual);
 
-  /** The error of a part that exceeded the limit, with the memory that suffices as a rule. */
+  /** The error of a part that exceeded the limit, completed by the memory that usually suffices. */
   MemoryLimitError explained(const MemoryLimitError& error) const
   {
     return error.expecting(this->expectedBytes);
@@ -145,16 +143,17 @@ struct SMG_EXPORT SolveContext
   SolveOptions options;
   SolveProgress progress;
   Pool pool;
-  /** Of the pool, on one thread, as estimated before the first pass; 0: unknown. */
+  /** The bytes of the pool that one thread is expected to need, estimated before the first pass;
+   * 0: unknown. */
   std::int64_t expectedBytes = 0;
   /** Whether the memory limit leaves room for many tasks in the first pass; see permitsTasks(). */
   bool isAmple = false;
-  /** The most bytes of the pool in the first pass. */
+  /** The peak of the pool in the first pass, in bytes. */
   std::int64_t firstPassPeak = 0;
-  /** The most bytes in a later pass without acceleration and in one chain; 0: not measured. */
+  /** The peak in a later pass without acceleration and in one chain; 0: not measured. */
   std::int64_t plainPassPeak = 0;
-  /** The nodes of the finest level for whose values there was memory in that pass, or in the first.
-   */
+  /** The number of nodes of the finest level for whose values that pass, or else the first one,
+   * had memory. */
   std::int64_t valueNodes = 0;
   ResidentNodes resident;
   std::optional<ScratchFolder> scratch; ///< none in core
@@ -163,11 +162,11 @@ struct SMG_EXPORT SolveContext
   Components components;
   ComponentLabels labels;
   FreeComponents free;
-  std::optional<IterateEnergy> energy; ///< of the iterates, if the solve is to have it
-  /** The number of threads that a pass is scheduled for; there may be fewer. */
+  std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
+  /** The number of threads that a pass is scheduled for. The machine may have fewer. */
   int scheduled;
   tbb::task_arena threads;
-  StepRecorder* recorder = nullptr; ///< instead of the threads, if there is one
+  StepRecorder* recorder = nullptr; ///< takes the place of the threads, if there is one
   Report report;
 
 private:
@@ -180,8 +179,8 @@ private:
   Parts Kept;
 };
 
-/** The part of a report that the passes of a solve set, for StateWriter and StateReader; the rest
- * is set at its end. */
+/** The part of a report that the passes of a solve set, for StateWriter and StateReader. The end
+ * of the solve sets the rest. */
 template <class State>
 struct ReportState
 {

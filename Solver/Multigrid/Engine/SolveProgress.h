@@ -11,11 +11,9 @@
 namespace smg
 {
 
-/**
- * The progress of a solve, whose number of passes is not known in advance: the first pass counts
- * for a fixed share, the rest by the decrease of the residual towards the tolerance, or by the
- * V-cycles if their number is fixed.
- */
+/** The progress of a solve, whose number of passes is not known in advance: the first pass
+ * counts for a fixed share, the rest by the decrease of the residual towards the tolerance, on
+ * a logarithmic scale, or by the V-cycles if their number is fixed. */
 class SolveProgress
 {
 public:
@@ -24,8 +22,8 @@ public:
   {
   }
 
-  /** Begins a problem that counts from `from` to `to`, restarting at 0; `builds`: with the first
-   * pass. */
+  /** Begins a problem that counts from `from` to `to`; at 0 the progress restarts. `builds`:
+   * whether the problem includes the first pass. */
   void begin(const Stopping& stopping, double from, double to, bool builds)
   {
     const double first = builds ? FirstPass : 0.0;
@@ -42,19 +40,19 @@ public:
     this->Expected = 0.1;
   }
 
-  /** Share `done` (0 to 1) of the first pass. */
+  /** The share `done` (0 to 1) of the first pass is done. */
   void updateFirst(double done)
   {
     this->Overall.update(this->From + (this->Start - this->From) * done);
   }
-  /** Share `done` (0 to 1) of the pass of a V-cycle. */
+  /** The share `done` (0 to 1) of the pass of a V-cycle is done. */
   void update(double done)
   {
     const double reached = this->Reached + (this->Expected - this->Reached) * done;
     this->Overall.update(this->Start + (this->To - this->Start) * reached);
   }
 
-  /** V-cycle `cycle` has ended with this relative residual. */
+  /** V-cycle number `cycle` has ended with this relative residual. */
   void endCycle(int cycle, double residual)
   {
     const double before = this->Reached;
@@ -67,7 +65,8 @@ public:
     this->Expected = std::min(1.0, this->Reached + gain);
   }
 
-  /** V-cycles with these relative residuals have ended. */
+  /** V-cycles with these relative residuals have ended, in a program from whose checkpoint this
+   * one continues. */
   void repeat(const std::vector<double>& residuals)
   {
     for (std::size_t k = 0; k < residuals.size(); ++k)

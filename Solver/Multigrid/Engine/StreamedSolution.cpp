@@ -18,6 +18,8 @@ void StreamedSolution::read(std::int64_t first, std::int64_t count, std::span<do
 {
   checkVertexRange(
     first, count, values.size() / static_cast<std::size_t>(this->columns()), this->vertices());
+  // The values of the last iterate, and then what the equations leave open: means of free
+  // components, undetermined values.
   this->Window.readX(first, count, values.data());
   this->Run->free.complete(first, count, values);
 }

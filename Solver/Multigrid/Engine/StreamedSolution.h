@@ -13,11 +13,11 @@
 namespace smg
 {
 
-/** The result of a solve: the values of the finest level, on disk or in memory. */
+/** The result of a solve: the values of the finest level, in a scratch file or in memory. */
 class SMG_EXPORT StreamedSolution final : public Solution
 {
 public:
-  /** `window` was created in `run` and holds only the solution. */
+  /** `window` belongs to `run` and has only the solution. */
   StreamedSolution(std::unique_ptr<SolveContext> run, LevelWindow<double> window);
 
   std::int64_t vertices() const override { return this->Run->report.vertices; }

@@ -16,8 +16,8 @@
 namespace smg
 {
 
-/** A row of the interpolation while it is relaxed, with the sum of its weights, which is stored
- * separately: it is exactly 1 where no constraint reaches. */
+/** A row of the interpolation while it is relaxed. The sum of its weights is stored separately:
+ * it is exactly 1 where no constraint reaches, which a sum of the rounded weights would not be. */
 struct RelaxedRow
 {
   static constexpr int Most = 5;
@@ -25,22 +25,23 @@ struct RelaxedRow
 
   float sum;
   CoarseEntry entry[Most];
-  std::int8_t size; ///< Pending: still the initial interpolation, like rows to come
+  std::int8_t size; ///< Pending: not relaxed, the initial row counts
 };
 static_assert(sizeof(RelaxedRow) == 40);
 
-/** Interpolation weights are multiples of 1/Quanta in [-1, 1], so that row sums are exact. */
+/** Interpolation weights are multiples of the quantum 1/Quanta in [-1, 1]: they take a byte, and
+ * sums of rows of P are exact integers. */
 inline constexpr int Quanta = 127;
 inline constexpr float Quantum = 1.0F / Quanta;
 
-/**
- * A child of a coarse node: the row of the interpolation, by its low 29 bits, and the entry in it.
- * Rows that are alive at once lie within 2^28 of each other.
- */
+/** A link to a child of a coarse node: the row of P, by its low 29 bits, and the slot of the
+ * entry in that row. Rows in memory at the same time lie within 2^28 of each other, so any of
+ * them determines the other bits. */
 class ChildLink
 {
 public:
-  /** The maximum number of entries of a row with links. */
+  /** The largest number of entries of a row of P. A slot has three bits; the value 7 is not
+   * used, so that no link has all bits set, as none() has. */
   static constexpr int Slots = 7;
 
   /** No child. */
@@ -52,21 +53,23 @@ public:
 
   bool none() const { return this->Bits == ~std::uint32_t(0); }
   int slot() const { return static_cast<int>(this->Bits & 7); }
-  /** The distance of the row from any row that is alive. */
+  /** The distance of the row from `near`, any row in memory. */
   std::int32_t distance(std::int64_t near) const
   {
     const std::uint32_t distance =
       (this->Bits & ~std::uint32_t(7)) - (static_cast<std::uint32_t>(near) << 3);
     return static_cast<std::int32_t>(distance) >> 3;
   }
-  /** The row, given any row that is alive. */
+  /** The row, given any row in memory. */
   std::int64_t row(std::int64_t near) const { return near + this->distance(near); }
 
 private:
   std::uint32_t Bits = ~std::uint32_t(0);
 };
 
-/** An entry of a row of the interpolation P, and the next child of its coarse node. */
+/** An entry of a row of P: 24 bits of the coarse index, the weight in quanta, and a link to the
+ * next child of that coarse node. The links make P accessible by columns, which P^T A P needs,
+ * without a transposed copy. */
 class InterpolationEntry
 {
 public:
@@ -77,7 +80,7 @@ public:
 
   int quanta() const { return static_cast<std::int8_t>(this->Bits & 255); }
   float weight() const { return static_cast<float>(this->quanta()) * Quantum; }
-  /** Distance of the coarse node from `near`, which is alive. */
+  /** The distance of the coarse node from `near`, a coarse node in memory. */
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->Bits, near); }
 
   ChildLink next;
@@ -87,13 +90,14 @@ private:
 };
 static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 127);
 
-/** A mark and a value for each coarse node. */
+/** A cell of a sparse accumulator that is indexed by coarse node: the value counts only if the
+ * mark is that of the current row. A fresh mark for each row clears all slots at once. */
 struct Slot
 {
   std::uint32_t mark;
   float value;
 
-  // Both without branches, which would be unpredictable.
+  // Both without branches, since whether a column is new in a row is unpredictable.
 
   /** The value, or 0 if the slot does not have the mark. */
   float get(std::uint32_t fresh) const
@@ -101,8 +105,8 @@ struct Slot
     const auto known = static_cast<std::uint32_t>(this->mark == fresh);
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(this->value) & (0U - known));
   }
-  /** Adds to the value, which starts at 0 if the slot does not have the mark yet; returns whether
-   * it had. */
+  /** Adds to the value, which starts at 0 if the slot does not have the mark yet; returns
+   * whether it was new. */
   bool add(std::uint32_t fresh, float more)
   {
     const bool known = this->mark == fresh;
@@ -112,13 +116,13 @@ struct Slot
   }
 };
 
-/** Slots of the coarse nodes that are alive. */
+/** The slots of the coarse nodes in memory. */
 class SlotRing : public Ring<Slot>
 {
 public:
   using Ring<Slot>::Ring;
 
-  /** A mark that no slot has. */
+  /** A mark that no slot has; never 0, the mark of slots that were just appended. */
   std::uint32_t freshMark()
   {
     this->Mark += this->Mark == UINT32_MAX ? 2 : 1;
@@ -129,12 +133,13 @@ private:
   std::uint32_t Mark = 0;
 };
 
-/** The data of the step from a level (fine) to the next one (coarse) in memory, as windows that
- * begin with the first rows of these. They are filled by the stages of the operator set, which
- * Coarsening calls. */
+/** The data of the step from one level (fine) to the next coarser one (coarse), as windows of
+ * rings: indices are those of the whole level, and memory contains the range that some stage
+ * still needs. The stages of the operator set, called by Coarsening, fill them; Coarsening
+ * releases them. */
 struct CoarseningData
 {
-  /** `apart`: whether the stages run on several threads. */
+  /** `apart`: whether the stages run on several threads and need slots of their own. */
   CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, SliverRows stiffRows = {},
     bool apart = false)
     : fine(fineRows)
@@ -183,24 +188,25 @@ struct CoarseningData
   SliverRows stiff; ///< of the coarse level
 
   // By fine node.
-  /** Its coarse node as by coarseIndexOf(), or FPoint. */
+  /** The coarse node of a C-point, as coarseIndexOf() stores it, or FPoint. */
   Ring<CoarseIndex> coarseIndex;
   static constexpr CoarseIndex FPoint = ~CoarseIndex(0);
-  /** The low 31 bits, which are never FPoint: entries store fewer. */
+  /** The low 31 bits of a coarse index, which are never FPoint. Entries store 24 bits, so these
+   * suffice. */
   static CoarseIndex coarseIndexOf(std::int64_t coarse)
   {
     return static_cast<CoarseIndex>(coarse & INT32_MAX);
   }
   Patches patches;
-  PatchMatrices patchMatrices; ///< by patch
-  RaggedRing<CoarseEntry> initial;
-  Ring<float> initialTotal; ///< Z of the row of `initial`: its weights were divided by it
+  PatchMatrices patchMatrices;     ///< by patch
+  RaggedRing<CoarseEntry> initial; ///< rows of P0
+  Ring<float> initialTotal;        ///< Z_i: row i of `initial` has the weights over Z_i
   Ring<RelaxedRow> relaxed;
   RaggedRing<InterpolationEntry> interpolation;
-  Ring<std::int16_t> rowQuanta; ///< sum of the row of P
+  Ring<std::int16_t> rowQuanta; ///< sum of row i of P, in quanta
   MonotoneRing parentReach;     ///< largest coarse index in rows 0 .. i of P, or -1
-  /** The last node of the patches of the nodes in rows 0 .. i, after which all of these are
-   * relaxed. */
+  /** The last node of the patches of all nodes that occur in rows 0 .. i: once a sweep has
+   * passed it, it has relaxed all these nodes. */
   MonotoneRing settledReach;
   RaggedRing<CoarseEntry> product; ///< rows of A P
   Ring<float> productSum;          ///< sum of the row of A P
@@ -208,33 +214,39 @@ struct CoarseningData
   // By coarse node.
   MonotoneRing finePoint;                ///< its fine node
   Ring<ChildLink> firstChild, lastChild; ///< of its column of P
-  /** Rows of -P^T A P that sparsify() has not got: those of this step, and of the step before. */
+  /** Rows of -P^T A P on their way to sparsify(): those made in this step, and those of the step
+   * before, which sparsify() takes. */
   GatheredRows gathered, arrived;
-  /** Off-diagonal rows of -P^T A P during sparsification. */
+  /** The off-diagonal entries of -P^T A P during sparsification. Each pair {c, k} has an entry
+   * in both rows; the upper one, in row min(c, k), counts. */
   RaggedRing<CoarseEntry> raw;
-  Ring<double> rawAlpha;
+  Ring<double> rawAlpha; ///< row sums
   Ring<StrongestWeight> rawStrongest;
   Ring<float> rawDiagonal;
   /** Whether no entry of the row may be removed. */
   Ring<std::uint8_t> rawKept;
-  Ring<std::int32_t> rawLower; ///< columns below the row
-  /** The position of the entry that mirrors that of the last row with an entry for this row. */
+  Ring<std::int32_t> rawLower; ///< number of entries below the diagonal
+  /** The position in this row of the entry for the last row k that came and has an entry for
+   * this one, that is, of the mirror of that entry. Rows come in ascending order, so a counter
+   * finds the mirror without a search. */
   Ring<std::int32_t> rawMirrored;
-  /** Columns below the row with their final weight; until then only the upper one is valid. */
+  /** The number of entries below the diagonal that have their final weight; of the others only
+   * the mirrored upper entry is valid. */
   Ring<std::int32_t> rawSettled;
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
 
-  /** Scratch of the stages for coarse nodes: `slots` of relaxInterpolation() and interpolate(),
-   * and, unless they run apart, of productAP(), productPtAP() and sparsify(), too. */
+  /** Accumulators of the stages, by coarse node: `slots` of relaxInterpolation() and
+   * interpolate() and, unless the stages run apart, also of productAP(), productPtAP() and
+   * sparsify(). */
   SlotRing slots;
   std::array<SlotRing, 3> ownSlots; ///< empty unless the stages run apart
   SlotRing &productSlots, &gatherSlots, &sparsifySlots;
-  /** The ends of the coarse nodes that the stages from relaxInterpolation() on know, and those from
-   * productAP() on. */
+  /** The ends of the coarse nodes that the stages know: from relaxInterpolation() on, and from
+   * productAP() on. Stages store columns as distances from these. */
   std::int64_t seenCoarse = 0, knownCoarse = 0;
 
-  /** Upper bounds of the entries of row i of the initial P, and of A P. */
+  /** Upper bounds of the number of entries of row i of P0 and of A P. */
   std::int64_t maxInitial(std::int64_t i) const
   {
     return static_cast<std::int64_t>(this->fine.row(i).size()) + 1;
@@ -244,7 +256,7 @@ struct CoarseningData
     return RelaxedRow::Most * (static_cast<std::int64_t>(this->fine.row(i).size()) + 1);
   }
 
-  /** The sum of row i of the initial P. */
+  /** The sum of row i of P0: less than 1 where the row sum of A is positive. */
   float initialSum(std::int64_t i) const
   {
     const auto rowSum = static_cast<float>(std::max(0.0, this->fine.rowSum(i)));
@@ -252,15 +264,16 @@ struct CoarseningData
     return this->coarseIndex[i] != FPoint ? 1.0F : total > rowSum ? (total - rowSum) / total : 0.0F;
   }
 
-  /** Appends the matrix of the patch that begins at node i, if one does, whose rows exist; returns
-   * its entries. */
+  /** Appends the matrix of the patch that begins at node i, if one does; the rows of the patch
+   * must exist. Returns the number of entries. */
   std::int64_t appendPatchMatrix(std::int64_t i)
   {
     Patch* patch = this->patches.beginningAt(i);
     return patch ? this->patchMatrices.append(this->fine, *patch) : 0;
   }
 
-  /** Appends row c to `raw`, the next one. */
+  /** Appends the next row, c, to `raw`, and advances rawMirrored of the rows below that have an
+   * entry for c. */
   void appendRaw(std::int64_t c, const GatheredRow& row, const CoarseEntry* entries)
   {
     std::copy_n(entries, row.size, this->raw.open(row.size));
@@ -314,7 +327,7 @@ private:
     ring[c] = value;
   }
 
-  /** Sets the next fine and coarse nodes. */
+  /** Sets the first fine and the first coarse node of all rings. */
   void begin(std::int64_t i, std::int64_t c)
   {
     this->coarseIndex.release(i);

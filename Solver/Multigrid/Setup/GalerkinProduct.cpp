@@ -4,12 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
+// The coarse operator A_c = P^T A P, in two steps that work row by row with a sparse accumulator
+// (Slot) instead of a hash table:
+//
+//   A P, row i:      A_ii P_i - sum_j w_ij P_j         once P of i and its neighbours is final,
+//   P^T A P, row c:  sum_i P_ic (A P)_i, i the children of c    once the rows of A P exist.
+//
+// Row sums. With q_i the sum of row i of P in quanta, an integer, row i of A P sums to
+// (rowSum_i q_i + sum_j w_ij (q_i - q_j)) / Quanta: where no constraint reaches, every term is
+// exactly zero, whatever the rounding of the entries of A P.
+//
+// Order. The children of a coarse node are chained in stream order, and entries are added in that
+// order. The bits of the product therefore depend neither on the window nor on the threads.
+//
+// Cost. Row i of A P adds up 1 + deg(i) rows of P, row c of P^T A P one row of A P for each child.
+// On the finest level this is most of the set-up.
+
 namespace smg
 {
 namespace
 {
 
-/** Columns, with room for at least so many. */
+/** The data of `columns`, grown to at least `count` elements. It never shrinks, since growing
+ * again would clear elements that are about to be overwritten. */
 std::int32_t* roomFor(std::vector<std::int32_t>& columns, std::int64_t count)
 {
   const auto size = static_cast<std::size_t>(count);
@@ -21,9 +38,13 @@ std::int32_t* roomFor(std::vector<std::int32_t>& columns, std::int64_t count)
 
 void GalerkinProduct::productAP(CoarseningData& data, std::int64_t i)
 {
+  // Columns are distances from `near`, the end of the coarse nodes that this stage knows. In a
+  // mirrored ring all slots in memory are contiguous around that of `near`.
   const std::int64_t near = data.knownCoarse;
   Slot* slots = data.productSlots.at(near);
   const auto interpolation = data.interpolation.near(i);
+  // Row i of A P is used only through row i of P. Without parents, as for prescribed nodes, it is
+  // not needed.
   if (interpolation[0].empty())
   {
     data.product.open(0);
@@ -38,6 +59,7 @@ void GalerkinProduct::productAP(CoarseningData& data, std::int64_t i)
     roomFor(this->RowColumns, ChildLink::Slots * (static_cast<std::int64_t>(row.size()) + 1));
 
   const float diagonal = data.patches.diagonal(i);
+  // The columns of a row of P are distinct, so each is new here, and add() need not be asked.
   for (const InterpolationEntry& p : interpolation[0])
   {
     const std::int32_t distance = p.offset(near);
@@ -51,10 +73,12 @@ void GalerkinProduct::productAP(CoarseningData& data, std::int64_t i)
   {
     const std::int32_t delta = entry.delta();
     const float weight = entry.weight();
+    // A difference of integers: exactly zero where both rows of P sum to 1.
     sum += static_cast<double>(weight) * (ownQuanta - quanta[delta]);
     for (const InterpolationEntry& p : interpolation[delta])
     {
       const std::int32_t distance = p.offset(near);
+      // The column is written in any case and kept only if it is new: no branch.
       columns[size] = distance;
       size += slots[distance].add(mark, -weight * p.weight()) ? 1 : 0;
     }
@@ -71,13 +95,15 @@ void GalerkinProduct::productAP(CoarseningData& data, std::int64_t i)
 void GalerkinProduct::sort(std::size_t size)
 {
   this->Sorted.resize(size);
+  // Above this the quadratic number of comparisons below would be too many.
   if (size > 128)
   {
     std::copy_n(this->Columns.begin(), size, this->Sorted.begin());
     std::sort(this->Sorted.begin(), this->Sorted.end());
     return;
   }
-  // Few and distinct: the rank of each is the number of smaller ones, which can be vectorised.
+  // Few and distinct: the rank of each is the number of smaller ones, a loop without branches that
+  // can be vectorised.
   const std::int32_t* columns = this->Columns.data();
   for (std::size_t a = 0; a < size; ++a)
   {
@@ -95,17 +121,21 @@ double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
 {
   this->Children.clear();
   double rowSum = 0.0;
+  // The C-point of c is in memory and close to all children; their links are relative to it.
   const std::int64_t nearFine = data.finePoint[c];
   for (ChildLink link = data.firstChild[c]; !link.none();)
   {
     const std::int64_t fine = link.row(nearFine);
     const InterpolationEntry& entry = data.interpolation.row(fine)[link.slot()];
     const CoarseEntry* product = data.product.row(fine);
+    // The first cache lines of the row of A P are requested while the chain is followed; 10 entries
+    // of seven bytes are a bit more than a line.
     for (int line = 0; line < 2; ++line)
     {
       __builtin_prefetch(product + 10 * line);
     }
     this->Children.push_back({ product, data.product.size(fine), entry.weight() });
+    // In double precision, from the row sums of A P, not from its entries.
     rowSum += static_cast<double>(entry.quanta()) / Quanta * data.productSum[fine];
     link = entry.next;
   }
@@ -129,6 +159,7 @@ void GalerkinProduct::productPtAP(CoarseningData& data, std::int64_t c)
       columns += slots[delta].add(mark, child.weight * entry->value()) ? 1 : 0;
     }
   }
+  // finishRow() and the search for mirrored entries rely on ascending columns.
   this->sort(static_cast<std::size_t>(columns));
   this->append(data, c, rowSum);
 }
@@ -143,6 +174,8 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c, double rowSum
   double sum = rowSum, terms = 0.0;
   for (const std::int32_t delta : this->Sorted)
   {
+    // The diagonal that was accumulated is left out: the diagonal of a row is its row sum plus its
+    // weights, so that rounding cannot disturb the row sum.
     if (delta != 0)
     {
       const float weight = -slots[delta].value;
@@ -154,7 +187,9 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c, double rowSum
       terms += std::fabs(weight);
     }
   }
+  // Once per row, in order: SliverRows limits the share of stiff rows so far.
   const bool stiff = data.stiff(least);
+  // Where large weights cancel, small entries decide the soft modes: keep all of them.
   data.gathered.close({ size, rowSum, static_cast<float>(nonZeroDiagonal(sum)),
     { strongest, stiff }, lower, stiff || terms > this->cancelling * sum });
 }

@@ -15,25 +15,24 @@
 namespace smg
 {
 
-/** The low 32 bits of a coarse index. Indices that are alive at once are close to each other, so
- * the rest follows from any of them. */
+/** The low 32 bits of a coarse index. Coarse nodes in memory at the same time lie close to each
+ * other, so any of them determines the other bits. */
 using CoarseIndex = std::uint32_t;
 
-/**
- * Fewer coarse nodes than this may be alive at once: most entries store 24 bits of their indices.
- */
+/** Fewer coarse nodes than this may be in memory at the same time, since most entries store 24
+ * bits of an index. */
 inline constexpr std::int64_t CoarseWindow = std::int64_t(1) << 23;
 
-/** The distance of a coarse index, whose low 24 bits are the upper ones of `bits`, from `near`,
- * which is alive. */
+/** The distance from `near`, a coarse node in memory, of the coarse index whose low 24 bits are
+ * the upper ones of `bits`. */
 inline std::int32_t coarseDistance(std::uint32_t bits, std::int64_t near)
 {
-  // The lower bits of `bits` are lost without a borrow.
+  // near << 8 ends in a zero byte: the low byte of `bits` causes no borrow and is shifted out.
   return static_cast<std::int32_t>(bits - (static_cast<std::uint32_t>(near) << 8)) >> 8;
 }
 
-/** A coarse node and its number, in seven bytes: most of the memory of coarsening consists of
- * these. Numbers of fewer bits would be sufficient except for slivers, whose rows nearly cancel. */
+/** A coarse index and a float in seven bytes, since most of the memory of coarsening consists of
+ * these. Fewer bits for the number would do, except for sliver rows, which nearly cancel. */
 class CoarseEntry
 {
 public:
@@ -48,13 +47,13 @@ public:
   float value() const { return std::bit_cast<float>(this->load(0)); }
   void setValue(float value) { std::memcpy(this->Bytes.data(), &value, sizeof(value)); }
 
-  /** Marks the entry as removed: it no longer has a value. */
+  /** Marks the entry as removed, by a NaN instead of its value. */
   void remove() { this->setValue(std::numeric_limits<float>::quiet_NaN()); }
   bool removed() const { return std::isnan(this->value()); }
-  /** Copies `other`, which may be removed, except for the coarse node. */
+  /** Copies the value of `other`, or that it is removed; the coarse node stays. */
   void takeValue(const CoarseEntry& other) { this->setValue(other.value()); }
 
-  /** The distance of the coarse node from `near`, which is alive. */
+  /** The distance of the coarse node from `near`, a coarse node in memory. */
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(3), near); }
 
 private:
@@ -69,32 +68,32 @@ private:
 };
 static_assert(sizeof(CoarseEntry) == 7 && std::endian::native == std::endian::little);
 
-/** What is known of an off-diagonal row of -P^T A P when it has been gathered. */
+/** What is known of an off-diagonal row of -P^T A P when it is gathered. */
 struct GatheredRow
 {
   std::int64_t size;
   double rowSum; ///< the row sum of P^T A P
   float diagonal;
   StrongestWeight strongest;
-  std::int32_t lower; ///< entries below the row
+  std::int32_t lower; ///< number of entries below the diagonal
   bool kept;          ///< whether none of its entries may be removed
 };
 
-/** Coarse rows made by one thread, which sparsification, perhaps on another one, takes. They are
- * those of a step, see StepLimit, and not accounted for. */
+/** Coarse rows that one thread makes and another one, running sparsification, may take.
+ * StepLimit bounds how many a step makes, so the pool does not account for them. */
 class GatheredRows
 {
 public:
   /** Room for at most `size` entries of the next row. */
   CoarseEntry* open(std::int64_t size) { return this->Entries.open(size); }
-  /** Ends the row begun by open(), whose entries have ascending columns. */
+  /** Ends the row begun by open(); its entries have ascending columns. */
   void close(const GatheredRow& row)
   {
     this->Entries.close(row.size);
     this->Rows.push_back(row);
   }
 
-  /** Calls use(row, entries) for each row and forgets them. */
+  /** Calls use(row, entries) for each row, then removes all rows. */
   template <class Use>
   void take(Use&& use)
   {

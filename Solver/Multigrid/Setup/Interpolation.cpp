@@ -7,6 +7,23 @@
 #include <cmath>
 #include <span>
 
+// The interpolation of the default operator set, in the three steps of OperatorSet: initial() makes
+// P0, relax() improves it by Gauss-Seidel on the rows of P instead of on unknowns, append() rounds
+// it and links the entries by column. Interpolation.h has the equations.
+//
+// The sum of each row of P is carried along by itself: row j sums to 1 minus its deficit, and the
+// deficit is the row sum of A plus the weighted deficits of the neighbours, over what the responses
+// leave of the diagonal. Where no constraint reaches all terms are zero, so that rows sum to
+// exactly 1 whatever is dropped or rounded. P then reproduces constants, and the row sums of the
+// Galerkin product are exactly zero.
+//
+// All decisions are made in stream order: candidates are listed in the order of the row's
+// neighbours, and of equal magnitudes the first one is kept. Windows and threads therefore do not
+// change a bit.
+//
+// Coarse nodes are given by their distances from data.seenCoarse, the end of the coarse nodes that
+// these stages know.
+
 namespace smg
 {
 void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
@@ -14,6 +31,7 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
   constexpr CoarseIndex FPoint = CoarseningData::FPoint;
   data.initialTotal.extendRaw(i + 1);
   const CoarseIndex* coarseIndex = data.coarseIndex.at(i);
+  // A C-point: injection.
   if (*coarseIndex != FPoint)
   {
     *data.initial.open(1) = { *coarseIndex, 1.0F };
@@ -25,6 +43,8 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
   const float strong = this->coarsePoints.threshold(data, i);
   CoarseEntry* out = data.initial.open(static_cast<std::int64_t>(row.size()));
   std::int64_t size = 0;
+  // Z_i contains the row sum: a prescribed neighbour pulls the node towards zero correction. A
+  // negative row sum is left out, since Z_i might vanish.
   const auto rowSum = static_cast<float>(std::max(0.0, data.fine.rowSum(i)));
   float sum = rowSum;
   for (const RowEntry& entry : row)
@@ -36,6 +56,7 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
       sum += entry.weight();
     }
   }
+  // A row with entries has a strong C-neighbour, so the sum is positive.
   for (std::int64_t e = 0; e < size; ++e)
   {
     out[e].setValue(out[e].value() / sum);
@@ -44,7 +65,7 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
   data.initialTotal[i] = sum;
 }
 
-/** The maximum number of entries of row i. */
+/** The maximum number of entries of row i of P. */
 int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i) const
 {
   const auto row = data.fine.row(i);
@@ -54,13 +75,15 @@ int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i)
   {
     return RelaxedRow::Most;
   }
+  // childReach() is -1 on the finest level only.
   return this->entries == this->finestEntries || data.fine.childReach(i) >= 0 ||
              this->coarsePoints.isOfSlivers(data, i)
            ? this->entries
            : this->finestEntries;
 }
 
-/** Makes row i from the largest of the columns, scaled to this sum. */
+/** Makes the relaxed row i of the columns in Row with the largest magnitudes, scaled to this
+ * sum. */
 void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double sum)
 {
   const auto most = static_cast<std::size_t>(this->entriesOf(data, i));
@@ -73,7 +96,8 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
     {
       continue;
     }
-    // In descending order.
+    // Insertion into a list of at most five, in descending order; equal magnitudes stay in the
+    // order in which they came.
     std::size_t place = kept < most ? kept++ : kept - 1;
     for (; place > 0 && std::fabs(largest[place - 1].weight) < size; --place)
     {
@@ -87,8 +111,11 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
     keptSum += largest[k].weight;
     keptSize += std::fabs(largest[k].weight);
   }
+  // What was dropped is distributed in proportion to the magnitudes, not to the weights: these may
+  // cancel, and a factor for all of them would be unbounded.
   const auto wanted = static_cast<float>(sum);
   const float share = keptSize > 0.0F ? (wanted - keptSum) / keptSize : 0.0F;
+  // A row of zeros has no direction to scale: it becomes empty, a node without correction.
   RelaxedRow& row = data.relaxed[i];
   row.size = keptSize > 0.0F ? static_cast<std::int8_t>(kept) : 0;
   row.sum = row.size > 0 ? wanted : 0.0F;
@@ -104,13 +131,16 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
 {
   const RelaxedRow& row = data.relaxed[i];
   int rounded[RelaxedRow::Most];
+  // The wanted sum is rounded by itself, and the entries are adjusted to it: the sums of rows of P
+  // are exact, 127 quanta where no constraint reaches.
   int rest = quantaOf(row.sum);
   for (int k = 0; k < row.size; ++k)
   {
     rounded[k] = quantaOf(std::clamp(row.entry[k].value(), -1.0F, 1.0F));
     rest -= rounded[k];
   }
-  // The first entry, the largest, receives the remainder as far as its range permits.
+  // The first entry, the largest, receives the remainder, which changes it least in proportion;
+  // only what would take it out of [-1, 1] goes to the next one.
   for (int k = 0; k < row.size && rest != 0; ++k)
   {
     const int taken = std::clamp(rounded[k] + rest, -Quanta, Quanta) - rounded[k];
@@ -120,6 +150,7 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
   InterpolationRow out(data, i, row.size);
   for (int k = 0; k < row.size; ++k)
   {
+    // Rounded away: less than half a quantum.
     if (rounded[k] != 0)
     {
       out.appendAt(row.entry[k].offset(data.seenCoarse), rounded[k]);
@@ -131,20 +162,23 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
 namespace
 {
 
-/** A patch whose matrix is this close to singular is relaxed node by node. */
+/** A patch whose matrix is so close to singular that a pivot is below this share of its diagonal
+ * entry is relaxed node by node. */
 constexpr double MinPivot = 1e-6;
 
-/** Row i is solved for together with what its neighbours take from it while this share of its
- * diagonal remains: below it, the neighbours are so strongly coupled among themselves that each
- * would count for several. */
+/** Row i is solved together with the response of its neighbours as long as more than this share
+ * of its diagonal remains. Below it the neighbours are coupled so strongly among themselves
+ * that each response would count several times. */
 constexpr float MinShare = 0.3F;
 
 /**
- * The current rows of P near row i, relaxed or the initial ones, as row i sees them: a retained
- * neighbour k with w_ik > 0 follows row i.
+ * The current rows of P near row i, relaxed or initial ones, as row i sees them: an F-neighbour k
+ * with w_ik > 0 responds to row i.
  *
  *   not relaxed yet: P_k = (Z_k P0_k + w_ik P_i) / (Z_k + w_ik)
- *   relaxed:         P_k + w_ik / A_kk (P_i - the current P_i), about the one it was relaxed with
+ *   relaxed:         P_k + w_ik / A_kk (P_i - the current P_i)
+ *
+ * The current P_i is the one with which row k was relaxed.
  */
 class NewestRows
 {
@@ -154,12 +188,13 @@ public:
     std::span<const CoarseEntry> entries;
     float sum;
   };
-  /** What a neighbour is in the equation of row i. */
+  /** What a neighbour contributes to the equation of row i: weights of its own row, of P_i, and
+   * of minus the current P_i. */
   struct Response
   {
-    float weight;   ///< of its row
-    float ofItself; ///< of P_i
-    float ofOld;    ///< of - the current P_i
+    float weight;
+    float ofItself;
+    float ofOld;
   };
 
   NewestRows(const CoarseningData& data, std::int64_t i)
@@ -187,13 +222,16 @@ public:
   {
     const std::int32_t distance = entry.delta();
     const float w = entry.weight();
+    // The row of a C-point is fixed. Neighbours with negative weights are left out, too: with them
+    // some meshes took one V-cycle less, others one more.
     if (!(w > 0.0F) || this->Coarse[distance] != CoarseningData::FPoint)
     {
       return { w, 0.0F, 0.0F };
     }
     if (this->isRelaxed(distance))
     {
-      // Where weights of row k are negative, its diagonal may be less than w.
+      // A row k with negative weights may have a diagonal below w: it does not respond by more than
+      // P_i moves.
       const float back = w * std::min(1.0F, w / this->Data.patches.diagonal(this->I + distance));
       return { w, back, back };
     }
@@ -213,19 +251,20 @@ private:
   const float* Total;
   const CoarseIndex* Coarse;
   const RelaxedRow* Relaxed;
-  std::int64_t RelaxedEnd; // distance
+  std::int64_t RelaxedEnd; // as a distance from row i
 };
 
-/** The equation (A_ii - ofItself) P_i = what has been added; lacking = (A_ii - ofItself) (1 - the
- * sum of P_i). */
+/** The equation (A_ii - ofItself) P_i = what was added. The sum of P_i is 1 - lacking / (A_ii -
+ * ofItself). */
 struct RowEquation
 {
-  float ofItself; ///< weight of P_i in the rows of the neighbours
+  float ofItself; ///< weight of P_i in the responses of the neighbours
   double lacking;
 };
 
-/** The equation of row i from its neighbours for which counts(entry) is true: add(distance of the
- * coarse node from seenCoarse, weight). */
+/** Forms the equation of row i from its neighbours for which counts(entry) is true. It calls
+ * add(distance of the coarse node from seenCoarse, weight) for each term on the right-hand
+ * side. */
 template <class Counts, class Add>
 RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts, Add add)
 {
@@ -242,10 +281,12 @@ RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts
       ofOld += response.ofOld;
     }
   }
+  // Needs the responses of all neighbours: hence the loop above, before the rows are added.
   const bool follow = diagonal - ofItself > MinShare * diagonal;
   RowEquation equation{ follow ? ofItself : 0.0F, data.fine.rowSum(i) };
   const auto addRow = [&](const NewestRows::Row& row, float weight)
   {
+    // Exactly zero where the row of the neighbour sums to 1.
     equation.lacking += static_cast<double>(weight) * (1.0F - row.sum);
     for (const CoarseEntry& p : row.entries)
     {
@@ -259,6 +300,7 @@ RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts
       addRow(newest[entry.delta()], follow ? newest.response(entry).weight : entry.weight());
     }
   }
+  // Relaxed neighbours already contain a response to the current P_i, which the new one replaces.
   if (follow && ofOld > 0.0F)
   {
     addRow(newest[0], -ofOld);
@@ -268,8 +310,12 @@ RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts
 
 } // namespace
 
+/** Row i in a sweep. The F-points of a patch are relaxed together when the sweep reaches the
+ * last of them; until then the rows of the others stay as they were, Pending in the first
+ * sweep. */
 void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
 {
+  // Injection again, in the format of relaxed rows: others read it as a neighbour.
   if (data.coarseIndex[i] != CoarseningData::FPoint)
   {
     RelaxedRow& row = data.relaxed[i];
@@ -289,6 +335,7 @@ void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
         fPoints[count++] = k;
       }
     }
+    // A patch with a single F-point is an ordinary row: its C-points are fixed.
     if (count > 1)
     {
       if (patch->member(fPoints[count - 1]) == i)
@@ -301,7 +348,9 @@ void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
   this->relaxNode(data, i);
 }
 
-/** The possible columns of row i, with weight 0, in the slots with the mark. */
+/** Opens the pattern of row i: the columns that occur in P0 of a neighbour, each with weight 0
+ * in the slot with the mark. What is added to other columns is dropped, so the pattern does not
+ * grow from sweep to sweep. */
 void ExtendedInterpolation::openPattern(
   const CoarseningData& data, std::int64_t i, std::uint32_t mark)
 {
@@ -318,6 +367,7 @@ void ExtendedInterpolation::openPattern(
     {
       const std::int32_t distance = p.offset(near);
       candidate[size].distance = distance;
+      // Written in any case and kept if the column is new: no branch.
       size += slots[distance].mark == mark ? 0 : 1;
       slots[distance] = { mark, 0.0F };
     }
@@ -325,7 +375,7 @@ void ExtendedInterpolation::openPattern(
   this->Row.resize(size);
 }
 
-/** The weights of the columns, times this factor. */
+/** Closes the pattern: copies the weights of the columns from their slots, times this factor. */
 void ExtendedInterpolation::closePattern(const CoarseningData& data, float factor)
 {
   const Slot* slots = data.slots.at(data.seenCoarse);
@@ -335,6 +385,7 @@ void ExtendedInterpolation::closePattern(const CoarseningData& data, float facto
   }
 }
 
+/** Solves the equation of row i alone. */
 void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 {
   Slot* slots = data.slots.at(data.seenCoarse);
@@ -355,6 +406,9 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
   this->store(data, i, 1.0 - equation.lacking * static_cast<double>(inverse));
 }
 
+/** Sums up what the neighbours of node i outside the relaxed part of its patch contribute.
+ * `inside` has a bit for each member of the patch that is relaxed with it. Here all columns are
+ * collected: each row that the inverse makes of them applies its own pattern. */
 void ExtendedInterpolation::gatherOutside(
   CoarseningData& data, std::int64_t i, const Patch& patch, std::uint32_t inside, Outside& sum)
 {
@@ -365,6 +419,7 @@ void ExtendedInterpolation::gatherOutside(
     data, i,
     [&](const RowEntry& entry)
     {
+      // Without a branch: patches are small.
       bool outside = true;
       for (int k = 0; k < patch.size; ++k)
       {
@@ -387,7 +442,9 @@ void ExtendedInterpolation::gatherOutside(
   }
 }
 
-/** Relaxes these F-points of a patch together. */
+/** Relaxes the F-points of a patch together, which `members` lists by their numbers in the
+ * patch: P_b = (A_bb - ofItself)^-1 times the sum over the neighbours outside. The C-points of
+ * the patch count as outside. */
 void ExtendedInterpolation::relaxPatch(
   CoarseningData& data, const Patch& patch, const int* members, int count)
 {
@@ -401,8 +458,10 @@ void ExtendedInterpolation::relaxPatch(
   {
     Outside& sum = this->Of[static_cast<std::size_t>(a)];
     gatherOutside(data, patch.member(members[a]), patch, inside, sum);
+    // The neighbours respond to the row of this member: its diagonal shrinks.
     inverse.at(a, a) -= static_cast<double>(sum.ofItself);
   }
+  // The responses may make the matrix singular or indefinite: fall back to the rows one by one.
   if (!inverse.invert(MinPivot))
   {
     for (int a = 0; a < count; ++a)

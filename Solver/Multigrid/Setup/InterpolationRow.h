@@ -51,6 +51,8 @@ public:
   /** The same for the coarse node at this distance from seenCoarse. */
   void appendAt(std::int32_t offset, int quanta)
   {
+    // The entry ends the chain of its column: rows are appended in stream order, so the chain of a
+    // coarse node lists its children in this order.
     const ChildLink link(this->Row, this->Size);
     ChildLink& last = this->LastChild[offset];
     (last.none() ? this->FirstChild[offset]

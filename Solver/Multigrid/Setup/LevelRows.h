@@ -17,12 +17,13 @@
 namespace smg
 {
 
-/** An off-diagonal entry of row i of a level's matrix: A_ij = -weight, j = i + delta. Seven bytes,
- * since all rows that are alive while levels are built consist of these. */
+/** An off-diagonal entry of row i of the matrix of a level: A_ij = -weight, j = i + delta.
+ * Packed in seven bytes, since these are most of what a level keeps in memory while the
+ * hierarchy is built. */
 class RowEntry
 {
 public:
-  /** Of two nodes that share an edge. */
+  /** The largest distance of two nodes that share an edge. */
   static constexpr std::int64_t MaxDistance = (std::int64_t(1) << 23) - 1;
 
   RowEntry() = default;
@@ -53,8 +54,8 @@ private:
 };
 static_assert(sizeof(RowEntry) == 7 && std::endian::native == std::endian::little);
 
-/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see SliverRows),
- * in four bytes, since every row of a window has them. */
+/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see
+ * SliverRows), in four bytes: each row in a window has one. */
 class StrongestWeight
 {
 public:
@@ -69,20 +70,20 @@ public:
   bool stiff() const { return std::signbit(this->Signed); }
 
 private:
-  float Signed; // with the sign - if the row is stiff
+  float Signed; // the weight, negated if the row is stiff
 };
 
-/** The diagonal for divisions, given the sum of rowSum and the weights. */
+/** The diagonal to divide by, given the row sum plus the weights. */
 inline double nonZeroDiagonal(double sum)
 {
-  // The only node of a component without constraint: any correction is correct, and this diagonal
-  // makes it zero.
+  // A sum of 0 belongs to the only node of a component without constraint. Any correction of it is
+  // right, and this diagonal makes it zero.
   constexpr double Isolated = 1e20;
   return sum > 0.0 ? sum : Isolated;
 }
 
-/** The diagonal of a row whose sum is rowSum; `precise`: its weights in double precision, if any.
- */
+/** The diagonal of a row whose sum is rowSum. `precise`: its weights in double precision, if it
+ * has any. */
 inline double diagonalOf(
   std::span<const RowEntry> row, double rowSum, std::span<const double> precise = {})
 {
@@ -102,18 +103,19 @@ inline double diagonalOf(
   return nonZeroDiagonal(sum);
 }
 
-/** A row without its entries; see LevelRows::close(). */
+/** What describes a row besides its entries; see LevelRows::close(). */
 struct ClosedRow
 {
   std::int64_t size;
   double rowSum;
   std::int64_t childReach;
   bool stiff;
-  std::size_t precise; ///< weights in double precision
+  std::size_t precise; ///< number of weights in double precision
 };
 
-/** The rows of a level's matrix while the level is built, in node order: entries by ascending
- * column, A_ii = diagonal = rowSum + sum of the weights, so rowSum is the row sum. */
+/** The rows of the matrix of a level while the level is built, in node order, with entries by
+ * ascending column. The diagonal is not stored: A_ii = rowSum + sum of the weights, so the row
+ * sum is exactly rowSum. */
 class LevelRows
 {
 public:
@@ -129,16 +131,16 @@ public:
 
   /** The first row in memory. */
   std::int64_t first() const { return this->Entries.first(); }
-  /** The end of the rows appended so far; all of them are final. */
+  /** The end of the rows so far, all of which are final. */
   std::int64_t end() const { return this->Entries.end(); }
-  /** Whether no row follows. */
+  /** Whether all rows of the level have been appended. */
   bool Ended = false;
 
   std::span<const RowEntry> row(std::int64_t i) const
   {
     return { this->Entries.row(i), static_cast<std::size_t>(this->Entries.size(i)) };
   }
-  /** The weights of row i in double precision, if they were given. */
+  /** The weights of row i in double precision, or none. */
   std::span<const double> precise(std::int64_t i) const
   {
     if (i >= this->Precise.end())
@@ -166,18 +168,20 @@ public:
   float strongest(std::int64_t i) const { return this->Strongest[i].weight(); }
   /** Whether row i is stiff. */
   bool stiff(std::int64_t i) const { return this->Strongest[i].stiff(); }
-  /** The largest node index that occurs in rows 0 .. i, at least i. */
+  /** The largest node index that occurs in rows 0 .. i, at least i: what a stage must have
+   * passed before the next one may process row i. */
   std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
-  /** The last node of the finer level that interpolates from a node 0 .. i; -1 on level 0. */
+  /** The last node of the finer level that interpolates from one of the nodes 0 .. i; -1 on
+   * level 0. */
   std::int64_t childReach(std::int64_t i) const { return this->ChildReach[i]; }
-  /** Entries of all rows so far, diagonals included. */
+  /** The number of entries of all rows so far, with the diagonals. */
   std::int64_t nonzeros() const { return this->Nonzeros; }
 
   /** Returns room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
-  /** Ends the row begun by open(). `childReach` is that of this node alone; `stiff`: see
-   * SliverRows; `precise`: its weights in double precision, or none. */
+  /** Ends the row begun by open(). `childReach` is the last child of this node alone; `stiff`:
+   * see SliverRows; `precise`: its weights in double precision, or none. */
   void close(std::int64_t size, double rowSum, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {
@@ -185,8 +189,8 @@ public:
     this->close({ &row, 1 }, this->Entries.opened(), precise.data());
   }
 
-  /** Appends rows with these entries, and precise weights where they have any; returns the end of
-   * the entries. */
+  /** Appends rows with these entries, and with precise weights where they have any. Returns the
+   * end of the entries. */
   const RowEntry* append(
     std::span<const ClosedRow> rows, const RowEntry* entries, const double* precise)
   {
@@ -201,7 +205,8 @@ public:
     return entries + size;
   }
 
-  /** The largest i (at most end()) such that the nodes below i occur in rows below `done` only. */
+  /** The largest i (at most end()) such that no row from `done` on contains a node below i: a
+   * stage that has passed `done` needs no data of these nodes any more. It is at least `from`. */
   std::int64_t unreached(std::int64_t from, std::int64_t done) const
   {
     std::int64_t i = from;
@@ -212,8 +217,8 @@ public:
     return i;
   }
 
-  /** Releases rows below `row`, and reach() below `reach`; if both are beyond the end, `row` is the
-   * next row. */
+  /** Releases rows below `row`, and reach() below `reach`, which stages need for longer. If both
+   * are beyond the end, `row` is the next row. */
   void release(std::int64_t row, std::int64_t reach)
   {
     this->Entries.release(row);
@@ -225,7 +230,7 @@ public:
   }
 
 private:
-  /** Ends rows whose entries are in the open one. */
+  /** Ends rows whose entries are in the room that open() returned. */
   void close(std::span<const ClosedRow> rows, const RowEntry* entry, const double* precise)
   {
     const std::int64_t begin = this->end();
@@ -258,7 +263,8 @@ private:
     }
   }
 
-  /** Stores the precise weights of the last row; rows after the last one with any take no room. */
+  /** Stores the precise weights of the last row. Rows without any are appended, empty, only when
+   * a later row has some: most levels have none and take no memory for them. */
   void keep(std::span<const double> precise)
   {
     if (precise.empty())
@@ -282,7 +288,7 @@ private:
   std::int64_t Nonzeros = 0;
 };
 
-/** The entries of consecutive rows, in memory that is kept when they are forgotten. */
+/** The entries of consecutive rows, in memory that stays allocated when they are cleared. */
 template <class Entry>
 class RowEntries
 {
@@ -290,7 +296,7 @@ public:
   /** Room for at most `size` entries of the next row. */
   Entry* open(std::int64_t size)
   {
-    // Grows only, since resize() clears what it adds.
+    // It only grows, since resize() clears what it adds.
     const std::size_t end = this->Used + static_cast<std::size_t>(size);
     this->Entries.resize(std::max(this->Entries.size(), end));
     return this->Entries.data() + this->Used;

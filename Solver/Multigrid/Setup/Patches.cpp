@@ -4,12 +4,23 @@
 #include <algorithm>
 #include <span>
 
+// Patches: groups of up to twelve nodes that Gauss-Seidel relaxes together, found greedily in one
+// sweep over the rows of a level. Each new node is compared with its lower neighbours only, so the
+// patches depend on the stream order but not on the window, and they are complete as soon as the
+// rings of their first node have arrived.
+//
+// Patches are what the sweeps need on slivers, see docs/architecture.md ("The hierarchy"). The
+// dense matrix of a patch is kept until its inverse is packed into a block; a patch of n nodes
+// costs 8 n (n + 1) / 2 bytes for it.
+
 namespace smg
 {
 namespace
 {
 
-/** The last node that a patch may have which begins at `first`, as far as rows exist. */
+/** The largest node that a patch which begins at `first` may contain: within one ring, or two.
+ * Where row `ring` does not exist yet, all existing rows lie within the first ring, whose bound
+ * then suffices. */
 std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings)
 {
   const std::int64_t ring = rows.reach(first);
@@ -18,7 +29,8 @@ std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings)
 
 } // namespace
 
-/** Whether row i, with this diagonal, has negative weights that count. */
+/** Whether row i, with this diagonal, has negative weights that count: the magnitudes of its
+ * weights exceed the diagonal by more than 5 %. */
 bool cancels(const LevelRows& rows, std::int64_t i, double diagonal)
 {
   constexpr double Least = 1.05;
@@ -34,11 +46,14 @@ PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch)
     const std::int64_t i = patch.member(a);
     matrix.at(a, a) = rows.diagonal(i);
     const auto row = rows.row(i);
+    // Where a row has weights in double precision these count: the matrix of a sliver is nearly
+    // singular, and floats would lose its smallest eigenvalues.
     const std::span<const double> precise = rows.precise(i);
     std::size_t e = 0;
     for (int b = 0; b < a; ++b)
     {
       const auto delta = static_cast<std::int32_t>(patch.member(b) - i);
+      // Members and columns both ascend: one walk along the row finds all of them.
       while (e < row.size() && row[e].delta() < delta)
       {
         ++e;
@@ -52,6 +67,8 @@ PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch)
   return matrix;
 }
 
+/** Adds node j: collects its strongest couplings to lower neighbours, then joins patches along
+ * them. */
 void Patches::add(const LevelRows& rows)
 {
   const std::int64_t j = this->Number.end();
@@ -59,8 +76,10 @@ void Patches::add(const LevelRows& rows)
   this->Diagonals.extendRaw(j + 1);
   const double diagonal = rows.diagonal(j);
   this->Diagonals[j] = static_cast<float>(diagonal);
+  // Relative to node j: diagonals[delta] is that of its neighbour.
   const float* diagonals = this->Diagonals.at(j);
-  // In descending order, as many as a patch has room for.
+  // The strongest couplings in descending order; a patch has no room for more. The strongest are
+  // joined first, since later ones may find the patch full.
   Coupling strongest[Patch::Most];
   int size = 0;
   for (const RowEntry& entry : rows.row(j))
@@ -71,6 +90,8 @@ void Patches::add(const LevelRows& rows)
       break;
     }
     const double weight = entry.weight();
+    // The coupling squared, times the diagonal of j, which is the same for all: no root and one
+    // division.
     const double square = weight * weight / static_cast<double>(diagonals[delta]);
     if (!(square > Strong * Strong * diagonal) ||
         (size == Patch::Most && !(square > strongest[size - 1].square)))
@@ -84,6 +105,7 @@ void Patches::add(const LevelRows& rows)
     }
     strongest[place] = { square, j + delta };
   }
+  // Between Strong and StrongAlone a coupling counts only where weights cancel.
   const bool isOfSlivers = size > 0 && cancels(rows, j, diagonal);
   for (int k = 0; k < size; ++k)
   {
@@ -96,11 +118,13 @@ void Patches::add(const LevelRows& rows)
   }
 }
 
-/** Makes one patch of those of nodes j, the last one, and i, either of which may be alone, if it
- * has room and nobody may have read them yet. */
+/** Joins the patches of nodes j, the last node, and i; either may be alone. Nothing happens if
+ * the result would be too large or would reach beyond the rings of its first node: a stage may
+ * already have taken the patch of that node as complete. */
 void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
 {
   std::uint32_t number = this->Number[i];
+  // Already together, by a stronger coupling.
   if (number != Alone && number == this->Number[j])
   {
     return;
@@ -115,22 +139,25 @@ void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
       members[size++] = patch ? patch->member(k) : node;
     }
   }
+  // The order of members is that of the stream, whatever the order of joining.
   std::sort(members, members + size);
   if (size > Patch::Most || lastOf(rows, members[0], this->Rings) < j)
   {
     return;
   }
+  // The patch of i takes the members; failing that, the patch of j; failing that, a new one.
   if (number == Alone)
   {
     number = this->Number[j];
   }
   else if (this->Number[j] != Alone)
   {
-    this->patch(this->Number[j]).size = 0; // a patch that is left out has no members
+    this->patch(this->Number[j]).size = 0; // abandoned: it has no members any more
   }
   if (number == Alone)
   {
     std::int64_t next = this->Of.end();
+    // Numbers are stored by their low 32 bits: skip the one that would look like Alone.
     next += static_cast<std::uint32_t>(next) == Alone ? 1 : 0;
     this->Of.extend(next + 1);
     number = static_cast<std::uint32_t>(next);
@@ -153,6 +180,8 @@ void Patches::release(std::int64_t node)
   }
   this->Number.release(node);
   this->Diagonals.release(node);
+  // Patches are released in the order of their numbers: one that is still needed keeps those after
+  // it.
   const auto isDone = [node](const Patch& patch) { return patch.size == 0 || patch.last() < node; };
   while (this->Of.first() < this->Of.end() && isDone(this->Of[this->Of.first()]))
   {

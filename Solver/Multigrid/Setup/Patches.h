@@ -13,10 +13,11 @@
 namespace smg
 {
 
-/** A symmetric matrix of the nodes of a patch, of order up to Most: its lower triangle by rows. */
+/** A symmetric matrix on the nodes of a patch, of order up to Most: its lower triangle by rows. */
 struct PatchMatrix
 {
-  /** A sliver refined once is a cluster of ten vertices; 8 leave some of them out. */
+  /** A tetrahedral sliver that was refined once is a cluster of ten vertices, of which patches
+   * of 8 would leave some out. */
   static constexpr int Most = 12;
   static constexpr int Entries = Most * (Most + 1) / 2;
 
@@ -32,7 +33,7 @@ struct PatchMatrix
   double& at(int a, int b) { return this->entry[place(a, b)]; }
   double at(int a, int b) const { return this->entry[place(a, b)]; }
 
-  /** The rows and columns of `members`, a subset. */
+  /** The submatrix of the nodes `members`. */
   PatchMatrix part(const int* members, int count) const
   {
     PatchMatrix part;
@@ -48,20 +49,21 @@ struct PatchMatrix
   }
 
   /**
-   * Replaces the matrix by a generalised inverse, by its factors L D L^T: without roots, so that
-   * the matrix times a power of two gives the same bits. The rows and columns of pivots below
-   * `least` times their diagonal entries are zero: a node whose correction the others determine up
-   * to rounding, as in a patch that is a separate component, is not corrected. Returns whether
-   * there is no such pivot.
+   * Replaces the matrix by a generalised inverse, by its factors L D L^T. There are no roots, so
+   * that the matrix times a power of two gives the same bits.
+   *
+   * If a pivot is at most `least` times its diagonal entry, the row and column of that node become
+   * zero: up to rounding, the other nodes determine its correction, as in a patch that is a
+   * component of its own, and it is not corrected. Returns whether there is no such pivot.
    */
   bool invert(double least)
   {
     bool definite = true;
-    double lower[Most][Most] = {}; // the inverse of L
-    double inverse[Most];          // that of D
+    double lower[Most][Most] = {}; // inverse of L
+    double inverse[Most];          // inverse of D
     for (int a = 0; a < this->order; ++a)
     {
-      double row[Most]; // of L
+      double row[Most]; // row a of L
       double pivot = this->at(a, a);
       for (int b = 0; b < a; ++b)
       {
@@ -105,27 +107,27 @@ struct PatchMatrix
   }
 };
 
-/**
- * A few nodes of a level that are coupled so strongly that they must be relaxed together: the
- * stiffness of a sliver is nearly of rank one, so that one of its vertices alone can hardly move.
- */
+/** A patch: a few nodes of a level that are coupled so strongly that they must be relaxed
+ * together. The stiffness of a sliver is nearly of rank one, so that one of its vertices alone
+ * can hardly move. */
 struct Patch
 {
   static constexpr int Most = PatchMatrix::Most;
 
   std::int64_t first;
   std::int32_t size;
-  std::int32_t offset[Most]; ///< of the members from the first one, ascending
+  std::int32_t offset[Most]; ///< distance of each member from the first one, ascending
   std::uint32_t matrix;      ///< low 32 bits of the number of its matrix in PatchMatrices
 
   std::int64_t member(int k) const { return this->first + this->offset[k]; }
   std::int64_t last() const { return this->member(this->size - 1); }
 };
 
-/** The level's matrix on the members of a patch, whose rows exist. */
+/** The matrix of the level on the members of a patch, whose rows must exist. */
 SMG_EXPORT PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch);
 
-/** The matrices of complete patches, by ascending first nodes. */
+/** The matrices of complete patches, by ascending first nodes, kept until the blocks with their
+ * members have been packed. */
 class PatchMatrices
 {
 public:
@@ -135,7 +137,8 @@ public:
   {
   }
 
-  /** Appends the matrix of a patch, whose rows exist; returns its entries. */
+  /** Appends the matrix of a patch, whose rows must exist, and returns the number of its
+   * entries. */
   std::int64_t append(const LevelRows& rows, Patch& patch)
   {
     const std::int64_t size = PatchMatrix::entriesOf(patch.size);
@@ -155,8 +158,8 @@ public:
     return this->Triangles.row(first + (patch.matrix - static_cast<std::uint32_t>(first)));
   }
 
-  /** Provides room for so many matrices of so many entries in all: until they are appended, or
-   * isFull(), other threads may read earlier ones. */
+  /** Provides room for this number of matrices with this number of entries in all. Until they
+   * are appended, or isFull(), nothing moves, so that other threads may read earlier matrices. */
   void reserve(std::int64_t matrices, std::int64_t entries)
   {
     this->Triangles.reserve(matrices, entries);
@@ -182,19 +185,23 @@ private:
 };
 
 /**
- * Finds the patches of a level as its rows arrive: with node j, the patches of j and of each lower
- * neighbour i with a coupling |a_ij| / sqrt(a_ii a_jj) above StrongAlone, or above Strong if the
- * weights of row i or j cancel, become one, the strongest first, if that has room and lies within
- * a ring or two of its first node. What moves together must be in one patch: a cluster of ten
- * vertices of which two lie in another one converges as slowly as without.
+ * Finds the patches of a level as its rows arrive. With node j come its couplings |a_ij| /
+ * sqrt(a_ii a_jj) to lower neighbours i. Where one is above StrongAlone, or above Strong if the
+ * weights of row i or j cancel, the patches of i and j become one, the strongest coupling first,
+ * provided that the result has room and lies within a ring or two of its first node.
+ *
+ * What moves together must be in one patch: a cluster of ten vertices of which two lie in another
+ * patch converges as slowly as without patches. The limit by rings bounds how far a sweep has to
+ * run ahead before the patch of a node is known and complete, and with it the window.
  */
 class SMG_EXPORT Patches
 {
 public:
-  /** From 0.4 on patches of marching tetrahedra lack a vertex, below 0.3 those of refined
-   * tetrahedra are full of others; windows grow as it falls. */
+  /** With 0.4 or more, patches of marching tetrahedra lack a vertex; below 0.3, patches of
+   * refined tetrahedra fill up with others. Windows grow as it falls. */
   static constexpr double Strong = 0.35;
-  /** Without slivers patches save nothing below this, and need up to an eighth more memory. */
+  /** Without slivers, patches by weaker couplings than this save no V-cycle and need up to an
+   * eighth more memory. */
   static constexpr double StrongAlone = 0.5;
 
   explicit Patches(Pool& pool)
@@ -204,44 +211,46 @@ public:
   {
   }
 
-  /** Adds the next node, whose row and those before it exist. */
+  /** Adds the next node; its row and all before it exist. */
   void add(const LevelRows& rows);
 
-  /** Provides room for so many more nodes, and for some patches: other threads may read earlier
-   * ones while nodes are added, until isFull(). */
+  /** Provides room for this number of further nodes and for some patches. Other threads may read
+   * earlier nodes and patches while nodes are added, until isFull(). */
   void reserve(std::int64_t nodes)
   {
     this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
     this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
     this->Room = this->Of.end() + std::max(MinMorePatches, nodes / 4);
-    this->Of.reserve(this->Room + 1 - this->Of.first()); // a number may be left out
+    this->Of.reserve(this->Room + 1 - this->Of.first()); // one more, since a number may be skipped
   }
   bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
 
-  /** Patches lie within so many rings of their first node: 1 or 2. Clusters of solids need 2; on
-   * surfaces these need up to an eighth more memory for few V-cycles. To be set at the begin. */
+  /** Sets the number of rings, 1 or 2, within which patches lie around their first node.
+   * Clusters in solids need 2; on surfaces the second ring costs up to an eighth more memory
+   * and saves few V-cycles. To be called before the first node. */
   void setRings(int rings) { this->Rings = rings; }
 
-  /** The patch of node i, or null; complete after all nodes within these rings of its first one. */
+  /** The patch of node i, or null. It is complete once all nodes within the rings of its first
+   * node have been added. */
   const Patch* of(std::int64_t i) const
   {
     const std::uint32_t number = this->Number[i];
     return number == Alone ? nullptr : &this->patch(number);
   }
-  /** The patch that begins at node i, complete, or null. */
+  /** The patch whose first member is node i, complete, or null. */
   Patch* beginningAt(std::int64_t i)
   {
     const std::uint32_t number = this->Number[i];
     Patch* patch = number == Alone ? nullptr : &this->patch(number);
     return patch && patch->first == i ? patch : nullptr;
   }
-  /** The last node of the patch of node i, or i. */
+  /** The last member of the patch of node i, or i without a patch. */
   std::int64_t last(std::int64_t i) const
   {
     const Patch* patch = this->of(i);
     return patch ? patch->last() : i;
   }
-  /** The last node of the patches of node i and its neighbours. */
+  /** The last member of the patches of node i and its neighbours. */
   std::int64_t lastAround(const LevelRows& rows, std::int64_t i) const
   {
     std::int64_t last = this->last(i);
@@ -254,15 +263,14 @@ public:
   /** The diagonal of row i. */
   float diagonal(std::int64_t i) const { return this->Diagonals[i]; }
 
-  /** Releases the nodes below `node` and the patches that end there; if `node` is beyond the end,
-   * it is the next node. */
+  /** Releases the nodes below `node` and the patches that end below it; if `node` is beyond the
+   * end, it is the next node. */
   void release(std::int64_t node);
 
 private:
   static constexpr std::uint32_t Alone = 0;
 
-  /** The square of the coupling of the next node with a lower one, times the next one's diagonal.
-   */
+  /** The square of the coupling of the next node j with a lower one, times the diagonal of j. */
   struct Coupling
   {
     double square;
@@ -270,7 +278,8 @@ private:
   };
   static constexpr std::int64_t MinMorePatches = 256;
 
-  /** The patch of a number, given that less than 2^32 patches are in memory. */
+  /** The patch with these low 32 bits of its number; there are fewer than 2^32 patches in
+   * memory. */
   Patch& patch(std::uint32_t number) const
   {
     const std::int64_t first = this->Of.first();
@@ -279,10 +288,10 @@ private:
   void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
 
   Ring<std::uint32_t> Number; // by node: low 32 bits of the number of its patch, or Alone
-  Ring<Patch> Of;             // by number; none whose low 32 bits are Alone
+  Ring<Patch> Of;             // by number; no number has the low 32 bits Alone
   Ring<float> Diagonals;      // by node
   int Rings = 1;
-  std::int64_t Room = -1; // end of the patches for which there is room; -1: not known
+  std::int64_t Room = -1; // end of the patches for which there is room; -1: without reserve()
 };
 
 } // namespace smg

@@ -15,12 +15,12 @@
 namespace smg
 {
 
-/** Rows made by one thread, which are moved to the rows of the level between two steps, when no
- * thread accesses these. */
+/** Rows that one thread makes. Between two steps, when no thread reads the rows of the level,
+ * they are moved there: appending may move memory that others read. */
 class RowBatch
 {
 public:
-  /** `further`: bytes that the owner keeps with each row, accounted for here. */
+  /** `further`: bytes that the owner keeps with each row, which this batch accounts for. */
   explicit RowBatch(Pool& pool, std::int64_t further = 0)
     : Further(further)
     , Memory(pool)
@@ -42,17 +42,18 @@ public:
       this->account();
     }
   }
-  /** Whether it has more memory than is kept for the next rows. */
+  /** Whether it has more memory than a batch keeps for the rows of later steps. */
   bool isLarge() const { return this->Memory.bytes() > 0; }
 
-  /** Appends the rows to `rows` and forgets them. */
+  /** Appends the rows to `rows` and removes them from the batch. */
   void moveTo(LevelRows& rows)
   {
     const RowEntry* entry = this->Entries.data();
     const double* precise = this->Precise.data();
     for (std::span<const ClosedRow> left = this->Closed; !left.empty();)
     {
-      // Rows of a group are contiguous, which may leave some room before the end of the memory.
+      // The rows of a group are contiguous in the ring, which may leave a gap before the end of its
+      // memory: small groups keep that gap small.
       const auto group = left.first(std::min(Group, left.size()));
       left = left.subspan(group.size());
       entry = rows.append(group, entry, precise);
@@ -94,9 +95,10 @@ private:
 };
 
 /**
- * Appends coarse row c, all of whose neighbours have been sparsified, to `out`, with the last of
- * its children. Its upper weights are copied to the lower parts of the rows above it: to the next
- * entry of each, since rows are finished in order.
+ * Appends the final coarse row c to `out`, with the last of its children; all of its neighbours
+ * must have been sparsified. Its upper weights are copied to the mirrored entries, below the
+ * diagonal, of the rows above it. Rows are finished in order, so in each of these it is the next
+ * entry.
  */
 SMG_EXPORT void finishRow(
   CoarseningData& data, std::int64_t c, std::int64_t lastChild, RowBatch& out);

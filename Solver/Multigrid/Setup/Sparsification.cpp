@@ -4,18 +4,35 @@
 #include <algorithm>
 #include <bit>
 
+// Galerkin products fill up: without sparsification the rows of a level grow with every level.
+// Simply dropping small entries made V-cycles diverge on meshes of bad triangles. Here the weight w
+// of an edge (c, k) moves to the path c - m - k through a common neighbour.
+//
+// The diagonal of a final row is its row sum plus its weights; rawDiagonal, from before
+// sparsification, only serves to measure couplings. Moving or removing a weight therefore changes
+// diagonals along with the weights, never a row sum: constants stay in the kernel where no
+// constraint reaches.
+//
+// Only the upper entry of a pair, in row min(c, k), is read as its weight and modified; finishRow()
+// copies it to the mirrored entry when no later row can change it any more. The entries of row k as
+// it arrives, products before sparsification, only classify its edges as large or small.
+//
+// Cost: a scan of row k, and for each of its small lower edges (c, k) a scan of the large entries
+// of row c, whose positions are kept in a bit mask.
+
 namespace smg
 {
 namespace
 {
 
-/** The existing entry of the pair {c,k} in the upper one of its two rows. */
+/** The entry of the pair {c, k}, which must exist, in the upper one of its two rows. */
 CoarseEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
 {
   const std::int64_t row = std::min(c, k);
   const auto delta = static_cast<std::int32_t>(std::max(c, k) - row);
   CoarseEntry* first = data.raw.row(row) + data.rawLower[row];
-  // A binary search without branches, which would be unpredictable.
+  // A binary search without branches, which would be unpredictable. It always keeps the last entry
+  // that is not beyond the wanted one.
   for (std::int64_t size = data.raw.size(row) - data.rawLower[row]; size > 1;)
   {
     const std::int64_t half = size / 2;
@@ -33,8 +50,9 @@ struct Sparsification::Candidate
   float weight = 0.0F;
 };
 
-/** The common neighbour m of c and k > c with the largest min(w_cm, w_km) above `least`, of large
- * weights; those of row k are in the slots with the mark. */
+/** The common neighbour m of c and k > c, by edges of large weights, with the largest min(w_cm,
+ * w_km), if that is above `least`. The large weights of row k are in the slots with the mark, 0
+ * for its small ones. */
 Sparsification::Candidate Sparsification::strongestCommon(
   const CoarseningData& data, std::int64_t c, std::uint32_t mark, float least) const
 {
@@ -47,11 +65,13 @@ Sparsification::Candidate Sparsification::strongestCommon(
   {
     const std::int32_t delta = entry.offset(c);
     const float weight = std::min(entry.value(), large[delta].get(mark));
+    // Strictly larger: of equal candidates the first in node order is taken.
     if (weight > best.weight && !entry.removed())
     {
       best = { c + delta, weight };
     }
   };
+  // Entries that were large when row c came; the bits have ascending columns.
   for (std::uint64_t bits = data.rawLarge[c]; bits != 0; bits &= bits - 1)
   {
     const CoarseEntry& entry = row[std::countr_zero(bits)];
@@ -60,6 +80,7 @@ Sparsification::Candidate Sparsification::strongestCommon(
       consider(entry);
     }
   }
+  // Beyond the bits, which is rare, the entries are classified again.
   for (std::int64_t e = 64; e < data.raw.size(c); ++e)
   {
     const std::int32_t delta = row[e].offset(c);
@@ -71,7 +92,8 @@ Sparsification::Candidate Sparsification::strongestCommon(
   return best;
 }
 
-/** Marks row k and a lower one as keeping all entries if they are coupled strongly. */
+/** Marks row k, and each lower row to which it is coupled strongly, so that they keep all
+ * entries: |w| > Coupled sqrt(a_cc a_kk), without the root. */
 void Sparsification::keepStronglyCoupled(const CoarseningData& data, std::int64_t k) const
 {
   constexpr double Strong = Coupled * Coupled;
@@ -92,6 +114,7 @@ void Sparsification::keepStronglyCoupled(const CoarseningData& data, std::int64_
 
 void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
 {
+  // First, since it may protect row k and rows below it from what follows.
   this->keepStronglyCoupled(data, k);
   const CoarseEntry* row = data.raw.row(k);
   const std::int32_t lower = data.rawLower[k];
@@ -99,6 +122,7 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
   Slot* large = data.sparsifySlots.at(k);
   const std::uint32_t mark = data.sparsifySlots.freshMark();
   const StrongestWeight* strongest = data.rawStrongest.at(k);
+  // mirrored[delta] is the position in row k + delta of its entry for row k.
   const std::int32_t* mirrored = data.rawMirrored.at(k);
   std::uint64_t bits = 0;
   for (std::int64_t e = 0; e < size; ++e)
@@ -106,8 +130,11 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
     const std::int32_t delta = row[e].offset(k);
     const float weight = row[e].value();
     const bool counts = this->isLarge(weight, delta, strongest);
+    // Every neighbour of k gets the mark, small ones with 0: strongestCommon() sees these as no
+    // connection.
     large[delta] = { mark, counts ? weight : 0.0F };
     bits |= std::uint64_t(counts && e < 64) << (e & 63);
+    // This edge will probably be removed: its entry in the upper row is needed soon.
     if (!counts && e < lower)
     {
       __builtin_prefetch(data.raw.row(k + delta) + mirrored[delta]);
@@ -122,22 +149,27 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
   for (std::int64_t e = 0; e < lower; ++e)
   {
     const std::int32_t delta = row[e].offset(k);
+    // Large by the products alone: not a candidate.
     if (large[delta].value != 0.0F)
     {
       continue;
     }
     const std::int64_t c = k + delta;
     CoarseEntry& pair = data.raw.row(c)[mirrored[delta]];
+    // Its present weight, to which earlier pairs may have moved theirs.
     const float weight = pair.value();
     if (kept[delta] != 0 || !this->isSmall(weight, strongest->weight(), strongest[delta].weight()))
     {
       continue;
     }
+    // A negative weight needs edges above 2 |w|, so that these stay positive and clearly so.
     const Candidate middle = this->strongestCommon(data, c, mark, std::max(0.0F, -2.0F * weight));
     if (middle.node < 0 && weight != 0.0F && !(this->dropsNegative && weight < 0.0F))
     {
       continue;
     }
+    // The edges c - m and m - k take the weight. Without m it is zero or may be dropped, and
+    // nothing moves.
     for (const std::int64_t node : { c, k })
     {
       if (middle.node >= 0)

@@ -104,7 +104,8 @@ struct SolveOptions
   /** Nodes by which a stage advances at a time, at least 1. The result does not depend on it. */
   std::int64_t blockNodes = 4096;
   /** Levels that are expected to have at most so many nodes are kept in memory; at least 0. The
-   * result does not depend on it. */
+   * first of them that is much smaller than the finest level is solved more accurately than one
+   * V-cycle does: so the iterates depend on it, except on small meshes. */
   std::int64_t coreNodes = 50000;
   /** Progress callback; empty: none. */
   ProgressFunction progress{};

@@ -16,9 +16,9 @@ namespace smg
 /**
  * As solve(), with an operator set of the program's own.
  *
- * A program that includes this file needs GCC or Clang and links StreamingMultigrid::Engine: its
- * headers, whose names may change with any version, and the compiler flags by which the same bits
- * are computed on every machine.
+ * A program that includes this file needs GCC or Clang, and links StreamingMultigrid::Engine: its
+ * headers, whose names may change with any version, and the compiler flags by which every machine
+ * computes the same bits.
  *
  * @tparam Operators a type that satisfies the concept OperatorSet (Solver/Multigrid/OperatorSet.h);
  * the multigrid is compiled for it
