@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/ScheduleModel.h"
 
-#include "Solver/Multigrid/Cycle/Pipeline.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -73,15 +73,15 @@ std::vector<StepRecorder::Step> ScheduleModel::scheduled(
   {
     return pass.steps;
   }
-  Pipeline stages;
+  Schedule stages;
   for (const double cost : pass.costs)
   {
-    stages.add(cost, {});
+    stages.add({ "", 0, cost, {} });
   }
-  stages.cut(Pipeline::chainsFor(threads));
+  stages.cut(Schedule::chainsFor(threads));
   const int chains = stages.chains();
   const auto together =
-    static_cast<std::size_t>(Pipeline::stepFor(threads, this->BlockNodes) / RowBlock::Nodes);
+    static_cast<std::size_t>(Schedule::stepFor(threads, this->BlockNodes) / RowBlock::Nodes);
   std::vector<StepRecorder::Step> steps;
   for (std::size_t s = 0; s < pass.steps.size(); ++s)
   {

@@ -106,7 +106,7 @@ struct AllOwn : DirectRows<AllOwn>
 
   void productAP(CoarseningData& data, std::int64_t i) const
   {
-    const std::int64_t near = data.knownCoarse;
+    const std::int64_t near = data.interpolatedCoarse;
     Row row;
     double sum = data.fine.rowSum(i) * data.rowQuanta[i];
     const auto add = [&](std::int64_t node, double factor)

@@ -95,7 +95,7 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
       step.advanceCoarseRows();
       step.advanceGathering();
       step.advanceInterpolation();
-      step.advanceLifting();
+      step.advanceChoice();
       step.advanceProducts();
     }
     else

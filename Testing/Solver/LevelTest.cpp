@@ -225,7 +225,7 @@ TEST(RowBlockPacker, WideBlocksKeepTheLargestDistancesOfParents)
   SpareBuffers buffers(pool);
   LevelRows rows(pool), coarse(pool);
   CoarseningData coarsening(pool, rows, coarse);
-  coarsening.coarseNodes = coarsening.knownCoarse = Base + 100;
+  coarsening.coarseNodes = coarsening.interpolatedCoarse = Base + 100;
   for (int i = 0; i < 3; ++i)
   {
     rows.open(0);

@@ -4,8 +4,8 @@
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Cycle/PatchRelaxation.h"
-#include "Solver/Multigrid/Cycle/Pipeline.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <cstdint>
 #include <functional>
@@ -148,9 +148,9 @@ public:
 
   /** Adds the stages of the upward part, those of coarser levels first. They finish the V-cycle
    * as far as load() was asked for. */
-  void addUpward(Pipeline& pipeline);
+  void addUpward(Schedule& schedule);
   /** Adds the stages of the downward part, those of coarser levels last. */
-  void addDownward(Pipeline& pipeline);
+  void addDownward(Schedule& schedule);
 
   /** Advances every stage of the downward part, on this and the coarser levels, as far as
    * possible. */
@@ -170,42 +170,42 @@ public:
 
   /** Publishes the cursors of this and the coarser levels for stages on other threads; between
    * two steps. */
-  void showProgress()
+  void publish()
   {
-    this->At.show();
+    this->At.publish();
     if (!this->Coarse->core())
     {
-      this->Coarse->showProgress();
+      this->Coarse->publish();
     }
   }
 
   /** Adds tasks that prefetch what load() will take next, on this and the coarser levels. They
    * may run beside all stages. */
-  void addReaders(std::vector<std::function<void()>>& tasks)
+  void addReaders(Schedule& schedule)
   {
-    tasks.emplace_back([this] { this->Window.readAhead(); });
+    schedule.addBeside([this] { this->Window.readAhead(); });
     if (this->History)
     {
-      tasks.emplace_back([this] { this->History->readAhead(); });
+      schedule.addBeside([this] { this->History->readAhead(); });
     }
     if (!this->Coarse->core())
     {
-      this->Coarse->addReaders(tasks);
+      this->Coarse->addReaders(schedule);
     }
   }
 
   /** Adds tasks that write what the downward part has finished, on this and the coarser levels.
    * They may run beside all stages. */
-  void addWriters(std::vector<std::function<void()>>& tasks)
+  void addWriters(Schedule& schedule)
   {
-    tasks.emplace_back([this] { this->writeWindow(); });
+    schedule.addBeside([this] { this->writeWindow(); });
     if (this->History)
     {
-      tasks.emplace_back([this] { this->writeHistory(); });
+      schedule.addBeside([this] { this->writeHistory(); });
     }
     if (!this->Coarse->core())
     {
-      this->Coarse->addWriters(tasks);
+      this->Coarse->addWriters(schedule);
     }
   }
 
@@ -227,7 +227,7 @@ public:
    * stage needs any more. */
   void settle()
   {
-    this->showProgress();
+    this->publish();
     this->write();
     this->release();
   }
@@ -292,13 +292,13 @@ private:
   {
     // If the last sweep relaxes patches, the end of an unfinished patch may still change nodes
     // before it.
-    this->Window.write((this->endPatched() ? this->At.restricted : this->At.combined).shown());
+    this->Window.write((this->endPatched() ? this->At.restricted : this->At.combined).published());
   }
   void writeHistory()
   {
     if (this->History)
     {
-      this->History->write(this->At.restricted.shown());
+      this->History->write(this->At.restricted.published());
     }
   }
 

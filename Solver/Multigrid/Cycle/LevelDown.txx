@@ -11,22 +11,25 @@ namespace smg
 {
 
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::addDownward(Pipeline& pipeline)
+void Level<Real, Relaxation>::addDownward(Schedule& schedule)
 {
   if (this->Core)
   {
     return;
   }
+  const int level = this->Window.index();
   const auto nodes = static_cast<double>(this->Window.nodes());
   for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
   {
-    pipeline.add(nodes, [this, s](bool follows) { this->preSweep(s, follows); });
+    schedule.add({ "relax before restriction", level, nodes,
+      [this, s](bool follows) { this->preSweep(s, follows); } });
   }
   // Without a history the stage only passes the cursor on.
-  pipeline.add(
-    this->History ? CombineCost * nodes : 0.0, [this](bool follows) { this->combine(follows); });
-  pipeline.add(RestrictCost * nodes, [this](bool follows) { this->restrictDown(follows); });
-  this->Coarse->addDownward(pipeline);
+  schedule.add({ "combine iterates", level, this->History ? CombineCost * nodes : 0.0,
+    [this](bool follows) { this->combine(follows); } });
+  schedule.add({ "restrict the residual", level, RestrictCost * nodes,
+    [this](bool follows) { this->restrictDown(follows); } });
+  this->Coarse->addDownward(schedule);
 }
 
 template <class Real, class Relaxation>
@@ -132,8 +135,8 @@ bool Level<Real, Relaxation>::prepare(std::int64_t node)
     const RowBlock::Header& h = this->Window.header(this->At.reset);
     const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
     // Published cursors, since these stages may run on other threads at this time.
-    if (this->At.postSweep.back().shown() <= h.reach(g, this->endPatched()) ||
-        this->Fine->prolonged.shown() <= h.childReach[g])
+    if (this->At.postSweep.back().published() <= h.reach(g, this->endPatched()) ||
+        this->Fine->prolonged.published() <= h.childReach[g])
     {
       return false;
     }

@@ -12,18 +12,21 @@ namespace smg
 {
 
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::addUpward(Pipeline& pipeline)
+void Level<Real, Relaxation>::addUpward(Schedule& schedule)
 {
   if (this->Core)
   {
     return;
   }
-  this->Coarse->addUpward(pipeline);
+  this->Coarse->addUpward(schedule);
+  const int level = this->Window.index();
   const auto nodes = static_cast<double>(this->Window.nodes());
-  pipeline.add(ProlongCost * nodes, [this](bool follows) { this->prolongUp(follows); });
+  schedule.add({ "prolong the correction", level, ProlongCost * nodes,
+    [this](bool follows) { this->prolongUp(follows); } });
   for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
   {
-    pipeline.add(nodes, [this, s](bool follows) { this->postSweep(s, follows); });
+    schedule.add({ "relax after prolongation", level, nodes,
+      [this, s](bool follows) { this->postSweep(s, follows); } });
   }
 }
 

@@ -9,6 +9,7 @@
 #include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Export.h"
 
 #include <algorithm>
@@ -33,35 +34,6 @@ struct ResidentNodes
     this->current += nodes;
     this->peak = std::max(this->peak, this->current);
   }
-};
-
-/**
- * The next node that a stage will process: it has finished all nodes below. There are two values.
- * The stage itself, and stages that follow it on the same thread, use the present one. Stages on
- * other threads see the one that was published by show() between two steps of the pass. What they
- * may process in a step, and with it the memory of the pass, is therefore independent of how far
- * the thread of this stage happens to have come.
- */
-class Cursor
-{
-public:
-  Cursor& operator=(std::int64_t node)
-  {
-    this->Node = node;
-    return *this;
-  }
-  /** The present node, for the stage itself. */
-  operator std::int64_t() const { return this->Node; }
-  /** The node that a stage may rely on which `follows` this one on the same thread, or does not. */
-  std::int64_t seen(bool follows) const { return follows ? this->Node : this->Shown; }
-  /** The published node, for stages on other threads. */
-  std::int64_t shown() const { return this->Shown; }
-  /** Publishes the present node. */
-  void show() { this->Shown = this->Node; }
-
-private:
-  std::int64_t Node = 0;
-  std::int64_t Shown = 0;
 };
 
 /**
@@ -92,14 +64,14 @@ struct LevelCursors
   }
 
   /** Publishes all cursors; between two steps. */
-  void show()
+  void publish()
   {
     for (Cursor* cursor : { &this->prolonged, &this->renewed, &this->combined, &this->restricted })
     {
-      cursor->show();
+      cursor->publish();
     }
-    std::ranges::for_each(this->postSweep, &Cursor::show);
-    std::ranges::for_each(this->preSweep, &Cursor::show);
+    std::ranges::for_each(this->postSweep, &Cursor::publish);
+    std::ranges::for_each(this->preSweep, &Cursor::publish);
   }
 
   void rewind()
@@ -162,6 +134,7 @@ public:
   State& up() { return this->Now; }
   State& down() { return this->Next ? *this->Next : this->Now; }
   /** The number of nodes of the level; in the first pass, of those so far. */
+  int index() const { return this->Index; }
   std::int64_t nodes() const { return this->Nodes; }
   std::int64_t loaded() const { return this->Loaded; }
   /** The first node whose row is in memory; those before it have passed all stages. */

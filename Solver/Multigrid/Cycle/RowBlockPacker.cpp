@@ -142,7 +142,7 @@ Header measure(
       // base 0, which nothing uses.
       if (count > 0 && !based)
       {
-        h.parentBase = coarsening->knownCoarse + p->offset(coarsening->knownCoarse);
+        h.parentBase = coarsening->interpolatedCoarse + p->offset(coarsening->interpolatedCoarse);
         based = true;
       }
       for (std::int64_t e = 0; e < count; ++e)

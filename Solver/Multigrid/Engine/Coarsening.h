@@ -83,7 +83,7 @@ public:
   const CoarseningData& data() const { return this->Data; }
   /** The end of the rows of A P: their interpolation and the patches of their neighbours are
    * final. As published to the stages after productAP(). */
-  std::int64_t multiplied() const { return this->SeenProducts; }
+  std::int64_t multiplied() const { return this->Multiplied.published(); }
   /** Declares that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
@@ -93,12 +93,12 @@ public:
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
     this->begin(rows);
-    this->advanceLifting();
-    this->seeLifting();
+    this->advanceChoice();
+    this->publishInitial();
     this->advanceInterpolation();
-    this->seeInterpolation();
+    this->publishInterpolation();
     this->advanceProducts();
-    this->seeProducts();
+    this->publishProducts();
     this->advanceGathering();
     this->advanceCoarseRows();
     this->release();
@@ -119,9 +119,9 @@ public:
     this->Sweeps.begin(StepLimits::more(nodes));
     this->begin(this->Chosen + this->Limits.choose.nodes());
     std::swap(this->Data.gathered, this->Data.arrived);
-    this->seeProducts();
-    this->seeInterpolation();
-    this->seeLifting();
+    this->publishProducts();
+    this->publishInterpolation();
+    this->publishInitial();
     this->reserve();
     this->Apart = true;
     return coarse;
@@ -130,7 +130,7 @@ public:
   std::int64_t waiting() const { return this->Data.fine.end() - this->Chosen; }
 
   /** The stages up to the initial P. */
-  void advanceLifting()
+  void advanceChoice()
   {
     this->choose();
     this->interpolateInitial();
@@ -139,14 +139,14 @@ public:
   /** The stages from the initial P to P. */
   void advanceInterpolation()
   {
-    this->Data.slots.extend(this->Data.seenCoarse);
+    this->Data.slots.extend(this->Data.publishedCoarse);
     this->interpolate();
   }
 
   /** The stage from P to A P. */
   void advanceProducts()
   {
-    this->Data.productSlots.extend(this->Data.knownCoarse);
+    this->Data.productSlots.extend(this->Data.interpolatedCoarse);
     this->productAP();
   }
 
@@ -182,7 +182,7 @@ public:
     d.initial.release(this->RelaxedDone);
     d.initialTotal.release(this->RelaxedDone);
     d.relaxed.release(this->RelaxedDone);
-    d.patches.release(std::min(this->PatchesDone, this->Multiplied));
+    d.patches.release(std::min<std::int64_t>(this->PatchesDone, this->Multiplied));
     d.patchMatrices.release(this->MatricesDone);
     while (
       this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
@@ -199,7 +199,7 @@ public:
     d.parentReach.release(interpolationDone);
     const std::int64_t nextFine =
       this->Gathered < d.coarseNodes ? d.finePoint[this->Gathered] : this->Chosen;
-    d.fine.release(std::min(this->Multiplied, this->Packed),
+    d.fine.release(std::min<std::int64_t>(this->Multiplied, this->Packed),
       std::min({ this->RelaxedDone, this->ReachDone, this->MatricesDone, nextFine }));
     d.finePoint.release(this->Gathered);
     d.firstChild.release(this->Gathered);
@@ -222,23 +222,23 @@ private:
   }
 
   /** Publishes the coarse nodes and P0 so far to the stages of advanceInterpolation(). */
-  void seeLifting()
+  void publishInitial()
   {
-    this->SeenInitial = this->Initial;
-    this->Data.seenCoarse = this->Data.coarseNodes;
+    this->Initial.publish();
+    this->Data.publishedCoarse = this->Data.coarseNodes;
   }
 
   /** Publishes P so far to the stages from productAP() on. */
-  void seeInterpolation()
+  void publishInterpolation()
   {
-    this->Seen = this->Interpolated;
-    this->Data.knownCoarse = this->Data.seenCoarse;
-    this->Data.gatherSlots.extend(this->Data.knownCoarse);
-    this->Data.sparsifySlots.extend(this->Data.knownCoarse);
+    this->Interpolated.publish();
+    this->Data.interpolatedCoarse = this->Data.publishedCoarse;
+    this->Data.gatherSlots.extend(this->Data.interpolatedCoarse);
+    this->Data.sparsifySlots.extend(this->Data.interpolatedCoarse);
   }
 
   /** Publishes A P so far to the stages from productPtAP() on. */
-  void seeProducts() { this->SeenProducts = this->Multiplied; }
+  void publishProducts() { this->Multiplied.publish(); }
 
   /** The number of coarse rows that this number of rows becomes, on average so far or as in the
    * last step. */
@@ -343,7 +343,7 @@ private:
   void interpolate()
   {
     CoarseningData& d = this->Data;
-    this->Sweeps.advance(this->Set, d, this->SeenInitial);
+    this->Sweeps.advance(this->Set, d, this->Initial.published());
     this->Limits.interpolate.run(
       this->Interpolated, this->Sweeps.settled(),
       [&](std::int64_t) { return !(this->Apart && d.patchMatrices.isFull()); },
@@ -362,8 +362,9 @@ private:
     CoarseningData& d = this->Data;
     this->Limits.productAP.run(
       this->Multiplied, this->Rows,
-      [&](std::int64_t i) {
-        return d.fine.reach(i) < this->Seen &&
+      [&](std::int64_t i)
+      {
+        return d.fine.reach(i) < this->Interpolated.published() &&
                (!this->Apart || d.product.hasRoom(d.maxProducts(i)));
       },
       [&](std::int64_t i)
@@ -381,11 +382,11 @@ private:
   {
     const CoarseningData& d = this->Data;
     const std::int64_t ring = d.fine.reach(d.finePoint[c]);
-    if (ring >= this->Rows || d.fine.reach(ring) >= this->Seen)
+    if (ring >= this->Rows || d.fine.reach(ring) >= this->Interpolated.published())
     {
       return false;
     }
-    return d.lastChild[c].row(d.finePoint[c]) < this->SeenProducts;
+    return d.lastChild[c].row(d.finePoint[c]) < this->Multiplied.published();
   }
 
   /** Products in the order of coarse nodes. On one thread each row is sparsified at once; apart,
@@ -394,7 +395,7 @@ private:
   {
     CoarseningData& d = this->Data;
     this->Limits.productPtAP.run(
-      this->Gathered, d.knownCoarse, [&](std::int64_t c) { return this->canGather(c); },
+      this->Gathered, d.interpolatedCoarse, [&](std::int64_t c) { return this->canGather(c); },
       [&](std::int64_t c)
       {
         this->Set.productPtAP(d, c);
@@ -442,9 +443,10 @@ private:
   std::int64_t CoarseBefore = 0;         // coarse nodes a step ago
   const std::int64_t Begin, CoarseBegin; // the first nodes
   std::int64_t Rows = Begin;             // end of the rows of the fine level that stages may read
-  std::int64_t Chosen = Begin, Initial = Begin, SeenInitial = Begin; // by fine node
+  std::int64_t Chosen = Begin;           // by fine node
+  Cursor Initial{ Begin };
   InterpolationSweeps<Operators> Sweeps;
-  std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;
+  Cursor Interpolated{ Begin }, Multiplied{ Begin };
   MeanRowLength InitialEntries, PatchEntries, ProductEntries;
   // By coarse node.
   std::int64_t Gathered = CoarseBegin, Sparsified = CoarseBegin, Finished = CoarseBegin;

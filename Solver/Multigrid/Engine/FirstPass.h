@@ -11,15 +11,14 @@
 #include "Solver/Multigrid/Engine/HierarchyBuilder.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
-#include <vector>
 
 namespace smg
 {
@@ -57,6 +56,7 @@ private:
   FirstResidual run(
     MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);
   FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
+  static bool assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly);
   void readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
     HierarchyBuilder<Operators>& builder);
   FirstResidual note(const Assembly& assembly);
@@ -142,6 +142,23 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
   return this->note(assembly);
 }
 
+/** Assembles the current block of the mesh, or at its end what is left; returns whether there was a
+ * block. `apart`: only weighs its cells, of which the other stages make rows. */
+template <OperatorSet Operators>
+bool FirstPass<Operators>::assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly)
+{
+  const MeshBlock* block = blocks.block();
+  if (apart)
+  {
+    block ? assembly.weigh(*block) : assembly.weighRest();
+  }
+  else
+  {
+    block ? assembly.add(*block) : assembly.finish();
+  }
+  return block != nullptr;
+}
+
 /** In each step the next block of the mesh is assembled, every streamed level is coarsened, and
  * the downward part of the V-cycle advances, all as tasks that may run at the same time, each
  * on the data of earlier steps. With `apart`, the stages of the assembly are tasks of their own
@@ -154,74 +171,63 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
   bool more = true, waits = false;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, blocks.info().vertices));
-  const auto assemble = [&]
-  {
-    if (waits || !more)
-    {
-      return;
-    }
-    const MeshBlock* block = blocks.block();
-    more = block != nullptr;
-    if (apart)
-    {
-      more ? assembly.weigh(*block) : assembly.weighRest();
-    }
-    else
-    {
-      more ? assembly.add(*block) : assembly.finish();
-    }
-  };
   if (this->Run.recorder)
   {
     this->Run.recorder->startPass({});
   }
-  std::vector<std::function<void()>> tasks{ assemble };
+  Schedule schedule;
+  // Task 0, which asks the problem, runs on the thread of the caller.
+  schedule.add({ apart ? "weigh cells" : "assemble rows", 0, 0.0,
+    [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } });
   if (apart)
   {
-    for (const auto stage : { &Assembly::connect, &Assembly::closeRows })
-    {
-      tasks.emplace_back([&, stage] { waits ? void() : (assembly.*stage)(); });
-    }
+    schedule.add({ "connect edges", 0, 0.0, [&](bool) { waits ? void() : assembly.connect(); } });
+    schedule.add({ "close rows", 0, 0.0, [&](bool) { waits ? void() : assembly.closeRows(); } });
   }
-  for (int task = 0; task < builder.tasks(); ++task)
-  {
-    tasks.emplace_back([&builder, task] { builder.advance(task); });
-  }
-  tasks.emplace_back([&finest] { finest.advanceDown(); });
-  tasks.emplace_back([&blocks] { blocks.read(); });
-  finest.addWriters(tasks);
-  LongestTaskFirst order(static_cast<int>(tasks.size()));
-  while (!builder.complete())
-  {
-    builder.begin();
-    // A block of the mesh may have many more rows than a step: no further block is read while rows
-    // wait, since these take memory.
-    waits = builder.isBusy();
-    if (!waits)
+  builder.addStages(schedule);
+  schedule.add({ "relax and restrict", 0, 0.0, [&finest](bool) { finest.advanceDown(); } });
+  schedule.cutAll();
+  schedule.addBeside([&blocks] { blocks.read(); });
+  finest.addWriters(schedule);
+  schedule.perform(
+    this->Run,
+    [&]
     {
-      blocks.advance();
-    }
-    if (apart && !waits)
+      if (builder.complete())
+      {
+        return false;
+      }
+      builder.begin();
+      // A block of the mesh may have many more rows than a step: no further block is read while
+      // rows wait, since these take memory.
+      waits = builder.isBusy();
+      if (!waits)
+      {
+        blocks.advance();
+      }
+      if (apart && !waits)
+      {
+        assembly.beginApart(blocks.vertices());
+      }
+      finest.publish();
+      return true;
+    },
+    [&]
     {
-      assembly.beginApart(blocks.vertices());
-    }
-    finest.showProgress();
-    // Task 0, which asks the problem, runs on the thread of the caller.
-    this->Run.runConcurrently(order, [&](int task) { tasks[static_cast<std::size_t>(task)](); });
-    finest.release();
-    if (apart)
-    {
-      assembly.release();
-    }
-    // Between two steps: what moves may be memory that tasks read.
-    rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
-    builder.finestRows().Ended = !more && assembly.isClosed();
-    builder.handOver();
-    // Vertices that wait for cells are in memory like nodes.
-    this->Run.resident.add(assembly.openVertices() - open);
-    open = assembly.openVertices();
-    this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
-  }
+      finest.release();
+      if (apart)
+      {
+        assembly.release();
+      }
+      // Between two steps: what moves may be memory that tasks read.
+      rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
+      builder.finestRows().Ended = !more && assembly.isClosed();
+      builder.handOver();
+      // Vertices that wait for cells are in memory like nodes.
+      this->Run.resident.add(assembly.openVertices() - open);
+      open = assembly.openVertices();
+      this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
+    });
   finest.advanceDown();
   finest.settle();
   if (assembly.vertices() == 0)

@@ -5,6 +5,7 @@
 #include "Solver/Multigrid/Cycle/RowBlockPacker.h"
 #include "Solver/Multigrid/Engine/Coarsening.h"
 #include "Solver/Multigrid/Engine/Levels.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Report.h"
 
 #include <algorithm>
@@ -76,42 +77,37 @@ public:
     }
   }
 
-  /** The number of tasks of a step, which may run on different threads. What they make for other
-   * levels is handed over afterwards. */
-  int tasks() const { return this->FirstCore + (ApartTasks - 1) * this->ApartLevels; }
-
-  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or
-   * some of them. */
-  void advance(int task)
+  /** Adds the stages of a step: those of each of the finest levels, or a whole level as one stage.
+   * Each works on what the others have published before the step, and what they make for other
+   * levels is handed over after it. */
+  void addStages(Schedule& schedule)
   {
-    if (task >= ApartTasks * this->ApartLevels)
+    using Step = Coarsening<Operators>;
+    struct Part
     {
-      this->advanceLevel(task - (ApartTasks - 1) * this->ApartLevels);
-      return;
+      const char* name;
+      void (Step::*advance)();
+    };
+    // The longest ones of a level come first, so that no thread begins one when the others have
+    // finished. Their costs are measured while they run.
+    for (const Part part : { Part{ "relax P", &Step::advanceInterpolation },
+           Part{ "sparsify, finish rows", &Step::advanceCoarseRows },
+           Part{ "P^T A P", &Step::advanceGathering }, Part{ "A P", &Step::advanceProducts },
+           Part{ "choose C-points, P0", &Step::advanceChoice } })
+    {
+      for (int l = 0; l < this->ApartLevels; ++l)
+      {
+        Step* step = this->Steps[static_cast<std::size_t>(l)].get();
+        schedule.add({ part.name, l, 0.0, [step, part](bool) { (step->*part.advance)(); } });
+      }
     }
-    // The longest tasks of a level come first, so that no thread begins one when the others have
-    // finished.
-    const int l = task % this->ApartLevels;
-    Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
-    switch (task / this->ApartLevels)
+    for (int l = 0; l < this->ApartLevels; ++l)
     {
-      case 0:
-        step.advanceInterpolation();
-        break;
-      case 1:
-        step.advanceCoarseRows();
-        break;
-      case 2:
-        step.advanceGathering();
-        break;
-      case 3:
-        step.advanceProducts();
-        break;
-      case 4:
-        step.advanceLifting();
-        break;
-      default:
-        this->pack(l);
+      schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } });
+    }
+    for (int l = this->ApartLevels; l < this->FirstCore; ++l)
+    {
+      schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
     }
   }
 
@@ -179,8 +175,7 @@ public:
   }
 
 private:
-  static constexpr int ApartTasks = 6; // tasks of a level: see advance()
-  static constexpr int MaxApart = 3;   // levels
+  static constexpr int MaxApart = 3; // levels
 
   void advanceLevel(int l)
   {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Multigrid/OperatorSet.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
 
 #include <algorithm>
@@ -46,6 +47,15 @@ public:
     }
     next = at;
     this->Reached = next == limit;
+  }
+
+  /** The same for the cursor of a stage. */
+  template <class May, class Work>
+  void run(Cursor& next, std::int64_t end, May&& may, Work&& work)
+  {
+    std::int64_t at = next;
+    this->run(at, end, may, work);
+    next = at;
   }
 
 private:

@@ -2,7 +2,7 @@
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 
 #include "Solver/Core/SimdPack.h"
-#include "Solver/Multigrid/Cycle/Pipeline.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <tbb/info.h>
 
@@ -36,7 +36,7 @@ constexpr std::int64_t WindowSpans = 30;
 
 /** What waits between concurrent tasks: measured 3 MiB for surfaces of 40 thousand vertices, 6
  * MiB for those of 3 and 11 million, and less for solids. The longer steps for many threads
- * (Pipeline::stepFor()) take up to three times as much, again less for solids. */
+ * (Schedule::stepFor()) take up to three times as much, again less for solids. */
 constexpr std::int64_t BetweenTasks = std::int64_t(6) << 20;
 
 /** The bytes between tasks out of core, for this number of threads; 0: one per core. */
@@ -48,7 +48,7 @@ std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t leas
   }
   const std::int64_t few = std::min(least, BetweenTasks);
   const int used = threads > 0 ? threads : tbb::info::default_concurrency();
-  const bool areLong = Pipeline::stepFor(used, 1) > 1;
+  const bool areLong = Schedule::stepFor(used, 1) > 1;
   return !areLong ? few : info.cellType == CellType::Triangle ? 3 * few : few + few / 4;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/Pipeline.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -58,7 +58,7 @@ public:
     /** Called in each step after the finest level was loaded. */
     std::function<void()> loaded;
     /** A further stage between the upward and the downward part of the finest level. */
-    Pipeline::Advance beforeDown;
+    std::function<void(bool follows)> beforeDown;
     /** The history of the iterates, if the pass is accelerated. */
     IterateHistory* history = nullptr;
     /** Whether the pass has one chain of stages, which takes the least memory. */
@@ -82,13 +82,13 @@ public:
 private:
   void setScale(double typical);
   void stream(const Further& further);
-  Pipeline stages(const Further& further, int chains);
-  struct Schedule
+  Schedule scheduleOf(const Further& further, int chains);
+  struct Grain
   {
-    std::int64_t step; ///< nodes of the finest level
+    std::int64_t step; ///< nodes of the finest level in a step
     int chains;
   };
-  Schedule schedule(const Further& further) const;
+  Grain grain(const Further& further) const;
   std::int64_t chainsFor(std::int64_t step, const IterateHistory* history) const;
 
   SolveContext& Run;
@@ -126,83 +126,82 @@ template <class Relaxation>
 void Pass<Relaxation>::stream(const Further& further)
 {
   auto& finest = this->Levels.finest();
-  const Schedule schedule = this->schedule(further);
-  const std::int64_t step = schedule.step;
-  const Pipeline stages = this->stages(further, schedule.chains);
-  std::vector<std::function<void()>> files;
-  finest.addReaders(files);
-  finest.addWriters(files);
+  const Grain grain = this->grain(further);
+  const Schedule schedule = this->scheduleOf(further, grain.chains);
   const std::int64_t nodes = finest.window().nodes();
-  const int chains = stages.chains();
-  LongestTaskFirst order(chains + static_cast<int>(files.size()));
-  for (std::int64_t begin = 0; begin < nodes; begin += step)
-  {
-    const std::int64_t last = std::min(nodes, begin + step) - 1;
-    // Rings grow here only, when no task runs.
-    finest.load(last);
-    if (further.loaded)
+  std::int64_t end = 0;
+  schedule.perform(
+    this->Run,
+    [&]
     {
-      further.loaded();
-    }
-    // The cursors at the beginning of the step: also the tasks that write nodes use them.
-    finest.showProgress();
-    this->Run.runConcurrently(order,
-      [&](int task)
+      if (end == nodes)
       {
-        if (task < chains)
-        {
-          stages.advance(task);
-        }
-        else
-        {
-          files[static_cast<std::size_t>(task - chains)]();
-        }
-      });
-    finest.release();
-    this->Run.progress.update(static_cast<double>(last) / static_cast<double>(nodes));
-  }
+        return false;
+      }
+      end = std::min(nodes, end + grain.step);
+      // Rings grow here only, when no task runs.
+      finest.load(end - 1);
+      if (further.loaded)
+      {
+        further.loaded();
+      }
+      // The cursors at the beginning of the step: also the tasks that write nodes use them.
+      finest.publish();
+      return true;
+    },
+    [&]
+    {
+      finest.release();
+      this->Run.progress.update(static_cast<double>(end - 1) / static_cast<double>(nodes));
+    });
   // All is loaded now. The upward part runs to its end; the downward part, which relies on
   // published cursors, follows in a second round.
-  stages.advance();
-  finest.showProgress();
-  stages.advance();
+  schedule.advance();
+  finest.publish();
+  schedule.advance();
   finest.settle();
 }
 
-/** The stages of the pass, cut into chains. A recorder measures each stage, so it gets a chain
- * of each. */
+/** The stages of the pass, cut into chains, and what reads and writes beside them. A recorder
+ * measures each stage, so it gets a chain of each. */
 template <class Relaxation>
-Pipeline Pass<Relaxation>::stages(const Further& further, int chains)
+Schedule Pass<Relaxation>::scheduleOf(const Further& further, int chains)
 {
-  Pipeline stages;
-  this->Levels.finest().addUpward(stages);
+  auto& finest = this->Levels.finest();
+  Schedule schedule;
+  finest.addUpward(schedule);
   if (further.beforeDown)
   {
-    stages.add(static_cast<double>(this->Levels.window().nodes()), further.beforeDown);
+    schedule.add({ "begin the next problem", 0, static_cast<double>(this->Levels.window().nodes()),
+      further.beforeDown });
   }
-  this->Levels.finest().addDownward(stages);
+  finest.addDownward(schedule);
   if (StepRecorder* recorder = this->Run.recorder)
   {
-    recorder->startPass(stages.costs());
-    stages.cutAll();
-    return stages;
+    recorder->startPass(schedule.costs());
+    schedule.cutAll();
   }
-  stages.cut(chains);
-  return stages;
+  else
+  {
+    schedule.cut(chains);
+  }
+  finest.addReaders(schedule);
+  finest.addWriters(schedule);
+  return schedule;
 }
 
 /** The length of the steps and the number of chains for the threads, as far as the memory
  * suffices. Shorter steps are preferred to fewer chains. */
 template <class Relaxation>
-auto Pass<Relaxation>::schedule(const Further& further) const -> Schedule
+auto Pass<Relaxation>::grain(const Further& further) const -> Grain
 {
   const std::int64_t usual = this->Run.options.blockNodes;
   if (further.inOneChain)
   {
     return { usual, 1 };
   }
-  const std::int64_t wanted = Pipeline::chainsFor(this->Run.scheduled);
-  const std::int64_t longer = Pipeline::stepFor(this->Run.scheduled, usual);
+  const std::int64_t wanted = Schedule::chainsFor(this->Run.scheduled);
+  const std::int64_t longer = Schedule::stepFor(this->Run.scheduled, usual);
   const std::int64_t step = this->chainsFor(longer, further.history) < wanted ? usual : longer;
   const std::int64_t chains = this->chainsFor(step, further.history);
   return { step, static_cast<int>(std::clamp(chains, std::int64_t(1), wanted)) };

@@ -40,7 +40,7 @@ public:
   };
   struct Pass
   {
-    std::vector<double> costs; ///< of the stages, which come first among the tasks; see Pipeline
+    std::vector<double> costs; ///< of the stages, which come first among the tasks; see Schedule
     std::vector<Step> steps;
   };
 
@@ -91,6 +91,9 @@ struct SMG_EXPORT SolveContext
   double seconds() const { return this->SecondsBefore + this->Wall.seconds(); }
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
+
+  /** The order of the tasks of a schedule. */
+  static LongestTaskFirst orderOf(int tasks) { return LongestTaskFirst(tasks); }
 
   /** Performs the tasks of a step on the threads, in this order; task(0) on the calling thread.
    * With a recorder, one after the other. */

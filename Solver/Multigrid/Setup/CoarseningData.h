@@ -174,8 +174,8 @@ struct CoarseningData
     , productSlots(apart ? ownSlots[0] : slots)
     , gatherSlots(apart ? ownSlots[1] : slots)
     , sparsifySlots(apart ? ownSlots[2] : slots)
-    , seenCoarse(coarseRows.first())
-    , knownCoarse(coarseRows.first())
+    , publishedCoarse(coarseRows.first())
+    , interpolatedCoarse(coarseRows.first())
     , coarseNodes(coarseRows.first())
   {
     this->begin(fineRows.first(), coarseRows.first());
@@ -244,7 +244,7 @@ struct CoarseningData
   SlotRing &productSlots, &gatherSlots, &sparsifySlots;
   /** The ends of the coarse nodes that the stages know: from relaxInterpolation() on, and from
    * productAP() on. Stages store columns as distances from these. */
-  std::int64_t seenCoarse = 0, knownCoarse = 0;
+  std::int64_t publishedCoarse = 0, interpolatedCoarse = 0;
 
   /** Upper bounds of the number of entries of row i of P0 and of A P. */
   std::int64_t maxInitial(std::int64_t i) const

@@ -40,7 +40,7 @@ void GalerkinProduct::productAP(CoarseningData& data, std::int64_t i)
 {
   // Columns are distances from `near`, the end of the coarse nodes that this stage knows. In a
   // mirrored ring all slots in memory are contiguous around that of `near`.
-  const std::int64_t near = data.knownCoarse;
+  const std::int64_t near = data.interpolatedCoarse;
   Slot* slots = data.productSlots.at(near);
   const auto interpolation = data.interpolation.near(i);
   // Row i of A P is used only through row i of P. Without parents, as for prescribed nodes, it is

@@ -21,8 +21,8 @@
 // neighbours, and of equal magnitudes the first one is kept. Windows and threads therefore do not
 // change a bit.
 //
-// Coarse nodes are given by their distances from data.seenCoarse, the end of the coarse nodes that
-// these stages know.
+// Coarse nodes are given by their distances from data.publishedCoarse, the end of the coarse nodes
+// that these stages know.
 
 namespace smg
 {
@@ -122,7 +122,7 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
   for (int k = 0; k < row.size; ++k)
   {
     const Candidate& from = largest[k];
-    row.entry[k] = { static_cast<CoarseIndex>(data.seenCoarse + from.distance),
+    row.entry[k] = { static_cast<CoarseIndex>(data.publishedCoarse + from.distance),
       from.weight + share * std::fabs(from.weight) };
   }
 }
@@ -153,7 +153,7 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
     // Rounded away: less than half a quantum.
     if (rounded[k] != 0)
     {
-      out.appendAt(row.entry[k].offset(data.seenCoarse), rounded[k]);
+      out.appendAt(row.entry[k].offset(data.publishedCoarse), rounded[k]);
     }
   }
   out.close();
@@ -263,12 +263,12 @@ struct RowEquation
 };
 
 /** Forms the equation of row i from its neighbours for which counts(entry) is true. It calls
- * add(distance of the coarse node from seenCoarse, weight) for each term on the right-hand
+ * add(distance of the coarse node from publishedCoarse, weight) for each term on the right-hand
  * side. */
 template <class Counts, class Add>
 RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts, Add add)
 {
-  const std::int64_t near = data.seenCoarse;
+  const std::int64_t near = data.publishedCoarse;
   const NewestRows newest(data, i);
   const float diagonal = data.patches.diagonal(i);
   float ofItself = 0.0F, ofOld = 0.0F;
@@ -354,7 +354,7 @@ void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
 void ExtendedInterpolation::openPattern(
   const CoarseningData& data, std::int64_t i, std::uint32_t mark)
 {
-  const std::int64_t near = data.seenCoarse;
+  const std::int64_t near = data.publishedCoarse;
   Slot* slots = data.slots.at(near);
   const auto initial = data.initial.near(i);
   std::size_t size = 0;
@@ -378,7 +378,7 @@ void ExtendedInterpolation::openPattern(
 /** Closes the pattern: copies the weights of the columns from their slots, times this factor. */
 void ExtendedInterpolation::closePattern(const CoarseningData& data, float factor)
 {
-  const Slot* slots = data.slots.at(data.seenCoarse);
+  const Slot* slots = data.slots.at(data.publishedCoarse);
   for (Candidate& candidate : this->Row)
   {
     candidate.weight = factor * slots[candidate.distance].value;
@@ -388,7 +388,7 @@ void ExtendedInterpolation::closePattern(const CoarseningData& data, float facto
 /** Solves the equation of row i alone. */
 void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 {
-  Slot* slots = data.slots.at(data.seenCoarse);
+  Slot* slots = data.slots.at(data.publishedCoarse);
   const std::uint32_t mark = data.slots.freshMark();
   this->openPattern(data, i, mark);
   const RowEquation equation = equationOf(
@@ -412,7 +412,7 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 void ExtendedInterpolation::gatherOutside(
   CoarseningData& data, std::int64_t i, const Patch& patch, std::uint32_t inside, Outside& sum)
 {
-  Slot* slots = data.slots.at(data.seenCoarse);
+  Slot* slots = data.slots.at(data.publishedCoarse);
   const std::uint32_t mark = data.slots.freshMark();
   sum.weights.clear();
   const RowEquation equation = equationOf(
@@ -470,7 +470,7 @@ void ExtendedInterpolation::relaxPatch(
     }
     return;
   }
-  Slot* slots = data.slots.at(data.seenCoarse);
+  Slot* slots = data.slots.at(data.publishedCoarse);
   for (int a = 0; a < count; ++a)
   {
     const std::int64_t i = patch.member(members[a]);

@@ -65,7 +65,7 @@ public:
   void append(CoarseningData& data, std::int64_t i) const;
 
 private:
-  /** A column and its weight; the coarse node is given by its distance from seenCoarse. */
+  /** A column and its weight; the coarse node is given by its distance from publishedCoarse. */
   struct Candidate
   {
     std::int32_t distance;

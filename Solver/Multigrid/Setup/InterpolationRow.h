@@ -30,7 +30,7 @@ public:
   InterpolationRow(CoarseningData& data, std::int64_t i, std::int64_t most)
     : Data(data)
     , Row(i)
-    , Near(data.seenCoarse)
+    , Near(data.publishedCoarse)
     , Out(data.interpolation.open(most))
     , Rows(data.interpolation.near(i))
     , FirstChild(data.firstChild.at(Near))
@@ -48,7 +48,7 @@ public:
     }
     this->appendAt(coarseDistance(coarse << 8, this->Near), quanta);
   }
-  /** The same for the coarse node at this distance from seenCoarse. */
+  /** The same for the coarse node at this distance from publishedCoarse. */
   void appendAt(std::int32_t offset, int quanta)
   {
     // The entry ends the chain of its column: rows are appended in stream order, so the chain of a

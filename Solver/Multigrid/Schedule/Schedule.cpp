@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Cycle/Pipeline.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <algorithm>
 #include <numeric>
@@ -13,14 +13,14 @@
 namespace smg
 {
 
-void Pipeline::add(double cost, Advance advance)
+void Schedule::add(Stage stage)
 {
-  this->Stages.push_back({ cost, std::move(advance) });
+  this->Stages.push_back(std::move(stage));
   // Until cut() is called all stages are one chain.
   this->Ends.assign(1, this->Stages.size());
 }
 
-std::vector<double> Pipeline::costs() const
+std::vector<double> Schedule::costs() const
 {
   std::vector<double> costs;
   for (const Stage& stage : this->Stages)
@@ -30,7 +30,7 @@ std::vector<double> Pipeline::costs() const
   return costs;
 }
 
-void Pipeline::cut(int chains)
+void Schedule::cut(int chains)
 {
   double total = 0.0;
   for (const Stage& stage : this->Stages)
@@ -56,23 +56,28 @@ void Pipeline::cut(int chains)
   this->Ends.push_back(this->Stages.size());
 }
 
-void Pipeline::cutAll()
+void Schedule::cutAll()
 {
   this->Ends.resize(this->Stages.size());
   std::iota(this->Ends.begin(), this->Ends.end(), std::size_t(1));
 }
 
-void Pipeline::advance(int chain) const
+void Schedule::run(int task) const
 {
-  const std::size_t first = this->begin(chain);
-  for (std::size_t s = first; s < this->begin(chain + 1); ++s)
+  if (task >= this->chains())
+  {
+    this->Beside[static_cast<std::size_t>(task - this->chains())]();
+    return;
+  }
+  const std::size_t first = this->begin(task);
+  for (std::size_t s = first; s < this->begin(task + 1); ++s)
   {
     // The first stage of a chain sees published cursors only.
     this->Stages[s].advance(s > first);
   }
 }
 
-void Pipeline::advance() const
+void Schedule::advance() const
 {
   for (const Stage& stage : this->Stages)
   {
