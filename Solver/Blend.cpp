@@ -14,14 +14,19 @@
 #include <algorithm>
 #include <optional>
 
+// The entry of a blend. The mesh is read for each of these: the patches, the bounds and what is
+// held; with averaged seams, the gradients inside the patches; the solve for the correction, in
+// which the original values go to a vertex file; and the steps between patches that remain. The
+// result adds the correction to the original values as they are read.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Bytes of what a blend holds beside the solver and the problem: in core, the original values and
- * the gradients. */
+/** Bytes that a blend needs beside the solver and the problem. In core these are the original
+ * values and the gradients; otherwise both are on scratch files. */
 std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient seam, bool inCore)
 {
   constexpr std::int64_t Number = sizeof(double);
@@ -29,11 +34,11 @@ std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient
   return inCore && mesh.vertices > 0 ? mesh.vertices * (columns + gradients) * Number : 0;
 }
 
-/** The progress when the mesh has been read once, when the gradients are known, and when the
- * problem is solved. */
+/** The progress after the first reading of the mesh, when the gradients are known, and after the
+ * solve. */
 constexpr double Prepared = 0.08, Known = 0.12, Solved = 0.9;
 
-/** Solves for the correction; `own` bytes are in use beside it. */
+/** Solves for the correction, within what `own` bytes beside it leave of the memory limit. */
 void solveFor(BlendProblem& problem, MeshSource& mesh, std::int64_t own,
   const SolveOptions& options, BlendedValues& blended)
 {
@@ -51,6 +56,7 @@ void solveFor(BlendProblem& problem, MeshSource& mesh, std::int64_t own,
   }
   catch (const MemoryLimitError& error)
   {
+    // The message has to state the limit that the user knows.
     throw error.inside(own, options.memoryLimit);
   }
   blended.total = blended.correction->report();
@@ -58,7 +64,7 @@ void solveFor(BlendProblem& problem, MeshSource& mesh, std::int64_t own,
     std::max(blended.total.pool_bytes_peak, problem.memory().peak()) + own;
 }
 
-/** The steps between patches in the blended values. */
+/** Finds the steps between patches in the blended values, in one more reading of the mesh. */
 SeamSteps stepsIn(Solution& blended, const std::vector<ColumnSpec>& columns, const StoredMesh& mesh,
   PatchLabels& patches, const ProgressFunction& progress)
 {
@@ -72,12 +78,14 @@ SeamSteps stepsIn(Solution& blended, const std::vector<ColumnSpec>& columns, con
       blended.read(block.firstVertex, block.vertices(), open.startBlock(block));
       for (std::size_t c = 0; c < block.corners.size(); c += corners)
       {
+        // The same edges as before the blend, of all cells.
         steps.add(std::span(block.corners).subspan(c, corners), open);
       }
     });
   return steps;
 }
 
+/** Reports the steps of each column before and after. */
 void addSeams(const BlendProblem& problem, const SeamSteps& after, Report& report)
 {
   const std::vector<double> stepsBefore = problem.steps().largest(), stepsAfter = after.largest();
@@ -87,6 +95,8 @@ void addSeams(const BlendProblem& problem, const SeamSteps& after, Report& repor
   }
 }
 
+/** Adds notes: that there was nothing to blend, or that the column of patches may be the wrong
+ * one. */
 void addNotes(const std::string& patch, const SeamSteps& steps, std::int64_t cells, Report& report)
 {
   if (steps.edges() == 0)
@@ -94,6 +104,7 @@ void addNotes(const std::string& patch, const SeamSteps& steps, std::int64_t cel
     report.notes.push_back(
       "No edge connects two patches of the column '" + patch + "': the columns stay as they are.");
   }
+  // A column of values instead of numbers of patches makes every cell one between patches.
   if (steps.cells() > cells / 2)
   {
     report.notes.push_back(std::to_string(steps.cells()) + " of " + std::to_string(cells) +
@@ -133,11 +144,13 @@ std::unique_ptr<Solution> blend(
   SolveOptions options = given;
   if (blended->scratch)
   {
-    // Its limit is that of all scratch files.
+    // The folder counts the files of the solve that are made in it, too, for one common limit.
     options.scratch = blended->scratch->path();
   }
+  // From here on, every part has what the others leave of the memory limit.
   const std::int64_t own =
     ownBytes(mesh.info(), problem.columns(), description.seam, options.inCore);
+  // What the problem keeps while it is prepared has the same limit as the solve later.
   problem.memory().setLimit(std::max<std::int64_t>(options.memoryLimit - own, 1));
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   visitBlocks(*source(), options.progress, 0.0, Prepared,
@@ -151,6 +164,7 @@ std::unique_ptr<Solution> blend(
       blended->storage(), problem.memory(), mesh.info().cellType, problem.columns());
     visitBlocks(*source(), options.progress, Prepared, Known,
       [&](const MeshBlock& block) { problem.addTo(*gradients, block); });
+    // The file is complete: from here on, the problem reads it.
     gradients->finish();
     problem.average(*gradients);
   }
@@ -159,6 +173,8 @@ std::unique_ptr<Solution> blend(
     stepsIn(*blended, problem.specs(), mesh, problem.patches(), options.progress);
 
   Report& report = blended->total;
+  // In addition to the passes of the solve: the patches, the steps that remain and, if they are
+  // averaged, the gradients.
   report.passes += description.seam == SeamGradient::Average ? 3 : 2;
   addSeams(problem, after, report);
   countClipped(*blended, problem.specs(), report);
@@ -167,6 +183,7 @@ std::unique_ptr<Solution> blend(
   report.seconds.total = wall.seconds();
   report.cpu_seconds = processSeconds() - cpuAtStart;
   addNotes(description.patch, after, mesh.info().cells, report);
+  // The last step may cancel like any other.
   if (options.progress && !options.progress(1.0))
   {
     throw Cancelled();

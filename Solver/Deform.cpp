@@ -12,17 +12,23 @@
 #include "smg/Error.h"
 #include "smg/Solve.h"
 
+// The entries of deformations, deform() for a mesh stream and InteractiveDeformation for a mesh in
+// memory: the instances of the engine templates, which are kept out of the public headers.
+
 namespace smg
 {
 
+/** Checks what can be checked without the mesh. */
 void checkOptions(const DeformOptions& options)
 {
+  // The equations as printed in the paper do not converge to the solution.
   if (options.operators == Shi2006::name)
   {
     throw Error("a deformation needs solutions, which the operator set " + options.operators +
                 " does not give: use " + Extended::name);
   }
   checkOptions(static_cast<const SolveOptions&>(options));
+  // There is no estimate of the discretisation error of the two steps.
   refuseAutomaticTolerance(options, "a deformation");
   checkOperators(options);
   if (options.cycles < 0)
@@ -34,8 +40,7 @@ void checkOptions(const DeformOptions& options)
 namespace
 {
 
-/**
- * The most effective V-cycles, since a given number of them per step must achieve much with few.
+/** The operators with the fastest V-cycles: a deformation makes few of them, often a given number.
  */
 Extended operatorsFor(CellType cells)
 {
@@ -44,11 +49,13 @@ Extended operatorsFor(CellType cells)
 
 } // namespace
 
+/** The engine releases everything but the positions when it hands them over. */
 std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const DeformOptions& options)
 {
   checkOptions(options);
   const CellType cells = mesh.info().cellType;
   DeformationEngine<Extended> engine(operatorsFor(cells), options, cells);
+  // The mesh is read here, in the first pass; the handles are asked block by block.
   engine.deform(mesh, handles);
   return engine.takeSolution();
 }
@@ -65,6 +72,7 @@ std::unique_ptr<Solution> deform(const StoredMesh& mesh, const DeformationDescri
   return deform(*source(), handles, completed);
 }
 
+/** Hides the templates of the engine from the header. */
 struct InteractiveDeformation::Implementation
 {
   InteractiveEngine<Extended> engine;
@@ -73,8 +81,10 @@ struct InteractiveDeformation::Implementation
 namespace
 {
 
+/** The options of an interactive deformation, which are checked like others. */
 DeformOptions inCore(DeformOptions options)
 {
+  // Updates access the values of all vertices in any order.
   options.inCore = true;
   checkOptions(options);
   return options;
@@ -94,6 +104,7 @@ InteractiveDeformation::~InteractiveDeformation() = default;
 
 bool InteractiveDeformation::update(const VertexHandles& handles)
 {
+  // False if other vertices are held: then the matrix is another one, and a new object is needed.
   return this->Self->engine.deformAgain(handles);
 }
 

@@ -9,12 +9,16 @@
 #include <cmath>
 #include <utility>
 
+// The entry of distances: checks the options, and chooses between paths within the mesh and
+// straight lines to its walls.
+
 namespace smg
 {
 
 namespace
 {
 
+/** Throws Error with this sentence unless the condition holds. */
 void require(bool holds, const char* sentence)
 {
   if (!holds)
@@ -27,6 +31,7 @@ void require(bool holds, const char* sentence)
 
 std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
 {
+  // The last number is the value at vertices that the solution does not have.
   std::vector<ColumnSpec> columns{ { DistanceName, ScalarType::Float64, 1, HUGE_VAL } };
   if (description.source)
   {
@@ -39,6 +44,7 @@ std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
   return columns;
 }
 
+/** The options are checked before anything is created or read. */
 std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescription& description,
   const DistanceOptions& options, const std::string& name)
 {
@@ -46,6 +52,8 @@ std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescrip
   require(options.scratchLimit >= 0, "the limit of scratch files must not be negative");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.maxPasses >= 1, "at least one pass must be allowed");
+  // The scratch folder is created here, before the mesh is read: an error of the folder comes
+  // first.
   auto run = std::make_unique<DistanceRun>(options);
   return description.wall ? wallDistance(mesh, description, std::move(run), name)
                           : pathDistance(mesh, description, std::move(run), name);

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <string>
 
+// The entry of smoothing: checks what can be checked without the mesh, before anything is read, and
+// leaves the work to MeshFairing.
+
 namespace smg
 {
 namespace
@@ -26,6 +29,7 @@ void requireThat(bool holds, const std::string& sentence)
 
 void checkOptions(const Smoothing& options)
 {
+  // The equations of Shi2006 do not converge to the solution.
   requireThat(options.operators == Extended::name,
     "smoothing needs solutions, which the operator set " + options.operators +
       " does not give: use " + Extended::name);
@@ -33,6 +37,7 @@ void checkOptions(const Smoothing& options)
   refuseAutomaticTolerance(options, "smoothing");
   requireThat(
     options.checkpoint.folder.empty(), "smoothing has no checkpoints: leave the folder out");
+  // Whether the size fits the mesh is known after the first reading: MeshFairing::setSize().
   requireThat(std::isfinite(options.size.value) && options.size.value > 0.0,
     "the size of the details to smooth must be a positive number");
   requireThat(
@@ -41,6 +46,7 @@ void checkOptions(const Smoothing& options)
     "the angle of the edges to keep must lie between 0 and 180 degrees, both excluded");
   requireThat(options.column.empty() || !options.keepEdges,
     "edges are kept when positions are smoothed: name no column, or keep no edges");
+  // Curves are smoothed by moving their vertices, which a column does not do.
   requireThat(options.column.empty() || options.boundary != SmoothedBoundary::Smooth,
     "the boundary is smoothed as curves only with the positions: of a column, fix it or leave it "
     "free");
@@ -51,6 +57,8 @@ std::unique_ptr<Solution> smooth(
 {
   const Smoothing smoothing{ options, description };
   checkOptions(smoothing);
+  // Everything that depends on the mesh, including its columns, is checked by the constructor and
+  // the survey.
   return MeshFairing(mesh, smoothing).run();
 }
 

@@ -5,6 +5,21 @@
 #include <span>
 #include <utility>
 
+// From the mesh stream to the rows of the finest level, in one pass (docs/architecture.md, "A
+// pass"). Four stages follow each other: the cells of a block are weighed, for which the problem is
+// asked; their corners are connected, which sums their weights over the edges; vertices that become
+// final are collected with their edges; and collected vertices become rows, right-hand sides and
+// initial values.
+//
+// On one thread, add() runs all stages on one block. On several threads, weigh(), connect() and
+// closeRows() run at the same time, each on what the stage before it made in the step before. Both
+// ways, cells are taken in the order of the stream and vertices in ascending order, and every sum
+// has its terms in this order. So the rows have the same bits for any size of blocks and any number
+// of threads: blocks only determine when a vertex becomes final.
+//
+// The time is linear in the number of cells. The memory holds the open vertices, whose number is at
+// most of the order of the span of the stream, and one block for each stage.
+
 namespace smg
 {
 namespace
@@ -51,14 +66,20 @@ void Assembly::finish()
 void Assembly::beginApart(std::int64_t vertices)
 {
   std::swap(this->Collected, this->Arrived);
+  // Memory beyond what a usual block takes is not kept for the next one.
   if (accountedBytes(this->Collected.bytes()) > 0)
   {
     this->Collected = {};
   }
+  // Collection goes on where the vertices end that closeRows() is about to complete.
   this->Collected.clear(this->Arrived.end());
+  // weigh() fills what connect() emptied in the last step, and the other way round.
   std::swap(this->Weighed, this->Connected);
   this->Weighed.clear();
+  // Between two steps, since the coarse levels read it on other threads.
   this->Out.weightScale = this->WeightScale;
+  // Within the step the rings must not move: connect() and closeRows() read earlier vertices while
+  // weigh() appends.
   this->Cells.reserve(vertices);
   this->beginRows();
 }
@@ -79,6 +100,8 @@ void Assembly::weigh(const MeshBlock& block)
     this->Cells.weigh(block, this->Weighed);
     return;
   }
+  // With data on facets or edge targets, collecting vertices needs the facets of this block, or
+  // asks the problem: so all but closeRows() is done here.
   this->Cells.add(block);
   this->collectBelow(block.finalized, true);
 }
@@ -88,6 +111,7 @@ void Assembly::weighRest()
   this->Check.finish(this->Info);
   if (this->ConnectsApart)
   {
+    // A step later, connect() finds no cells and collects all vertices that are left.
     this->Weighed.vertices = this->Weighed.finalized = this->vertices();
     return;
   }
@@ -103,7 +127,8 @@ void Assembly::connect()
   }
 }
 
-/** Collects the vertices below `end`, and completes their rows unless another thread does. */
+/** Collects the vertices below `end`, and completes their rows unless another task does (`apart`).
+ */
 void Assembly::collectBelow(std::int64_t end, bool apart)
 {
   while (this->Collected.end() < end)
@@ -113,11 +138,13 @@ void Assembly::collectBelow(std::int64_t end, bool apart)
       accountedBytes(this->Collected.bytes()) + accountedBytes(this->Arrived.bytes()));
     if (!apart)
     {
-      // Changes once, at the first weighted cell: the coarse levels, on other threads, read it.
+      // It changes only once, at the first weighted cell. Written only then, since the coarse
+      // levels read it on other threads.
       if (this->Out.weightScale != this->WeightScale)
       {
         this->Out.weightScale = this->WeightScale;
       }
+      // The rows of a batch are completed at once, while its data are in the cache.
       std::swap(this->Collected, this->Arrived);
       this->Collected.clear(this->Arrived.end());
       this->closeRows();
@@ -125,6 +152,8 @@ void Assembly::collectBelow(std::int64_t end, bool apart)
   }
 }
 
+/** Collects the vertices below `end`, at most BatchRows, and asks for the targets of all their
+ * edges in one call. */
 void Assembly::collectBatch(std::int64_t end)
 {
   FinalVertices& made = this->Collected;
@@ -149,6 +178,7 @@ void Assembly::askTargets(std::int64_t begin, std::size_t edge)
   this->RowEnds.clear();
   for (auto k = static_cast<std::size_t>(begin - made.first); k < made.vertices.size(); ++k)
   {
+    // `end` counts all collected edges, the query only those of this batch.
     this->RowEnds.push_back(made.vertices[k].end - edge);
   }
   const std::size_t edges = made.neighbours.size() - edge;
@@ -158,7 +188,8 @@ void Assembly::askTargets(std::int64_t begin, std::size_t edge)
     first + edges * static_cast<std::size_t>(this->Cells.vertices.values.lanes()));
 }
 
-/** Collects the next vertex. */
+/** Collects the next vertex, all of whose cells have been added: its edges, loads, mass and
+ * component. */
 void Assembly::collectVertex(std::int64_t i)
 {
   FinalVertices& made = this->Collected;
@@ -166,6 +197,7 @@ void Assembly::collectVertex(std::int64_t i)
   const std::size_t before = made.neighbours.size();
   this->Cells.edges.take(i, open.points, made.neighbours);
   const std::size_t end = made.neighbours.size();
+  // The edges are in ascending order of the neighbour.
   this->Reach.close(i, end == before ? i : std::max(i, made.neighbours.back().to));
   const double rowSum = this->Cells.loads.close(i);
   const double* load = this->Cells.loads.load();
@@ -173,19 +205,25 @@ void Assembly::collectVertex(std::int64_t i)
   const double mass = open.mass[i];
   const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, rowSum);
   const bool isUndetermined = isKnown && open.dirichlet[i] < 0;
-  // A vertex with only flat cells has no component, but may have a facet.
+  // Without a prescribed value, edges or a rowSum, nothing determines the vertex.
   const std::int32_t root =
     isUndetermined ? this->Cells.parts.closeUndetermined(i) : this->Cells.parts.close(i, mass);
+  // A vertex of flat cells only has no component (-1), but its boundary facets may give it a
+  // rowSum.
   if (root >= 0 && (rowSum > 0.0 || isKnown))
   {
     this->Parts.anchor(root);
   }
-  // The root depends on which later cells are in the block, the label does not.
+  // Sums of components are kept by label: the root depends on which later cells are in the block,
+  // the label does not. Whether the component still is free may depend on it, too, but then it gets
+  // a constraint later, and its sums are not used.
   const bool counts = root >= 0 && this->Parts.isFree(root);
   made.vertices.push_back({ end, rowSum, mass, this->Reach[i],
     this->Cells.policy.own() ? open.scale[i] : 1.0F, counts ? this->Cells.parts.label(i) : -1 });
 }
 
+/** Completes the rows of the arrived vertices. A row reads values and positions of all its
+ * neighbours, some of which are still open. */
 void Assembly::closeRows()
 {
   const FinalVertices& made = this->Arrived;
@@ -204,6 +242,8 @@ void Assembly::closeRows()
 
 void Assembly::release()
 {
+  // Values and positions are needed until the rows of all neighbours are closed; masses, loads,
+  // edges and labels have been copied when their vertex was collected.
   const std::int64_t collected = this->Collected.end();
   this->Cells.vertices.release(this->Reach.advance(this->Closed), collected);
   this->Cells.parts.release(collected);

@@ -47,17 +47,17 @@ public:
   void finish();
 
   // The same in steps on several threads: between beginApart() and release(), weigh() or
-  // weighRest(), connect() and closeRows() may run at the same time, each on what the one before it
-  // has made in the step before.
+  // weighRest(), connect() and closeRows() may run at the same time, each on what the stage before
+  // it made in the previous step.
 
-  /** Begins a step that may weigh the cells of a block of so many vertices. */
+  /** Begins a step, which may weigh the cells of a block of up to this many vertices. */
   void beginApart(std::int64_t vertices);
-  /** Adds the vertices of a block and weighs its cells, for which the problem is asked. */
+  /** Adds the vertices of a block and weighs its cells, which asks the problem for their data. */
   void weigh(const MeshBlock& block);
-  /** The same at the end of the stream. */
+  /** Instead of weigh() after the last block. */
   void weighRest();
-  /** Connects the corners of the weighed cells, and collects the vertices that become final; where
-   * this asks the problem or needs its facets, weigh() has done it. */
+  /** Connects the corners of the weighed cells and collects the vertices that become final. If the
+   * problem has edge targets or data on facets, weigh() does this instead. */
   void connect();
   /** Completes the rows of collected vertices. */
   void closeRows();
@@ -73,7 +73,7 @@ public:
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }
-  /** The data of the cells. */
+  /** The weighing of the cells and its counts. */
   const StiffnessRules& weights() const { return this->Cells.policy; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
@@ -98,14 +98,14 @@ private:
 
   // By open vertex.
   CellAssembly Cells;
-  // Of a block each, and not accounted for: a constant times the block of the mesh source.
-  ElementMatrices Weighed, Connected; // the latter are those that connect() takes
+  // One block each. Not accounted for: a constant times the size of a block of the mesh source.
+  ElementMatrices Weighed, Connected; // filled by weigh(), emptied by connect()
   NeighbourReach Reach;
 
   EdgeTargets Targets;
   const bool ConnectsApart;
-  std::vector<std::size_t> RowEnds; // of a query
-  FinalVertices Collected, Arrived; // the latter are those that closeRows() completes
+  std::vector<std::size_t> RowEnds; // of a query for edge targets
+  FinalVertices Collected, Arrived; // closeRows() completes the arrived ones
   Reservation FinalMemory;          // of both
   RowAssembly Rows;
 

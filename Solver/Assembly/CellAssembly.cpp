@@ -3,6 +3,14 @@
 
 #include <algorithm>
 
+// What cells contribute to their vertices and edges: stiffness weights, lumped masses, loads, and
+// the connected components.
+//
+// The work on a cell has two halves. weigh() asks the problem and computes the weights and loads;
+// connect() adds the weights to the edges, the masses to the vertices, and joins the components.
+// Both take the cells in the order of the stream, so that every sum has the same bits whether the
+// halves alternate on one thread or run at the same time on two. The time per cell is constant.
+
 namespace smg
 {
 namespace
@@ -28,7 +36,7 @@ CellAssembly::CellAssembly(Pool& pool, CellType type, Problem& problem, double& 
 
 void CellAssembly::add(const MeshBlock& block)
 {
-  // A few cells at a time: their weights remain in the cache.
+  // A few cells at a time, whose weights remain in the cache between the two halves.
   constexpr std::size_t Batch = 256;
   this->addVertices(block);
   this->extend(this->vertices.end());
@@ -64,6 +72,7 @@ void CellAssembly::connect(const ElementMatrices& cells)
   this->connect(cells.cells);
 }
 
+/** Adds what the weighing half uses; extend() adds what only connect() uses, on its own thread. */
 void CellAssembly::addVertices(const MeshBlock& block)
 {
   this->vertices.add(block);
@@ -102,6 +111,8 @@ void CellAssembly::weigh(
   }
   const CellWeights weights = this->policy.weigh(corners, points, flags);
   const bool degenerate = weights.measure == 0.0;
+  // A flat cell that connects its corners is kept with weights of 0: its edges get the smallest
+  // weight.
   if (!degenerate || this->policy.connectsFlat(corners, flags))
   {
     ElementMatrix& cell = to.emplace_back();
@@ -109,6 +120,7 @@ void CellAssembly::weigh(
     cell.weights = weights;
     cell.scale = this->policy.scale();
   }
+  // A cell without measure has no share of sources, screening or fields.
   if (!degenerate && this->policy.own())
   {
     this->loads.addCell(corners, points, *this->policy.own());
@@ -123,10 +135,13 @@ void CellAssembly::connect(std::span<const ElementMatrix> cells)
   }
 }
 
+/** Adds the weights and the mass of a cell to its edges and corners, which become one component. */
 void CellAssembly::connect(const ElementMatrix& cell)
 {
   const int count = cornersOf(this->Type);
   this->parts.join(cell.corners, count);
+  // Lumping: each corner has the same share of the area or volume. The masses are written here
+  // though weigh() extends their ring: reserve() has made room, so that it does not move meanwhile.
   const double mass = cell.weights.measure / count;
   const double* points[4] = {};
   for (int k = 0; k < count; ++k)
@@ -136,6 +151,8 @@ void CellAssembly::connect(const ElementMatrix& cell)
   }
   for (int k = 0; this->policy.own() && k < count; ++k)
   {
+    // The largest scale at a vertex decides which weights of its row are usual; see
+    // RowAssembly::addEdge().
     float& scale = this->vertices.scale[cell.corners[k]];
     scale = std::max(scale, static_cast<float>(cell.scale));
   }

@@ -18,7 +18,7 @@
 namespace smg
 {
 
-/** A cell that connects its corners, with the weights of its edges, which are 0 if it is flat. */
+/** A cell that connects its corners, with the weights of its edges; these are 0 if it is flat. */
 struct ElementMatrix
 {
   std::int64_t corners[4]; ///< 3 of a triangle
@@ -41,8 +41,8 @@ struct ElementMatrices
   }
 };
 
-/** What cells contribute to their vertices and edges, summed for open vertices: weights, masses,
- * loads and components. Assembly makes rows of it in stream order. */
+/** The contributions of cells to their vertices and edges, summed for open vertices: weights,
+ * masses, loads and components. Assembly turns them into rows in stream order. */
 struct SMG_EXPORT CellAssembly
 {
   /** `scale`: see StiffnessRules; `labels` receives the component of each closed vertex. */
@@ -53,15 +53,16 @@ struct SMG_EXPORT CellAssembly
    * data. */
   void add(const MeshBlock& block);
 
-  // The same in two steps, on two threads: connect() of some cells may run at the same time as
-  // weigh() of the block after them if there is room for this. Not with data on facets: those
-  // of a block are added while others are taken.
+  // The same in two steps on two threads: connect() of the cells of a block may run at the same
+  // time as weigh() of the next block, if room has been reserved for it. Not if the problem has
+  // data on facets: weighing would add facets while the other thread takes the facets of final
+  // vertices.
 
   bool mayConnectApart() const { return !this->loads.facets(); }
-  /** Provides room for so many more vertices. */
+  /** Provides room for this many more vertices. */
   void reserve(std::int64_t vertices);
-  /** Adds the vertices of a block and the loads in its cells; `to` receives those of its cells that
-   * connect their corners. Throws Error if the problem returns invalid data. */
+  /** Adds the vertices of a block and the loads of its cells. `to` receives the cells that connect
+   * their corners. Throws Error if the problem returns invalid data. */
   void weigh(const MeshBlock& block, ElementMatrices& to);
   /** Connects the corners of the cells. */
   void connect(const ElementMatrices& cells);

@@ -10,6 +10,24 @@
 #include <limits>
 #include <utility>
 
+// The connected components of the mesh, found while it is read, and what makes components without a
+// constraint solvable.
+//
+// Labels are joined by a union-find structure: by size, so that paths to the roots have logarithmic
+// length, and without path compression, so that root() is const. Sums (of right-hand sides, initial
+// values, residuals, masses) are kept by the label that a vertex had, and are added to the sums of
+// the root only in settle(), in ascending order of the labels. So their bits do not depend on when
+// labels were joined, and one thread may sum while another one joins.
+//
+// On a component without a constraint the matrix is singular, with constants in its null space:
+// there is a solution if b sums to 0, and it is unique up to a constant. The mean source is
+// subtracted from b (rightSideShifts()), and the constant is chosen such that the solution has the
+// same mean as the initial values (meanShifts()).
+//
+// Memory: a few numbers per label and column; the label of each vertex in memory or on a scratch
+// file (ComponentLabels), 4 bytes for a block of 1024 vertices of one component that has a
+// constraint.
+
 namespace smg
 {
 
@@ -25,7 +43,7 @@ std::int32_t Components::add()
   return label;
 }
 
-/** Accounts for the memory of so many more labels. */
+/** Accounts for the memory of this many more labels. */
 void Components::account(std::int64_t labels)
 {
   if (this->Account)
@@ -44,7 +62,8 @@ void Components::load(StateReader& state)
                 this->Summed.size() == this->Of.size() * static_cast<std::size_t>(this->Columns));
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    // Labels are joined to those of larger components, hence without circles.
+    // A label has been joined to one of at least as many labels, which then counts both. This also
+    // excludes cycles, in which root() would not end.
     const auto parent = static_cast<std::size_t>(this->Of[label].parent);
     state.require(parent < this->Of.size() &&
                   (parent == label || this->Of[parent].labels > this->Of[label].labels));
@@ -82,6 +101,8 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
   return a;
 }
 
+/** Makes room for the sums of the first `labels` labels. Not in add(), which another thread may
+ * call during count(). */
 void Components::extendCounts(std::size_t labels)
 {
   if (labels > this->Counted.size())
@@ -122,6 +143,7 @@ void Components::settle()
       continue;
     }
     const auto root = static_cast<std::size_t>(this->root(static_cast<std::int32_t>(label)));
+    // What is moved is zeroed, so that another settle() adds nothing.
     Unknowns& whole = this->Counted[root];
     const Unknowns part = std::exchange(this->Counted[label], {});
     whole.number += part.number;
@@ -141,6 +163,8 @@ void Components::settle()
   }
 }
 
+/** All numbers are passed as doubles in one array: a single exchange between processes. Counts are
+ * exact in them up to 2^53. */
 void Components::combine(const std::function<void(std::span<double>)>& add)
 {
   this->settle();
@@ -161,6 +185,7 @@ void Components::combine(const std::function<void(std::span<double>)>& add)
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
     Unknowns& all = this->Counted[label];
+    // The order is that in which the numbers were packed above.
     this->Of[label].anchored = *next++ > 0.0;
     all.number = static_cast<std::int64_t>(*next++);
     all.mass = *next++;
@@ -200,6 +225,8 @@ std::int64_t Components::freeComponents() const
 template <class F>
 void Components::forShifts(F&& f) const
 {
+  // A compatible right-hand side sums to 0 only up to rounding, which is not to be reported as a
+  // source.
   constexpr double Rounding = 1e-12;
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
@@ -298,6 +325,7 @@ void ComponentLabels::useScratch(const ScratchFolder& folder, IoStatistics& stat
   this->Scratch->startPass(true);
 }
 
+/** Stores complete blocks, and keeps the rest for the next call. */
 void ComponentLabels::append(std::span<const std::int32_t> labels, std::span<const double> masses)
 {
   this->Count += static_cast<std::int64_t>(labels.size());
@@ -325,7 +353,9 @@ void ComponentLabels::finish()
   }
 }
 
-/** Most blocks have one label only, which is stored once, and no masses. */
+/** Stores the next block. Most blocks have only one label, which is stored once. Masses are stored
+ * only if a component of the block may be free: only then are means and shifts needed. A component
+ * that has a constraint keeps it. */
 void ComponentLabels::store(std::size_t first, std::size_t count)
 {
   const auto labels = std::span<const std::int32_t>(this->Labels).subspan(first, count);
@@ -347,6 +377,7 @@ void ComponentLabels::store(std::size_t first, std::size_t count)
   this->Stored.push_back(this->Record);
 }
 
+/** The block that was read last is kept, since its vertices are asked for one after the other. */
 ComponentLabels::Entries ComponentLabels::block(std::int64_t index)
 {
   if (this->Cached != index)
@@ -370,7 +401,8 @@ std::size_t ComponentLabels::blockCount(std::int64_t index) const
   return std::min(Block, static_cast<std::size_t>(this->Count) - first);
 }
 
-/** A record has one or all labels, followed by no or all masses. */
+/** Decodes a record: one or all labels, followed by no or all masses. Its size tells which: labels
+ * alone take at most 4 bytes per vertex, masses 8. */
 void ComponentLabels::decode(std::span<const std::byte> record, std::size_t count)
 {
   const bool masses = record.size() >= count * sizeof(double);
@@ -389,6 +421,7 @@ void ComponentLabels::save(StateWriter& state)
   this->Scratch->save(state);
 }
 
+/** Labels are checked before they are used as indices. */
 void ComponentLabels::load(StateReader& state)
 {
   state.part("labels");
@@ -418,7 +451,8 @@ void OpenComponents::extend(std::int64_t vertices)
   }
 }
 
-/** Joins corners that do not all have the same label. */
+/** Joins corners that do not all have the same label. All of them get the first label that is
+ * found, or a new one: later cells then find equal labels, and need no search for roots. */
 void OpenComponents::joinOthers(const std::int64_t* corners, int count)
 {
   std::int32_t* of[4] = {};
@@ -438,6 +472,8 @@ void OpenComponents::joinOthers(const std::int64_t* corners, int count)
   }
 }
 
+/** Passes on the current root, which shortens later searches; labels that are joined afterwards are
+ * resolved when they are read. */
 std::int32_t OpenComponents::close(std::int64_t i, double mass)
 {
   const std::int32_t label =
@@ -450,6 +486,7 @@ std::int32_t OpenComponents::close(std::int64_t i, double mass)
 std::int32_t OpenComponents::closeUndetermined(std::int64_t i)
 {
   const std::int32_t label = this->close(i, 0.0);
+  // Its component, if any, is returned, but its label says that the value is no solution.
   this->LabelBatch.back() = ComponentLabels::Undetermined;
   return label;
 }

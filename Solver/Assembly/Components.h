@@ -19,13 +19,13 @@ namespace smg
 
 /**
  * The connected components of the mesh during a pass: each vertex has a label, and labels of
- * connected vertices are joined. A component without a constrained vertex (a free component)
- * determines its solution only up to a constant, and only if its right-hand side sums to zero; this
- * class accumulates the required sums. Means are weighted by the lumped masses of the vertices, so
- * that a constant source is subtracted from the right-hand side, or by 1 if there are none.
+ * connected vertices are joined. On a component without a constrained vertex (a free component),
+ * there is a solution only if the right-hand side sums to zero, and it is unique up to a constant;
+ * this class accumulates the sums that this takes. Means are weighted by the lumped masses of the
+ * vertices, so that it is a constant source that is subtracted; without masses, by 1.
  *
- * One thread may count() while another one adds, joins and anchors labels; the sums of a label do
- * not depend on when it is joined. settle() ends this.
+ * One thread may count() while another one adds, joins and anchors labels, since the sums of a
+ * label do not depend on when it is joined. settle() ends this.
  */
 class SMG_EXPORT Components
 {
@@ -53,7 +53,8 @@ public:
   std::int64_t components() const;
   std::int64_t freeComponents() const;
 
-  /** Adds what has been counted for joined labels to their roots, for all that follows. */
+  /** Adds the sums of joined labels to those of their roots. The shifts and means below need this.
+   */
   void settle();
 
   /** Per column and component (label-major): the mean source, sum of b / sum of masses; 0 for
@@ -79,8 +80,8 @@ public:
     return !this->Of[static_cast<std::size_t>(root)].anchored;
   }
 
-  /** Replaces the sums of all labels by those over several processes that have the same labels,
-   * which `add` computes in place. */
+  /** Replaces the sums of all labels by their sums over several processes that use the same labels.
+   * `add` replaces an array of numbers by its sum over the processes. */
   void combine(const std::function<void(std::span<double>)>& add);
 
   void save(StateWriter& state) { state(this->Of, this->Counted, this->Summed); }
@@ -139,19 +140,19 @@ private:
   int Columns;
   Pool* Account;
   std::vector<Component> Of;
-  // Of the labels so far for which something has been counted.
+  // For labels up to the largest one counted so far; for all of them after settle().
   std::vector<Unknowns> Counted;
   std::vector<Sums> Summed; // `Columns` per label
 };
 
-/** The component label of every vertex, and its mass if the component may be free, in memory or in
- * a scratch file, written once. */
+/** The component label of every vertex, and its mass if the component may be free. Written once,
+ * kept in memory or in a scratch file. */
 class SMG_EXPORT ComponentLabels
 {
 public:
   /** The number of vertices of a block; the last one may be shorter. */
   static constexpr std::size_t Block = 1024;
-  // Instead of a label: a vertex of no component, and one that nothing determines.
+  // Instead of a label: for a vertex of no component, and for one that nothing determines.
   static constexpr std::int32_t None = -1, Undetermined = -2;
 
   /** The data of the vertices of a block. */
@@ -227,12 +228,12 @@ public:
       this->joinOthers(corners, count);
     }
   }
-  /** A label of the component of an open vertex, which depends on its cells and those before them
-   * only; -1: none. */
+  /** A label of the component of an open vertex; -1: none. It depends only on the cells of the
+   * vertex and on cells before them in the stream, not on blocks. */
   std::int32_t label(std::int64_t i) const { return this->Labels[i]; }
   /** Closes vertex i, the next one, with this mass; returns the root of its component, or -1. */
   std::int32_t close(std::int64_t i, double mass);
-  /** The same of a vertex that nothing determines. */
+  /** close() for a vertex that nothing determines. */
   std::int32_t closeUndetermined(std::int64_t i);
   /** Passes on the closed vertices. */
   void flush();

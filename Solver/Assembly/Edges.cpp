@@ -7,6 +7,16 @@
 #include <cmath>
 #include <string>
 
+// The weights of the edges of a mesh stream, and the targets of a problem with edge targets.
+//
+// The lower vertex of an edge stores the sum over its cells, which is accumulated in the order of
+// the stream and passed to the upper vertex as it is. So both rows of an edge get the same double,
+// which neither blocks nor threads change. The floor of Weights::Clamped is applied when a row
+// takes its edges: at both ends from the same numbers.
+//
+// Expected constant time per edge of a cell; memory for the open vertices only, those that may
+// still get cells.
+
 namespace smg
 {
 
@@ -17,6 +27,8 @@ EdgeStiffness::EdgeStiffness(Pool& pool, const Problem& problem, CellType type)
 {
   if (problem.hasCells() && this->Kind == Weights::Clamped)
   {
+    // Only a conductivity or weights of the problem scale the floor; otherwise it is the same for
+    // all cells.
     this->Scales.emplace(pool, OpenEdges::usual(type));
   }
 }
@@ -56,13 +68,15 @@ void EdgeStiffness::take(
   {
     const std::int64_t to = edge->to;
     double weight = edge->weight;
+    // Before the floor, which would raise -infinity to a weight.
     if (weight == Elsewhere)
     {
       continue;
     }
     if (this->Kind == Weights::Clamped)
     {
-      // 0: only flat cells have the edge.
+      // add() enters every edge in both lists at the same time, so they have the same order. A
+      // scale of 0 says that only flat cells have the edge; the floor then is the one for K = 1.
       const double least =
         this->Scales ? this->RowScales[static_cast<std::size_t>(edge - first)].weight : 0.0;
       const double floor =
@@ -70,10 +84,12 @@ void EdgeStiffness::take(
       this->Clamped += weight < floor ? 1 : 0;
       weight = std::max(weight, floor);
     }
+    // Rows store weights in single precision.
     if (!std::isfinite(static_cast<float>(weight)))
     {
       throw EdgeWeightError(from, to, std::to_string(from), std::to_string(to));
     }
+    // Written over the list that is read: `out` is never ahead of `edge`.
     *out++ = { to, weight };
   }
   neighbours.resize(static_cast<std::size_t>(out - neighbours.data()));
@@ -95,6 +111,7 @@ void EdgeTargets::ask(
   std::size_t row = 0;
   for (std::size_t e = 0; e < edges; ++e)
   {
+    // Also skips rows without edges.
     while (e >= ends[row])
     {
       ++row;
@@ -106,6 +123,7 @@ void EdgeTargets::ask(
   }
   EdgeBatch batch{ this->From, this->To, this->FromPoints, this->ToPoints, this->Targets };
   this->Given.edgeTargets(batch);
+  // A target that is not finite would make the whole solution NaN.
   if (!std::ranges::all_of(this->Targets, [](double v) { return std::isfinite(v); }))
   {
     throw Error("an edge target near vertex " + std::to_string(first) + " is not a finite number");

@@ -136,7 +136,8 @@ public:
     const int lanes = this->To.lanes();
     for (int e = 0; e < lanes; ++e)
     {
-      // The list has no gap. Distances may be negative.
+      // The list is full: its upper edges, from the front, meet the lower ones, from the back. So
+      // distances may be negative.
       const auto distance =
         static_cast<std::int32_t>(this->To.at(from)[e] - static_cast<std::uint32_t>(from));
       edges.push_back({ from + distance, this->Weight.at(from)[e] });
@@ -170,8 +171,8 @@ private:
 
   static constexpr int Group = 8;
 
-  /** The positions of `low` among the first `count` values, as bits of the first `Searched` of
-   * them. All of these are compared: the end of a search is unpredictable for branches. */
+  /** Bit k is set if value k is `low`, for the first `Searched` values and k below `count`. All of
+   * these are compared, since a processor mispredicts where a search ends. */
   std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count) const
   {
     std::uint32_t bits = matches(list, low);
@@ -194,8 +195,9 @@ private:
 
   bool hasRoom(Count count) const { return count.upper + count.lower < this->To.lanes(); }
 
-  /** take() for a vertex all of whose edges are in its list: the lower ones are sorted, and the
-   * place of an upper one is the number of smaller ones, which needs no unpredictable branches. */
+  /** take() for a vertex all of whose edges are in its list. The lower ones are in ascending order
+   * already; an upper one is placed by counting the smaller ones, which branches less than sorting.
+   */
   void takeListed(std::int64_t from, Count count, std::vector<OpenEdge>& edges)
   {
     const std::size_t before = edges.size();
@@ -248,8 +250,8 @@ private:
     return edge->second;
   }
 
-  /** The bytes of the separate table, rounded up: a node and buckets for each edge, and a table for
-   * each vertex. */
+  /** An upper estimate of the bytes of the separate table: a node and buckets for each edge, and a
+   * table for each vertex. Rounded up to steps, so that the pool is not asked for every edge. */
   std::int64_t moreBytes() const
   {
     constexpr std::int64_t Edge = 64, Vertex = 256, Step = std::int64_t(32) << 10;
@@ -261,21 +263,21 @@ private:
   Ring<std::uint32_t> To; ///< by their low 32 bits
   Ring<double> Weight;
   Ring<Count> Counts;
-  /** Neighbours are searched in groups of this size, which few vertices exceed: the number of
-   * groups is unpredictable, too. A group may extend beyond the end of a list, into the next one of
-   * the ring. */
+  /** Neighbours are searched in groups of this size. Few vertices have more, so that the number of
+   * groups is predictable, too. A group may extend beyond the end of a list into the next one of
+   * the ring; matches() masks what it finds there. */
   int Searched;
   std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, double>> More;
-  std::int64_t MoreEdges = 0; ///< in it
+  std::int64_t MoreEdges = 0; ///< in the separate table
   Reservation MoreMemory;
 };
 
-/** A neighbour of a vertex, and the weight of their edge, which is also finite in single precision.
+/** A neighbour of a vertex and the weight of their edge, which is finite in single precision, too.
  */
 using RowNeighbour = OpenEdge;
 
-/** The weight of an edge to a prescribed vertex in the system, where it contributes to rowSum and
- * b; for finite elements it is not rounded. */
+/** The weight with which an edge to a prescribed vertex contributes to rowSum and b. Finite-element
+ * weights keep double precision; others are rounded like the entries of the row. */
 inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
 {
   return weights == Weights::Cotangent ? neighbour.weight
@@ -296,11 +298,11 @@ public:
   /** The weight of an edge that take() leaves out: another process has it. */
   static constexpr double Elsewhere = -std::numeric_limits<double>::infinity();
 
-  /** What the cells of an edge sum up to. */
+  /** The sums over the cells of an edge. */
   struct Sum
   {
     double weight;
-    double scale; ///< the smallest one; 0: only of cells without measure, or not used
+    double scale; ///< the smallest of the cells with a measure; 0: there is none, or it is not used
   };
 
   EdgeStiffness(Pool& pool, const Problem& problem, CellType type);
@@ -309,9 +311,9 @@ public:
   void release(std::int64_t first);
 
   /**
-   * Adds the weights of a cell to the edges with wanted(a, b). `scale` is that of the weights of
-   * the cell (see ProblemCells). Edges of a cell without measure are also added, without a weight,
-   * if they have a length.
+   * Adds the weights of a cell to those of its edges for which wanted(a, b) is true. `scale` is the
+   * scale of the cell's weights (see ProblemCells::scale()). Edges of a cell without measure are
+   * also added, with weight 0, if they have a length.
    */
   template <class Wanted>
   void add(const std::int64_t* corners, const double* const* points, const CellWeights& cell,
@@ -327,8 +329,8 @@ public:
     }
   }
 
-  /** Calls visit(to, sum) for the edges of vertex `from` to higher vertices, in any order; what it
-   * sets in the Sum takes the place of the sum over the cells. */
+  /** Calls visit(to, sum) for the edges of vertex `from` to higher vertices, in any order; visit()
+   * may change the Sum. */
   template <class Visit>
   void visit(std::int64_t from, Visit&& visit)
   {
@@ -344,7 +346,7 @@ public:
       });
   }
 
-  /** Adds what other cells of the edge sum up to. */
+  /** Adds the sums over other cells of the same edge. */
   void join(Sum& sum, const Sum& other) const
   {
     sum.weight = this->Kind == Weights::Uniform ? 1.0 : sum.weight + other.weight;
@@ -359,7 +361,7 @@ public:
   std::int64_t clamped() const { return this->Clamped / 2; }
 
 private:
-  /** Whether an edge has a weight even in a cell without weight. */
+  /** Whether an edge gets a positive weight even if all of its cells are flat. */
   bool hasLength(const double* a, const double* b) const
   {
     return this->Kind == Weights::Uniform ||
@@ -383,6 +385,7 @@ private:
     }
   }
 
+  /** The smaller positive one: 0 stands for a cell without measure. */
   static double minScale(double a, double b)
   {
     return a > 0.0 && b > 0.0 ? std::min(a, b) : std::max(a, b);
@@ -424,12 +427,13 @@ public:
   /** Whether the problem has any. */
   bool any() const { return this->Any; }
 
-  /** Queries those of the rows from `first` on, if the problem has any: the neighbours of each row
-   * end at the number in `ends`. Throws Error if one is not finite. */
+  /** Queries the targets of the rows from `first` on, if the problem has any: the neighbours of the
+   * k-th row end at ends[k] in `neighbours`. Throws Error if a target is not finite. */
   void ask(std::int64_t first, std::span<const RowNeighbour> neighbours,
     std::span<const std::size_t> ends);
 
-  /** `columns` values for each neighbour from number `neighbour` of the batch on; null: none. */
+  /** The targets from neighbour number `neighbour` of the batch on, `columns` values each; null
+   * without edge targets. */
   const double* at(std::size_t neighbour) const
   {
     return this->Any ? this->Targets.data() + neighbour * this->Columns : nullptr;

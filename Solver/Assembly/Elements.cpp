@@ -8,6 +8,15 @@
 #include <cmath>
 #include <limits>
 
+// Linear finite elements on a single cell: gradients of the hat functions, measure and stiffness
+// weights. The weight of an edge is the off-diagonal entry of the stiffness matrix with its sign
+// changed, w_ij = -measure * grad phi_i . K grad phi_j. On a triangle with K = 1 that is half the
+// cotangent of the opposite angle (Pinkall and Polthier 1993).
+//
+// A cell whose measure is 0 up to rounding has no weight at all: its gradients would be quotients
+// of rounding errors. All results depend on the corners of one cell only, so they have the same
+// bits in any block and on any thread. The cost is constant per cell.
+
 namespace smg
 {
 
@@ -17,6 +26,8 @@ CellGradients::CellGradients(CellType type, const double* const* points)
   const Vector ac = difference(points[2], points[0]);
   if (type == CellType::Triangle)
   {
+    // grad phi_1 is perpendicular to ac and has the product 1 with ab; grad phi_2 the other way
+    // round. Both lie in the plane of the triangle, being perpendicular to its normal.
     const Vector normal = cross(ab, ac);
     const double inverse = 1.0 / dot(normal, normal);
     this->Of[1] = scaled(-inverse, cross(normal, ac));
@@ -24,6 +35,8 @@ CellGradients::CellGradients(CellType type, const double* const* points)
   }
   else
   {
+    // Each gradient is perpendicular to the opposite face. The signed volume in the denominator
+    // makes the result independent of the orientation of the cell.
     const Vector ad = difference(points[3], points[0]);
     const Vector b = cross(ac, ad);
     const double inverse = 1.0 / dot(ab, b);
@@ -31,6 +44,7 @@ CellGradients::CellGradients(CellType type, const double* const* points)
     this->Of[2] = scaled(inverse, cross(ad, ab));
     this->Of[3] = scaled(inverse, cross(ab, ac));
   }
+  // The hat functions sum to 1, so their gradients sum to 0. Of[3] is 0 for a triangle.
   for (std::size_t d = 0; d < 3; ++d)
   {
     this->Of[0][d] = -(this->Of[1][d] + this->Of[2][d] + this->Of[3][d]);
@@ -39,7 +53,8 @@ CellGradients::CellGradients(CellType type, const double* const* points)
 
 bool hasCoincidentCorners(const double* const* corners, int count)
 {
-  constexpr double Rounding = 1e-7; // of coordinates in single precision
+  // Relative to the longest edge: the rounding of coordinates in single precision.
+  constexpr double Rounding = 1e-7;
   double shortest = std::numeric_limits<double>::max(), longest = 0.0;
   for (int a = 1; a < count; ++a)
   {
@@ -50,6 +65,7 @@ bool hasCoincidentCorners(const double* const* corners, int count)
       longest = std::max(longest, dot(edge, edge));
     }
   }
+  // With "<", a cell whose corners all coincide would not count.
   return shortest <= Rounding * Rounding * longest;
 }
 
@@ -65,7 +81,8 @@ double flatnessFactor(CellType type, const double* const* corners, const CellWei
   {
     return largest > Limit ? Limit / largest : 1.0;
   }
-  // In most cases any edge already shows that the longest one is long enough.
+  // The weights of a tetrahedron have the unit of length: the limit is relative to its longest
+  // edge. Every edge bounds that from below, so most cells return at the first one.
   double square = 0.0;
   for (const int* ends : TetrahedronEdges)
   {
@@ -93,7 +110,9 @@ namespace
 {
 
 /**
- * A cell is degenerate if its measure is below this share of the maximum for its edges: rounding.
+ * A cell is degenerate if twice its area is at most this multiple of the square of its longest
+ * edge, or six times its volume of the cube of the longest edge at its first corner. Corners on a
+ * line or in a plane get such measures from rounding.
  */
 constexpr double Flat = 1e-14;
 
@@ -115,12 +134,16 @@ CellWeights triangleWeights(const double* a, const double* b, const double* c)
   CellWeights cell;
   const double scale = std::max({ dot(ab, ab), dot(ac, ac), dot(bc, bc) });
   const double inverse = 1.0 / twiceArea;
+  // In this form the test also rejects NaN. The inverse overflows for cells so tiny that their area
+  // is a subnormal number.
   if (!(twiceArea > Flat * scale) || !std::isfinite(inverse))
   {
     return cell;
   }
   cell.measure = 0.5 * twiceArea;
   const double half = 0.5 * inverse;
+  // The cotangent of an angle is the product of the edges at its corner over twice the area. In the
+  // order of TriangleEdges: the angles at c, b and a.
   cell.weight[0] = half * dot(ac, bc);
   cell.weight[1] = -half * dot(ab, bc);
   cell.weight[2] = half * dot(ab, ac);
@@ -136,6 +159,7 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
   const Vector nb = cross(ac, ad);
   const Vector nc = cross(ad, ab);
   const Vector nd = cross(ab, ac);
+  // The area vectors of a closed surface sum to 0.
   const Vector na = { -(nb[0] + nc[0] + nd[0]), -(nb[1] + nc[1] + nd[1]),
     -(nb[2] + nc[2] + nd[2]) };
   const double sixVolume = std::fabs(dot(ab, nb));
@@ -147,6 +171,7 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
     return cell;
   }
   cell.measure = sixVolume / 6.0;
+  // grad phi_k = n_k / (6 V) up to a common sign, hence w = -V grad phi . grad phi = -n.n/(36V).
   const double stiffness = -1.0 / (6.0 * sixVolume);
   const Vector* n[4] = { &na, &nb, &nc, &nd };
   for (int e = 0; e < 6; ++e)
@@ -159,6 +184,8 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
 CellWeights conductivityWeights(CellType type, const double* const* points, const double* K)
 {
   CellWeights cell = cellWeights(type, points);
+  // Multiples of the identity take the formulas without a tensor: K = 1 gives the same bits as no
+  // conductivity.
   if (isScalar(K))
   {
     for (double& weight : cell.weight)
@@ -180,6 +207,8 @@ CellWeights conductivityWeights(CellType type, const double* const* points, cons
   return cell;
 }
 
+/** Sylvester's criterion: the leading principal minors are positive. K is divided by its largest
+ * diagonal entry first, so that the products do not overflow, nor underflow for a small K. */
 bool isPositiveDefinite(const double* K)
 {
   const double scale = *std::max_element(K, K + 3);

@@ -55,8 +55,7 @@ inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
   return false;
 }
 
-/** Whether a cell with these flags (CellFlag) neither repeats another one nor uses a vertex twice.
- */
+/** Whether a cell with these flags (CellFlag) is no duplicate and has distinct corners. */
 inline bool isDistinctCell(const std::int64_t* corners, int count, unsigned flags)
 {
   return (flags & DuplicateCell) == 0 && !hasRepeatedCorner(corners, count);
@@ -66,16 +65,17 @@ inline bool isDistinctCell(const std::int64_t* corners, int count, unsigned flag
 bool hasCoincidentCorners(const double* const* corners, int count);
 
 /**
- * Weights that are not clamped cancel in the sums of a row. If a cell is so flat that their
- * rounding to single precision would be as large as the weights of other cells, all of its weights
- * are scaled down by the same factor, which keeps its stiffness positive semidefinite. Returns the
- * factor for a cell with these finite-element weights for K = 1, which reduces them to at most 1e5
- * (tetrahedra: times the longest edge); 1 for nearly all cells. It depends neither on the unit of
- * length nor on that of a conductivity.
+ * Weights that are not clamped cancel in the sums of a row. If a cell is so flat that the rounding
+ * of its weights to single precision would be as large as the weights of other cells, all of its
+ * weights are scaled down by one factor, which keeps its stiffness positive semidefinite. Returns
+ * this factor for a cell with these finite-element weights for K = 1. It reduces them to at most
+ * 1e5 (tetrahedra: times the longest edge), is 1 for nearly all cells, and depends neither on the
+ * unit of length nor on that of a conductivity.
  *
- * Large weights are kept in double precision, so that more would be exact for longer on chains of
- * needles; but where cells lie flat on the edges of others, as in polygons with collinear corners,
- * V-cycles grow: a surface of these took 13 with 1e5, 51 with 1e6, 170 with 1e7.
+ * Since large weights are kept in double precision, a higher limit would still be exact on chains
+ * of needles. But where cells lie flat on the edges of others, as in polygons with collinear
+ * corners, the number of V-cycles grows with it: one such surface took 13 with 1e5, 51 with 1e6,
+ * 170 with 1e7.
  */
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell);
 

@@ -53,7 +53,7 @@ inline double facetArea(CellType type, const double* const* points)
 struct CellFacet
 {
   std::int64_t vertex[3] = {}; ///< stream indices; the third one is 0 for an edge
-  int order[3] = { 0, 1, 2 };  ///< the place of each among the corners in the order of the cell
+  int order[3] = { 0, 1, 2 };  ///< the place of each among the facet's corners in the cell's order
 };
 
 /** The facet opposite to corner k of a cell with these corners. */
@@ -172,8 +172,8 @@ private:
   std::int32_t Spare = 0; // head of the linked list of free slots
 };
 
-/** The facets of the cells so far, stored with their lowest vertex until this is final: facets of
- * only one cell are then boundary facets. Each facet may have a number of the caller. */
+/** The facets of the cells so far, stored with their lowest vertex until it is final. Those that
+ * have only one cell by then are boundary facets. The caller may store a number with each facet. */
 class SMG_EXPORT OpenFacets
 {
 public:
@@ -198,8 +198,8 @@ public:
    */
   std::int32_t add(std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data);
 
-  /** Instead of add(), where all cells of a facet count: stores `data` with the facet unless it is
-   * known, and returns its data. take() then finds facets of any number of cells. */
+  /** Instead of add(), where the number of cells does not matter: stores `data` with the facet
+   * unless it is known, and returns its data. take() then finds facets of any number of cells. */
   std::int32_t join(std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data);
 
   /** Calls visit(middle, high, shared) for each facet with the lowest corner `low`; `shared`: it
@@ -215,8 +215,9 @@ public:
     }
   }
 
-  /** Calls found(middle, high, data) for each facet of exactly one cell with the lowest corner
-   * `low`, in the order of their first call, and releases all facets with this corner. */
+  /** Calls found(middle, high, data) for each facet of exactly one cell whose lowest corner is
+   * `low`, in the order in which they were first added. Releases all facets with this lowest
+   * corner. */
   template <class Found>
   void take(std::int64_t low, Found&& found)
   {
@@ -259,7 +260,7 @@ private:
     }
   };
 
-  /** An index of the list of a vertex that is too long to be walked for each cell. */
+  /** A hash table of the list of a vertex that is too long to be walked for each cell. */
   struct Hub
   {
     Buffer table; ///< slots of facets by hash; 0: none; at least half of it is empty
@@ -313,8 +314,8 @@ public:
     this->take(this->Vertices, found);
   }
 
-  /** The number of edges of triangles so far that have two of them, which run along in the same
-   * direction: they are wound against each other. */
+  /** The number of edges so far with exactly two triangles that run along it in the same direction:
+   * these are wound against each other. */
   std::int64_t turnedEdges() const
   {
     return this->Turned + static_cast<std::int64_t>(this->MaybeTurned.size());
@@ -342,8 +343,8 @@ private:
   CellType Type;
   OpenFacets Open;
   std::int64_t Vertices = 0, Final = 0, Turned = 0;
-  /** Edges with two triangles so far, wound against each other, until they are final: with more
-   * triangles an edge has no two sides. */
+  /** Edges with two triangles so far that are wound against each other, until they are final: a
+   * third triangle removes the edge, since it has no two sides then. */
   std::set<std::pair<std::int64_t, std::int64_t>> MaybeTurned;
 };
 

@@ -5,6 +5,15 @@
 
 #include <cstddef>
 
+// What sources, screening, fields and boundary conditions contribute to the diagonal and the
+// right-hand side of each row. All terms are lumped: a corner has the same share of the area or
+// volume of each cell, and of the length or area of each boundary facet.
+//
+// Contributions of cells and of facets are summed separately. Cells arrive in the order of the
+// stream, but a boundary facet is known only when its lowest vertex is final, at a time that
+// depends on the blocks; in one sum, the order of the terms would depend on it, too. The time is
+// constant per cell and facet.
+
 namespace smg
 {
 
@@ -34,6 +43,8 @@ void VertexLoads::release(std::int64_t first)
   this->Load.release(first);
 }
 
+/** The shares of a cell in the screening and sources at its corners, and the integrals of its
+ * field. */
 void VertexLoads::add(
   const std::int64_t* corners, const double* const* points, const ProblemCells& cells)
 {
@@ -57,6 +68,8 @@ void VertexLoads::add(
 void VertexLoads::add(const BoundaryFacet& facet, double area)
 {
   const int count = BoundaryFacet::cornersOf(this->Type);
+  // (K grad u - q) . n is the flux itself, or coefficient * (ambient - u), of which the term with u
+  // goes to the diagonal.
   const double share = area / count;
   for (int c = 0; c < count; ++c)
   {
@@ -111,6 +124,8 @@ void RowLoads::reserve(std::int64_t vertices)
 {
   if (this->OfCells)
   {
+    // Not the loads on facets: with these, no other thread takes part
+    // (CellAssembly::mayConnectApart()).
     this->OfCells->reserve(vertices);
   }
 }
@@ -136,6 +151,8 @@ void RowLoads::release(std::int64_t first)
   }
 }
 
+/** When vertex i is the lowest open one, all cells and facets that contribute to it are known: a
+ * boundary facet belongs to its lowest corner, which is i or closed. */
 double RowLoads::close(std::int64_t i)
 {
   if (this->Facets)
@@ -148,6 +165,7 @@ double RowLoads::close(std::int64_t i)
   {
     this->Load[k] = mass * this->Vertices.sources.at(i)[k];
   }
+  // Always in this order: vertex, cells, facets.
   for (const auto* loads : { &this->OfCells, &this->OfFacets })
   {
     if (*loads)
@@ -170,6 +188,7 @@ void RowLoads::addBoundary(std::int64_t i)
   this->Facets->take(i,
     [this](const BoundaryFacet& facet)
     {
+      // `Inner` has the facets whose second cell another process has.
       const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
       if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
       {

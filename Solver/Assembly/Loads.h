@@ -25,7 +25,7 @@ public:
   VertexLoads(Pool& pool, CellType type, int columns);
 
   void extend(std::int64_t vertices);
-  /** Provides room for so many more vertices. */
+  /** Provides room for this many more vertices. */
   void reserve(std::int64_t vertices);
   void release(std::int64_t first);
 
@@ -53,8 +53,8 @@ public:
 
   /** Sets the number of vertices so far. */
   void extend(std::int64_t vertices);
-  /** Provides room for so many more vertices: until these are added, the loads in cells of others
-   * may be used by another thread. */
+  /** Provides room for this many more vertices: while these are added, another thread may use the
+   * loads of cells at earlier ones. */
   void reserve(std::int64_t vertices);
   /** Adds the facets of the cells of the block. */
   void addFacets(const MeshBlock& block);
@@ -67,10 +67,10 @@ public:
 
   /** The facets so far; null if the problem has no data on facets. */
   const OpenFacets* facets() const { return this->Facets ? &this->Facets->open() : nullptr; }
-  /** Excludes facets that have only one of their cells in the stream. */
+  /** Excludes interior facets of which the stream, a part of the mesh, has only one cell. */
   void exclude(FacetSet facets) { this->Inner = std::move(facets); }
 
-  /** Sums the contributions to vertex i, the lowest open one; returns that to the diagonal. */
+  /** Sums all contributions to vertex i, the lowest open one. Returns the one to the diagonal. */
   double close(std::int64_t i);
   /** The contribution to the right-hand side of the last closed vertex, `columns` numbers. */
   const double* load() const { return this->Load.data(); }
@@ -82,7 +82,7 @@ private:
   const OpenVertices& Vertices;
   std::optional<ProblemFacets> Facets;
   FacetSet Inner;
-  // Separate, since facets are known when their vertices are final, which depends on the blocks.
+  // Separate sums: when a facet is known to be on the boundary depends on the blocks.
   std::optional<VertexLoads> OfCells, OfFacets;
   std::vector<double> Load;
 };

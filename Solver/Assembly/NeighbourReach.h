@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Tracks the vertices whose neighbours are all final, so that no later row needs them. */
+/** Tracks the vertices whose neighbours are all final: no later row needs their data. */
 class NeighbourReach
 {
 public:

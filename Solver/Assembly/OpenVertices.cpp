@@ -8,6 +8,10 @@
 #include <cmath>
 #include <string>
 
+// The data of open vertices: what the stream and the problem give for each vertex, once and in
+// stream order, and what its cells sum up to. All numbers of a problem are checked here, where the
+// vertex can still be named: one NaN would make the whole solution NaN.
+
 namespace smg
 {
 
@@ -37,6 +41,7 @@ void OpenVertices::add(const MeshBlock& block)
   this->dirichlet.extendRaw(end);
   this->sources.extendRaw(end);
   this->screening.extendRaw(end);
+  // Zeroed: cells add to these.
   this->mass.extend(end);
   this->scale.extend(end);
   const VertexConditions& given = this->Conditions;
@@ -58,6 +63,7 @@ void OpenVertices::reserve(std::int64_t more)
   this->scale.reserveMore(more);
 }
 
+/** Asks the problem for the conditions at the vertices of a block, and checks them. */
 void OpenVertices::ask(const MeshBlock& block)
 {
   VertexConditions& given = this->Conditions;
@@ -69,6 +75,7 @@ void OpenVertices::ask(const MeshBlock& block)
   given.screening.assign(count, 0.0);
   this->Given.conditions(block, given);
   this->Kept.resize(this->Given.bytes());
+  // A problem may resize the vectors that it fills; the copies in add() would then be out of range.
   if (given.dirichlet.size() != count || given.value.size() != values ||
       given.source.size() != values || given.screening.size() != count)
   {
@@ -91,6 +98,7 @@ void OpenVertices::ask(const MeshBlock& block)
                   vertex((bad - numbers->begin()) / this->Columns) + " is not a finite number");
     }
   }
+  // Any negative number means that no condition prescribes the value.
   const auto strange = std::ranges::find_if(
     given.dirichlet, [this](std::int32_t number) { return number >= this->DirichletCount; });
   if (strange != given.dirichlet.end())
@@ -109,9 +117,11 @@ void OpenVertices::ask(const MeshBlock& block)
 
 void OpenVertices::release(std::int64_t done, std::int64_t final)
 {
+  // Rows of neighbours still read these.
   this->points.release(done);
   this->values.release(done);
   this->dirichlet.release(done);
+  // Read when the vertex itself is collected, and copied then.
   this->sources.release(final);
   this->screening.release(final);
   this->mass.release(final);

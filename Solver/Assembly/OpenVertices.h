@@ -10,7 +10,8 @@
 namespace smg
 {
 
-/** The data of the mesh stream and the problem at open vertices: those with missing cells. */
+/** The data of the mesh stream and the problem at open vertices, those that later cells may still
+ * use or whose data rows of neighbours still need. */
 struct OpenVertices
 {
   OpenVertices(Pool& pool, Problem& problem);
@@ -19,8 +20,8 @@ struct OpenVertices
    * invalid. */
   void add(const MeshBlock& block);
   std::int64_t end() const { return this->points.end(); }
-  /** Provides room for so many more vertices: until these are added, other threads may use the
-   * data of others. */
+  /** Provides room for this many more vertices: while these are added, other threads may use the
+   * data of earlier ones. */
   void reserve(std::int64_t more);
   /**
    * Releases vertices below `done`, and the data of those below `final` that no neighbour needs.
@@ -33,13 +34,15 @@ struct OpenVertices
   Ring<double> sources;         ///< `columns` per vertex: density
   Ring<double> screening;       ///< density
   Ring<double> mass;            ///< lumped area or volume; initially zero
-  Ring<float> scale; ///< the largest of its cells, if the problem has weights of its own; or zero
+  /** The largest scale of the weights of its cells, if the problem has weights of its own; or zero.
+   */
+  Ring<float> scale;
 
 private:
   void ask(const MeshBlock& block);
 
   Problem& Given;
-  Reservation Kept; ///< by the problem
+  Reservation Kept; ///< what the problem itself keeps of open vertices
   int Columns;
   int DirichletCount;
   VertexConditions Conditions;

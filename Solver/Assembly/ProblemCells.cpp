@@ -9,6 +9,15 @@
 #include <cmath>
 #include <string>
 
+// The data of a problem in its cells, and the weights that a solve takes from them.
+//
+// The problem is asked for a batch of consecutive cells of a block in one call; its numbers are
+// checked here, where the cell can still be named. StiffnessRules chooses the weights of a cell:
+// those of finite elements or of the problem, scaled down where the cell is too flat (see
+// flatnessFactor()). All of this depends on one cell only, except for the scale of all weights,
+// which the first weighted cell of the stream determines; blocks, batches and threads change
+// nothing. The time per cell is constant; the memory holds one batch.
+
 namespace smg
 {
 namespace
@@ -55,7 +64,8 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
   }
 }
 
-/** Sets the data of a batch on entry. */
+/** Sets what a batch contains before the problem sees it: the weights of finite elements with K =
+ * 1, and zeros. */
 void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<double>& points)
 {
   const int corners = cornersOf(this->Type);
@@ -78,12 +88,15 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
       this->Points.insert(this->Points.end(), point[k], point[k] + 3);
     }
     cell.weights = cellWeights(this->Type, point);
+    // Of the geometry alone, before the problem changes the weights: so it does not depend on the
+    // unit of a conductivity.
     cell.flatness =
       this->Kind == Weights::Cotangent ? flatnessFactor(this->Type, point, cell.weights) : 1.0;
     this->Weight.insert(
       this->Weight.end(), cell.weights.weight, cell.weights.weight + edgesOf(this->Type));
     this->Measure.push_back(cell.weights.measure);
   }
+  // Only results ask for K itself; a solve needs no more than the weights.
   constexpr double Identity[6] = { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0 };
   this->Conductivity.clear();
   for (std::size_t k = 0; this->Conductivities && k < cells; ++k)
@@ -92,13 +105,15 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
   }
 }
 
-/** Reads the data of cell k of the batch, cell c of the block. */
+/** Reads what the problem has set for cell k of the batch, which is cell c of the block. */
 void ProblemCells::take(std::size_t k, const MeshBlock& block, std::size_t c)
 {
   CellWeights& cell = this->Cells[k].weights;
   const double measure = this->Measure[k];
   if (cell.measure == 0.0 || measure == 0.0)
   {
+    // Degenerate, or without weight by the problem's choice. Its other data are neither used nor
+    // checked.
     cell = {};
     return;
   }
@@ -106,13 +121,17 @@ void ProblemCells::take(std::size_t k, const MeshBlock& block, std::size_t c)
   this->requireFinite(k, block, c);
 }
 
+/** Replaces the weights of finite elements by those of the problem, and notes the ratio of their
+ * sizes. */
 void ProblemCells::takeWeights(std::size_t k, const MeshBlock& block, std::size_t c)
 {
   CellWeights& cell = this->Cells[k].weights;
   const auto edges = static_cast<std::size_t>(edgesOf(this->Type));
   const double* weight = this->Weight.data() + k * edges;
+  // The weights at a corner sum to its positive diagonal entry: so the largest one is positive.
   const double before = largest(cell, edgesOf(this->Type));
   const double after = *std::max_element(weight, weight + edges);
+  // With uniform weights, the weights of cells are ignored.
   const bool seen = this->Kind != Weights::Uniform;
   cell.measure = this->Measure[k];
   if (!std::isfinite(cell.measure) || cell.measure < 0.0 ||
@@ -122,7 +141,8 @@ void ProblemCells::takeWeights(std::size_t k, const MeshBlock& block, std::size_
                 " are not valid: they must be finite, at least one of them positive, and the "
                 "measure not negative");
   }
-  // Single precision, used on coarse levels, must represent products of weights and their inverse.
+  // Coarse levels compute in single precision, which must represent inverses and products of
+  // weights.
   if (seen && !(after >= 1e-20 && after <= 1e20))
   {
     throw Error("the weights of " + nameOf(block, c) +
@@ -159,10 +179,12 @@ void addFieldLoads(const ProblemCells& own, CellType type, const double* const* 
   double* const* load)
 {
   const double* field = own.field();
+  // Without a field, the gradients are not needed.
   if (std::all_of(field, field + 3 * columns, [](double q) { return q == 0.0; }))
   {
     return;
   }
+  // The gradients are constant in a cell, so the integral is the product with its measure.
   const double weight = own.flatness() * own.weights().measure;
   const CellGradients gradients(type, points);
   for (int c = 0; c < cornersOf(type); ++c)
@@ -187,6 +209,8 @@ StiffnessRules::StiffnessRules(CellType type, Problem& problem, double& scale)
   }
 }
 
+/** The weights of the prepared cell, and the counts of cells without weight. Flagged cells and
+ * those that use a vertex twice have none, whatever the problem sets. */
 CellWeights StiffnessRules::weigh(
   const std::int64_t* corners, const double* const* points, unsigned flags)
 {
@@ -199,14 +223,18 @@ CellWeights StiffnessRules::weigh(
   if (cell.measure == 0.0)
   {
     ++this->Degenerate;
+    // Distinct vertices at one place: the mesh looks closed there and is not, which the report
+    // warns of.
     const bool joins = isDistinctCell(corners, count, flags) && hasCoincidentCorners(points, count);
     this->Coincident += joins ? 1 : 0;
     return cell;
   }
+  // The other kinds of weights are positive after EdgeStiffness, so nothing cancels in their rows.
   if (this->Kind != Weights::Cotangent)
   {
     return cell;
   }
+  // The first weighted cell of the stream, whatever the size of blocks.
   if (this->Own && !this->Scaled)
   {
     this->Scale = this->Own->scale();
@@ -216,6 +244,7 @@ CellWeights StiffnessRules::weigh(
   return flatness < 1.0 ? this->limited(cell, flatness) : cell;
 }
 
+/** Scales all weights by the same factor, which keeps the stiffness positive semidefinite. */
 CellWeights StiffnessRules::limited(CellWeights cell, double flatness)
 {
   ++this->Limited;

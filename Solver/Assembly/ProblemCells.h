@@ -37,7 +37,7 @@ public:
   const CellWeights& weights() const { return this->Cells[this->Current].weights; }
   /** See flatnessFactor(); 1 unless Weights::Cotangent. */
   double flatness() const { return this->Cells[this->Current].flatness; }
-  /** The largest weight over the largest one of finite elements with K = 1. */
+  /** The largest weight of the cell, divided by the largest one of finite elements with K = 1. */
   double scale() const { return this->Cells[this->Current].scale; }
   double screening() const { return this->Screening[this->Current]; }
   /** `columns` numbers. */
@@ -72,8 +72,8 @@ private:
   std::vector<double> Points, Weight, Measure, Screening, Source, Field, Conductivity;
 };
 
-/** The factor by which a solve with these weights reduces those of a cell: that of the prepared
- * cell of the problem, if it has cells of its own. See flatnessFactor(). */
+/** The factor by which a solve with these weights scales a cell down, see flatnessFactor(). `own`:
+ * the problem's data in its cells, if any, with this cell prepared. */
 double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
   const double* const* points, const CellWeights& cell);
 
@@ -84,9 +84,9 @@ void addFieldLoads(const ProblemCells& own, CellType type, const double* const* 
   double* const* load);
 
 /**
- * The weights of a cell for its edges: those of finite elements or of the problem, and, with
- * Weights::Cotangent, scaled down if the cell is too flat. EdgeStiffness processes their sums over
- * the cells of an edge.
+ * The weights that a cell contributes to its edges: those of finite elements or of the problem,
+ * with Weights::Cotangent scaled down if the cell is too flat. EdgeStiffness sums them over the
+ * cells of each edge.
  */
 class StiffnessRules
 {
@@ -105,7 +105,7 @@ public:
 
   // Of the prepared cell:
 
-  /** Its weights; measure 0 if it is degenerate. */
+  /** Its weights; measure 0 if it has none. */
   CellWeights weigh(const std::int64_t* corners, const double* const* points, unsigned flags);
   /** Whether its corners are connected even if it is degenerate. */
   bool connectsFlat(const std::int64_t* corners, unsigned flags) const;
@@ -115,7 +115,7 @@ public:
   const std::optional<ProblemCells>& own() const { return this->Own; }
 
   std::int64_t degenerateCells() const { return this->Degenerate; }
-  /** Those of which corners coincide. */
+  /** Degenerate cells some of whose distinct corners lie at the same place. */
   std::int64_t coincidentCells() const { return this->Coincident; }
   /** With cotangent weights: the number of cells whose stiffness was scaled down, and the least
    * factor. */

@@ -12,6 +12,16 @@
 #include <cstring>
 #include <string>
 
+// The data of a problem on the facets of its cells (edges of triangles, faces of tetrahedra).
+// Whether a facet is on the boundary is known only when its lowest vertex is final, so its data are
+// stored until then. A second cell shows that the facet is interior, and releases its data at once:
+// what is stored are the facets of open vertices, and the data of those facets that have a
+// condition and only one cell so far.
+//
+// Data are stored in ascending order of the corners, which is the same in both cells of a facet.
+// The boundary facets of a vertex are found in the order in which the stream first had them, so
+// that sums over them do not depend on blocks.
+
 namespace smg
 {
 
@@ -33,6 +43,8 @@ void ProblemFacets::add(const MeshBlock& block)
 {
   const std::size_t cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
   const Column* flags = block.flags();
+  // Original indices of the cells, for messages: the block is gone when a facet is found to be on
+  // the boundary.
   const std::ptrdiff_t ids = findColumn(block.cellColumns, OriginalCellIdSpec);
   this->CellIds = ids < 0 ? nullptr : &block.cellColumns[static_cast<std::size_t>(ids)];
   this->FirstCell = block.firstCell;
@@ -46,6 +58,7 @@ void ProblemFacets::add(const MeshBlock& block)
     for (std::size_t c = 0; c < count; ++c)
     {
       const unsigned flag = flags ? static_cast<unsigned>(flags->value(first + c)) : 0;
+      // A duplicate would turn the boundary facets of its original into interior ones.
       if ((flag & DuplicateCell) == 0)
       {
         this->addCell(block, first, c);
@@ -82,6 +95,7 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
   }
   for (int k = 0; k < corners; ++k)
   {
+    // Facet k is opposite to corner k, so that a cell has as many facets as corners.
     const CellFacet sorted = facetOf(this->Type, corner, k);
     if (!this->Asks && !this->isWanted(sorted.vertex))
     {
@@ -92,6 +106,8 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
       this->keep(sorted.order, facet, block.firstCell + static_cast<std::int64_t>(first + c));
     const std::int32_t before =
       this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
+    // A second cell has the facet: it is interior, and neither cell's data are needed. A third one
+    // gets 0, for no data, from add().
     if (before != OpenFacets::Fresh)
     {
       this->forget(before);
@@ -100,7 +116,8 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
   }
 }
 
-/** Whether all corners of a cell except one may have the same Dirichlet condition. */
+/** Whether enough corners of a cell are prescribed for one of its facets to be wanted: a quick
+ * test, which spares most cells the sorting of their facets. */
 bool ProblemFacets::mayHaveWanted(const std::int64_t* corner) const
 {
   std::size_t known = 0;
@@ -111,7 +128,7 @@ bool ProblemFacets::mayHaveWanted(const std::int64_t* corner) const
   return known >= this->Corners;
 }
 
-/** Whether the corners of a facet have the same Dirichlet condition. */
+/** Whether all corners of a facet have the same Dirichlet condition. */
 bool ProblemFacets::isWanted(const std::int64_t* vertex) const
 {
   const std::int32_t condition = this->Vertices.dirichlet[vertex[0]];
@@ -120,8 +137,9 @@ bool ProblemFacets::isWanted(const std::int64_t* vertex) const
            [&](std::int64_t v) { return this->Vertices.dirichlet[v] == condition; });
 }
 
-/** Stores the data of a facet of the batch with its corners in this order; returns 0 if there are
- * none. */
+/** Stores the data of facet number `facet` of the batch in a slot, and returns the slot; 0 if the
+ * facet has no condition. `order`: see CellFacet. The slot is an array of doubles, the first two of
+ * which have the bits of integers; memcpy() is the defined way to put them there. */
 std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64_t cell)
 {
   if (!this->Asks || (this->Flux[facet] < 0 && this->Robin[facet] < 0))
@@ -137,6 +155,7 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   double* kept = this->Kept.at(slot);
   const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
   std::memcpy(kept++, conditions, sizeof(conditions));
+  // A negative number distinguishes an index in the stream from one in the original file.
   const std::int64_t name =
     this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
   std::memcpy(kept++, &name, sizeof(name));
@@ -154,7 +173,8 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   return slot;
 }
 
-/** Checks a boundary facet; values at interior facets are not used. */
+/** Checks the data of a boundary facet. Those of interior facets are not used, and may be anything.
+ */
 void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
 {
   const auto finite = [](const double* values, std::size_t count) {
@@ -179,6 +199,7 @@ void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
   }
 }
 
+/** The facet with pointers to its data in the slot, which the caller releases after use. */
 BoundaryFacet ProblemFacets::facet(
   std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const
 {

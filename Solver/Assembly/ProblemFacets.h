@@ -12,13 +12,15 @@
 namespace smg
 {
 
-/** The data of a problem on the facets of its cells, queried in batches and stored until the
- * boundary facets are known. The data of an interior facet are released with its second cell. */
+/** The data of a problem on the facets of its cells, queried in batches and stored until it is
+ * known which facets are on the boundary. The data of an interior facet are released with its
+ * second cell.
+ */
 class ProblemFacets
 {
 public:
-  /** A problem without facets() is not queried; only facets whose corners all have the same
-   * Dirichlet condition are then added. */
+  /** A problem without data on facets is not queried; then only facets whose corners all have the
+   * same Dirichlet condition are added. */
   ProblemFacets(Pool& pool, Problem& problem, CellType type, const OpenVertices& vertices);
 
   /** Sets the number of vertices so far. */
@@ -71,8 +73,8 @@ private:
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
-  /** The data of a facet: its conditions, the name of its cell, flux, coefficients, ambient. The
-   * name is the index in the original file, or -1 minus the index in the stream. */
+  /** The data of a facet: its two conditions, its cell, fluxes, coefficients and ambient values.
+   * The cell is given by its index in the original file, or as -1 minus its index in the stream. */
   Slots<double> Kept;
   // The block.
   const Column* CellIds = nullptr;

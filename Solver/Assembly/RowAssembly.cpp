@@ -10,6 +10,22 @@
 #include <numeric>
 #include <string>
 
+// The rows of the finest level. The equation of an unknown i is
+//
+// (rowSum + sum_j w_ij) u_i - sum_j w_ij u_j = b_i,
+//
+// with the sums over its unknown neighbours. A prescribed neighbour contributes w_ij to rowSum and
+// w_ij times its value to b, so that a row without such neighbours, screening or Robin conditions
+// has the row sum 0.
+//
+// Entries have single precision, and the diagonal is the sum of the entries as they are stored:
+// rounding changes the weights, but not the row sum. That is not good enough where large weights of
+// slivers cancel; such rows keep weights in double precision beside the entries (addEdge(),
+// sharpen()). The same sums give the initial residual, by which the convergence is measured.
+//
+// Rows are made in ascending order from edges in ascending order, so that their bits depend on
+// neither blocks nor threads. The time is linear in the number of edges.
+
 namespace smg
 {
 
@@ -29,6 +45,8 @@ std::span<const double> InitialResidual::add(
       }
       for (std::size_t e = 0; e < row.weights.size(); ++e)
       {
+        // Values of consecutive vertices are contiguous in the ring: neighbours are found by their
+        // distance.
         const double* other = x + std::ptrdiff_t(columns) * row.entries[e].delta();
         for (int k = 0; k < columns; ++k)
         {
@@ -81,6 +99,8 @@ RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& p
 {
 }
 
+/** Appends row, right-hand side and initial value of a vertex. The initial value comes first, since
+ * a vertex that is not an unknown has one, too. */
 void RowAssembly::close(const FinalVertices& made, std::size_t k)
 {
   const std::int64_t i = made.first + static_cast<std::int64_t>(k);
@@ -100,6 +120,8 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   this->Scale = static_cast<double>(vertex.scale);
   this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
     made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
+  // Before the row is closed, since it changes the row sum and b; count() takes back what is not
+  // part of the problem.
   this->regularise(i);
   this->Out.rows.close(this->Size, this->RowSum, -1, this->Stiff(this->Least),
     this->AnyPrecise ? this->weights() : std::span<const double>());
@@ -111,7 +133,9 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   this->count(i, vertex);
 }
 
-/** A vertex that is not an unknown: prescribed, or fixed at its initial value. */
+/** Completes a vertex that is not an unknown: prescribed, or fixed at its initial value. Its row is
+ * 1 * u_i = x_i, without entries, so that it is a node like others and needs no numbering of its
+ * own. */
 void RowAssembly::closeKnown(std::int64_t i)
 {
   const double* x = this->Vertices.values.at(i);
@@ -126,10 +150,11 @@ void RowAssembly::closeKnown(std::int64_t i)
 }
 
 /**
- * Adds an edge to the sums of the row, and says whether it is that of a sliver: the large weights
- * of these, some of which cancel, exceed a bound of those of regular cells. Their rounding to
- * single precision would affect the solution, since it is of the size of the weights of other
- * cells. Whether it is depends only on the edge, so that both of its rows agree.
+ * Adds an edge to the sums of the row and returns whether it belongs to slivers, that is, whether
+ * its weight exceeds the largest one of regular cells. The weights of slivers are large and partly
+ * cancel; rounding them to single precision would affect the solution, since the error is of the
+ * size of the weights of other cells. The answer depends on the edge alone, so that both of its
+ * rows agree.
  */
 inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight)
 {
@@ -142,6 +167,8 @@ inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, 
   }
   const double bound = squaredRegularWeight(
     this->Type, this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
+  // Squares are compared, and with the smaller scale: nearly all edges are ordinary by either
+  // scale, and return without a square root.
   const double least = std::min(this->Scale, this->Out.weightScale);
   if (magnitude * magnitude <= bound * least * least)
   {
@@ -149,16 +176,19 @@ inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, 
     return false;
   }
   const double regular = std::sqrt(bound);
+  // The residual is judged by the scale at this vertex; the precision by the scale of the whole
+  // problem, which both rows share.
   this->Ordinary += std::min(magnitude, regular * this->Scale);
   return std::fabs(neighbour.weight) > regular * this->Out.weightScale;
 }
 
-/** Adds an entry for another neighbour. */
+/** Adds an entry for a neighbour that is not prescribed. */
 inline void RowAssembly::addUnknown(
   std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
   const auto stored = static_cast<float>(neighbour.weight);
   const bool precise = this->addEdge(i, neighbour, static_cast<double>(stored));
+  // The diagonal is the sum of the weights as they are stored.
   const double weight = precise ? neighbour.weight : static_cast<double>(stored);
   this->Row[this->Size] = { delta, stored };
   this->Weight[static_cast<std::size_t>(this->Size++)] = weight;
@@ -170,16 +200,19 @@ inline void RowAssembly::addUnknown(
   }
 }
 
-/** Makes the entries of the row and adds the contributions of the neighbours to b. */
+/** Makes the entries of the row, and adds the contributions of prescribed neighbours and of edge
+ * targets to b. */
 void RowAssembly::addNeighbours(
   std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target)
 {
+  // Room for all neighbours; close() gives back what prescribed ones do not need.
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Weight.resize(std::max(this->Weight.size(), neighbours.size()));
   this->Size = 0;
   this->Edges = this->Ordinary = 0.0;
   this->Least = 0.0F;
   this->AnyPrecise = false;
+  // Addressed by the distance from vertex i, see Ring.
   const std::int32_t* dirichlet = this->Vertices.dirichlet.at(i);
   for (const RowNeighbour& neighbour : neighbours)
   {
@@ -197,15 +230,16 @@ void RowAssembly::addNeighbours(
   this->sharpen(neighbours);
 }
 
-/** Keeps the weights of a row that nearly cancel in double precision, so that its small diagonal is
- * that of the problem: the far corner of a needle has such a row. The rows of its neighbours may
- * have these weights in single precision, which is enough for their diagonals. */
+/** If the weights of a row nearly cancel, keeps all of them in double precision, so that the small
+ * diagonal is that of the problem. The far corner of a needle has such a row. The rows of its
+ * neighbours may have these weights in single precision, which is enough for their diagonals. */
 void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
 {
   if (this->Kind != Weights::Cotangent)
   {
     return;
   }
+  // Down to a hundredth of its terms, a sum of numbers rounded to 6e-8 still has five digits.
   constexpr double Cancelling = 1e-2;
   double diagonal = this->RowSum, terms = 0.0;
   for (const double weight : this->weights())
@@ -220,6 +254,7 @@ void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
   std::size_t e = 0;
   for (const RowNeighbour& neighbour : neighbours)
   {
+    // Entries are the neighbours that are not prescribed, in this order.
     if (this->Vertices.dirichlet[neighbour.to] < 0)
     {
       this->Weight[e++] = neighbour.weight;
@@ -228,7 +263,7 @@ void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
   this->AnyPrecise = this->Size > 0;
 }
 
-/** Adds the weight of a prescribed neighbour to rowSum and b. */
+/** Adds the edge to a prescribed neighbour to rowSum and b; it has no entry. */
 void RowAssembly::addKnown(
   std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
@@ -248,7 +283,8 @@ void RowAssembly::addKnown(
   }
 }
 
-/** Adds the edge target of an entry of this weight. */
+/** Adds the edge target of an entry: sum_j w_ij d_ij on the right-hand side pulls u_i - u_j towards
+ * d_ij. */
 void RowAssembly::addTarget(double weight, const double* target)
 {
   for (std::size_t k = 0; k < this->Columns; ++k)
@@ -261,7 +297,8 @@ void RowAssembly::addTarget(double weight, const double* target)
   }
 }
 
-/** Keeps the vertex near its initial value if its diagonal is lost in rounding. */
+/** If the diagonal is lost in rounding, raises it and adds the same multiple of the initial value
+ * to b, which keeps the vertex near that value. See lostDiagonalOf(). */
 void RowAssembly::regularise(std::int64_t i)
 {
   this->Raise =
@@ -280,9 +317,11 @@ void RowAssembly::regularise(std::int64_t i)
   }
 }
 
-/** Adds the row to the sums over all rows and over its component. */
+/** Adds the row to the initial residual and to the sums over its component. */
 void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
 {
+  // What is beyond the ordinary weights: the share of screening and the like, and the excess of
+  // slivers.
   const double share = commonShare(vertex.rowSum + (this->Edges - this->Ordinary), this->Ordinary);
   const AssembledRow row{ i, this->Row, this->weights(),
     nonZeroDiagonal(
@@ -291,7 +330,8 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   const double* x = this->Vertices.values.at(i);
   if (this->Raise > 0.0)
   {
-    // The amount that keeps the vertex near its initial value is not part of the problem.
+    // What keeps the vertex near its initial value is not part of the problem, nor of the condition
+    // that a free component has a solution. It cancels in the residual.
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       this->B[k] -= this->Raise * x[k];

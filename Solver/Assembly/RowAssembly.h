@@ -54,8 +54,9 @@ struct AssembledRows
   }
 };
 
-/** What the rows of consecutive vertices without missing cells are made of, besides the data of
- * OpenVertices: the edges, and the contributions of sources, screening and boundary. */
+/** Consecutive vertices all of whose cells have been added, with what their rows are made of
+ * besides the data of OpenVertices: edges and the contributions of sources, screening and the
+ * boundary. */
 class FinalVertices
 {
 public:
@@ -66,7 +67,7 @@ public:
     double mass;
     std::int64_t reach; ///< the largest neighbour of this and all earlier vertices
     float scale;        ///< see OpenVertices
-    std::int32_t label; ///< of a component to count the vertex for, if it is an unknown; or -1
+    std::int32_t label; ///< of the component whose sums an unknown counts for; or -1
   };
 
   std::int64_t first = 0; ///< the first vertex
@@ -81,7 +82,7 @@ public:
   }
   /** Where the edges of vertex number k begin. */
   std::size_t begin(std::size_t k) const { return k == 0 ? 0 : this->vertices[k - 1].end; }
-  /** The memory that it has. */
+  /** The bytes of memory that it has. */
   std::int64_t bytes() const
   {
     return static_cast<std::int64_t>(
@@ -89,7 +90,7 @@ public:
       this->neighbours.capacity() * sizeof(RowNeighbour) +
       (this->targets.capacity() + this->loads.capacity()) * sizeof(double));
   }
-  /** Forgets all; the next vertex is `next`. */
+  /** Removes all vertices; the next one is `next`. */
   void clear(std::int64_t next)
   {
     this->first = next;
@@ -143,12 +144,12 @@ class RowListener
 public:
   virtual ~RowListener() = default;
 
-  /** Rows follow of vertices for which the problem has been asked before, perhaps while it is asked
-   * for others on another thread; that is not so during this call. */
+  /** Rows follow. The problem has been asked for their vertices already. It may be asked for others
+   * on another thread while the rows arrive, but not during this call. */
   virtual void begin() {}
   /** The next vertex, which is free, has an edge to the constrained vertex index + delta. */
   virtual void link(std::int32_t delta, float weight) = 0;
-  /** The next edge of the row of the next vertex has this target d_ij, one value per column. Called
+  /** The target d_ij of the next edge in the row of the next vertex, one value per column. Called
    * only if the problem has edge targets; `target` is valid during the call. */
   virtual void target(const double* /*target*/) {}
   /** The contribution of the source and the constrained neighbours to b of the next vertex, one
@@ -217,12 +218,15 @@ private:
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
   double RowSum = 0.0;
-  double Scale = 0.0;                 // of the weights of its cells
-  double Edges = 0.0, Ordinary = 0.0; // magnitudes of weights, and what regular cells may have
+  double Scale = 0.0; // of the weights of its cells
+  double Edges = 0.0,
+         Ordinary = 0.0; // sums of |weight|: all, and each at most that of regular cells
   double Raise = 0.0;
-  std::vector<double> Weight;     // of the first `Size` entries, rounded like these ...
-  bool AnyPrecise = false;        // ... except for some, which the row needs in double precision
-  float Least = 0.0F;             // weight of the entries, at most 0
+  // Weights of the first `Size` entries, rounded like these except for those that the row needs in
+  // double precision: AnyPrecise says whether there are any.
+  std::vector<double> Weight;
+  bool AnyPrecise = false;
+  float Least = 0.0F;             // the smallest weight of the entries, or 0
   std::vector<double> B;          // `Columns` numbers
   std::vector<double> Constraint; // the part of b not from edges to unknowns
 

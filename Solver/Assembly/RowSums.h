@@ -13,20 +13,20 @@ namespace smg
 
 /**
  * The amount by which the diagonal of a row with weights of both signs is too small. In exact
- * arithmetic the diagonal is positive, like that of every cell. If the sum is smaller than the
- * rounding of its terms, it carries no information on the problem, and a vertex with this amount
- * added to its diagonal stays near its initial value.
- * `terms` is the sum of the magnitudes of what the diagonal sums up.
+ * arithmetic the diagonal is positive, as in every cell. A sum smaller than the rounding of its
+ * terms carries no information on the problem; with this amount added to the diagonal, and its
+ * product with the initial value to the right-hand side, the vertex stays near its initial value.
+ * `terms` is the sum of the magnitudes of all terms of the diagonal.
  */
 inline double lostDiagonalOf(double diagonal, double terms)
 {
-  // Also for double precision: the data derived from the row have single precision.
+  // More than the rounding of double precision: what is derived from the row has single precision.
   constexpr double Rounding = 1e-8;
   const double least = std::max<double>(Rounding * terms, FLT_MIN);
   return std::max(0.0, least - diagonal);
 }
 
-/** That of a row with entries of these weights, and `rowSum` added to its diagonal. */
+/** lostDiagonalOf() for the row whose diagonal is `rowSum` plus these weights. */
 inline double lostDiagonal(std::span<const double> weights, double rowSum)
 {
   double terms = std::fabs(rowSum);
@@ -40,12 +40,12 @@ inline double lostDiagonal(std::span<const double> weights, double rowSum)
 }
 
 /**
- * The square of the largest weight of an edge of regular cells with the conductivity 1, of which
- * the ends have these coordinates.
+ * The square of the largest weight that counts as one of regular cells with conductivity 1, for an
+ * edge between these points.
  *
- * A chain of slivers with weights w conducts like 1 / w, so the rounding of its weights to single
- * precision may change the solution by 6e-8 w^2 of its range. Smaller weights than these changed it
- * by at most 2e-7 (bunny_tet.mesh, dragon.ply), all weights by 2e-5.
+ * A chain of slivers with weights w conducts like 1 / w, so that rounding them to single precision
+ * may change the solution by 6e-8 w^2 of its range. With only smaller weights than these rounded,
+ * it changed by at most 2e-7 (bunny_tet.mesh, dragon.ply), with all weights rounded by 2e-5.
  */
 inline double squaredRegularWeight(CellType type, const double* from, const double* to)
 {
@@ -59,11 +59,12 @@ inline double squaredRegularWeight(CellType type, const double* from, const doub
 }
 
 /**
- * The factor of a row in the norm of the initial residual, by which all others are measured. Where
- * `own`, the contribution of screening, Robin and soft conditions to the diagonal, and what the
- * weights of slivers have beyond those of regular cells, is larger than the magnitudes of the
- * ordinary weights of the `edges`, the initial residual is as large as `own`, whatever that of all
- * other rows is; the row then counts as if it had only ordinary edges. In (0, 1]; 0 without edges.
+ * The factor of a row in the norm of the initial residual, relative to which convergence is
+ * measured. `own` is what screening, Robin and soft conditions contribute to the diagonal, and what
+ * weights of slivers have beyond those of regular cells; `edges` is the sum of the magnitudes of
+ * the ordinary weights. Where `own` is larger, the initial residual of the row is as large as
+ * `own`, and would hide all other rows: it is scaled down to what ordinary edges alone would give.
+ * In [0, 1]; 0 if there are no edges.
  */
 inline double commonShare(double own, double edges)
 {

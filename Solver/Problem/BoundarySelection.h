@@ -10,9 +10,9 @@
 namespace smg
 {
 
-/** The vertices of the boundary, determined by a previous reading of the stream: a vertex precedes
- * the cells that could close the facets around it. Cells and facets are selected by their corners;
- * that some cell has all of its corners on the boundary is not required. */
+/** The vertices of the boundary, found by a reading of the stream beforehand: a vertex precedes the
+ * cells that could close the facets around it. Cells and facets are selected by their corners. For
+ * cells, too, it is only an error if no vertex is on the boundary. */
 class BoundarySelection : public Selection
 {
 public:
@@ -25,8 +25,8 @@ public:
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
   VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
-  /** As endPreparing(), but a mesh without a boundary is no error. Returns the number of vertices.
-   */
+  /** Like endPreparing(), but a mesh without a boundary is not an error. Returns the number of
+   * vertices on the boundary. */
   std::int64_t finish(MeshParts* parts = nullptr);
 
 protected:

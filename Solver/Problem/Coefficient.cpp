@@ -6,24 +6,36 @@
 #include <algorithm>
 #include <cmath>
 
+// A value of a description on its mesh: numbers, a column of the vertices or cells, or the
+// position; at vertices, in cells, or at the corners of facets.
+//
+// In a cell, a column of the vertices counts by the mean of the corners, and at a corner of a facet
+// by its value there; both are needed after the vertices have been delivered, so the values of open
+// vertices are kept. Constants and columns of the cells need no memory. Values are copied as they
+// are or averaged over one cell: blocks do not change them.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Norms are sums of squares, which overflow for larger numbers. */
+/** Norms are sums of squares, which overflow for numbers somewhat above this one. */
 constexpr double MaxMagnitude = 1e150;
 
 } // namespace
 
+/** In the order xx, yy, zz, xy, yz, xz of conductivityWeights(). */
 std::array<double, 6> tensorOf(const double* numbers, int count)
 {
   std::array<double, 6> tensor{ numbers[0], numbers[0], numbers[0], 0.0, 0.0, 0.0 };
+  // One number is a multiple of the identity; three replace its diagonal, six all entries.
   std::copy_n(numbers, count == 1 ? 0 : count, tensor.begin());
   return tensor;
 }
 
+/** NaN passes only where it stands for a missing value. The magnitude is checked first: "must be
+ * finite" would be a misleading message for 1e200. */
 const char* ValueRules::complaint(const double* numbers, int count) const
 {
   const bool isFinite = std::all_of(numbers, numbers + count,
@@ -66,6 +78,8 @@ std::string choiceOf(const std::vector<int>& numbers)
 
 } // namespace
 
+/** Resolves the value on the mesh: a name must belong to a column with an admissible number of
+ * components. */
 Coefficient::Coefficient(const DataValue& value, DataPlace place, const ValueRules& rules,
   const std::string& key, MeshColumns& columns)
   : Place(place)
@@ -85,13 +99,17 @@ Coefficient::Coefficient(const DataValue& value, DataPlace place, const ValueRul
   }
   else
   {
+    // Only constants can be checked now.
     this->Numbers = *value.numbers();
     this->Components = static_cast<int>(this->Numbers.size());
   }
+  // Before the window of open vertices gets its number of components.
   this->requireRules(value, rules, key, columns);
   this->Open = OpenValues<double>(columns.memory(), this->Components);
 }
 
+/** Checks what is known without reading the mesh; values of columns are checked where they are
+ * used. */
 void Coefficient::requireRules(const DataValue& value, const ValueRules& rules,
   const std::string& key, const MeshColumns& columns) const
 {
@@ -120,6 +138,7 @@ void Coefficient::requireRules(const DataValue& value, const ValueRules& rules,
   }
 }
 
+/** Keeps the values at open vertices if cells or facets will ask for them. */
 void Coefficient::startBlock(const MeshBlock& block)
 {
   if (this->Place == DataPlace::Vertices || this->What == Constant || this->What == OfCells)
@@ -131,16 +150,19 @@ void Coefficient::startBlock(const MeshBlock& block)
     this->Open.restart();
     this->Finalized = 0;
   }
+  // The cells of the previous block may have used what it finalised; they are done.
   this->Open.release(this->Finalized);
   this->Finalized = block.finalized;
   const std::span<double> values = this->Open.append(block.vertices());
   const InBlock given = this->in(block);
   for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
   {
+    // Not checked yet: a value that no entry uses may be anything.
     given.atVertex(i, values.data() + i * static_cast<std::size_t>(this->Components));
   }
 }
 
+/** The column is looked up by name once per block, not for each value. */
 Coefficient::InBlock::InBlock(const Coefficient& value, const MeshBlock& block)
   : Value(value)
   , Block(block)
@@ -156,6 +178,7 @@ void Coefficient::InBlock::copyRow(std::size_t row, double* value) const
   }
 }
 
+/** The place of the datum is the vertices here: a column of the cells has been refused. */
 void Coefficient::InBlock::atVertex(std::size_t i, double* value) const
 {
   if (this->Value.What == Constant)
@@ -172,16 +195,20 @@ void Coefficient::InBlock::atVertex(std::size_t i, double* value) const
   }
 }
 
+/** The mean of the corners where the value is one of the vertices: exact for the integral of a
+ * linear function over the cell. */
 void Coefficient::InBlock::atCell(
   std::size_t cell, const std::int64_t* corners, double* value) const
 {
   if (this->Value.What == Constant || this->Value.What == OfCells)
   {
+    // The corner does not matter for these.
     this->atCorner(cell, 0, value);
     return;
   }
   for (int k = 0; k < this->Value.Components; ++k)
   {
+    // Summed in the order of the corners in the mesh.
     double sum = 0.0;
     for (int corner = 0; corner < this->Value.Corners; ++corner)
     {
@@ -191,6 +218,8 @@ void Coefficient::InBlock::atCell(
   }
 }
 
+/** A column of the cells has the value of the cell at each of its corners; others are taken from
+ * the window. */
 void Coefficient::InBlock::atCorner(std::size_t cell, std::int64_t corner, double* value) const
 {
   if (this->Value.What == Constant)

@@ -16,7 +16,7 @@
 namespace smg
 {
 
-/** The admissible range of a datum, whose numbers and their squares must also be finite. */
+/** The admissible range of the numbers of a datum. They and their squares must also be finite. */
 enum class ValueRange
 {
   Any,
@@ -30,7 +30,7 @@ struct SMG_EXPORT ValueRules
   std::vector<int> components; ///< the admissible numbers of components
   ValueRange range = ValueRange::Any;
   bool positions = false;                        ///< whether it may be the position
-  bool missing = false;                          ///< whether not a number (NaN) stands for no value
+  bool missing = false;                          ///< whether NaN stands for a missing value
   ColumnOwner preferred = ColumnOwner::Vertices; ///< owner of the column if both have one
 
   /** The error of invalid numbers, for example "must be finite"; null if valid. */
@@ -47,13 +47,13 @@ std::array<double, 6> tensorOf(const double* numbers, int count);
 class Coefficient
 {
 public:
-  /** `key` is its place in the description. Throws Error if it violates the rules or the mesh has
-   * no such column. */
+  /** `key` is the place of the value in the description. Throws Error if the value violates the
+   * rules or the mesh has no such column. */
   Coefficient(const DataValue& value, DataPlace place, const ValueRules& rules,
     const std::string& key, MeshColumns& columns);
 
   int components() const { return this->Components; }
-  /** Whether it is constant; its numbers then satisfy the rules. */
+  /** Whether it is constant; then its numbers are known to satisfy the rules. */
   bool isConstant() const { return this->What == Constant; }
   /** The name of the value in error messages, for example "the column 'k'". */
   std::string name() const
@@ -72,8 +72,8 @@ public:
     void atVertex(std::size_t i, double* value) const;
     /** Copies the value in a cell with these corners; for a column of the vertices, the mean. */
     void atCell(std::size_t cell, const std::int64_t* corners, double* value) const;
-    /** Copies the value at a corner (a stream index) of a cell; for a column of the cells, that of
-     * the cell. */
+    /** Copies the value at a corner (a stream index) of a cell; a column of the cells has the value
+     * of the cell there. */
     void atCorner(std::size_t cell, std::int64_t corner, double* value) const;
 
   private:

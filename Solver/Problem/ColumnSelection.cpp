@@ -6,14 +6,27 @@
 #include <cmath>
 #include <vector>
 
+// Selection by a column of the vertices or cells: where it has a value (tag), or any value but 0
+// (mask).
+//
+// A cell column selects vertices, too: those of the selected cells. A vertex comes before its cells
+// in the stream, so these vertices are found by a reading of the stream beforehand and kept in a
+// scratch file, one bit each; in memory are the marks of open vertices only. Later readings take
+// the bits in stream order.
+//
+// If no place has the value that is asked for, the error names the values that there are
+// (TagValues).
+
 namespace smg
 {
 namespace
 {
 
-/** The shortest text of the number in its precision, an integer without an exponent. */
+/** The shortest text that stands for the number in its precision. Integers have no exponent, since
+ * tags are written like that in meshes. */
 std::string textOf(double value, bool isSingle)
 {
+  // 2^53: from there on a double may stand for several integers.
   constexpr double MaxExact = 9007199254740992.0;
   if (value == std::trunc(value) && std::fabs(value) < MaxExact)
   {
@@ -27,6 +40,8 @@ std::string textOf(double value, bool isSingle)
 
 } // namespace
 
+/** The values are only needed for the message of an error, so none are collected once the value has
+ * been found. */
 void TagValues::add(const Column& column, std::span<const std::uint8_t> selected)
 {
   this->Found = this->Found || std::ranges::count(selected, 1) > 0;
@@ -37,16 +52,21 @@ void TagValues::add(const Column& column, std::span<const std::uint8_t> selected
   }
 }
 
+/** Enters a value in the ascending list, unless it is there, or only extends the range if there are
+ * too many. */
 void TagValues::add(double value)
 {
   const auto place = std::ranges::lower_bound(this->Values, value);
+  // A bisection per value and a move per new one: the list is short.
   const bool isNew = place == this->Values.end() || *place != value;
+  // NaN equals no tag.
   if (!isNew || std::isnan(value))
   {
     return;
   }
   if (this->IsRange)
   {
+    // Only the range: a column with a different value in every cell must not fill the memory.
     this->Values.front() = std::min(this->Values.front(), value);
     this->Values.back() = std::max(this->Values.back(), value);
     return;
@@ -59,6 +79,7 @@ void TagValues::add(double value)
   }
 }
 
+/** In ascending order; at most ten of them. */
 std::string TagValues::text() const
 {
   constexpr std::size_t Named = 10;
@@ -86,12 +107,15 @@ std::string TagValues::text() const
                         : ": the smallest of its " + std::to_string(count) + " values are " + list;
 }
 
+/** Counts selected cells; if vertices are to be selected, marks their corners, and writes the marks
+ * of vertices that no later cell uses. */
 void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns.cellType()));
   std::vector<std::uint8_t> selected(block.corners.size() / corners);
   this->atCells({ block, 0, block.corners }, selected);
   this->Count += std::ranges::count(selected, 1);
+  // Collects what the error would name if no cell is selected in the end.
   this->Tags.add(this->Test.column.in(block), selected);
   if (this->Place != DataPlace::Vertices)
   {
@@ -99,6 +123,7 @@ void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path&
   }
   if (!this->Vertices)
   {
+    // The folder is known from here on.
     this->Vertices.emplace(scratch);
   }
   this->Marks.append(block.vertices());
@@ -112,9 +137,12 @@ void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path&
   }
   this->Vertices->append({ this->Marks.at(this->Written), this->Marks.at(block.finalized) });
   this->Written = block.finalized;
+  // After append(), which has read them.
   this->Marks.release(this->Written);
 }
 
+/** Writes the marks that are left. A part of a mesh finalises no vertex before its end, since other
+ * parts may have more of its cells: there, all marks are left and can be joined. */
 void CellSelection::endPreparing(MeshParts* parts)
 {
   this->Selection::endPreparing(parts);
@@ -132,6 +160,8 @@ void CellSelection::endPreparing(MeshParts* parts)
   }
 }
 
+/** NaN in a mask says neither yes nor no, which is an error that names the cell. For a tag, it just
+ * differs from the value. */
 void CellSelection::atCells(const CellRange& cells, std::span<std::uint8_t> selected) const
 {
   const std::size_t valid =
@@ -143,6 +173,7 @@ void CellSelection::atCells(const CellRange& cells, std::span<std::uint8_t> sele
   }
 }
 
+/** All facets of a selected cell. */
 void CellSelection::atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const
 {
   this->atCells(cells, selected);
@@ -152,6 +183,7 @@ void CellSelection::atFacets(const CellRange& cells, std::span<std::uint8_t> sel
 
 void CellSelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)
 {
+  // Without a file, cells or facets are selected, and the vertices are not asked for.
   if (this->Vertices)
   {
     if (block.firstVertex == 0)

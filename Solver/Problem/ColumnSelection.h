@@ -59,15 +59,16 @@ struct ColumnTest
   }
 };
 
-/** The values of a column until the one that is sought is found: what to name if it never is. */
+/** The different values of a column, collected until the value that is sought turns up. If it never
+ * does, the error message names them. */
 class TagValues
 {
 public:
   /** Adds a part of the column, where `selected` is 1 at the value that is sought. */
   void add(const Column& column, std::span<const std::uint8_t> selected);
 
-  /** For example ": its values are 1, 2 and 5", the smallest 10 of many, or only the range of more
-   * than 1000; empty if the value was found or there is none. */
+  /** For example ": its values are 1, 2 and 5". Of more than 10 values it names the smallest 10, of
+   * more than 1000 only the range. Empty if the value was found, or the column has no values. */
   std::string text() const;
 
 private:
@@ -77,7 +78,7 @@ private:
 
   bool Found = false;
   std::vector<double> Values; ///< ascending; if there are more than Most, the first and the last
-  bool IsRange = false;       ///< whether there are more
+  bool IsRange = false;       ///< whether there are more than Most
   bool IsSingle = false;      ///< whether the column has single precision
 };
 
@@ -116,8 +117,8 @@ private:
   TagValues Tags; ///< during preparation
 };
 
-/** The selection by a column of the cells: cells, their vertices and their facets. In a stream,
- * vertices precede their cells: a previous reading determines the selected vertices. */
+/** The selection by a column of the cells: cells, their vertices and their facets. Vertices precede
+ * their cells in a stream, so that the selected ones are found by a reading beforehand. */
 class CellSelection : public Selection
 {
 public:

@@ -11,6 +11,10 @@
 #include <variant>
 #include <vector>
 
+// Operations on descriptions as a whole: composing them from several sources (the conditions of a
+// pipeline, a file), listing the columns that they name, and a text that identifies them. Each must
+// know every member of ProblemDescription; visit() goes through all parts and values.
+
 namespace smg
 {
 namespace
@@ -57,9 +61,12 @@ void visit(const ProblemDescription& problem, OnWhere onWhere, OnValue onValue)
 
 } // namespace
 
+/** Entries are appended, so that by the rule of precedence those of `more` win where both apply. */
 void append(ProblemDescription& problem, const ProblemDescription& more)
 {
   problem.weights = more.weights;
+  // Usually equal; if they are not, the values of one description have the wrong number of
+  // components, which the check against the mesh reports.
   problem.columns = std::max(problem.columns, more.columns);
   append(problem.conductivity.entries, more.conductivity.entries);
   append(problem.screening.entries, more.screening.entries);
@@ -74,6 +81,7 @@ void append(ProblemDescription& problem, const ProblemDescription& more)
   problem.fluxOutput = problem.fluxOutput || more.fluxOutput;
 }
 
+/** Both values and places may name columns; the field always does. */
 std::set<std::string> namedColumns(const ProblemDescription& problem)
 {
   std::set<std::string> names;
@@ -85,6 +93,7 @@ std::set<std::string> namedColumns(const ProblemDescription& problem)
     problem,
     [&names](const Where& where)
     {
+      // Regions, points and the boundary name no columns.
       if (const auto* tag = std::get_if<ColumnTag>(&where))
       {
         names.insert(tag->column);
@@ -104,6 +113,8 @@ std::set<std::string> namedColumns(const ProblemDescription& problem)
   return names;
 }
 
+/** An initial value alone poses a problem: without conditions, it determines the mean of the
+ * solution. */
 bool isPosed(const ProblemDescription& problem)
 {
   return problem.source.isGiven() || !problem.field.empty() || !problem.dirichlet.empty() ||
@@ -114,7 +125,9 @@ bool isPosed(const ProblemDescription& problem)
 namespace
 {
 
-/** Appends values; variants begin with the index of their type, lists and names with their size. */
+/** Makes a text of values from which they could be read again, so that different descriptions have
+ * different texts: variants begin with the index of their type, lists and names with their size,
+ * and 17 digits determine a double. */
 class TextBuilder
 {
 public:
@@ -130,6 +143,7 @@ private:
   void add(double number)
   {
     char digits[32];
+    // Enough digits to tell any two doubles apart.
     std::snprintf(digits, sizeof(digits), "%.17g ", number);
     this->Text += digits;
   }
@@ -141,6 +155,7 @@ private:
   template <class T, std::size_t N>
   void add(const std::array<T, N>& items)
   {
+    // The size of an array is that of its type.
     std::apply(*this, items);
   }
   template <class T>
@@ -159,6 +174,7 @@ private:
     std::visit([this](const auto& item) { this->add(item); }, value);
   }
 
+  // These have no content; the index of the variant says it all.
   void add(const Everywhere&) {}
   void add(const OnBoundary&) {}
   void add(const Position&) {}
@@ -184,6 +200,7 @@ private:
 
 } // namespace
 
+/** All members, in a fixed order. */
 std::string textOf(const ProblemDescription& problem)
 {
   TextBuilder text;

@@ -17,11 +17,11 @@ SMG_EXPORT void append(ProblemDescription& problem, const ProblemDescription& mo
 /** The names of all columns of the mesh that a description names. */
 SMG_EXPORT std::set<std::string> namedColumns(const ProblemDescription& problem);
 
-/** Whether a description poses a problem: data other than conductivity and screening, which alone
- * have the solution 0. */
+/** Whether a description poses a problem, that is, has data other than conductivity and screening,
+ * which alone have the solution 0. */
 SMG_EXPORT bool isPosed(const ProblemDescription& problem);
 
-/** A text that is another one if anything in the description is, for CheckpointOptions::problem. */
+/** A text that differs if anything in the description does, for CheckpointOptions::problem. */
 SMG_EXPORT std::string textOf(const ProblemDescription& problem);
 
 } // namespace smg

@@ -13,6 +13,10 @@
 #include <string>
 #include <vector>
 
+// A ProblemDescription on its mesh, as a Problem of the solver: every datum is a
+// PiecewiseCoefficient at vertices, in cells or on facets, evaluated block by block. Values depend
+// on the place in the mesh alone, not on blocks or batches; memory is kept for open vertices only.
+
 namespace smg
 {
 
@@ -85,6 +89,7 @@ private:
   std::vector<double> Values; ///< their values
 };
 
+// DescribedProblem only forwards, which keeps the private classes out of the public header.
 DescribedProblem::DescribedProblem(
   const ProblemDescription& description, const StreamInfo& mesh, const std::string& name)
   : OnMesh(std::make_unique<ProblemOnMesh>(description, mesh, name))
@@ -195,6 +200,7 @@ const ValueRules ConductivityRules{ .components = { 1, 3, 6 },
 
 ValueRules fieldRules(int columns)
 {
+  // 3 components: one vector for all columns.
   return { .components = columns == 1 ? std::vector{ 3 } : std::vector{ 3, 3 * columns },
     .preferred = ColumnOwner::Cells };
 }
@@ -280,6 +286,8 @@ void ProblemOnMesh::addRobin(const ProblemDescription& description)
   {
     const ProblemDescription::Robin& robin = description.robin[k];
     const std::string key = keyOf("robin", k);
+    // The ambient values decide which condition holds where; each condition has a coefficient of
+    // its own.
     this->Ambient.add(robin.where, robin.ambient, key, key + ".ambient");
     this->Coefficients.emplace_back(this->OfMesh, DataPlace::Facets, CoefficientRules);
     this->Coefficients.back().add(robin.coefficient, key + ".coefficient");
@@ -292,6 +300,7 @@ void ProblemOnMesh::addSoft(const ProblemDescription& description)
   {
     const ProblemDescription::Soft& soft = description.soft[k];
     const std::string key = keyOf("soft", k);
+    // Soft constraints add up, so each is a datum of its own, not an entry of one.
     this->Softs.push_back({ { this->OfMesh, DataPlace::Vertices, valueRules(description.columns) },
       { this->OfMesh, DataPlace::Vertices, CoefficientRules } });
     this->Softs.back().value.add(soft.where, soft.value, key, key + ".value");
@@ -331,6 +340,8 @@ void ProblemOnMesh::preparePart(
     std::ranges::any_of(data, [](const PiecewiseCoefficient* datum) { return datum->selects(); });
   if (selects)
   {
+    // Without parts of the mesh there is nothing to prepare. The reading also checks that no part
+    // is empty.
     forCheckedBlocks(
       mesh,
       [&](const MeshBlock& block)
@@ -350,7 +361,8 @@ void ProblemOnMesh::endPreparing(MeshParts* parts)
   {
     datum->endPreparing(parts);
   }
-  this->OfMesh.memory().setLimit(INT64_MAX); // that of a solve counts from now on
+  // A solve counts this memory within its own limit, see Problem::bytes().
+  this->OfMesh.memory().setLimit(INT64_MAX);
 }
 
 ConditionCounts ProblemOnMesh::conditionCounts() const
@@ -382,6 +394,7 @@ void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditi
         "Nearest vertices, the vertices of cells and the boundary are found by a previous reading "
         "of the mesh: call DescribedProblem::prepare().");
     }
+    // For all data: cells() and facets() of this block follow.
     datum->startBlock(block);
   }
   this->setValues(block, conditions);
@@ -398,6 +411,7 @@ void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditi
 
 void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditions)
 {
+  // Values that are positions start at the undeformed mesh, not at 0.
   if (this->StartsAtPosition)
   {
     conditions.value = block.positions;
@@ -405,12 +419,13 @@ void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditio
   this->Dirichlet.entriesAtVertices(conditions.dirichlet);
   this->Entry.assign(conditions.dirichlet.size(), -1);
   this->Initial.entriesAtVertices(this->Entry);
-  // Initial values of constrained vertices are not used and may be anything, also NaN.
+  // Initial values at prescribed vertices are not used: they may be anything, also NaN.
   for (std::size_t i = 0; i < this->Entry.size(); ++i)
   {
     this->Entry[i] = conditions.dirichlet[i] >= 0 ? -1 : this->Entry[i];
   }
   this->Initial.valuesAtVertices(block, this->Entry, conditions.value.data(), this->Columns);
+  // A missing initial value is 0, as if none were given.
   std::ranges::replace_if(
     conditions.value, [](double value) { return std::isnan(value); }, 0.0);
   this->Dirichlet.valuesAtVertices(
@@ -448,12 +463,15 @@ void ProblemOnMesh::addSoft(const MeshBlock& block, VertexConditions& conditions
     soft.weight.entriesAtVertices(this->Other);
     for (std::size_t i = 0; i < vertices; ++i)
     {
+      // A weight counts only where its constraint holds.
       this->Other[i] = this->Entry[i] >= 0 ? this->Other[i] : -1;
     }
+    // Where no weight is given, it is 0.
     weight.assign(vertices, 0.0);
     soft.weight.valuesAtVertices(block, this->Other, weight.data(), 1);
     for (std::size_t i = 0; i < vertices; ++i)
     {
+      // weight * (u - value) is a screening and a source.
       conditions.screening[i] += weight[i];
       for (std::size_t k = i * this->Columns; this->Other[i] >= 0 && k < (i + 1) * this->Columns;
            ++k)
@@ -481,6 +499,7 @@ void ProblemOnMesh::cells(CellBatch& batch)
   }
 }
 
+/** A number scales the weights of the cell, a tensor takes new ones. */
 void ProblemOnMesh::setConductivity(const CellRange& cells, CellBatch& batch)
 {
   if (!this->Conductivity.isGiven())
@@ -503,6 +522,8 @@ void ProblemOnMesh::setConductivity(const CellRange& cells, CellBatch& batch)
     const std::span<double> weights = batch.weightsOf(c);
     if (count == 1)
     {
+      // As conductivityWeights() of a multiple of the identity, without computing the weights
+      // again.
       std::ranges::for_each(weights, [&](double& weight) { weight *= numbers[0]; });
     }
     else
@@ -531,6 +552,7 @@ void ProblemOnMesh::setField(const CellRange& cells, CellBatch& batch)
     return;
   }
   const std::size_t numbers = 3 * this->Columns;
+  // There is one entry, everywhere.
   this->Entry.assign(batch.cells(), 0);
   this->Field.valuesAtCells(cells, this->Entry, batch.field.data(), numbers);
   if (this->Field.components(0) == 3)
@@ -565,6 +587,7 @@ void ProblemOnMesh::setRobin(const CellRange& cells, FacetBatch& batch)
     this->Coefficients[k].entriesAtFacets(cells, this->Entry);
     for (std::size_t facet = 0; facet < batch.robin.size(); ++facet)
     {
+      // Each condition has its own coefficient: take the one of the condition that applies here.
       const bool holds = batch.robin[facet] == static_cast<std::int32_t>(k);
       this->Entry[facet] = holds ? this->Entry[facet] : -1;
     }

@@ -6,9 +6,14 @@
 
 #include <string>
 
+// The vertices that a job holds: the union of several parts of the mesh, and of the boundary if the
+// job keeps it. Each part is a Selection; the union is formed block by block, in one byte per
+// vertex of the block.
+
 namespace smg
 {
 
+/** Makes a selection of each part; its key in messages is its place in the list of held parts. */
 FixedVertices::FixedVertices(
   const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns)
   : Memory(columns.memory())
@@ -19,6 +24,7 @@ FixedVertices::FixedVertices(
   }
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
+    // A column of the vertices is meant if both have one, as in problem files.
     auto part = Selection::make(parts[k], DataPlace::Vertices, ColumnOwner::Vertices,
       "hold[" + std::to_string(k) + "]", columns);
     if (part)
@@ -27,11 +33,13 @@ FixedVertices::FixedVertices(
     }
     else
     {
+      // Everywhere.
       this->HoldsAll = true;
     }
   }
 }
 
+/** All parts see all blocks; the boundary is a selection like any other. */
 void FixedVertices::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   if (this->Boundary)
@@ -44,11 +52,14 @@ void FixedVertices::prepare(const MeshBlock& block, const std::filesystem::path&
   }
 }
 
+/** Unlike a part that is asked for, a boundary may be empty: the mesh is closed then. It is looked
+ * for even where it is not held, see hasBoundary(). */
 void FixedVertices::endPreparing(bool fixesBoundary)
 {
   this->BoundarySize = this->Boundary ? this->Boundary->finish() : 0;
   if (!fixesBoundary || this->BoundarySize == 0)
   {
+    // Not held, or empty: later readings need not look at it.
     this->Boundary.reset();
   }
   for (const auto& part : this->Parts)
@@ -57,6 +68,7 @@ void FixedVertices::endPreparing(bool fixesBoundary)
   }
 }
 
+/** Every selection must see every block, also those with nothing to select. */
 std::span<const std::uint8_t> FixedVertices::at(const MeshBlock& block)
 {
   this->Held.assign(static_cast<std::size_t>(block.vertices()), this->HoldsAll ? 1 : 0);
@@ -80,6 +92,7 @@ std::span<const std::uint8_t> FixedVertices::at(const MeshBlock& block)
   return this->Held;
 }
 
+/** If vertices and cells have a column of the name, that of the cells is meant. */
 SelectedVertices::SelectedVertices(
   const Where& where, const StreamInfo& mesh, const std::string& name)
   : Columns(mesh, name)
@@ -92,6 +105,7 @@ SelectedVertices::~SelectedVertices() = default;
 
 void SelectedVertices::add(const MeshBlock& block)
 {
+  // In the temporary folder of the system.
   this->Selected->prepare(block, {});
 }
 
@@ -100,6 +114,7 @@ void SelectedVertices::finish()
   this->Selected->endPreparing(nullptr);
 }
 
+/** Any vertex in any order, from the bits that the preparation has stored. */
 bool SelectedVertices::contains(std::int64_t vertex) const
 {
   return this->Selected->preparedVertices()->contains(vertex);

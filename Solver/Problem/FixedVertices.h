@@ -18,8 +18,8 @@
 namespace smg
 {
 
-/** The vertices of several parts of a mesh, and of its boundary if that is fixed, block by block of
- * the stream. */
+/** The vertices that a job holds: those of several parts of a mesh and, if it is fixed, of its
+ * boundary. Evaluated block by block of the stream. */
 class FixedVertices
 {
 public:
@@ -37,7 +37,7 @@ public:
   /** Whether a boundary was found, after endPreparing(). */
   bool hasBoundary() const { return this->BoundarySize > 0; }
 
-  /** For the vertices of the next block: 1 where held, else 0. The first block restarts it. */
+  /** For the vertices of the next block: 1 where held, else 0. The first block begins anew. */
   std::span<const std::uint8_t> at(const MeshBlock& block);
 
 private:
@@ -52,9 +52,9 @@ private:
 class Selection;
 
 /**
- * The vertices of the boundary, or of the cells with a tag or in a mask: found in one pass over the
- * mesh stream, and afterwards known for every vertex in any order. They are kept in an unnamed
- * scratch file, one bit a vertex, of which 64 KiB are in memory.
+ * The vertices of the boundary, or of the cells with a tag or in a mask. They are found in one pass
+ * over the mesh stream and can then be asked for in any order. An unnamed scratch file has one bit
+ * for each vertex, of which 64 KiB are in memory.
  */
 class SMG_EXPORT SelectedVertices
 {
@@ -70,7 +70,7 @@ public:
   /** To be called after the last block. Throws Error if there is no such vertex. */
   void finish();
 
-  /** Whether a vertex, by its index in the stream, is one of them; after finish(). */
+  /** Whether the vertex with this stream index is one of them; after finish(). */
   bool contains(std::int64_t vertex) const;
 
 private:

@@ -12,6 +12,11 @@
 #include <string>
 #include <utility>
 
+// The columns of a mesh that a description names, and what its error messages have in common. A
+// mesh source delivers only the columns that are asked for, so every column is looked up in the
+// StreamInfo before the mesh is read, where a misspelled name gives an error with the names that
+// there are.
+
 namespace smg
 {
 
@@ -39,6 +44,8 @@ std::string listOf(const std::vector<ColumnSpec>& specs)
   return list.empty() ? "none" : list;
 }
 
+/** Adds the column of original indices, if it is needed, exists, and is not among the names
+ * already. */
 std::vector<std::string> withNumbers(std::vector<std::string> names, bool isNeeded,
   const std::vector<ColumnSpec>& specs, const ColumnSpec& numbers)
 {
@@ -52,6 +59,7 @@ std::vector<std::string> withNumbers(std::vector<std::string> names, bool isNeed
 
 } // namespace
 
+/** Found by name, since a source delivers only some of the columns of the mesh. */
 const Column& NamedColumn::in(const MeshBlock& block) const
 {
   const bool ofCells = this->owner == ColumnOwner::Cells;
@@ -60,6 +68,7 @@ const Column& NamedColumn::in(const MeshBlock& block) const
     columns, [this](const Column& column) { return column.spec.name == this->name; });
   if (found == columns.end())
   {
+    // An error of the calling program, which did not ask for vertexColumns() or cellColumns().
     throw Error(std::string("The mesh is read without the column '") + this->name + "' of its " +
                 (ofCells ? "cells" : "vertices") + ", which the problem needs.");
   }
@@ -75,12 +84,14 @@ MeshColumns::MeshColumns(const StreamInfo& mesh, std::string description, Pool* 
 {
 }
 
+/** If only one of both has the column, the preference does not matter. */
 bool MeshColumns::isOfCells(const std::string& name, ColumnOwner preferred) const
 {
   return find(this->Info.cellColumns, name) &&
          (preferred == ColumnOwner::Cells || !find(this->Info.vertexColumns, name));
 }
 
+/** Requests the column of its owner; the error lists what the mesh has. */
 NamedColumn MeshColumns::require(
   const std::string& name, ColumnOwner preferred, const std::string& key)
 {
@@ -92,6 +103,7 @@ NamedColumn MeshColumns::require(
                       listOf(this->Info.vertexColumns) + ", its cells " +
                       listOf(this->Info.cellColumns));
   }
+  // Several entries may name the same column; it is read once.
   std::vector<std::string>& needed = ofCells ? this->Cells : this->Vertices;
   if (std::ranges::find(needed, name) == needed.end())
   {
@@ -100,21 +112,26 @@ NamedColumn MeshColumns::require(
   return { name, ofCells ? ColumnOwner::Cells : ColumnOwner::Vertices, spec->components };
 }
 
+/** Where columns are read, an error may name a vertex: then by its number in the original file. */
 std::vector<std::string> MeshColumns::vertexColumns() const
 {
   return withNumbers(this->Vertices, this->NeedsIds || !this->Vertices.empty(),
     this->Info.vertexColumns, OriginalIdSpec);
 }
 
+/** As for the vertices. */
 std::vector<std::string> MeshColumns::cellColumns() const
 {
   return withNumbers(this->Cells, this->NeedsCellIds || !this->Cells.empty(),
     this->Info.cellColumns, OriginalCellIdSpec);
 }
 
+/** The original indices, if the mesh has them; a source that leaves them out is an error where
+ * regions need them. */
 const Column* MeshColumns::ids(const MeshBlock& block) const
 {
   const std::ptrdiff_t place = findColumn(block.vertexColumns, OriginalIdSpec);
+  // Stream indices would be wrong numbers for a mesh that has original ones.
   if (place < 0 && this->NeedsIds && findColumn(this->Info.vertexColumns, OriginalIdSpec) >= 0)
   {
     throw Error(this->Description + ": the mesh is read without its column " + OriginalIdName +
@@ -133,13 +150,17 @@ std::string MeshColumns::cellName(const MeshBlock& block, std::size_t c) const
   return "cell " + nameOfRow(block.cellColumns, OriginalCellIdSpec, block.firstCell, c);
 }
 
+/** The message has one line, whatever characters the names of columns have. */
 void MeshColumns::fail(const std::string& key, const std::string& sentence) const
 {
   throw Error(oneLine(this->Description + ": " + key + ": " + sentence + '.'));
 }
 
+/** Reads the whole solution once more, unless all columns have floating-point types, which do not
+ * clip. */
 void countClipped(Solution& solution, const std::vector<ColumnSpec>& columns, Report& report)
 {
+  // One range per component; component k of a value belongs to column k of the solution.
   std::vector<RoundedRange> ranges;
   for (const ColumnSpec& column : columns)
   {
@@ -151,6 +172,7 @@ void countClipped(Solution& solution, const std::vector<ColumnSpec>& columns, Re
   {
     return;
   }
+  // The solution may be larger than the memory, and is read in parts.
   constexpr std::int64_t ChunkVertices = 1 << 14;
   std::vector<double> values;
   for (std::int64_t first = 0; first < solution.vertices(); first += ChunkVertices)
@@ -160,6 +182,7 @@ void countClipped(Solution& solution, const std::vector<ColumnSpec>& columns, Re
     solution.read(first, count, values);
     for (std::size_t k = 0; k < values.size(); ++k)
     {
+      // Rounded first, as on output: 255.4 is within the range of a byte.
       report.clipped += ranges[k % ranges.size()].contains(std::nearbyint(values[k])) ? 0 : 1;
     }
   }

@@ -41,14 +41,14 @@ struct NamedColumn
 class SMG_EXPORT MeshColumns
 {
 public:
-  /** `description` is the name of the description in error messages: its file. `memory`: see
-   * memory(); null: a pool of its own, without a limit at first. */
+  /** `description`: what error messages call the description, for instance its file. `memory`: see
+   * memory(); null: a pool of its own, at first without a limit. */
   MeshColumns(const StreamInfo& mesh, std::string description, Pool* memory = nullptr);
   MeshColumns(const MeshColumns&) = delete;
   MeshColumns& operator=(const MeshColumns&) = delete;
 
   CellType cellType() const { return this->Info.cellType; }
-  /** Accounts for what selections and values keep of open vertices. */
+  /** The pool that accounts for what selections and values keep of open vertices. */
   Pool& memory() const { return *this->Memory; }
 
   /** Whether `name` refers to a column of the cells, if columns of `preferred` take precedence. */
@@ -94,8 +94,8 @@ inline bool isInexact(ScalarType type, double number)
   return isInteger && std::fabs(number) >= MinInexact;
 }
 
-/** What prevents a computation with this number of a column, as the end of "the column ..."; null:
- * nothing. */
+/** Why this number of a column cannot be computed with, to follow "the column ..." in a message;
+ * null if it can. */
 inline const char* flawOf(ScalarType type, double number)
 {
   return !std::isfinite(number) ? "is not a finite number"
@@ -104,9 +104,9 @@ inline const char* flawOf(ScalarType type, double number)
            : nullptr;
 }
 
-/** Counts the values that become the smallest or largest number of the type of their column since
- * they are, rounded, beyond it: sets Report::clipped, and adds a note if there are any. The
- * components of `columns` are the columns of the solution, one after the other. */
+/** Counts the values that are outside the range of the type of their column after rounding, and
+ * will be set to its smallest or largest number: sets Report::clipped, and adds a note if there are
+ * any. The components of `columns`, one after the other, are the columns of the solution. */
 void countClipped(Solution& solution, const std::vector<ColumnSpec>& columns, Report& report);
 
 } // namespace smg

@@ -8,13 +8,21 @@
 #include <limits>
 #include <optional>
 
+// The vertices nearest to given points, found by a reading of the stream beforehand.
+//
+// Vertices are searched in batches. Each point is compared with the bounding box of the batch
+// first; only if that is nearer than the nearest vertex so far, a k-d tree of the batch is built
+// (once) and searched. Of equally near vertices the first in the stream counts: within a batch the
+// tree finds the lowest index, and a later batch must be strictly nearer. So the result does not
+// depend on where batches end, which does depend on the blocks.
+
 namespace smg
 {
 
 namespace
 {
 
-/** So many vertices are searched at once, however small the blocks are. */
+/** The least number of vertices that are searched at once, however small the blocks are. */
 constexpr std::size_t BatchVertices = 8192;
 
 } // namespace
@@ -28,14 +36,17 @@ NearestSelection::NearestSelection(const NearestVertices& nearest, DataPlace pla
 {
   const auto isFinite = [](const std::array<double, 3>& p)
   { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
+  // NaN would be nearest to no vertex, and infinity equally near to all of them.
   if (this->Points.empty() || !std::ranges::all_of(this->Points, isFinite))
   {
     columns.fail(key + ".nearest", "must have at least one point, and finite coordinates");
   }
 }
 
+/** Collects vertices until they are enough for a batch. A tree of few vertices would not pay. */
 void NearestSelection::prepare(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
 {
+  // Whole blocks, in order: a vertex has the index BatchBegin plus its place in the batch.
   this->Batch.insert(this->Batch.end(), block.positions.begin(), block.positions.end());
   if (this->Batch.size() >= 3 * BatchVertices)
   {
@@ -53,6 +64,7 @@ void NearestSelection::searchBatch()
     low[i % 3] = std::min(low[i % 3], this->Batch[i]);
     high[i % 3] = std::max(high[i % 3], this->Batch[i]);
   }
+  // Building it costs more than searching it for one point.
   std::optional<PointTree> tree;
   for (std::size_t n = 0; n < this->Points.size(); ++n)
   {
@@ -60,9 +72,11 @@ void NearestSelection::searchBatch()
     std::array<double, 3> inBox{};
     for (std::size_t k = 0; k < 3; ++k)
     {
+      // The point of the box that is nearest to `point`.
       inBox[k] = std::min(std::max(point[k], low[k]), high[k]);
     }
-    // Most batches are farther from most points than vertices that are known already.
+    // Most batches are farther from most points than vertices that are known already. The distance
+    // of the box is computed like those of vertices, so that rounding keeps it a lower bound.
     if (PointTree::squaredDistance(inBox, point) < this->Distances[n])
     {
       if (!tree)
@@ -81,40 +95,50 @@ void NearestSelection::searchBatch()
   this->Batch.clear();
 }
 
+/** Searches the rest of the vertices, and turns the nearest vertex of each point into an ascending
+ * list of vertices with their points. */
 void NearestSelection::endPreparing(MeshParts* parts)
 {
   this->searchBatch();
+  // Gives the memory back.
   this->Batch = {};
   if (parts)
   {
+    // Vertices are -1 afterwards where another part has the nearest one.
     parts->nearest(this->Distances, this->Vertices);
   }
+  // Says that preparation is complete, see needsPreparing().
   this->Distances.clear();
   const std::vector<std::int64_t> nearest = this->Vertices;
   std::erase(this->Vertices, -1);
   this->Count = static_cast<std::int64_t>(this->Vertices.size());
   this->Selection::endPreparing(parts);
+  // Ascending, so that the vertices of a block form a range, and any vertex is found by bisection.
   std::ranges::sort(this->Vertices);
   this->Vertices.erase(
     std::unique(this->Vertices.begin(), this->Vertices.end()), this->Vertices.end());
   this->Numbers.resize(this->Vertices.size());
   for (std::size_t n = 0; n < nearest.size(); ++n)
   {
+    // Another part of the mesh has the vertex.
     if (nearest[n] < 0)
     {
-      continue; // a vertex that the part lacks
+      continue;
     }
     const auto place = std::ranges::lower_bound(this->Vertices, nearest[n]);
+    // Later points overwrite earlier ones: the last one counts.
     this->Numbers[static_cast<std::size_t>(place - this->Vertices.begin())] = n;
   }
 }
 
+/** The vertex is selected, so that the list has it. */
 std::size_t NearestSelection::pointOf(std::int64_t vertex) const
 {
   const auto place = std::ranges::lower_bound(this->Vertices, vertex);
   return this->Numbers[static_cast<std::size_t>(place - this->Vertices.begin())];
 }
 
+/** The selected vertices of a block are a range of the ascending list. */
 void NearestSelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)
 {
   const auto begin = std::ranges::lower_bound(this->Vertices, block.firstVertex);

@@ -9,10 +9,10 @@ namespace smg
 {
 
 /**
- * The vertices nearest to given points, determined by a previous reading of the stream: of several
- * equally near ones, the first. The vertices are searched in batches by a k-d tree, which is only
- * built where the bounding box of the batch is nearer to a point than all vertices before: for m
- * points and n vertices about n log(batch) + m n / batch steps.
+ * The vertices nearest to given points, found by a reading of the stream beforehand; of equally
+ * near ones, the first in the stream. They are searched in batches by a k-d tree, which is only
+ * built if the bounding box of the batch is nearer to some point than all vertices before. For m
+ * points and n vertices this takes about n log(batch) + m n / batch steps.
  */
 class NearestSelection : public Selection
 {
@@ -24,8 +24,8 @@ public:
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
 
-  /** The number of the point to which a selected vertex is nearest, from 0; of several, the last
-   * one. */
+  /** The index of the point to which this selected vertex is nearest; the last one if there are
+   * several. */
   std::size_t pointOf(std::int64_t vertex) const;
 
 protected:
@@ -37,11 +37,12 @@ private:
 
   std::vector<std::array<double, 3>> Points;
   std::vector<double> Batch;   ///< positions of vertices that have not been searched yet
-  std::int64_t BatchBegin = 0; ///< the first of them
-  /** Squared, of the nearest vertex so far to each point; finally empty. */
+  std::int64_t BatchBegin = 0; ///< stream index of the first vertex of the batch
+  /** Squared distance of each point to the nearest vertex so far; empty after preparation. */
   std::vector<double> Distances;
-  std::vector<std::int64_t> Vertices; ///< those vertices; finally ascending without duplicates
-  std::vector<std::size_t> Numbers;   ///< of the points of these, finally
+  /** The nearest vertex so far to each point; after preparation ascending without duplicates. */
+  std::vector<std::int64_t> Vertices;
+  std::vector<std::size_t> Numbers; ///< after preparation: the point of each of these vertices
 };
 
 } // namespace smg

@@ -13,8 +13,9 @@
 namespace smg
 {
 
-/** `lanes` values of T for each open vertex of a mesh stream: one that a later cell may use. They
- * take at most about twice the bytes of the most open vertices, accounted for in a pool. */
+/** `lanes` values of T for each open vertex of a mesh stream, that is, one that a later cell may
+ * use. The memory is at most about twice what the largest number of open vertices takes, and is
+ * accounted for in a pool. */
 template <class T>
 class OpenValues
 {
@@ -37,7 +38,8 @@ public:
   /** Releases the vertices below `final`, immediately or later. */
   void release(std::int64_t final)
   {
-    // Values are moved only when half of them are released: amortised once per value.
+    // Values are moved only when more than half of them are released: on average less than one move
+    // per value.
     if (final - this->First > (this->End - this->First) / 2)
     {
       const std::size_t kept = this->place(this->End) - this->place(final);

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+// A datum of a description on its mesh. First the entry that applies at each vertex, cell or facet
+// of a block is found, of several the last one; then values are copied, entry by entry. So values
+// are only evaluated where they apply: a column may have anything elsewhere, also NaN.
+
 namespace smg
 {
 
@@ -11,6 +15,7 @@ void PiecewiseCoefficient::add(
   const Where& where, const DataValue& value, const std::string& key, const std::string& valueKey)
 {
   auto selection = Selection::make(where, this->Place, this->Rules.preferred, key, *this->Columns);
+  // The selection may be null, for everywhere.
   this->Entries.push_back({ std::move(selection),
     Coefficient(value, this->Place, this->Rules, valueKey, *this->Columns), valueKey });
 }
@@ -20,6 +25,7 @@ void PiecewiseCoefficient::add(const Datum& datum, const std::string& key)
   const std::vector<PlacedValue>& entries = datum.entries;
   if (entries.size() == 1 && std::holds_alternative<Everywhere>(entries[0].where))
   {
+    // Written as a plain value in descriptions, without a list: its key has no index.
     this->add(entries[0].where, entries[0].value, key, key);
     return;
   }
@@ -35,6 +41,7 @@ bool PiecewiseCoefficient::selects() const
   return std::ranges::any_of(this->Entries, [](const Entry& e) { return e.where != nullptr; });
 }
 
+/** Only some kinds of selections do; others merely can be checked by a reading. */
 bool PiecewiseCoefficient::needsPreparing() const
 {
   return std::ranges::any_of(
@@ -52,6 +59,7 @@ void PiecewiseCoefficient::prepare(const MeshBlock& block, const std::filesystem
   }
 }
 
+/** All processes have the same entries and come here in the same order, as MeshParts requires. */
 void PiecewiseCoefficient::endPreparing(MeshParts* parts)
 {
   for (Entry& entry : this->Entries)
@@ -63,6 +71,8 @@ void PiecewiseCoefficient::endPreparing(MeshParts* parts)
   }
 }
 
+/** Also for entries that nothing in this block asks for: the values and marks of open vertices must
+ * have no gaps. */
 void PiecewiseCoefficient::startBlock(const MeshBlock& block)
 {
   for (Entry& entry : this->Entries)
@@ -75,8 +85,10 @@ void PiecewiseCoefficient::startBlock(const MeshBlock& block)
   }
 }
 
+/** Later entries overwrite earlier ones wherever they apply. */
 void PiecewiseCoefficient::entriesAtVertices(std::span<std::int32_t> entry) const
 {
+  // In ascending order, so that later entries take precedence.
   for (std::int32_t e = 0; e < this->entries(); ++e)
   {
     const Selection* where = this->at(e).where.get();
@@ -93,6 +105,7 @@ void PiecewiseCoefficient::entriesAtVertices(std::span<std::int32_t> entry) cons
   }
 }
 
+/** Cells of a batch, not of the whole block: selections are asked for a range of cells. */
 void PiecewiseCoefficient::entriesAtCells(
   const CellRange& cells, std::span<std::int32_t> entry) const
 {
@@ -113,10 +126,12 @@ void PiecewiseCoefficient::entriesAtCells(
   }
 }
 
+/** As in cells, with as many numbers per cell as it has corners. */
 void PiecewiseCoefficient::entriesAtFacets(
   const CellRange& cells, std::span<std::int32_t> entry) const
 {
   const auto facets = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
+  // One byte per cell, with a bit per facet.
   this->Selected.resize(entry.size() / facets);
   for (std::int32_t e = 0; e < this->entries(); ++e)
   {
@@ -137,6 +152,8 @@ void PiecewiseCoefficient::entriesAtFacets(
   }
 }
 
+/** Constants have been checked when the description was read. `where` makes the text only if there
+ * is an error. */
 void PiecewiseCoefficient::require(const Entry& entry, const double* numbers, auto where) const
 {
   if (entry.value.isConstant())
@@ -149,6 +166,7 @@ void PiecewiseCoefficient::require(const Entry& entry, const double* numbers, au
   }
 }
 
+/** Entry by entry, so that the column of an entry is looked up once per call. */
 void PiecewiseCoefficient::forEntries(
   const MeshBlock& block, std::span<const std::int32_t> entry, auto visit) const
 {
@@ -166,6 +184,7 @@ void PiecewiseCoefficient::forEntries(
   }
 }
 
+/** Values are checked as they are used, so that an error can name the vertex. */
 void PiecewiseCoefficient::valuesAtVertices(const MeshBlock& block,
   std::span<const std::int32_t> entry, double* values, std::size_t stride) const
 {
@@ -178,6 +197,7 @@ void PiecewiseCoefficient::valuesAtVertices(const MeshBlock& block,
   this->forEntries(block, entry, at);
 }
 
+/** A conductivity may also come from a column of the vertices; then the mean is what is checked. */
 void PiecewiseCoefficient::valuesAtCells(const CellRange& cells,
   std::span<const std::int32_t> entry, double* values, std::size_t stride) const
 {
@@ -192,12 +212,15 @@ void PiecewiseCoefficient::valuesAtCells(const CellRange& cells,
   this->forEntries(cells.block, entry, in);
 }
 
+/** One value for each corner of a facet, in the order of the corners in the cell. */
 void PiecewiseCoefficient::valuesAtFacets(const CellRange& cells,
   std::span<const std::int32_t> entry, double* values, std::size_t stride) const
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
   const auto on = [&](const Entry& given, const Coefficient::InBlock& value, std::size_t facet)
   {
+    // A cell has as many facets as corners; facet k lacks corner k and has the others in their
+    // order.
     const std::size_t c = facet / corners;
     double* numbers = values + facet * (corners - 1) * stride;
     for (std::size_t k = 0; k < corners; ++k)
@@ -205,6 +228,8 @@ void PiecewiseCoefficient::valuesAtFacets(const CellRange& cells,
       if (k != facet % corners)
       {
         value.atCorner(cells.first + c, cells.corners[c * corners + k], numbers);
+        // Most of these facets are in the interior, where the column may have anything. The solver
+        // rejects NaN on boundary facets (ProblemFacets).
         if (this->Rules.complaint(numbers, given.value.components()))
         {
           std::fill_n(numbers, given.value.components(), std::numeric_limits<double>::quiet_NaN());

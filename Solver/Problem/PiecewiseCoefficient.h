@@ -28,8 +28,8 @@ public:
   {
   }
 
-  /** Adds an entry, which takes precedence over the previous ones. `key` and `valueKey` are its
-   * place in the description and that of its value. Throws Error. */
+  /** Adds an entry, which takes precedence over the previous ones. `key` and `valueKey` are the
+   * places of the entry and of its value in the description, for messages. Throws Error. */
   void add(const Where& where, const DataValue& value, const std::string& key,
     const std::string& valueKey);
   /** Adds the entries of a datum. */
@@ -40,7 +40,8 @@ public:
   /** The number of components of the value of an entry. */
   int components(std::int32_t entry) const { return this->at(entry).value.components(); }
 
-  /** Whether the datum selects parts of the mesh, which can be checked by reading the stream. */
+  /** Whether an entry selects a part of the mesh. Reading the stream checks that it is not empty.
+   */
   bool selects() const;
   /** Whether the stream must be read before selections can be evaluated. */
   bool needsPreparing() const;
@@ -49,9 +50,8 @@ public:
   void endPreparing(MeshParts* parts);
   void startBlock(const MeshBlock& block);
 
-  /**
-   * Sets `entry` to the applicable entry at each vertex of the block; unchanged if there is none.
-   */
+  /** Sets `entry` to the number of the entry that applies at each vertex of the block. Where none
+   * does, it is left unchanged. */
   void entriesAtVertices(std::span<std::int32_t> entry) const;
   /** Likewise in cells of the block, and on their facets, as many per cell as corners. */
   void entriesAtCells(const CellRange& cells, std::span<std::int32_t> entry) const;

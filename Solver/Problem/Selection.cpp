@@ -12,13 +12,25 @@
 #include <utility>
 #include <vector>
 
+// Evaluates the parts of a mesh that a description names (Where) block by block of the stream.
+//
+// A region selects vertices by their positions or numbers. Cells come later in the stream than
+// their vertices, so one byte is kept for each open vertex, and cells and facets look up their
+// corners. What each vertex gets depends on the vertex alone, hence not on how the stream is cut
+// into blocks. Parts that cannot be known when the vertex arrives (the vertices of selected cells,
+// the boundary, nearest vertices) take a reading of the stream beforehand: see the derived classes.
+//
+// A description that selects nothing is most likely a mistake, for instance in a unit or a number,
+// which would go unnoticed in the solution. prepare() therefore counts what is selected.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Calls `visit(c, bits)` for each cell; bit k of `bits` is set if corner k is selected. */
+/** Calls `visit(c, bits)` for each cell; bit k of `bits` is set if corner k is selected. All
+ * corners of a valid stream are open when their cell arrives. */
 void forCorners(
   CellType type, const CellRange& cells, const OpenValues<std::uint8_t>& open, auto visit)
 {
@@ -36,11 +48,13 @@ void forCorners(
 
 } // namespace
 
+/** Checks all that is known without reading the mesh, so that a mistake is reported at once. */
 std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
   ColumnOwner preferred, const std::string& key, MeshColumns& columns)
 {
   if (std::holds_alternative<Everywhere>(where))
   {
+    // No selection at all is faster than one that is true everywhere.
     return nullptr;
   }
   if (const auto* region = std::get_if<Region>(&where))
@@ -55,6 +69,8 @@ std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
   {
     return std::make_unique<BoundarySelection>(place, key, columns);
   }
+  // Tag and mask: a column of the vertices and one of the cells are selected in different ways. If
+  // both exist, `preferred` decides.
   const auto ofColumn = [&](const std::string& name, const char* what,
                           std::optional<double> value) -> std::unique_ptr<Selection>
   {
@@ -79,13 +95,17 @@ std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
   return ofColumn(std::get<ColumnMask>(where).column, ".mask", std::nullopt);
 }
 
+/** Evaluates the selection at the vertices of the block, beside those of earlier ones that are
+ * still open. */
 void Selection::startBlock(const MeshBlock& block)
 {
+  // The same object serves several readings: preparation, solve, results.
   if (block.firstVertex == 0)
   {
     this->Open.restart();
     this->Finalized = 0;
   }
+  // Vertices that the previous block finalises could still be used by its own cells, until now.
   this->Open.release(this->Finalized);
   this->Finalized = block.finalized;
   const std::span<std::uint8_t> current = this->Open.append(block.vertices());
@@ -93,6 +113,7 @@ void Selection::startBlock(const MeshBlock& block)
   this->Current = current;
 }
 
+/** A cell is selected if all its corners are. */
 void Selection::atCells(const CellRange& cells, std::span<std::uint8_t> selected) const
 {
   const unsigned all = (1U << cornersOf(this->Columns.cellType())) - 1U;
@@ -100,6 +121,8 @@ void Selection::atCells(const CellRange& cells, std::span<std::uint8_t> selected
     [&](std::size_t c, unsigned bits) { selected[c] = bits == all ? 1 : 0; });
 }
 
+/** A facet is selected if all its corners are, that is, all corners of the cell except the opposite
+ * one. */
 void Selection::atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const
 {
   const int corners = cornersOf(this->Columns.cellType());
@@ -116,6 +139,8 @@ void Selection::atFacets(const CellRange& cells, std::span<std::uint8_t> selecte
     });
 }
 
+/** Counts selected vertices, or the selected cells or facets, depending on the place of the datum:
+ * vertices alone need not make up a whole cell. */
 void Selection::prepare(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
 {
   this->startBlock(block);
@@ -132,6 +157,7 @@ void Selection::prepare(const MeshBlock& block, const std::filesystem::path& /*s
   this->Count += std::ranges::count_if(selected, [](std::uint8_t bits) { return bits != 0; });
 }
 
+/** A part of the mesh may have none of the selected items, as long as another one has some. */
 void Selection::endPreparing(MeshParts* parts)
 {
   if (parts)
@@ -160,11 +186,13 @@ RegionSelection::RegionSelection(
   }
   if (const Region::Vertices* named = region.vertices())
   {
+    // Vertices are named by their numbers in the original file, which a conversion has reordered.
     columns.requireIds();
     this->Found.resize(named->ids.size());
   }
 }
 
+/** Tests each vertex by its position and its number, of which the region uses one. */
 void RegionSelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)
 {
   const Column* ids = this->Selected.vertices() ? this->Columns.ids(block) : nullptr;
@@ -172,11 +200,14 @@ void RegionSelection::select(const MeshBlock& block, std::span<std::uint8_t> sel
   {
     const std::int64_t id =
       ids ? ids->as<std::int64_t>()[i] : block.firstVertex + static_cast<std::int64_t>(i);
+    // A mesh without original numbers is numbered as the stream is.
     const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
     selected[i] = this->Selected.contains(point, id) ? 1 : 0;
   }
 }
 
+/** Also looks for each vertex that is named by number: a region must not be smaller than it
+ * says. */
 void RegionSelection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   this->Selection::prepare(block, scratch);
@@ -193,12 +224,14 @@ void RegionSelection::prepare(const MeshBlock& block, const std::filesystem::pat
     {
       const std::int64_t id =
         ids ? ids->as<std::int64_t>()[i] : block.firstVertex + static_cast<std::int64_t>(i);
+      // The numbers are in ascending order without repetitions, see Region.
       const auto place = std::ranges::lower_bound(named->ids, id);
       this->Found[static_cast<std::size_t>(place - named->ids.begin())] += 1;
     }
   }
 }
 
+/** Vertices on the border of several parts are counted in each of them; only 0 matters. */
 void RegionSelection::endPreparing(MeshParts* parts)
 {
   if (parts)
@@ -234,6 +267,7 @@ std::string complaintOf(const Region::Box& box)
   return isInsideOut ? "must be x0, y0, z0, x1, y1, z1 with x0 <= x1, y0 <= y1 and z0 <= z1" : "";
 }
 
+/** In this form, the test also rejects NaN. */
 std::string complaintOf(const Region::Sphere& sphere)
 {
   return sphere.radius >= 0.0 ? "" : "must have a radius of at least 0";
@@ -250,6 +284,7 @@ std::string complaintOf(const Region::Vertices& vertices)
 
 Region::Vertices sorted(Region::Vertices vertices)
 {
+  // For the binary search in contains().
   std::ranges::sort(vertices.ids);
   vertices.ids.erase(std::unique(vertices.ids.begin(), vertices.ids.end()), vertices.ids.end());
   return vertices;
@@ -267,10 +302,13 @@ std::string Region::complaint() const
   return std::visit([](const auto& shape) { return complaintOf(shape); }, this->What);
 }
 
+/** Plain comparisons without tolerances: what is selected is reproducible. */
 bool Region::contains(std::span<const double, 3> p, std::int64_t id) const
 {
+  // All shapes are closed sets: points exactly on their boundary are selected.
   if (const auto* half = std::get_if<HalfSpace>(&this->What))
   {
+    // The normal need not have the length 1: `distance` is in the same unit as the product.
     return half->normal[0] * p[0] + half->normal[1] * p[1] + half->normal[2] * p[2] >=
            half->distance;
   }
@@ -290,6 +328,7 @@ bool Region::contains(std::span<const double, 3> p, std::int64_t id) const
   return std::binary_search(ids.begin(), ids.end(), id);
 }
 
+/** Half-spaces and sets of vertices have no natural centre. */
 std::optional<std::array<double, 3>> Region::center() const
 {
   if (const auto* sphere = std::get_if<Sphere>(&this->What))
@@ -301,6 +340,7 @@ std::optional<std::array<double, 3>> Region::center() const
     std::array<double, 3> center{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
+      // midpoint(): the sum of two finite coordinates may overflow.
       center[axis] = std::midpoint(box->low[axis], box->high[axis]);
     }
     return center;

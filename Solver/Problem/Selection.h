@@ -19,8 +19,9 @@ namespace smg
 class OpenFacets;
 
 /**
- * A mesh in parts, each of them known to one process, which numbers its vertices for itself: what a
- * selection must know of the other parts. All processes call each function, in the same order.
+ * What a selection must know of the other parts if a mesh is distributed over processes. Each
+ * process knows one part and has its own numbering of the vertices there. All processes call each
+ * function, in the same order.
  */
 class MeshParts
 {
@@ -32,13 +33,13 @@ public:
   /** Marks the vertices of the part that any part marks with 1. */
   virtual void join(std::span<std::uint8_t> marks) = 0;
   /**
-   * Given the vertex of the part that is nearest to each point, or -1, and their distances: finds
-   * the nearest vertex of all parts, the first one in stream order of several. It replaces those
-   * given, with -1 where the part does not have it.
+   * On entry: the vertex of the part that is nearest to each point, or -1, and its distance. On
+   * return: the nearest vertex of all parts, of equally near ones the first in stream order, or -1
+   * if the part does not have it.
    */
   virtual void nearest(std::span<double> distances, std::span<std::int64_t> vertices) = 0;
-  /** The facets that have one cell in the part, but more in all parts. `facets` are those of the
-   * cells of the part. */
+  /** The facets that have one cell in this part but more than one in all parts together. `facets`
+   * are the facets of the cells of this part. */
   virtual FacetSet innerFacets(const OpenFacets& facets) = 0;
 };
 
@@ -79,11 +80,11 @@ public:
    * `scratch`.
    */
   virtual void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
-  /** Throws Error, which names the place in the description, if nothing is selected. `parts`: those
-   * of the mesh, if the stream is only one of them; else null. */
+  /** Throws Error, which names the place in the description, if nothing is selected. `parts`: the
+   * other parts of the mesh, if the stream is only one of several; else null. */
   virtual void endPreparing(MeshParts* parts);
 
-  /** The selected vertices, after endPreparing(), if that has determined them; else null. */
+  /** The selected vertices, if preparation stores them, after endPreparing(); else null. */
   virtual VertexSetFile* preparedVertices() { return nullptr; }
 
   /** To be called with each block in order, before the methods below. */
@@ -92,7 +93,8 @@ public:
   std::span<const std::uint8_t> atVertices() const { return this->Current; }
   /** For cells of the current block: 1 where selected, else 0. */
   virtual void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const;
-  /** For the facets of cells: bit k of `selected` is that of the facet opposite to corner k. */
+  /** For the facets of cells: bit k of `selected` is 1 if the facet opposite to corner k is
+   * selected. */
   virtual void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const;
 
 protected:
@@ -108,7 +110,7 @@ protected:
   virtual void select(const MeshBlock& block, std::span<std::uint8_t> selected) = 0;
   /** The predicate of a selected item for messages, for example "is in this region". */
   virtual std::string predicate() const { return "is selected"; }
-  /** What the mesh, if it is not in parts, has instead, as the end of such a message. */
+  /** What the mesh has instead, as the end of such a message. Not used if the mesh is in parts. */
   virtual std::string instead() const { return {}; }
 
   const MeshColumns& Columns;

@@ -16,20 +16,20 @@ namespace smg
 class VertexSetFile
 {
 public:
-  /** `folder`: empty: the system's temporary folder. */
+  /** The file is created in `folder`; empty: the system's temporary folder. */
   explicit VertexSetFile(const std::filesystem::path& folder);
 
-  /** Adds the next vertices: 1 for those of the set, else 0. */
+  /** Adds the next vertices: 1 if in the set, else 0. */
   void append(std::span<const std::uint8_t> selected);
-  /** To be called after the last one. */
+  /** To be called after the last vertex. */
   void finish();
 
   /** Restarts at the first vertex. */
   void rewind();
   /** Reads the values passed to append() for the next vertices. */
   void read(std::span<std::uint8_t> selected);
-  /** Whether the set has a vertex; fast for vertices close to the one before. rewind() must precede
-   * the next read(). */
+  /** Whether the set has this vertex; fast if it is close to the vertex of the last call. rewind()
+   * must precede the next read(). */
   bool contains(std::int64_t vertex);
 
 private:
@@ -38,7 +38,7 @@ private:
   IoStatistics Statistics;
   ScratchStream Stream;
   std::vector<std::byte> Bits; ///< of the current block
-  std::size_t Next = 0;        ///< index of the next vertex in it
+  std::size_t Next = 0;        ///< index of the next vertex in the block
   std::int64_t Loaded = -1;    ///< the block that contains() has read
 };
 

@@ -12,12 +12,23 @@
 #include <numeric>
 #include <string>
 
+// Gradient-domain fusion of columns that were recorded in patches (Perez, Gangnet and Blake 2003;
+// docs/blend.md): the problem for the correction of all columns, the columns themselves, the mean
+// gradients beside the seams, and the steps across them. Cells between patches get a field that
+// cancels their gradient, or replaces it by the mean of those around; sources and the corrections
+// of held vertices are 0, so that a component of the mesh without seams does not change at all.
+//
+// Each cell is treated by itself, and sums over cells run in the order of the stream: blocks do not
+// change a bit. In memory are labels and values at open vertices; the original values, and the mean
+// gradients if they are wanted, go to vertex files.
+
 namespace smg
 {
 
 namespace
 {
 
+/** The place in the description that errors of columns name. */
 constexpr const char* Key = "columns";
 
 } // namespace
@@ -43,6 +54,8 @@ BlendedColumns::BlendedColumns(
   }
 }
 
+/** Adds a column after checking that blending it makes sense: numbers of vertices or patches are
+ * names, not values. */
 void BlendedColumns::add(
   const std::string& name, const BlendDescription& description, const StreamInfo& mesh)
 {
@@ -67,6 +80,8 @@ void BlendedColumns::add(
   this->Components += column.components;
 }
 
+/** The components of all columns lie one after the other at each vertex; checked here, where the
+ * vertex can be named. */
 void BlendedColumns::read(const MeshBlock& block, std::span<double> values) const
 {
   const auto stride = static_cast<std::size_t>(this->Components);
@@ -104,13 +119,16 @@ PatchGradients::PatchGradients(const VertexStorage& storage, Pool& open, CellTyp
 {
 }
 
+/** Adds the cells of a block that lie in one patch, and writes the sums of vertices that no later
+ * cell uses. */
 void PatchGradients::add(const MeshBlock& block, const PatchedValues& values)
 {
   std::ranges::copy(block.positions, this->Points.append(block.vertices()).begin());
   std::ranges::fill(this->Sums.append(block.vertices()), 0.0);
   this->Vertices += block.vertices();
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
-  const Column* flags = block.flags(); // cells that have them have no weight
+  // Flagged cells have no weight, hence no share of a mean.
+  const Column* flags = block.flags();
   for (std::size_t c = 0; corners * c < block.corners.size(); ++c)
   {
     const auto cell = std::span(block.corners).subspan(corners * c, corners);
@@ -120,10 +138,12 @@ void PatchGradients::add(const MeshBlock& block, const PatchedValues& values)
     }
   }
   this->append(block.finalized);
+  // The file has the sums now.
   this->Points.release(block.finalized);
   this->Sums.release(block.finalized);
 }
 
+/** Adds the gradients in a cell, times its area or volume, to the sums at its corners. */
 void PatchGradients::addCell(std::span<const std::int64_t> corners, const PatchedValues& values)
 {
   const double* point[4] = {};
@@ -176,6 +196,7 @@ void PatchGradients::finish()
   this->Sums.restart();
 }
 
+/** Reads the sums of the vertices of a block again; kept for the cells of later blocks. */
 void PatchGradients::startBlock(const MeshBlock& block)
 {
   if (block.firstVertex == 0)
@@ -197,6 +218,7 @@ void PatchGradients::average(
 {
   gradients.assign(3 * this->Columns, 0.0);
   double measure = 0.0;
+  // A cell that has several of the corners is in several of the sums, and counts as often.
   for (const std::int64_t corner : corners)
   {
     const double* sum = this->Known.at(corner);
@@ -219,6 +241,7 @@ SeamSteps::SeamSteps(const std::vector<ColumnSpec>& columns)
     static_cast<std::size_t>(std::accumulate(this->Components.begin(), this->Components.end(), 0)));
 }
 
+/** Compares the ends of the edges of a cell that lies between patches. */
 void SeamSteps::add(std::span<const std::int64_t> corners, const PatchedValues& values)
 {
   if (values.inOnePatch(corners))
@@ -230,6 +253,7 @@ void SeamSteps::add(std::span<const std::int64_t> corners, const PatchedValues& 
   {
     for (std::size_t i = 0; i < j; ++i)
     {
+      // A cell between patches may have edges inside one.
       if (values.inOnePatch(corners[i], corners[j]))
       {
         continue;
@@ -245,6 +269,7 @@ void SeamSteps::add(std::span<const std::int64_t> corners, const PatchedValues& 
   }
 }
 
+/** The largest step of each column, over its components. */
 std::vector<double> SeamSteps::largest() const
 {
   std::vector<double> largest;
@@ -269,6 +294,7 @@ BlendProblem::BlendProblem(const BlendDescription& description, const StreamInfo
 {
   this->Low.fill(std::numeric_limits<double>::max());
   this->High.fill(std::numeric_limits<double>::lowest());
+  // In this form, NaN is refused, too.
   if (!(this->Anchor >= 0.0 && std::isfinite(this->Anchor)))
   {
     this->OfMesh.fail("anchor", "must be a finite number of at least 0");
@@ -287,6 +313,7 @@ void BlendProblem::prepare(const MeshBlock& block, const std::filesystem::path& 
   this->Held.prepare(block, scratch);
 }
 
+/** Sets the screening A / D^2 from the diagonal D of the bounding box, which is known only now. */
 void BlendProblem::endPreparing()
 {
   this->Patches.endPreparing();
@@ -303,10 +330,12 @@ void BlendProblem::addTo(PatchGradients& gradients, const MeshBlock& block)
   gradients.add(block, this->Open);
 }
 
+/** Starts a block in all windows, and prescribes the correction 0 at held vertices. */
 void BlendProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
   const std::span<double> values = this->Open.startBlock(block);
   this->Blended.read(block, values);
+  // Blocks come in order, so that the values can be appended.
   if (this->Originals)
   {
     this->Originals->append(values);
@@ -319,10 +348,12 @@ void BlendProblem::conditions(const MeshBlock& block, VertexConditions& conditio
   const std::span<const std::uint8_t> held = this->Held.at(block);
   for (std::size_t i = 0; i < held.size(); ++i)
   {
+    // The correction of a held vertex is 0, which is the value on entry.
     conditions.dirichlet[i] = held[i] ? 0 : -1;
   }
 }
 
+/** Sets the field of the cells between patches, and measures their steps. */
 void BlendProblem::cells(CellBatch& batch)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(batch.type));
@@ -330,6 +361,7 @@ void BlendProblem::cells(CellBatch& batch)
   for (std::size_t c = 0; c < batch.cells(); ++c)
   {
     const auto corner = batch.corners.subspan(c * corners, corners);
+    // Its gradient is kept: the field of the correction is 0.
     if (this->Open.inOnePatch(corner))
     {
       continue;
@@ -337,7 +369,9 @@ void BlendProblem::cells(CellBatch& batch)
     this->Steps.add(corner, this->Open);
     if (batch.measure[c] == 0.0)
     {
-      continue; // degenerate: without weight, and without a gradient
+      // Degenerate: without a weight, and without a gradient. Its edges count as steps all the
+      // same.
+      continue;
     }
     const double* point[4] = {};
     const double* value[4] = {};
@@ -354,6 +388,7 @@ void BlendProblem::cells(CellBatch& batch)
     const CellGradients gradients(batch.type, point);
     for (std::size_t k = 0; k < columns; ++k)
     {
+      // q - grad c, where q is the mean around the cell, or 0.
       const Vector gradient = gradients.of(batch.type, value, static_cast<int>(k));
       for (std::size_t d = 0; d < 3; ++d)
       {

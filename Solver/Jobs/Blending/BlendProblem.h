@@ -46,17 +46,18 @@ private:
 };
 
 /**
- * The gradients of the original values around the vertices of a mesh stream: of each vertex the sum
- * over its cells that lie in one patch, times their areas or volumes. They are found in one reading
- * of the mesh, kept in a file, and read in later readings.
+ * The gradients of the original values around the vertices of a mesh stream: for each vertex the
+ * sum over those of its cells that lie in one patch, weighted with their areas or volumes. They are
+ * found in one reading of the mesh, kept in a file, and used in later readings.
  */
 class PatchGradients
 {
 public:
-  /** `open` accounts for open vertices. */
+  /** `open` accounts for what is kept of open vertices. */
   PatchGradients(const VertexStorage& storage, Pool& open, CellType type, int columns);
 
-  /** Adds a block, whose vertices `values` has begun with. */
+  /** Adds a block; `values` has its patches and values: PatchedValues::startBlock() has been
+   * called. */
   void add(const MeshBlock& block, const PatchedValues& values);
   /** To be called after the last block. */
   void finish();
@@ -73,22 +74,22 @@ private:
 
   CellType Type;
   std::size_t Columns;
-  VertexFile File; ///< of each vertex the size of its cells, and the sum of the gradients
+  VertexFile File; ///< for each vertex the measure of its cells and the weighted gradients
   OpenValues<double> Points, Sums;
-  OpenValues<double> Known;               ///< sums that were read again
-  std::int64_t Vertices = 0, Written = 0; ///< read, and in the file
-  std::int64_t Finalized = 0;             ///< of the previous block that was read again
+  OpenValues<double> Known;               ///< sums from the file, in later readings
+  std::int64_t Vertices = 0, Written = 0; ///< numbers of vertices: added, and in the file
+  std::int64_t Finalized = 0;             ///< of the previous block, in later readings
 };
 
-/** The largest difference of each column, over its components, between the ends of edges that are
- * not in one patch. */
+/** The largest step of each column: the largest difference, over its components, between the ends
+ * of an edge that is not in one patch. */
 class SeamSteps
 {
 public:
   /** The components of `columns`, one after the other, are the values of a vertex. */
   explicit SeamSteps(const std::vector<ColumnSpec>& columns);
 
-  /** Takes the edges of a cell. */
+  /** Adds the edges of a cell. */
   void add(std::span<const std::int64_t> corners, const PatchedValues& values);
 
   /** The number of edges between patches; an edge counts once for each of its cells. */
@@ -105,9 +106,9 @@ private:
 };
 
 /**
- * The problem of blend() for the correction v = u - c: -div(grad v - r) + s v = 0, where r is
- * q - grad c: not 0 in cells between patches, and 0 in all others. Thus rounding affects the
- * correction only, and the values do not change where there is none.
+ * The problem of blend() for the correction v = u - c: -div(grad v - r) + s v = 0 with r = q - grad
+ * c, which is 0 except in cells between patches. Solving for the correction confines rounding to
+ * it: values do not change at all where there is no correction.
  */
 class BlendProblem : public Problem
 {
@@ -134,10 +135,10 @@ public:
 
   /** Adds a block to the gradients inside the patches. */
   void addTo(PatchGradients& gradients, const MeshBlock& block);
-  /** Between patches, aims at these gradients from then on, instead of 0. */
+  /** From then on, aims at these gradients in cells between patches, instead of 0. */
   void average(PatchGradients& gradients) { this->Gradients = &gradients; }
 
-  /** Passes the values of each block to `originals` from then on. */
+  /** From then on, appends the original values of each block to `originals`. */
   void keepIn(VertexFile& originals) { this->Originals = &originals; }
   /** The steps between patches in the original values, once all cells have been asked for. */
   const SeamSteps& steps() const { return this->Steps; }

@@ -14,7 +14,7 @@
 namespace smg
 {
 
-/** The result of a blend: the original values, the memory or file that they are in, their
+/** The result of a blend: the original values with the memory or file that contains them, their
  * correction, and the report. */
 class BlendedValues final : public Solution
 {

@@ -7,12 +7,20 @@
 #include <cmath>
 #include <limits>
 
+// Labels of vertices from a column of patches. If the vertices have the column, its values are the
+// labels. If the cells have it, a reading of the stream beforehand finds the vertices where cells
+// of different patches meet, which are in no patch, and keeps one bit for each vertex on a scratch
+// file. A cell without such a corner is in one patch, like all cells around it; one with such a
+// corner lies between patches. So later readings need no numbers of patches.
+
 namespace smg
 {
 
 namespace
 {
 
+/** Not a number equals nothing, not even itself: a cell with such a corner is never in one patch.
+ */
 constexpr double NoPatch = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
@@ -34,9 +42,11 @@ PatchLabels::PatchLabels(const std::string& column, MeshColumns& columns)
 double PatchLabels::at(const Column& column, std::size_t row, const MeshBlock& block) const
 {
   const double label = column.value(row);
+  // Different integers could become the same double, and patches be merged.
   const bool isTooLarge = isInexact(column.spec.type, label);
   if (std::isnan(label) || isTooLarge)
   {
+    // `row` is a cell or a vertex of the block.
     const bool ofCells = this->Patch.owner == ColumnOwner::Cells;
     this->Columns.fail(
       "patch", "the column '" + this->Patch.name + "' " +
@@ -47,6 +57,7 @@ double PatchLabels::at(const Column& column, std::size_t row, const MeshBlock& b
   return label;
 }
 
+/** Marks the vertices of a block, and writes the marks of those that no later cell uses. */
 void PatchLabels::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   if (this->Patch.owner != ColumnOwner::Cells)
@@ -67,6 +78,8 @@ void PatchLabels::prepare(const MeshBlock& block, const std::filesystem::path& s
   this->OnSeam.release(this->Written);
 }
 
+/** Compares the patch of each cell with the patch of the first cell at each corner. Flagged cells
+ * count, too, since they have a patch. */
 void PatchLabels::prepareCells(const MeshBlock& block)
 {
   const Column& column = this->Patch.in(block);
@@ -94,6 +107,7 @@ void PatchLabels::endPreparing()
   }
 }
 
+/** The labels of a block; with a column of the cells, 0 stands for any patch. */
 void PatchLabels::read(const MeshBlock& block, std::span<double> labels)
 {
   if (!this->Seam)
@@ -115,6 +129,7 @@ void PatchLabels::read(const MeshBlock& block, std::span<double> labels)
     this->Bits, labels.begin(), [](std::uint8_t onSeam) { return onSeam ? NoPatch : 0.0; });
 }
 
+/** Later readings of a cell column need only the scratch file. */
 std::vector<std::string> PatchLabels::vertexColumns() const
 {
   return this->Seam ? std::vector<std::string>{} : std::vector{ this->Patch.name };

@@ -17,10 +17,11 @@ namespace smg
 
 /**
  * Labels of the vertices of a mesh stream, such that a cell lies in one patch if and only if the
- * labels of its corners are equal. The label of a vertex in no patch is NaN, which equals nothing.
+ * labels of its corners are equal. The label of a vertex that is in no patch is NaN, which equals
+ * nothing.
  *
- * With a column of the cells, the label of every other vertex is 0: a cell whose corners are all in
- * some patch is in the same one.
+ * If the cells have the column, the label of every vertex in a patch is 0: the corners of a cell
+ * that are in some patch are all in the patch of the cell.
  */
 class PatchLabels
 {
@@ -33,8 +34,8 @@ public:
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
   void endPreparing();
 
-  /** Reads the labels of the vertices of a block; the first block restarts it. Throws Error if one
-   * is not a number. */
+  /** Reads the labels of the vertices of a block; the first block begins anew. Throws Error if a
+   * value of the column is not a number. */
   void read(const MeshBlock& block, std::span<double> labels);
 
   /** Accounts for what is kept of open vertices. */
@@ -53,15 +54,16 @@ private:
   std::optional<VertexSetFile> Seam; ///< the vertices in no patch
   OpenValues<double> Labels;         ///< of the first cell of each open vertex; NaN: none so far
   OpenValues<std::uint8_t> OnSeam;
-  std::int64_t Written = 0, Known = 0; ///< vertices in the file, and read
+  std::int64_t Written = 0, Known = 0; ///< numbers of vertices: in the file, and added
   std::vector<std::uint8_t> Bits;
 };
 
-/** The patch and the values of each open vertex of a mesh stream: one that a later cell may use. */
+/** The patch and the values of each open vertex of a mesh stream, that is, one that a later cell
+ * may use. */
 class PatchedValues
 {
 public:
-  /** For `columns` values a vertex. */
+  /** `columns`: values per vertex. */
   PatchedValues(PatchLabels& labels, int columns)
     : Patches(labels)
     , Labels(labels.memory())
@@ -69,8 +71,8 @@ public:
   {
   }
 
-  /** Takes the vertices of the next block; the first block restarts it. Returns their values, to
-   * be set. */
+  /** Starts the next block; the first block begins anew. Returns room for the values of its
+   * vertices, which the caller sets. */
   std::span<double> startBlock(const MeshBlock& block)
   {
     if (block.firstVertex == 0)

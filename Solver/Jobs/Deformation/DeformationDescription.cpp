@@ -11,6 +11,10 @@
 #include <limits>
 #include <numbers>
 
+// Affine motions of handles: from parameters, or from a matrix by its polar decomposition. A motion
+// keeps its rotation as a vector and its scale as a logarithm, which are what a deformation
+// interpolates: a vector may have any length, so that angles beyond a half-turn keep their meaning.
+
 namespace smg
 {
 
@@ -22,6 +26,8 @@ DeformationDescription DeformationDescription::byColumns()
   return description;
 }
 
+/** A tolerance replaces a number of V-cycles that the options may have: only one of them can end a
+ * step. */
 void DeformationDescription::applyTo(DeformOptions& options) const
 {
   options.weights = this->weights.value_or(options.weights);
@@ -49,7 +55,8 @@ void requireFinite(std::span<const double> numbers, const char* what)
   }
 }
 
-/** The normalised vector. Divided twice, since the squares of its components may overflow. */
+/** The normalised vector. It is divided by its largest component first, since the squares of the
+ * components may overflow or underflow. */
 Eigen::Vector3d unit(const std::array<double, 3>& axis)
 {
   const Eigen::Vector3d vector(axis[0], axis[1], axis[2]);
@@ -82,14 +89,18 @@ HandleMotion::HandleMotion(const Parameters& parameters)
   }
   constexpr double Radian = std::numbers::pi / 180.0;
   const Eigen::Vector3d axis = unit(parameters.axis);
-  // Full turns are subtracted in degrees, where this is exact.
+  // Full turns are subtracted for the matrix only, in degrees, where this is exact. The rotation
+  // vector keeps them.
   const double turn = std::remainder(parameters.degrees, 360.0) * Radian;
+  // Row by row, as apply() reads it.
   Eigen::Map<RowMajor>(this->Linear.data()) =
     parameters.scale * Eigen::AngleAxisd(turn, axis).toRotationMatrix();
   Eigen::Map<Eigen::Vector3d>(this->Rotation.data()) = parameters.degrees * Radian * axis;
   this->LogScale = std::log(parameters.scale);
 }
 
+/** The linear part is applied as it is; its nearest rotation and mean stretch are what the
+ * deformation spreads over the mesh. */
 HandleMotion HandleMotion::fromMatrix(std::span<const double, 16> matrix)
 {
   requireFinite(matrix, "matrix");
@@ -107,8 +118,8 @@ HandleMotion HandleMotion::fromMatrix(std::span<const double, 16> matrix)
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d stretch = svd.singularValues();
   const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
-  // The sign of the determinant is that of the nearest orthogonal matrix; up to rounding, singular
-  // matrices have none.
+  // The determinant has the sign of the nearest orthogonal matrix, U V^T. That of a matrix which is
+  // singular up to rounding has no meaningful sign.
   const bool flat = !(stretch[2] > 4.0 * std::numeric_limits<double>::epsilon() * stretch[0]);
   if (flat || nearest.determinant() < 0.0)
   {
@@ -117,12 +128,14 @@ HandleMotion HandleMotion::fromMatrix(std::span<const double, 16> matrix)
   }
   const Eigen::AngleAxisd turn(nearest);
   Eigen::Map<Eigen::Vector3d>(motion.Rotation.data()) = turn.angle() * turn.axis();
+  // The cube root of the determinant, as the mean of logarithms, which does not overflow.
   motion.LogScale = stretch.array().log().sum() / 3.0;
   return motion;
 }
 
 bool HandleMotion::isIdentity() const
 {
+  // The centre of a motion without rotation and scale does not matter.
   const HandleMotion rest;
   return this->Linear == rest.Linear && this->Translation == rest.Translation &&
          this->Rotation == rest.Rotation && this->LogScale == rest.LogScale;
@@ -136,7 +149,8 @@ std::array<double, 3> HandleMotion::apply(std::span<const double, 3> point) cons
   for (std::size_t row = 0; row < 3; ++row)
   {
     const double* linear = this->Linear.data() + 3 * row;
-    // The term added to the point is exactly 0 without rotation and scale.
+    // What is added to the point is exactly 0 without rotation, scale and translation, so that
+    // fixed vertices keep their bits.
     const double change = (linear[0] * arm[0] + linear[1] * arm[1] + linear[2] * arm[2]) - arm[row];
     moved[row] = point[row] + change + this->Translation[row];
   }

@@ -43,21 +43,21 @@ public:
   {
   }
 
-  /** Begins the progress; `builds`: with the first pass. */
+  /** Begins the progress. `builds`: the first pass is still to be made. */
   void begin(bool builds) { this->Run.progress.begin(this->stopping(), 0.0, Share, builds); }
-  /** Performs both steps; `build` begins the first V-cycle of the rotations and returns their first
-   * residual. With a checkpoint, it continues from that instead, if it can. */
+  /** Performs both steps. `build` begins the first V-cycle of the rotations and returns their first
+   * residual; if there is a checkpoint to continue from, it is not called. */
   void solve(const std::function<FirstResidual()>& build);
 
 private:
-  /** The share of the rotations in the progress. */
+  /** The part of the progress that the rotations take. */
   static constexpr double Share = 0.6;
 
   Stopping stopping() const
   {
     return { this->Run.options.tolerance, this->Run.options.maxCycles, this->Cycles };
   }
-  /** The part of a step that its passes share. */
+  /** What the passes of a step have in common. */
   struct Step
   {
     Step(DeformationSteps& steps, const std::string& what)
@@ -117,7 +117,9 @@ void DeformationSteps<Relaxation>::solve(const std::function<FirstResidual()>& b
   this->Run.finishReport();
 }
 
-/** Between passes, `rotated` tells whether the last one was the shared pass or after it. */
+/** Continues from a checkpoint, if there is one, and provides for further ones, between passes. A
+ * checkpoint has the state of one of the steps: that of the positions if `rotated`, which is true
+ * from the shared pass on. */
 template <class Relaxation>
 bool DeformationSteps<Relaxation>::resume(Step& rotations, Step& positions, bool& rotated)
 {
@@ -175,8 +177,8 @@ double DeformationSteps<Relaxation>::sharedPass(PositionStep& step)
   return this->Levels.residualNorm();
 }
 
-/** An estimate of the largest residual of the positions: weights are of order 1 on surfaces, and of
- * the order of lengths in volumes. */
+/** An estimate of the largest residual of the positions: weights of triangles are of order 1, those
+ * of tetrahedra of the order of lengths. */
 template <class Relaxation>
 double DeformationSteps<Relaxation>::positionScale() const
 {
@@ -199,7 +201,8 @@ void DeformationSteps<Relaxation>::addStep(const char* name, const Convergence& 
   convergence.addNotes(r.notes, std::string(name) + " step: ");
 }
 
-/** The result of a deformation: displacements and their start. */
+/** The result of a deformation: the solution, which consists of displacements, plus the positions
+ * that these start from. */
 class DeformedPositions final : public Solution
 {
 public:
@@ -297,7 +300,8 @@ void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
   }
 }
 
-/** Asks the handles for each block, as the first pass does. */
+/** Asks the handles for each block, as the first pass does. A run that continues from a checkpoint
+ * does not make that pass, but the notes of the handles need it (DescribedHandles::notes()). */
 template <OperatorSet Operators>
 void DeformationEngine<Operators>::ask(MeshSource& mesh, Handles& handles)
 {

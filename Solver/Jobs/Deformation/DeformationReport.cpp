@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+// What the streaming and the distributed engine have in common in their reports of a deformation.
+
 namespace smg
 {
 
@@ -17,6 +19,7 @@ void checkAnyHeld(const Report& report)
   }
 }
 
+/** Checked as soon as the right-hand side is known: nothing could be computed from it. */
 void checkMotions(double termSquares)
 {
   if (!std::isfinite(termSquares))
@@ -27,6 +30,7 @@ void checkMotions(double termSquares)
   }
 }
 
+/** Neither is an error: the last handle counts, and a component without handles stays. */
 void addDeformationNotes(Report& report)
 {
   if (report.shared > 0)

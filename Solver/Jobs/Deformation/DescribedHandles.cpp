@@ -18,6 +18,14 @@
 #include <string>
 #include <vector>
 
+// The handles of a description on a mesh, block by block of the stream: what each handle selects
+// (Selection) and where it puts the vertices that it holds, either by one affine map or by values
+// of the mesh (Coefficient). Handles are applied in their order, so that the last one that holds a
+// vertex determines it.
+//
+// All of this depends on the vertex alone, hence not on blocks. In memory are one block, and the
+// marks of open vertices that some selections keep.
+
 namespace smg
 {
 
@@ -159,6 +167,7 @@ bool moves(const MeshBlock& block, std::size_t i, const VertexHandles& handles)
 {
   const double* point = block.positions.data() + 3 * i;
   const double* turn = handles.rotation.data() + 3 * i;
+  // Compared exactly: a handle that keeps a vertex gives back its very position.
   return !std::equal(point, point + 3, handles.target.data() + 3 * i) ||
          std::any_of(turn, turn + 3, [](double number) { return number != 0.0; }) ||
          handles.logScale[i] != 0.0;
@@ -184,6 +193,7 @@ HandlesOnMesh::Handle HandlesOnMesh::compile(
   handle.key = key;
   handle.where = Selection::make(
     description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region", this->OfMesh);
+  // The mask of an earlier filter counts how many handles hold the vertex.
   const auto* mask = std::get_if<ColumnMask>(&description.where);
   if (mask && !this->OfMesh.isOfCells(mask->column, ColumnOwner::Vertices))
   {
@@ -196,6 +206,7 @@ HandlesOnMesh::Handle HandlesOnMesh::compile(
     handle.values.emplace(Values{ valueOf(values->target, vectorRules(true), ".target"),
       valueOf(values->rotation, vectorRules(false), ".rotation"),
       valueOf(values->logScale, { .components = { 1 } }, ".logScale"), {} });
+    // Targets of nearest vertices, one for each point, take the place of the values of `target`.
     if (!values->targets.empty())
     {
       this->compileTargets(description, values->targets, handle);
@@ -228,10 +239,12 @@ void HandlesOnMesh::compileTargets(const HandleDescription& description,
       this->OfMesh.fail(handle.key + ".target", "must have finite coordinates");
     }
   }
+  // Selection::make() has made it of the NearestVertices above.
   handle.nearest = dynamic_cast<const NearestSelection*>(handle.where.get());
   handle.values->targets = targets;
 }
 
+/** Starts a block in the selection and in the values, which must see every block. */
 std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const MeshBlock& block)
 {
   if (handle.values)
@@ -255,8 +268,10 @@ std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const Me
   return handle.where->atVertices();
 }
 
+/** Applies the handles to the vertices of a block in their order. */
 void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
 {
+  // Each vertex follows the last handle that holds it; notes() needs to know how many follow each.
   this->Followed.assign(static_cast<std::size_t>(block.vertices()), nullptr);
   for (Handle& handle : this->All)
   {
@@ -277,6 +292,8 @@ void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
   }
 }
 
+/** Counts the handles that hold a vertex, which is reported, and sets what this one prescribes
+ * there. */
 void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
   std::span<const std::uint8_t> held, VertexHandles& to) const
 {
@@ -285,6 +302,7 @@ void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
   {
     if (held[i])
     {
+      // At least 1, however small the number in the mask is; the counter of a vertex has 8 bits.
       const double count = counts ? std::max(1.0, std::ceil(counts->value(i))) : 1.0;
       to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MaxHandles));
     }
@@ -293,6 +311,7 @@ void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
                 : this->setMotion(handle, block, held, to);
 }
 
+/** Moves held vertices by the affine map; rotation and scale are the same for all of them. */
 void HandlesOnMesh::setMotion(const Handle& handle, const MeshBlock& block,
   std::span<const std::uint8_t> held, VertexHandles& to) const
 {
@@ -321,6 +340,7 @@ void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
       double* of = numbers.data() + i * components;
       if (held[i])
       {
+        // Only at held vertices: elsewhere the column may have anything.
         given.atVertex(i, of);
         if (!std::all_of(of, of + components, [](double number) { return std::isfinite(number); }))
         {
@@ -336,6 +356,8 @@ void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
     {
       if (held[i])
       {
+        // Several points may have the same nearest vertex: the last one counts, see
+        // NearestSelection::pointOf().
         const std::size_t point =
           handle.nearest->pointOf(block.firstVertex + static_cast<std::int64_t>(i));
         std::ranges::copy(values.targets[point], to.target.data() + 3 * i);
@@ -357,6 +379,7 @@ void HandlesOnMesh::prepare(
   this->endPreparing(nullptr);
 }
 
+/** Reads the stream even if no selection needs it: a handle that holds nothing is an error. */
 void HandlesOnMesh::preparePart(
   MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
@@ -376,6 +399,7 @@ void HandlesOnMesh::preparePart(
     true);
 }
 
+/** A handle without a vertex is an error, which names its place in the description. */
 void HandlesOnMesh::endPreparing(MeshParts* parts)
 {
   for (Handle& handle : this->All)
@@ -385,7 +409,8 @@ void HandlesOnMesh::endPreparing(MeshParts* parts)
       handle.where->endPreparing(parts);
     }
   }
-  this->OfMesh.memory().setLimit(INT64_MAX); // that of a deformation counts from now on
+  // A deformation counts this memory within its own limit, see Handles::bytes().
+  this->OfMesh.memory().setLimit(INT64_MAX);
 }
 
 std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
@@ -396,6 +421,7 @@ std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
     following.push_back(handle.following);
     moving.push_back(handle.following > 0 && handle.moves ? 1 : 0);
   }
+  // A handle may hold vertices of other parts only.
   if (parts)
   {
     parts->sum(following);
@@ -404,6 +430,7 @@ std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
   std::vector<std::string> notes;
   for (std::size_t k = 0; k < following.size(); ++k)
   {
+    // All of its vertices follow later handles: probably not intended, but not wrong.
     if (following[k] == 0)
     {
       notes.push_back(this->All[k].key + " holds nothing that a later handle does not hold.");

@@ -25,7 +25,7 @@ public:
   ~InteractiveDeformation() override;
 
   /**
-   * Repeats the deformation. `handles` are those of all vertices, in stream order.
+   * Repeats the deformation. `handles` has the values of all vertices, in stream order.
    * @return false, without any change, if other vertices are held than before
    * @throws Error if a value is not finite (without any change), or if the solve diverges;
    * Cancelled. After the last two, read() throws Error until an update succeeds.

@@ -15,12 +15,14 @@
 namespace smg
 {
 
-/** A deformation in core that can be repeated for other motions of the same held vertices. */
+/** A deformation in core that can be repeated with other motions of the same held vertices: only
+ * the right-hand sides change, so that hierarchy and factorisation are kept. All values start anew.
+ */
 template <OperatorSet Operators>
 class InteractiveEngine
 {
 public:
-  /** `options` are those of a deformation in core. */
+  /** `options` must be those of a deformation in core. */
   InteractiveEngine(Operators operators, const DeformOptions& options, CellType cells)
     : First(std::move(operators), options, cells)
   {
@@ -120,7 +122,8 @@ bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
   return same;
 }
 
-/** Sets the targets, and the initial rotations. */
+/** Sets the targets of the held vertices, and their rotations and scales; all others begin with 0.
+ */
 template <OperatorSet Operators>
 void InteractiveEngine<Operators>::take(const VertexHandles& handles)
 {
@@ -141,7 +144,8 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
     });
 }
 
-/** Computes right-hand side and first sweeps of the rotations, like Assembly and the first pass. */
+/** Computes the right-hand side of the rotations as Assembly does. With initial values of 0, b - A
+ * x is b at free vertices. */
 template <OperatorSet Operators>
 FirstResidual InteractiveEngine<Operators>::findRightSide()
 {

@@ -6,14 +6,29 @@
 #include <algorithm>
 #include <cmath>
 
+// The right-hand side of the second problem of a deformation, as a stage of the pass that the two
+// problems share. Vertices go through three states, in stream order: loaded; turned, when the
+// upward part of the last V-cycle of the rotations has finished them, so that their frame s R - I
+// is known; and done, when all neighbours are turned as well and the right-hand side has been
+// computed. Only then may the downward part of the positions use them.
+//
+// A row needs the frames and positions at rest of its neighbours, including held ones, which the
+// rows of the matrix omit: RestBlock lists these edges, and how far the neighbours of a group of
+// rows reach. The terms of a row are summed in the order of its entries and rows follow in
+// ascending order, so that the sums have the same bits for any schedule. The memory is the window
+// between loading and releasing; the time is linear in the number of edges.
+
 namespace smg
 {
 namespace
 {
 
+/** Values per node in the window, of either problem: four columns of rotations and scale, or three
+ * of positions and a padding. */
 constexpr int Stride = 4;
 
-/** Sums over the edges of a row. */
+/** Sums over the edges of a row. With b_i = sum_j w_ij ((s_i R_i - I) + (s_j R_j - I)) / 2 (p_i -
+ * p_j), the frame of vertex i can be applied to a sum, once per row. */
 struct EdgeSums
 {
   double edges[3] = {};  ///< w_ij (p_i - p_j)
@@ -35,6 +50,8 @@ struct EdgeSums
 
 } // namespace
 
+/** Loads the positions at rest, and the displacements of held vertices; the downward part starts
+ * with displacements of 0. */
 void PositionStep::load()
 {
   const std::int64_t loaded = this->Window.loaded();
@@ -60,13 +77,18 @@ void PositionStep::load()
   }
 }
 
+/** Turns all vertices below `final`, then completes groups of rows as far as their neighbours are
+ * turned. */
 void PositionStep::advance(std::int64_t final)
 {
   this->turn(final);
+  // Group by group of the rows, as the other stages do; a group needs its farthest neighbour to be
+  // turned.
   while (this->Done < this->Points.end())
   {
     const auto number =
       static_cast<std::size_t>((this->Done - this->Blocks.front().first()) / RowBlock::Nodes);
+    // Blocks have a fixed number of vertices, so that the one of Done is found by division.
     const RestBlock& block = this->Blocks[number];
     const RestBlock::Header& h = block.header();
     const std::int64_t group = (this->Done - h.first) / RowBlock::Group;
@@ -94,6 +116,7 @@ void PositionStep::turn(std::int64_t end)
 /** Processes the rows from Done to `end`, which are in one block. */
 void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
 {
+  // Links are listed by ascending node and consumed in this order.
   if (this->Done == block.first())
   {
     this->NextLink = 0;
@@ -131,13 +154,16 @@ void PositionStep::closeRow(
   const std::span<const RestBlock::Link> links = block.links();
   if (row.begin == row.end && (this->NextLink == links.size() || links[this->NextLink].node != k))
   {
-    return; // held, or without a weighted cell: u stays 0
+    // Held, or without a weighted cell: u stays 0.
+    return;
   }
   const double* point = this->Points.at(i);
   const double* x = this->Window.up().x.at(i);
   EdgeSums sums;
   double held[3] = {}; // w_ij u_j of held neighbours
   double rotation[Stride];
+  // The final residual b - A x of the rotations, whose rows pass by here for the last time. Their b
+  // contains the held neighbours.
   for (int c = 0; c < Stride; ++c)
   {
     rotation[c] = this->Window.up().b.at(i)[c] - a.diagonal[k] * x[c];
@@ -169,6 +195,7 @@ void PositionStep::closeRow(
   {
     b[c] = 0.5 * (frame.change(c, sums.edges) + sums.turned[c]) + held[c];
     this->InitialSquares += b[c] * b[c];
+    // Edges cancel in the sum: its rounding is relative to their magnitudes.
     this->TermSquares += b[c] * b[c] + sums.sizes[c] * sums.sizes[c];
   }
   for (const double r : rotation)

@@ -44,14 +44,15 @@ public:
 
   /** Loads the same vertices as the window. */
   void load();
-  /** Computes right-hand sides, given that the upward part is finished below `final`. */
+  /** Computes right-hand sides as far as possible, given that the upward part of the rotations has
+   * finished all vertices below `final`. */
   void advance(std::int64_t final);
   /** The number of vertices whose rotation and scale are known to be final. */
   std::int64_t turned() const { return this->Turned; }
   /** The number of vertices with a right-hand side. */
   std::int64_t done() const { return this->Done; }
 
-  /** ||b - A x||^2 of the result of the first step. */
+  /** ||b - A x||^2 for the result of the first step. */
   double rotationSquares() const { return this->RotationSquares; }
   /** ||b||^2 of the second step, and the sum of squares of its terms. */
   double initialSquares() const { return this->InitialSquares; }
@@ -67,7 +68,7 @@ private:
   RestShape& Rest;
   LevelWindow<double>& Window;
   std::deque<RestBlock> Blocks;
-  Ring<double> Points, Motions; // Motions: u of held vertices
+  Ring<double> Points, Motions; // positions at rest; displacements u, set at held vertices only
   Ring<Frame> Frames;
   std::int64_t Turned = 0, Done = 0;
   std::size_t NextLink = 0; // in the block of Done

@@ -5,6 +5,15 @@
 #include <cmath>
 #include <cstring>
 
+// The mesh at rest and its targets, in blocks as they are needed by the pass that the two problems
+// of a deformation share. They are collected in the first pass as a RowListener, that is, in the
+// order in which rows are completed.
+//
+// On several threads, hold() is called where the problem is asked, ahead of link() and close(),
+// which are called where rows are completed. The targets go through two queues: hold() fills
+// Coming, begin(), between two steps, moves them to Waiting, and close() takes them from there. So
+// the two threads never touch the same queue.
+
 namespace smg
 {
 
@@ -25,24 +34,30 @@ void RestShape::begin()
   this->Coming.clear();
 }
 
+/** An edge to a held neighbour; called before close() of its vertex, which is the next one of the
+ * open block. */
 void RestShape::link(std::int32_t delta, float weight)
 {
   this->Links.push_back({ this->Open.nodes, delta, weight });
 }
 
+/** Adds a vertex to the open block, with its target if it is held. */
 void RestShape::close(const double* point, std::int64_t reach)
 {
   this->enclose(point);
   if (!this->Waiting.empty() && this->Waiting.front().node == this->Vertices)
   {
     this->Held.push_back({ this->Waiting.front().target, this->Open.nodes });
+    // The extent includes the targets: the size of residuals is estimated by it.
     this->enclose(this->Held.back().target.data());
     this->Waiting.pop_front();
   }
   this->Points.insert(this->Points.end(), point, point + 3);
+  // `reach` does not decrease, so the last vertex of a group determines the reach of the group.
   this->Open.reach[static_cast<std::size_t>(this->Open.nodes / RowBlock::Group)] = reach;
   ++this->Open.nodes;
   ++this->Vertices;
+  // These blocks coincide with the blocks of the rows.
   if (this->Open.nodes == RowBlock::Nodes)
   {
     this->pack();
@@ -58,6 +73,7 @@ void RestShape::enclose(const double* point)
   }
 }
 
+/** The last block may have fewer vertices. */
 void RestShape::finish()
 {
   if (this->Open.nodes > 0)
@@ -76,6 +92,7 @@ void RestShape::pack()
   this->Open.held = static_cast<std::int32_t>(this->Held.size());
   this->Open.links = static_cast<std::int32_t>(this->Links.size());
   Buffer buffer(this->Owner, RestBlock::bytes(this->Open));
+  // The bytes stay where they are when the buffer moves into the block.
   const std::span<const std::byte> bytes = buffer.bytes();
   RestBlock block(std::move(buffer));
   block.header() = this->Open;
@@ -117,6 +134,7 @@ void RestShape::load(StateReader& state)
       std::memcpy(&h, bytes.data(), sizeof(h));
       const std::int64_t first = index * RowBlock::Nodes;
       const std::int64_t nodes = std::min(RowBlock::Nodes, this->Vertices - first);
+      // What is read from a checkpoint is checked before it is used as sizes and indices.
       state.require(h.first == first && h.nodes == nodes && h.held >= 0 && h.links >= 0 &&
                     RestBlock::bytes(h) == bytes.size());
     });
@@ -141,6 +159,7 @@ RestBlock RestShape::next()
 {
   if (!this->Scratch)
   {
+    // In memory, a pass looks at the blocks and leaves them.
     return this->Blocks[this->NextBlock++].view();
   }
   Buffer buffer(this->Owner, this->Scratch->nextBytes());
@@ -156,6 +175,7 @@ void RestShape::endPass()
   }
 }
 
+/** A range is read from front to back, so that one block in memory is enough. */
 void RestShape::addStart(std::int64_t first, std::int64_t count, double* values)
 {
   while (count > 0)
@@ -177,6 +197,8 @@ void RestShape::addStart(std::int64_t first, std::int64_t count, double* values)
   }
 }
 
+/** Sets CachedPoints to the start of the vertices of a block: their positions at rest, or
+ * targets. */
 void RestShape::cacheStart(std::int64_t number)
 {
   const auto take = [this](const RestBlock& block)
@@ -190,7 +212,8 @@ void RestShape::cacheStart(std::int64_t number)
   if (!this->Scratch)
   {
     take(this->Blocks[static_cast<std::size_t>(number)]);
-    return; // the targets may change: not worth keeping
+    // Not cached: in memory it costs little, and an interactive deformation changes the targets.
+    return;
   }
   Buffer buffer(this->Owner, this->Scratch->bytes(number));
   this->Scratch->read(number, buffer.bytes());

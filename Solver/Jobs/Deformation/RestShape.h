@@ -35,13 +35,13 @@ public:
   struct Held
   {
     std::array<double, 3> target;
-    std::int64_t node; ///< from the block's first
+    std::int64_t node; ///< counted from the first node of the block
   };
   /** An edge from a free node to a held neighbour. */
   struct Link
   {
-    std::int32_t node; ///< from the block's first
-    std::int32_t delta;
+    std::int32_t node;  ///< counted from the first node of the block
+    std::int32_t delta; ///< the neighbour minus the node
     float weight;
   };
 
@@ -110,8 +110,8 @@ public:
 
   // During the first pass:
 
-  /** Vertex `i` is held; called by ascending i, before the begin() before close() of that vertex.
-   */
+  /** Vertex `i` is held and has this target. Called in ascending order, so early that a begin()
+   * comes between it and close() of the vertex. */
   void hold(std::int64_t i, const double* target);
   void begin() override;
   void link(std::int32_t delta, float weight) override;
@@ -146,7 +146,8 @@ private:
   Pool& Owner;
   std::optional<ScratchStream> Scratch;
   std::deque<RestBlock> Blocks;
-  // Held vertices that are not closed; node is the index. begin() makes Coming ones Waiting.
+  // Held vertices that are not closed, with stream indices as `node`. begin() moves those in Coming
+  // to Waiting.
   std::deque<RestBlock::Held> Coming, Waiting;
   RestBlock::Header Open;
   std::vector<double> Points;

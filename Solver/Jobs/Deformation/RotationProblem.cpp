@@ -7,6 +7,11 @@
 #include <cmath>
 #include <string>
 
+// The first problem of a deformation: rotation vectors and logarithms of scales, harmonic between
+// the handles. Both enter the equations linearly and without ambiguity, unlike unit quaternions,
+// whose signs are arbitrary. Their initial value is 0, no rotation, which components of the mesh
+// without handles keep.
+
 namespace smg
 {
 
@@ -18,16 +23,19 @@ void RotationProblem::conditions(const MeshBlock& block, VertexConditions& condi
   checkSize(this->At, block.vertices());
   for (std::size_t k = 0; k < vertices; ++k)
   {
+    // Of a free vertex only the mask counts; its other numbers may be anything.
     if (this->At.mask[k] == 0)
     {
       continue;
     }
     const std::int64_t i = block.firstVertex + static_cast<std::int64_t>(k);
     checkHeld(this->At, k, i);
+    // There is one Dirichlet condition, number 0.
     conditions.dirichlet[k] = 0;
     double* value = conditions.value.data() + Columns * k;
     std::copy_n(this->At.rotation.data() + 3 * k, 3, value);
     value[3] = this->At.logScale[k];
+    // The target belongs to the second problem, for which it is kept.
     if (this->TakeTarget)
     {
       this->TakeTarget(i, this->At.target.data() + 3 * k);
@@ -48,10 +56,11 @@ void checkSize(const VertexHandles& handles, std::int64_t vertices)
   }
 }
 
+/** Names the vertex by its stream index: handles need not know any other number. */
 void checkHeld(const VertexHandles& handles, std::size_t k, std::int64_t i)
 {
-  // Beyond this, the coarse levels, which have single precision, overflow.
-  constexpr double LargestLogScale = 46.0; // a scale of 1e20
+  // A scale of 1e20: beyond it, the coarse levels, which have single precision, would overflow.
+  constexpr double LargestLogScale = 46.0;
   const auto finite = [k](const std::vector<double>& v)
   { return std::isfinite(v[3 * k]) && std::isfinite(v[3 * k + 1]) && std::isfinite(v[3 * k + 2]); };
   const double logScale = handles.logScale[k];

@@ -33,7 +33,8 @@ public:
 
   int columns() const override { return Columns; }
   Weights weights() const override { return this->WeightsOfEdges; }
-  /** A vertex of flat cells only follows its neighbours instead of keeping its position. */
+  /** True: a vertex that has only flat cells follows its neighbours instead of keeping its
+   * position. */
   bool connectsFlatCells() const override { return true; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   std::int64_t bytes() const override { return this->Given.bytes(); }
@@ -77,7 +78,8 @@ inline Frame frameOf(const double* rotationAndLogScale)
   const double growth = std::expm1(rotationAndLogScale[3]);
   const double square = x * x + y * y + z * z;
   const double angle = std::sqrt(square);
-  // Below this angle the second terms of the series are smaller than the rounding of the first.
+  // Below this angle the second terms of the series are smaller than the rounding of the first
+  // ones.
   constexpr double Small = 1e-8;
   const double half = std::sin(0.5 * angle);
   const double s = (1.0 + growth) * (angle < Small ? 1.0 : std::sin(angle) / angle);

@@ -10,18 +10,25 @@
 namespace smg
 {
 
+// The update formulas of the march: the distance at a vertex w of a cell from those at its other
+// corners. All of them compute in the plane of the triangle, or in the space of the tetrahedron,
+// with scalar products of edges from one of the known corners, so that a surface in space needs no
+// coordinates of its own. The cost is a few square roots per update. Distances are double
+// precision: the virtual source of a long front is a small difference of large squares.
+
 /**
- * A front that arrives at a vertex w through a cell whose other corners it has passed: by the
- * shortest path to w of all that cross the facet of these corners (the Hopf-Lax formula; Kimmel and
- * Sethian 1998 for a front that is straight within the cell). At such a distance from its source a
- * front is round: the *virtual source* is the point that has the known distances from the corners,
- * in the plane of the triangle (Novotni and Klein 2002; Reimers 2004), or its counterpart in space.
+ * A front that arrives at a vertex w through a cell whose other corners it has passed, by the
+ * shortest of all paths to w that cross the facet of these corners (the Hopf-Lax formula; Kimmel
+ * and Sethian 1998 for a front that is straight within the cell). The front of a point is round:
+ * its *virtual source* is the point at the known distances from the corners, in the plane of the
+ * triangle (Novotni and Klein 2002; Reimers 2004), or in space for a tetrahedron, and w has the
+ * distance from there.
  */
 struct Arrival
 {
-  /** Whether there is no such path. */
+  /** Whether no path crosses the inside of the facet. */
   bool isNone() const { return this->distance == std::numeric_limits<double>::infinity(); }
-  /** The number of the corner of the facet that is nearest to the path, by the weights. */
+  /** The corner of the facet, 0 to 2, that has the largest weight where the path crosses it. */
   int nearestCorner() const
   {
     const double rest = 1 - this->weight[0] - this->weight[1];
@@ -31,13 +38,14 @@ struct Arrival
   }
 
   double distance = std::numeric_limits<double>::infinity();
-  bool isStraight = false; ///< the front at w: see FrontCorner
-  /** Of corners 1 and 2 of the facet, at the point where the path crosses it. */
+  bool isStraight = false; ///< whether the front is straight at w: see FrontCorner
+  /** The barycentric weights of corners 1 and 2 of the facet, at the point where the path crosses
+   * it. */
   double weight[2] = { 0, 0 };
 };
 
-/** A corner that the front has passed. The front of a point is *round*: its radius is the distance.
- * That of a curve or a surface is *straight*. */
+/** A corner that the front has passed. The front of a point is *round*, with the distance as its
+ * radius; the front of a curve or a surface is *straight*. */
 struct FrontCorner
 {
   const double* point;
@@ -45,31 +53,37 @@ struct FrontCorner
   bool isStraight;
 };
 
-/** The path from a corner straight to w. */
+/** The path from a corner along the edge to w. */
 inline Arrival fromCorner(const FrontCorner& a, double length)
 {
-  // The front from the end of a curve is round.
+  // At a source (distance 0), the path is taken for one from the end of a curve, beyond which the
+  // front is round.
   return { a.distance + length, a.isStraight && a.distance > 0 };
 }
 
-/** A straight front crosses a facet at its ends, too, up to rounding: there, that of a curve goes
- * straight on. Relative to the facet. */
+/** A straight front may also cross a facet at its ends, up to rounding: there the front of a curve
+ * goes straight on. Relative to the size of the facet. */
 inline constexpr double StraightMargin = 1e-9;
 
-/** Scalar products of the edge e from corner a to corner b and of w - a. */
+/** Scalar products of the edge e from corner a to corner b, and of w - a (here w). */
 struct EdgeFrame
 {
   double ee, ew, ww;
 };
 
-/** The radius at w of a front that has the radii `ra` and `rb` at the corners of an edge; infinite
- * if the path does not cross the inside of the edge, whose share `along` is set otherwise. */
+/** The radius at w of a front with the radii `ra` and `rb` at the corners of an edge. Infinite if
+ * the straight line from the virtual source to w does not cross the inside of the edge; otherwise
+ * `along` is set to the weight of b at the crossing. The source and w lie on different sides of the
+ * edge. */
 inline double roundAcrossEdge(const EdgeFrame& f, double ra, double rb, double& along)
 {
   const double share = 1 / f.ee;
-  const double se = 0.5 * ((ra - rb) * (ra + rb) + f.ee); // s . e, s from a to the virtual source
+  // s . e, with s from a to the virtual source: from |s| = ra and |s - e| = rb. The factors cancel
+  // less than the difference of squares.
+  const double se = 0.5 * ((ra - rb) * (ra + rb) + f.ee);
+  // The squared distance of the source from the line of the edge. Rounding may make it negative for
+  // a source on that line.
   const double depth2 = ra * ra - se * se * share;
-  // Rounding may leave a source on the line of the edge beyond it.
   constexpr double Tiny = 1e-9;
   if (depth2 >= -Tiny * f.ee)
   {
@@ -85,7 +99,8 @@ inline double roundAcrossEdge(const EdgeFrame& f, double ra, double rb, double& 
   return std::numeric_limits<double>::infinity();
 }
 
-/** The distance at w of a straight front; otherwise as above. */
+/** The same for a straight front with the distances `da` and `db`: returns the distance at w. The
+ * gradient has length 1, the component `slope` along the edge and `steep` across it. */
 inline double straightAcrossEdge(const EdgeFrame& f, double da, double db, double& along)
 {
   const double length = std::sqrt(f.ee);
@@ -106,16 +121,17 @@ inline double straightAcrossEdge(const EdgeFrame& f, double da, double db, doubl
   return std::numeric_limits<double>::infinity();
 }
 
-/** Scalar products of the edges e, f of a face from corner a to b and c, and of w - a. */
+/** Scalar products of the edges e and f of a face, from corner a to b and c, and of w - a (here w).
+ */
 struct FaceFrame
 {
   double ee, ef, ff, ew, fw, ww;
 
-  /** 1 over the square of twice the area. */
+  /** 1 over the square of twice the area of the face. */
   double share() const { return 1 / (this->ee * this->ff - this->ef * this->ef); }
 };
 
-/** A vector in the plane of a face, by its products with e and f: as x e + y f. */
+/** A vector in the plane of a face, x e + y f, determined by its products with e and f. */
 struct InFace
 {
   InFace(const FaceFrame& frame, double share, double byE, double byF)
@@ -123,6 +139,7 @@ struct InFace
     , y((frame.ee * byF - frame.ef * byE) * share)
   {
   }
+  /** Whether the point at this vector from a, divided by `whole`, lies inside the face. */
   bool isInside(double whole, double margin = 0) const
   {
     const double least = -margin * whole;
@@ -132,7 +149,7 @@ struct InFace
   double x, y;
 };
 
-/** As roundAcrossEdge(), for the corners of a face; `along` has the shares of b and c. */
+/** As roundAcrossEdge(), for the corners of a face; `along` gets the weights of b and c. */
 inline double roundAcrossFace(
   const FaceFrame& f, double ra, double rb, double rc, double (&along)[2])
 {
@@ -164,7 +181,7 @@ inline double straightAcrossFace(
   const FaceFrame& f, double da, double db, double dc, double (&along)[2])
 {
   const double share = f.share();
-  const double ge = db - da, gf = dc - da; // the gradient g in the face, times e and f
+  const double ge = db - da, gf = dc - da; // products of the gradient g in the face with e and f
   const InFace g(f, share, ge, gf), w(f, share, f.ew, f.fw);
   const double steep2 = 1 - (g.x * ge + g.y * gf);
   if (steep2 > 0)
@@ -184,8 +201,9 @@ inline double straightAcrossFace(
   return std::numeric_limits<double>::infinity();
 }
 
-/** The path to w that crosses the inside of the edge from a to b; `f` is its frame. Where a
- * straight and a round front meet, the front is that of the corner nearest to the path. */
+/** The path to w that crosses the inside of the edge from a to b; `f` is its frame. If one corner
+ * has a straight front and the other a round one, the front is that of the corner nearest to the
+ * path, so that the border between the two does not drift. */
 inline Arrival acrossEdge(const EdgeFrame& f, const FrontCorner& a, const FrontCorner& b)
 {
   Arrival arrival;
@@ -202,7 +220,7 @@ inline Arrival acrossEdge(const EdgeFrame& f, const FrontCorner& a, const FrontC
   return arrival;
 }
 
-/** As acrossEdge(), of a face. */
+/** As acrossEdge(), for a face. */
 inline Arrival acrossFace(
   const FaceFrame& f, const FrontCorner& a, const FrontCorner& b, const FrontCorner& c)
 {

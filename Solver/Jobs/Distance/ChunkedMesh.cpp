@@ -8,13 +8,22 @@
 #include <cstring>
 #include <limits>
 
+// Cuts a mesh stream into chunks of consecutive vertices on scratch files, in one reading. A cell
+// belongs to the chunk of its highest vertex; since a chunk is at least as long as the span, its
+// other corners are in the same chunk or in the one before. A chunk is written when all its
+// vertices are final: then their flags are complete, which say whether cells reach over an end of
+// the chunk.
+//
+// The cuts depend on the span, the number of vertices and the kind of the mesh only, not on blocks
+// or the memory limit: therefore the march has the same bits whatever these are.
+
 namespace smg
 {
 
 ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
 {
-  // A longer window takes fewer passes, a shorter one less memory. Of tetrahedra, whose span is
-  // long, fewer spans are needed.
+  // A longer window takes fewer passes, a shorter one less memory. Tetrahedral meshes have long
+  // spans, so that fewer of them suffice.
   constexpr std::int64_t MinLength = 16384;
   const std::int64_t spans = mesh.cellType == CellType::Triangle ? 16 : 4;
   ChunkPlan plan;
@@ -23,10 +32,12 @@ ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
   plan.length = std::max(MinLength, spans * plan.span);
   if (mesh.vertices > 0)
   {
+    // No longer than a small mesh, but never shorter than the span.
     plan.length = std::max(std::min(plan.length, mesh.vertices), plan.span);
   }
   plan.singlePositions = !mesh.doublePositions;
   plan.sources = sources;
+  // Places are stored with 32 bits.
   if (plan.window() > INT32_MAX)
   {
     throw Error("the span of the stream, " + std::to_string(span) +
@@ -46,6 +57,7 @@ std::span<T> valuesIn(const Buffer& buffer, std::int64_t count)
 
 } // namespace
 
+/** Grows by a quarter: the memory of cells is the larger part of an open chunk. */
 void ChunkWriter::CellList::add(Pool& pool, const std::uint32_t* corners, std::size_t count)
 {
   const std::size_t bytes = count * sizeof(*corners);
@@ -68,6 +80,7 @@ ChunkWriter::ChunkWriter(ChunkedMesh& to, DistanceSources& sources, Pool& pool)
 {
 }
 
+/** Adds a block to the open chunks, and writes those that are complete. */
 void ChunkWriter::add(const MeshBlock& block)
 {
   this->addVertices(block);
@@ -77,7 +90,8 @@ void ChunkWriter::add(const MeshBlock& block)
   for (std::size_t c = 0; c < cells; ++c)
   {
     const std::int64_t* cell = block.corners.data() + c * corners;
-    // Those without area or volume take part: the surface may hang together by them alone.
+    // Cells without area or volume take part, since two parts of a surface may be joined by them
+    // alone.
     const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
     if (!isDistinctCell(cell, static_cast<int>(corners), flag))
     {
@@ -96,6 +110,8 @@ void ChunkWriter::add(const MeshBlock& block)
   }
 }
 
+/** Keeps positions and marks of the vertices of a block until their chunk is written. Sources begin
+ * dirty, with the distance 0. */
 void ChunkWriter::addVertices(const MeshBlock& block)
 {
   const std::int64_t first = block.firstVertex;
@@ -123,6 +139,7 @@ void ChunkWriter::addVertices(const MeshBlock& block)
   }
 }
 
+/** Adds a cell to its chunk, and marks its corners. */
 void ChunkWriter::addCell(const std::int64_t* corners)
 {
   const ChunkPlan& plan = this->To.plan;
@@ -130,6 +147,7 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   const auto [low, high] = std::minmax_element(corners, corners + count);
   if (*high - *low > plan.span)
   {
+    // A longer cell could reach over more than one end of a chunk.
     throw Error("the mesh stream is not valid: a cell uses the vertices " + std::to_string(*low) +
                 " and " + std::to_string(*high) + ", but its span is said to be " +
                 std::to_string(plan.span) + ": convert the mesh again");
@@ -143,12 +161,15 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   }
   const std::int64_t chunk = *high / plan.length;
   const bool crosses = *low / plan.length != chunk;
+  // Before the march, the dirty vertices are the sources. Two in one cell are the ends of an edge
+  // of a curve or surface of sources.
   for (int k = 0; k < count && (crosses || sources > 1); ++k)
   {
     std::uint8_t& mark = this->Marks[corners[k]];
     mark |= sources > 1 && (mark & Dirty) != 0 ? Straight : 0;
     mark |= !crosses ? 0 : corners[k] / plan.length == chunk ? ReachesBack : ReachesOn;
   }
+  // Chunks before To.count() are written already.
   const auto open = static_cast<std::size_t>(chunk - this->To.count());
   if (open >= this->Open.size())
   {
@@ -158,6 +179,8 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   (crosses ? cells.crossing : cells.inner).add(this->Owner, local, static_cast<std::size_t>(count));
 }
 
+/** Writes positions, state and cells of the first open chunk, and releases them. A chunk may be
+ * without cells. */
 void ChunkWriter::writeChunk(std::int64_t count)
 {
   const std::int64_t chunk = this->To.count();
@@ -185,6 +208,7 @@ void ChunkWriter::writeChunk(std::int64_t count)
   this->Numbers.release(first + count);
 }
 
+/** In single precision if the mesh has no more, which halves what every pass reads. */
 void ChunkWriter::writePositions(std::int64_t chunk, std::int64_t first, std::int64_t count)
 {
   const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::Positions;
@@ -200,11 +224,13 @@ void ChunkWriter::writePositions(std::int64_t chunk, std::int64_t first, std::in
   this->To.mesh.write(index, std::as_bytes(single));
 }
 
+/** Writes the flags of a chunk; distances and numbers only if it has a source. */
 void ChunkWriter::writeState(std::int64_t chunk, std::int64_t first, std::int64_t count)
 {
   const std::int64_t index = chunk * ChunkedMesh::StateParts;
   const std::span<std::uint8_t> marks = this->Marks.range(first, first + count);
   this->To.state.write(index + ChunkedMesh::Flags, std::as_bytes(marks));
+  // Most chunks have no source, and need no distances yet.
   if (std::ranges::none_of(marks, [](std::uint8_t mark) { return (mark & Dirty) != 0; }))
   {
     return;
@@ -221,6 +247,7 @@ void ChunkWriter::writeState(std::int64_t chunk, std::int64_t first, std::int64_
   }
 }
 
+/** Writes the rest of the chunks; the last one may be shorter. */
 void ChunkWriter::finish()
 {
   const std::int64_t end = this->Points.end();

@@ -19,8 +19,9 @@ namespace smg
 
 /**
  * How a mesh is cut for a march: into chunks of consecutive vertices, each with the cells whose
- * last corner it has. A chunk is not shorter than the span of the stream, so that a cell has its
- * other corners in the same chunk or in the one before: it is *inner* or *crossing*.
+ * highest corner it contains. A chunk is at least as long as the span of the stream, so that the
+ * other corners of a cell are in the same chunk (*inner* cells) or some in the one before
+ * (*crossing* cells).
  */
 struct ChunkPlan
 {
@@ -38,7 +39,8 @@ struct ChunkPlan
 
   /** Vertices of the window. */
   std::int64_t window() const { return WindowChunks * this->length; }
-  /** The place of a vertex in the arrays of the window, whatever chunks that has. */
+  /** The place of a vertex in the arrays of the window. It does not depend on which chunks are
+   * shown. */
   std::uint32_t local(std::int64_t vertex) const
   {
     return static_cast<std::uint32_t>(vertex % this->window());
@@ -58,20 +60,20 @@ enum VertexFlag : std::uint8_t
 /** A mesh in chunks, with the distances so far, on scratch files. */
 struct ChunkedMesh
 {
-  /** The blocks of a chunk in the file of the mesh ... */
+  /** The blocks of a chunk in the file of the mesh. */
   enum MeshPart
   {
     Positions,
     InnerCells,    ///< places of corners: see ChunkPlan::local()
-    CrossingCells, ///< the same
+    CrossingCells, ///< places of corners
     MeshParts
   };
-  /** ... and in that of the distances. */
+  /** The blocks of a chunk in the file of the distances. */
   enum StatePart
   {
     Flags,
-    Distances, ///< none: all are infinite
-    Sources,   ///< none: all are -1
+    Distances, ///< a block without bytes: all are infinite
+    Sources,   ///< a block without bytes: all are -1
     StateParts
   };
   struct Chunk
@@ -116,7 +118,7 @@ public:
 
   std::int64_t sources() const { return this->SourceCount; }
   std::int64_t cells() const { return this->Cells; }
-  /** Cells that take no part: duplicates, and those with a repeated corner. */
+  /** The number of cells that take no part: duplicates, and cells with a repeated corner. */
   std::int64_t skipped() const { return this->Skipped; }
 
 private:
@@ -148,9 +150,9 @@ private:
   Pool& Owner;
   Ring<double> Points;
   Ring<std::uint8_t> Marks;   ///< VertexFlag of open vertices
-  Ring<std::int64_t> Numbers; ///< of sources, if wanted
-  std::deque<OpenCells> Open; ///< of the chunks from the first open one on
-  Buffer Row;                 ///< of values that are written
+  Ring<std::int64_t> Numbers; ///< if wanted: of sources, -1 elsewhere
+  std::deque<OpenCells> Open; ///< the cells of the chunks from the first open one on
+  Buffer Row;                 ///< values of a chunk, converted for writing
   std::int64_t SourceCount = 0, Cells = 0, Skipped = 0;
 };
 

@@ -8,9 +8,13 @@
 #include <cmath>
 #include <utility>
 
+// What the two kinds of distances share: the figures of the report, and a solution that is read
+// chunk by chunk from scratch files.
+
 namespace smg
 {
 
+/** Reports a pass by the differences to the state at the end of the one before. */
 void DistanceRun::endPass(double unsettled)
 {
   const Report::Pass now = this->now();
@@ -19,6 +23,8 @@ void DistanceRun::endPass(double unsettled)
   this->Before = now;
 }
 
+/** What all computations report: peaks, traffic and times. The time of the solve is what building
+ * does not take. */
 void DistanceRun::finishReport()
 {
   Report& r = this->report;
@@ -37,6 +43,7 @@ void DistanceRun::finishReport()
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
 }
 
+/** In memory is one chunk: as it is stored, and as read() delivers it. */
 DistanceSolution::DistanceSolution(std::unique_ptr<DistanceRun> run, std::shared_ptr<void> files,
   std::vector<StoredColumn> columns, std::int64_t vertices, std::int64_t chunkVertices)
   : Run(std::move(run))
@@ -67,6 +74,7 @@ void DistanceSolution::read(std::int64_t first, std::int64_t count, std::span<do
   const std::int64_t end = first + count;
   while (first < end)
   {
+    // A range may extend over several chunks.
     this->load(first / this->ChunkVertices);
     const std::int64_t begin = this->Chunk * this->ChunkVertices;
     const std::int64_t part = std::min(end, begin + this->ChunkVertices) - first;
@@ -79,12 +87,14 @@ void DistanceSolution::read(std::int64_t first, std::int64_t count, std::span<do
   }
 }
 
+/** Loads all columns of a chunk, unless they are in memory. */
 void DistanceSolution::load(std::int64_t chunk)
 {
   if (chunk == this->Chunk)
   {
     return;
   }
+  // No chunk is in memory if reading throws.
   this->Chunk = -1;
   const std::int64_t count =
     std::min(this->ChunkVertices, this->Vertices - chunk * this->ChunkVertices);
@@ -97,6 +107,8 @@ void DistanceSolution::load(std::int64_t chunk)
   this->Chunk = chunk;
 }
 
+/** Reads a column of a chunk, and spreads it to the places of its components, from number `first`
+ * on, as doubles. Numbers of sources are exact up to 2^53. */
 void DistanceSolution::loadColumn(
   const StoredColumn& column, std::int64_t chunk, std::int64_t count, int first)
 {
@@ -123,6 +135,8 @@ void DistanceSolution::loadColumn(
                                              : copy(reinterpret_cast<const float*>(stored));
 }
 
+/** One reading of the distances, chunk by chunk in the order of the stream, which also fixes the
+ * order of the sum. */
 void DistanceSolution::summarize()
 {
   Report::Distance& summary = *this->Run->report.distance;

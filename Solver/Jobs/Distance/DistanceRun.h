@@ -34,10 +34,11 @@ struct DistanceRun
   {
   }
 
-  /** Before the first pass: what was until then is of none. */
+  /** To be called before the first pass: what has been read and written until then belongs to none.
+   */
   void beginPasses() { this->Before = this->now(); }
-  /** Adds a pass to the report; `unsettled` is the share of the vertices that have changes to pass
-   * on. */
+  /** Adds a pass to the report. `unsettled` is the share of the vertices that still have changes to
+   * pass on. */
   void endPass(double unsettled);
   /** Adds memory, scratch files and times to the report. */
   void finishReport();
@@ -50,7 +51,7 @@ struct DistanceRun
   Report report;
 
 private:
-  /** What has been until now, as of one pass. */
+  /** Time, traffic and memory from the beginning until now, in the form of one pass. */
   Report::Pass now() const
   {
     return { 0.0, this->Wall.seconds(), this->traffic.bytesRead(), this->traffic.bytesWritten(),
@@ -80,7 +81,7 @@ struct StoredColumn
   double fallback = 0; ///< the values of a block without bytes
 };
 
-/** Distances on scratch files, with what they need kept alive. */
+/** A solution on scratch files; it keeps these and everything that they need alive. */
 class DistanceSolution final : public Solution
 {
 public:
@@ -106,7 +107,7 @@ private:
   std::int64_t Vertices, ChunkVertices;
   int Components = 0;
   Buffer Values; ///< of the chunk in memory, in the order of read()
-  Buffer Stored; ///< of a column of it
+  Buffer Stored; ///< one column of this chunk, as in the file
   std::int64_t Chunk = -1;
 };
 

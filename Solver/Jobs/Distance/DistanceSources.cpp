@@ -4,6 +4,11 @@
 #include <algorithm>
 #include <functional>
 
+// The sources of a distance, as selections of the mesh (Solver/Problem/Selection.h), evaluated
+// while the mesh is cut into chunks or its walls are collected. The mesh is read once more
+// beforehand only if a selection needs that. Otherwise the same reading also tells, at its end,
+// whether every selection has found something.
+
 namespace smg
 {
 
@@ -11,6 +16,7 @@ DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place
   const StreamInfo& mesh, const std::string& name, Pool& memory)
   : Columns(mesh, name, &memory)
 {
+  // For the column of sources, which names them by their numbers in the original file.
   this->Columns.requireIds();
   for (std::size_t k = 0; k < from.size(); ++k)
   {
@@ -24,6 +30,8 @@ std::unique_ptr<MeshSource> DistanceSources::read(const StoredMesh& mesh) const
   return mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
 }
 
+/** All selections take part in the reading, also those that do not need it: so that the next
+ * reading finds all of them prepared. */
 void DistanceSources::prepare(const StoredMesh& mesh, const std::filesystem::path& scratch)
 {
   const auto needsPreparing = [](const std::unique_ptr<Selection>& selection)
@@ -43,16 +51,19 @@ void DistanceSources::prepare(const StoredMesh& mesh, const std::filesystem::pat
       }
     }
   }
+  // Prepared is still false: this reports empty selections.
   this->finish();
   this->Prepared = true;
 }
 
 void DistanceSources::start(Selection& selection, const MeshBlock& block) const
 {
-  // Without an earlier reading this one tells whether anything is selected.
+  // Without a reading beforehand, this one counts what is selected; no such selection needs a
+  // scratch file.
   this->Prepared ? selection.startBlock(block) : selection.prepare(block, {});
 }
 
+/** The union of the selections. */
 std::span<const std::uint8_t> DistanceSources::verticesAt(const MeshBlock& block)
 {
   this->Selected.assign(static_cast<std::size_t>(block.vertices()), 0);
@@ -70,6 +81,7 @@ std::span<const std::uint8_t> DistanceSources::verticesAt(const MeshBlock& block
   return this->Selected;
 }
 
+/** The union of the selections; interior facets are included, and are sorted out by the caller. */
 std::span<const std::uint8_t> DistanceSources::facetsAt(const MeshBlock& block)
 {
   const auto corners = static_cast<unsigned>(cornersOf(this->Columns.cellType()));
@@ -95,6 +107,7 @@ std::int64_t DistanceSources::numberOf(const MeshBlock& block, std::size_t i) co
   return ids ? ids->as<std::int64_t>()[i] : block.firstVertex + static_cast<std::int64_t>(i);
 }
 
+/** After a reading beforehand, empty selections have been reported already. */
 void DistanceSources::finish()
 {
   for (const auto& selection : this->Selections)

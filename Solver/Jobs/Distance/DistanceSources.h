@@ -27,11 +27,11 @@ public:
   /** The stream with the columns that the selections need. */
   std::unique_ptr<MeshSource> read(const StoredMesh& mesh) const;
 
-  /** Reads the mesh, if a selection needs that before the stream of the march. */
+  /** Reads the mesh, if a selection needs a reading beforehand. */
   void prepare(const StoredMesh& mesh, const std::filesystem::path& scratch);
   /** For the vertices of the next block of the stream: 1 at sources, else 0. */
   std::span<const std::uint8_t> verticesAt(const MeshBlock& block);
-  /** For the cells of the next block: bit k is 1 if the facet opposite to corner k is a source. */
+  /** For the cells of the next block: bit k is 1 if the facet opposite to corner k is selected. */
   std::span<const std::uint8_t> facetsAt(const MeshBlock& block);
   /** The number of vertex `i` of the block in the original file, or in the stream. */
   std::int64_t numberOf(const MeshBlock& block, std::size_t i) const;

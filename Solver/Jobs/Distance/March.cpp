@@ -6,6 +6,23 @@
 #include <cmath>
 #include <limits>
 
+// The march of the front of a distance, |grad d| = 1, through a mesh in chunks (docs/distance.md,
+// "Method"): fast marching in its label-correcting form. A vertex that is taken from the queue
+// offers to the other corners of its cells the distances of paths that cross the facets of already
+// reached corners (Arrival.h); a vertex that gets a shorter path is put into the queue, again if
+// need be. Fast marching needs the order of distances to be final, which obtuse triangles and a
+// window violate; correction only needs more updates then.
+//
+// Invariants. A vertex is dirty if some of its cells have not seen its current distance; the march
+// is complete when none is. Distances never grow, and an update depends only on the distances that
+// it finds, so that the order of updates and the window matter no more than rounding and the
+// tolerance. The order itself depends on neither the memory limit nor the blocks of the stream, and
+// there is one thread: so the result has the same bits whatever these are.
+//
+// Memory: four chunks with their cells, and the queue. Time: on scans and tetrahedral meshes 1 to 6
+// passes over the stream, in which positions of the window without dirty vertices are skipped; a
+// path that winds through the stream takes one for each turn against the direction.
+
 namespace smg
 {
 
@@ -14,7 +31,7 @@ namespace
 
 constexpr double Infinite = std::numeric_limits<double>::infinity();
 
-/** Cosine up to which two directions count as perpendicular. */
+/** Directions count as perpendicular if the magnitude of their cosine is at most this. */
 constexpr double Perpendicular = 1e-6;
 
 } // namespace
@@ -25,7 +42,7 @@ int March::run(int maxPasses, Progress& progress, double begin,
   int passes = 0;
   for (std::int64_t left = this->unsettled(); passes < maxPasses && left > 0; ++passes)
   {
-    // How many passes are to come is not known.
+    // The number of passes to come is not known: each gets half of what is left of the progress.
     const double end = begin + 0.5 * (1 - begin);
     this->pass(passes % 2 == 0, progress, begin, end);
     begin = end;
@@ -36,6 +53,7 @@ int March::run(int maxPasses, Progress& progress, double begin,
   return passes;
 }
 
+/** Each chunk counts its dirty vertices, so that this needs no reading. */
 std::int64_t March::unsettled() const
 {
   std::int64_t dirty = 0;
@@ -46,6 +64,9 @@ std::int64_t March::unsettled() const
   return dirty;
 }
 
+/** Moves the window over the stream, by one chunk at a time, and settles each position that has
+ * dirty vertices. A path that leaves the window on the side of the direction is picked up by the
+ * next position, one on the other side by the next pass. */
 void March::pass(bool forwards, Progress& progress, double begin, double end)
 {
   ChunkedMesh& mesh = this->Window.mesh();
@@ -73,6 +94,8 @@ void March::settle(std::int64_t first, std::int64_t last)
   ChunkedMesh& mesh = this->Window.mesh();
   std::uint8_t* flags = this->Window.flags();
   const double* distances = this->Window.distance();
+  // All dirty vertices at once, so that fronts that enter from different sides meet in the order of
+  // their distances.
   for (std::int64_t chunk = first; chunk <= last; ++chunk)
   {
     const std::uint32_t begin = this->Window.placeOf(chunk);
@@ -87,6 +110,7 @@ void March::settle(std::int64_t first, std::int64_t last)
   }
   while (!this->Queue.isEmpty())
   {
+    // Some position of the window has all cells of v: these are in its chunk and the two beside it.
     const std::uint32_t v = this->Queue.take();
     const bool hasAll = this->Window.hasAllCellsOf(v);
     if (!hasAll && distances[v] == 0)
@@ -94,6 +118,9 @@ void March::settle(std::int64_t first, std::int64_t last)
       // Which of its cells have other sources must be known: see isBesideCurve().
       continue;
     }
+    // Otherwise v passes its distance on to the cells that are here, and stays dirty for the
+    // others. Every position of the window that lacks some of its cells does that again, which
+    // changes nothing a second time.
     flags[v] |= Changed;
     if (hasAll)
     {
@@ -102,7 +129,8 @@ void March::settle(std::int64_t first, std::int64_t last)
     this->Window.forCellsOf<Corners>(v,
       [&](const std::uint32_t* cell)
       {
-        // Without a branch, since which corner is v cannot be predicted; the last one is not used.
+        // Collects the other corners without a branch, since it cannot be predicted which corner v
+        // is. The last element is not used.
         std::array<std::uint32_t, Corners> others;
         std::size_t k = 0;
         for (int c = 0; c < Corners; ++c)
@@ -113,6 +141,7 @@ void March::settle(std::int64_t first, std::int64_t last)
         this->passOn(v, others);
       });
   }
+  // Counted anew: vertices of any shown chunk may have become dirty or clean.
   for (std::int64_t chunk = first; chunk <= last; ++chunk)
   {
     const std::uint8_t* begin = flags + this->Window.placeOf(chunk);
@@ -130,7 +159,7 @@ FrontCorner March::corner(std::uint32_t vertex) const
 bool March::isNews(std::uint32_t w, const Arrival& arrival) const
 {
   const double distance = this->Window.distance()[w];
-  // Of two fronts that arrive at the same time, the straight one goes ahead.
+  // Of two fronts that arrive at the same time, within the tolerance, the straight one wins.
   const bool isStraighter = arrival.isStraight && (this->Window.flags()[w] & Straight) == 0 &&
                             arrival.distance < distance * (1 + Tolerance);
   return arrival.distance < distance * (1 - Tolerance) || isStraighter;
@@ -144,6 +173,9 @@ bool March::offer(
   {
     return true;
   }
+  // A path across a facet with a corner that the front reached by way of w would come from w
+  // itself. Along an edge, such a path is longer than the distance of w, and has not passed
+  // isNews().
   for (const std::uint32_t corner : corners)
   {
     const auto& via = this->Window.via()[corner];
@@ -154,6 +186,8 @@ bool March::offer(
   }
   double& distance = this->Window.distance()[w];
   std::uint8_t& flags = this->Window.flags()[w];
+  // A straight front may win with a distance that is larger by up to the tolerance; distances must
+  // not grow.
   distance = std::min(distance, arrival.distance);
   flags = static_cast<std::uint8_t>(
     (flags & ~Straight) | Dirty | Changed | (arrival.isStraight ? Straight : 0));
@@ -162,6 +196,7 @@ bool March::offer(
     std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
   if (std::int64_t* source = this->Window.source())
   {
+    // The path belongs to the source of the corner that it passes nearest to.
     source[w] = source[corners[static_cast<std::size_t>(arrival.nearestCorner())]];
   }
   this->Queue.put(w, distance);
@@ -172,6 +207,8 @@ template <int Corners>
 bool March::isBesideCurve(std::uint32_t v, std::uint32_t w) const
 {
   const double* point = this->Window.point(v);
+  // The curve at v consists of the edges from v to other sources in its cells. If w lies ahead of
+  // one of them, or perpendicular to it, a point of that edge is at least as near to w as v is.
   const Vector way = difference(this->Window.point(w), point);
   bool isBeside = false;
   this->Window.forCellsOf<Corners>(v,
@@ -195,6 +232,7 @@ void March::offerEdge(std::uint32_t v, std::uint32_t w, double length)
   Arrival arrival = fromCorner(from, length);
   if (from.isStraight && from.distance == 0)
   {
+    // Straight beside the curve, round beyond its end: see the class.
     arrival.isStraight = this->isBesideCurve<Corners>(v, w);
   }
   this->offer(w, arrival, std::array{ v });
@@ -203,6 +241,7 @@ void March::offerEdge(std::uint32_t v, std::uint32_t w, double length)
 /** Offers paths from v, and across its edges, to the other two corners of a triangle. */
 void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
 {
+  // Squares and products of the edges at v are computed once for both corners.
   const FrontCorner from = this->corner(v);
   const Vector e[2] = { difference(this->Window.point(others[0]), from.point),
     difference(this->Window.point(others[1]), from.point) };
@@ -210,8 +249,10 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
   const double product = dot(e[0], e[1]);
   for (int k = 0; k < 2; ++k)
   {
+    // The edge from v to b is the one that the path to w may cross; the frame has v as its origin.
     const std::uint32_t w = others[k], b = others[1 - k];
     const FrontCorner passed = this->corner(b);
+    // The front has passed w before both others: it comes from there, and has nothing to gain.
     if (this->Window.distance()[w] <= std::min(from.distance, passed.distance))
     {
       continue;
@@ -219,7 +260,8 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
     if (passed.distance < Infinite)
     {
       const Arrival across = acrossEdge({ square[1 - k], product, square[k] }, from, passed);
-      // No longer than the paths along the edges.
+      // A path across the edge is at most as long as the paths along the edges from v and b to w,
+      // so these need not be offered, unless it does not count.
       if (across.distance < Infinite && this->offer(w, across, std::array{ v, b }))
       {
         continue;
@@ -229,11 +271,16 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
   }
 }
 
-/** The same for the other three corners of a tetrahedron. */
+/** Offers paths from v, along its edges and across its facets, to the other three corners of a
+ * tetrahedron: through the face opposite to w if the path crosses its inside, else through one of
+ * its two edges at v, else along the edge from v. Paths through the edge opposite to v are offered
+ * when its ends are taken. */
 void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
 {
   const FrontCorner from = this->corner(v);
   Vector e[3];
+  // All scalar products of the edges at v: each face and edge needs some of them, in a frame whose
+  // origin is v.
   double product[3][3];
   for (int i = 0; i < 3; ++i)
   {
@@ -247,6 +294,7 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
   {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     const std::uint32_t w = others[k];
+    // The face opposite to w has the corners v, i and j.
     const FrontCorner b = this->corner(others[i]), c = this->corner(others[j]);
     const double before = this->Window.distance()[w];
     if (before <= std::min({ from.distance, b.distance, c.distance }))
@@ -264,6 +312,7 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
         continue;
       }
     }
+    // Both edges are tried, since the path may lie on either side of the face's inside.
     bool crosses = false;
     for (const int n : { i, j })
     {

@@ -16,8 +16,9 @@
 namespace smg
 {
 
-/** A queue of vertices of a window by their distances: a heap with four children a node. Its order
- * is that of the distances to 21 binary digits, which is enough for a march that corrects. */
+/** A priority queue of the vertices of a window by their distances: a heap with four children per
+ * node. Distances are compared by their leading 21 binary digits only, which keeps an entry at 8
+ * bytes and suffices for a march that corrects. */
 class MarchQueue
 {
 public:
@@ -30,7 +31,7 @@ public:
     std::memset(this->Places, 0, this->PlaceMemory.size());
   }
 
-  /** Memory of a queue for so many vertices. */
+  /** The bytes of a queue for this many vertices. */
   static constexpr std::int64_t bytes(std::int64_t vertices)
   {
     return (vertices + 1) * std::int64_t(sizeof(Entry) + sizeof(std::uint32_t));
@@ -80,8 +81,9 @@ private:
     std::uint32_t vertex;
   };
 
-  /** The exponent of a distance and the first digits, which order numbers from 0 on of any size:
-   * single precision would not tell those of a tiny or a huge mesh apart. */
+  /** The exponent and the leading digits of a distance, which order non-negative numbers of any
+   * size. Single precision would not do: its range excludes the distances of tiny and huge meshes.
+   */
   static std::uint32_t keyOf(double distance)
   {
     return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(distance) >> 31);
@@ -121,20 +123,20 @@ private:
 
   Buffer Memory, PlaceMemory;
   Entry* Heap;           ///< from 1 on
-  std::uint32_t* Places; ///< of a vertex in the heap; 0: none
+  std::uint32_t* Places; ///< the place of each vertex in the heap; 0: not in it
   std::uint32_t Size = 0;
 };
 
 /**
  * Marches the front of a distance through a mesh in chunks, in passes over the stream in
- * alternating directions. Within the window each pass settles what it can, in the order of the
- * distances (a *label-correcting* form of Dijkstra's method and of fast marching, Tsitsiklis 1995,
- * Sethian 1996): a vertex passes its distance on to its cells, and again when a shorter path to it
- * is found. What crosses an end of the window is left to a later position of the window. A window
- * without dirty vertices is not read.
+ * alternating directions. At each position of the window a pass settles what it can, in the order
+ * of the distances (a *label-correcting* form of Dijkstra's method and of fast marching, Tsitsiklis
+ * 1995, Sethian 1996): a vertex passes its distance on to its cells, and does so again whenever a
+ * shorter path to it is found. What crosses an end of the window is left to a later position. A
+ * position without dirty vertices is not read.
  *
- * Every update takes the minimum of what it finds, so that the result depends on the window and on
- * the order of updates by no more than rounding and the tolerance.
+ * Every update keeps the smaller distance, so that the window and the order of updates change the
+ * result by no more than rounding and the tolerance.
  */
 class March
 {
@@ -145,7 +147,7 @@ public:
   {
   }
 
-  /** Memory for chunks of at most so many cells, inner and crossing ones. */
+  /** The bytes of a march over chunks with at most this many inner and crossing cells. */
   static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
     std::int64_t crossingCells)
   {
@@ -153,50 +155,55 @@ public:
            MarchQueue::bytes(std::min(plan.window(), vertices));
   }
 
-  /** Makes passes until nothing changes, but at most so many; reports progress from `begin` to 1,
-   * and each pass with the number of unsettled vertices to `passed`. Returns their number. */
+  /** Makes passes until nothing changes, but at most `maxPasses`, and returns their number. Reports
+   * progress from `begin` to 1, and calls `passed` after each pass with the number of vertices that
+   * are not settled. */
   int run(int maxPasses, Progress& progress, double begin,
     const std::function<void(std::int64_t unsettled)>& passed);
 
-  /** How often the mesh was read: chunks that were read over their number. */
+  /** How often the mesh was read: the number of chunks that were read, over the number of chunks.
+   */
   double meshReadings() const
   {
     return static_cast<double>(this->Window.chunksRead()) /
            static_cast<double>(this->Window.mesh().count());
   }
-  /** Vertices that had changes to pass on when the last pass ended. */
+  /** The number of dirty vertices: those that had changes to pass on when the last pass ended. */
   std::int64_t unsettled() const;
 
   MarchWindow& window() { return this->Window; }
 
 private:
-  /** Smaller relative changes of a distance are dropped: each would be passed on through the whole
-   * mesh. */
+  /** Smaller relative changes of a distance are dropped, since each would be passed on through the
+   * whole mesh. */
   static constexpr double Tolerance = 1e-7;
 
   void pass(bool forwards, Progress& progress, double begin, double end);
-  /** Settles the shown chunks. */
+  /** Settles the chunks [first, last], which the window shows, until its queue is empty. */
   template <int Corners>
   void settle(std::int64_t first, std::int64_t last);
-  /** Passes the distance of vertex v on to the other corners of a triangle ... */
+  /** Passes the distance of vertex v on to the other corners of a triangle; the last element of
+   * `others` is not used. */
   void passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others);
-  /** ... or of a tetrahedron; v is the last element. */
+  /** The same for a tetrahedron. */
   void passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others);
   FrontCorner corner(std::uint32_t vertex) const;
-  /** Whether the nearest point of a curve or surface of sources at source `v` may be beside v: a
-   * path from v to `w` ahead of one of the edges of the curve at v is not that from its end. */
+  /** Whether `w` may be nearer to another point of the curve or surface of sources than to its
+   * source `v`: it is, if the edge from v to w does not leave all edges of the curve at v behind.
+   */
   template <int Corners>
   bool isBesideCurve(std::uint32_t v, std::uint32_t w) const;
   /** Offers the path from vertex `v` along an edge to vertex `w`. */
   template <int Corners>
   void offerEdge(std::uint32_t v, std::uint32_t w, double length);
-  /** Whether an arrival is news at vertex `w`. */
+  /** Whether an arrival changes the distance or the kind of front at vertex `w`. */
   bool isNews(std::uint32_t w, const Arrival& arrival) const;
   /**
-   * Offers a path to vertex `w` through a facet with these corners, to the source of the one
-   * nearest to the path. False if it does not count: the front has come to one of them by way of w.
-   * In a strip of triangles that are nearly flat each corner lies between its neighbours, and would
-   * have about the mean of their distances, down to 0 between two sources.
+   * Offers vertex `w` a path through a facet with these corners. Its source is the source of the
+   * corner nearest to the path. Returns false if the path does not count because the front has come
+   * to one of the corners by way of w. Without this rule, in a strip of nearly flat triangles,
+   * where each vertex lies between its neighbours, each would get about the mean of their
+   * distances, down to 0 between two sources.
    */
   template <std::size_t N>
   bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);

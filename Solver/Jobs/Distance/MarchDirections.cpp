@@ -5,6 +5,14 @@
 #include <cmath>
 #include <limits>
 
+// The gradient of a distance at each vertex, in one pass over the chunks after the march: the
+// direction in which the shortest path arrives. The march keeps no paths. They are found again
+// here: of all cells of a vertex and all their facets, the one through which the shortest path
+// comes, by the same formulas (Arrival.h).
+//
+// Each vertex sees its cells in the order of the stream, and the first of equally short paths
+// counts. Two chunks are shown at a time; the cost is one update per corner of each cell.
+
 namespace smg
 {
 
@@ -40,6 +48,7 @@ Path throughInside(const double* w, const FrontCorner* const* corners)
 {
   const Vector to = difference(w, corners[0]->point);
   Arrival arrival;
+  // The frames have corners[0] as their origin, like those of the march.
   if constexpr (N == 1)
   {
     arrival = fromCorner(*corners[0], std::sqrt(dot(to, to)));
@@ -61,7 +70,8 @@ Path throughInside(const double* w, const FrontCorner* const* corners)
   return { arrival.distance, pointOf(corners, arrival.weight) };
 }
 
-/** The shortest path to w through the facet of N corners. */
+/** The shortest path to w through the facet of N corners: through its inside or, if none crosses
+ * that, through one of its own facets, down to single corners. */
 template <int N>
 Path through(const double* w, const FrontCorner* const* corners)
 {
@@ -73,7 +83,9 @@ Path through(const double* w, const FrontCorner* const* corners)
   }
   if constexpr (N > 1)
   {
-    // Otherwise through one of the facets of the facet.
+    // A path through the inside is at most as long as a path through the boundary of the facet. If
+    // a corner has not been reached, there is no path through the inside, but perhaps one through
+    // the others.
     const bool isInside = std::isfinite(path.distance);
     for (int k = 0; k < N && !isInside; ++k)
     {
@@ -118,6 +130,7 @@ void MarchDirections::addCells(std::span<const std::uint32_t> corners)
     for (int k = 0; k < Corners; ++k)
     {
       const std::uint32_t w = corners[k];
+      // Sources and vertices that are not reached keep the direction 0.
       if (all[k].distance == 0 || !std::isfinite(all[k].distance))
       {
         continue;
@@ -127,9 +140,11 @@ void MarchDirections::addCells(std::span<const std::uint32_t> corners)
       {
         others[n - 1] = &all[(k + n) % Corners];
       }
+      // From where the path crosses the facet to the corner: the direction in which it arrives.
       const Path path = through<Corners - 1>(all[k].point, others);
       const Vector along = difference(all[k].point, path.crossing.data());
       const double length = std::sqrt(dot(along, along));
+      // Coincident vertices give no direction.
       if (path.distance < this->Shortest[w] && length > 0)
       {
         this->Shortest[w] = path.distance;
@@ -140,11 +155,14 @@ void MarchDirections::addCells(std::span<const std::uint32_t> corners)
   }
 }
 
+/** Starts the vertices of the chunk, and adds all cells whose last corner it has: they may also
+ * improve vertices of the chunk before. */
 void MarchDirections::addChunk(std::int64_t chunk)
 {
   const ChunkedMesh& mesh = this->Window.mesh();
   const auto place = static_cast<std::size_t>(this->Window.placeOf(chunk));
   const auto count = static_cast<std::size_t>(mesh.countOf(chunk));
+  // The places may have belonged to another chunk before.
   std::fill_n(this->Shortest + place, count, std::numeric_limits<double>::infinity());
   std::fill_n(this->Direction + 3 * place, 3 * count, 0.0F);
   for (const std::span<const std::uint32_t> cells :
@@ -154,6 +172,7 @@ void MarchDirections::addChunk(std::int64_t chunk)
   }
 }
 
+/** Moves forward over the stream, with one chunk and the one before it in the window. */
 void MarchDirections::write(ScratchBlocks& to, Progress& progress)
 {
   const ChunkedMesh& mesh = this->Window.mesh();
@@ -161,7 +180,8 @@ void MarchDirections::write(ScratchBlocks& to, Progress& progress)
   {
     this->Window.show(std::max<std::int64_t>(chunk - 1, 0), chunk);
     this->addChunk(chunk);
-    // The cells of a chunk complete the one before.
+    // Cells reach no farther back than one chunk: the cells of this chunk complete the one before.
+    // The last chunk is complete with its own.
     for (std::int64_t done = chunk - 1; done <= chunk; ++done)
     {
       if (done >= 0 && (done < chunk || chunk + 1 == mesh.count()))

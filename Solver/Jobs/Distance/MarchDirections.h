@@ -12,31 +12,31 @@ namespace smg
 {
 
 /**
- * The gradient of a distance at the vertices: the direction of the shortest path where it arrives,
- * in one pass over the mesh. 0 at sources and at vertices that are not reached.
+ * The gradient of a distance at the vertices, computed in one pass over the mesh: the direction in
+ * which the shortest path arrives. 0 at sources and at vertices that are not reached.
  */
 class MarchDirections
 {
 public:
   MarchDirections(ChunkedMesh& mesh, Pool& pool);
 
-  /** Memory for chunks of at most so many cells, inner and crossing ones. */
+  /** The bytes for chunks with at most this many inner and crossing cells. */
   static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
     std::int64_t crossingCells);
 
-  /** Writes three floats a vertex; block n has those of chunk n. */
+  /** Writes three floats per vertex; block n has those of chunk n. */
   void write(ScratchBlocks& to, Progress& progress);
 
 private:
-  /** Takes note of the paths through some cells. */
+  /** Updates the directions at the corners of these cells. */
   template <int Corners>
   void addCells(std::span<const std::uint32_t> corners);
   void addChunk(std::int64_t chunk);
 
   MarchWindow Window;
   Buffer Memory;
-  double* Shortest; ///< distance of the paths so far, by place
-  float* Direction; ///< of the shortest one
+  double* Shortest; ///< the length of the shortest path so far, by place
+  float* Direction; ///< its direction, 3 per place
 };
 
 } // namespace smg

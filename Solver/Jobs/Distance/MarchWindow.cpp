@@ -5,13 +5,22 @@
 #include <cstring>
 #include <limits>
 
+// The window of a march: up to four consecutive chunks in memory, addressed as a ring. A vertex has
+// the place (index mod 4 lengths) whatever chunks are shown, so that cells are stored with places,
+// and moving the window moves no data: a chunk that is still shown stays where it is, and only the
+// new one is read into the slot (chunk mod 4) of one that left.
+//
+// Chunks have a fixed number of vertices, so the memory is known before the march: 45 bytes per
+// vertex (53 with sources) and the lists of cells.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Bytes of the state and position of a vertex. */
+/** Bytes of a vertex: position and distance, the facet of `via`, flags, and its source if wanted.
+ */
 std::int64_t vertexBytes(bool sources)
 {
   return 4 * std::int64_t(sizeof(double)) + 3 * std::int64_t(sizeof(std::uint32_t)) +
@@ -49,6 +58,7 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
 {
   const std::int64_t vertices = windowVertices(mesh.plan, mesh.vertices);
   this->Memory = Buffer(pool, static_cast<std::size_t>(vertices * vertexBytes(mesh.plan.sources)));
+  // One allocation, from the type with the strictest alignment on.
   std::byte* next = this->Memory.data();
   const auto part = [&]<class T>(T*& values, std::int64_t components)
   {
@@ -64,6 +74,7 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   part(this->Via, 1);
   part(this->Flag, 1);
 
+  // Each slot gets room for the chunk with the most cells, since any chunk may come to be in it.
   std::int64_t inner = 0, crossing = 0;
   for (const ChunkedMesh::Chunk& chunk : mesh.chunks)
   {
@@ -77,6 +88,8 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   }
 }
 
+/** Loads what is not there yet. Consecutive chunks are in different slots, so a chunk to be shown
+ * never displaces another one. */
 void MarchWindow::show(std::int64_t first, std::int64_t last)
 {
   for (std::int64_t chunk = first; chunk <= last; ++chunk)
@@ -90,6 +103,7 @@ void MarchWindow::show(std::int64_t first, std::int64_t last)
     slot.hasPrevious = chunk > first;
     slot.hasNext = chunk < last;
   }
+  // The window moves by one chunk in the direction of the pass.
   this->readAhead(first < this->Shown ? first - 1 : last + 1);
   this->Shown = first;
 }
@@ -102,6 +116,8 @@ void MarchWindow::flush()
   }
 }
 
+/** Tells the operating system which chunk comes next, so that it is read while this position is
+ * settled. */
 void MarchWindow::readAhead(std::int64_t chunk) const
 {
   if (chunk < 0 || chunk >= this->Mesh.count())
@@ -127,6 +143,7 @@ void MarchWindow::load(Slot& slot, std::int64_t chunk)
   ++this->Read;
 }
 
+/** Reads the positions of a chunk, as doubles whatever the file has. */
 void MarchWindow::loadPositions(std::int64_t chunk)
 {
   const auto count = static_cast<std::size_t>(3 * this->Mesh.countOf(chunk));
@@ -137,7 +154,8 @@ void MarchWindow::loadPositions(std::int64_t chunk)
     this->Mesh.mesh.read(index, std::as_writable_bytes(std::span(points, count)));
     return;
   }
-  // Single precision is read into the second half and widened from the front.
+  // Single precision is read into the second half of the room and widened from the front: the
+  // writing end never overtakes the reading end.
   const std::span<std::byte> half =
     std::as_writable_bytes(std::span(points, count)).subspan(count * sizeof(float));
   this->Mesh.mesh.read(index, half);
@@ -149,6 +167,8 @@ void MarchWindow::loadPositions(std::int64_t chunk)
   }
 }
 
+/** Reads the cells of a chunk into the memory of its slot: corners, then the lists of the cells of
+ * each vertex, then where these lists begin. */
 void MarchWindow::loadCells(Slot& slot, std::int64_t chunk)
 {
   const ChunkedMesh::Chunk& counts = this->Mesh.chunks[static_cast<std::size_t>(chunk)];
@@ -169,6 +189,9 @@ void MarchWindow::loadCells(Slot& slot, std::int64_t chunk)
   corners == 3 ? this->buildStars<3>(slot) : this->buildStars<4>(slot);
 }
 
+/** Lists the cells of each vertex: inner cells by the index in the chunk, crossing ones by the
+ * index from Span vertices before the chunk on. A crossing cell is not longer than the span, so it
+ * lies within Span vertices on either side of the beginning of its chunk. */
 template <int Corners>
 void MarchWindow::buildStars(Slot& slot)
 {
@@ -176,7 +199,7 @@ void MarchWindow::buildStars(Slot& slot)
   const std::uint32_t first = this->placeOf(slot.chunk);
   slot.inner.build<Corners>(
     this->Length, counts.innerCells, [first](std::uint32_t corner) { return corner - first; });
-  // The chunk before the one in the first slot is in the last slot.
+  // The chunk before the one in the first slot is in the last slot: places wrap around.
   const std::uint32_t window = this->Length * static_cast<std::uint32_t>(ChunkPlan::WindowChunks);
   const std::uint32_t begin = (first + window - this->Span) % window;
   slot.crossing.build<Corners>(2 * std::int64_t(this->Span), counts.crossingCells,
@@ -184,6 +207,8 @@ void MarchWindow::buildStars(Slot& slot)
     { return corner >= begin ? corner - begin : corner + window - begin; });
 }
 
+/** Reads flags, distances and sources. A chunk without sources is stored without distances until
+ * the march writes some. */
 void MarchWindow::loadState(std::int64_t chunk)
 {
   ScratchBlocks& file = this->Mesh.state;
@@ -202,6 +227,7 @@ void MarchWindow::loadState(std::int64_t chunk)
     std::ranges::fill(of, fallback);
   };
   readOr(this->Distance, ChunkedMesh::Distances, std::numeric_limits<double>::infinity());
+  // Where the front came from is not stored: it is unknown until the next shorter path arrives.
   std::ranges::fill(this->of(this->Via, chunk), std::array{ NoVertex, NoVertex, NoVertex });
   if (this->Source)
   {
@@ -209,6 +235,8 @@ void MarchWindow::loadState(std::int64_t chunk)
   }
 }
 
+/** Writes the state of a chunk if any vertex has changed: chunks that the front only passes by are
+ * not written. */
 void MarchWindow::write(std::int64_t chunk)
 {
   const auto isChanged = [](std::uint8_t flags) { return (flags & Changed) != 0; };
@@ -224,6 +252,7 @@ void MarchWindow::write(std::int64_t chunk)
       this->Mesh.state.write(index + part, std::as_bytes(this->of(values, chunk)));
     }
   };
+  // The file must not say Changed, or the chunk would be written again after it is read.
   for (std::uint8_t& flags : this->of(this->Flag, chunk))
   {
     flags &= static_cast<std::uint8_t>(~Changed);

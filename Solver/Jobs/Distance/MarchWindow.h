@@ -12,15 +12,15 @@
 namespace smg
 {
 
-/** The cells of each vertex, of some vertices and cells that are numbered from 0. The memory is
- * that of the caller. */
+/** For vertices numbered from 0, the list of the cells of each. The memory belongs to the caller.
+ */
 struct CellStars
 {
-  std::uint32_t* corners = nullptr; ///< of the cells: places in a window
-  std::uint32_t* start = nullptr;   ///< of the cells of a vertex in `list`; one more than vertices
-  std::uint32_t* list = nullptr;    ///< cells
+  std::uint32_t* corners = nullptr; ///< of all cells: places in a window
+  std::uint32_t* start = nullptr;   ///< where the list of each vertex begins in `list`, and the end
+  std::uint32_t* list = nullptr;    ///< numbers of cells, vertex by vertex
 
-  /** Bytes for so many vertices and corners of cells. */
+  /** Bytes for this many vertices and corners of cells. */
   static constexpr std::int64_t bytes(std::int64_t vertices, std::int64_t corners)
   {
     return (vertices + 1 + 2 * corners) * std::int64_t(sizeof(std::uint32_t));
@@ -31,7 +31,8 @@ struct CellStars
     return { this->list + this->start[vertex], this->list + this->start[vertex + 1] };
   }
 
-  /** Lists the cells, in their order; `numberOf(corner)` is the number of a vertex by its place. */
+  /** Lists the cells of each vertex in ascending order by a counting sort. `numberOf(corner)`
+   * converts the place of a vertex to its number. */
   template <int Corners>
   void build(std::int64_t vertices, std::int64_t cells, auto numberOf)
   {
@@ -55,16 +56,16 @@ struct CellStars
 };
 
 /**
- * The chunks of a mesh in memory: consecutive ones, at most ChunkPlan::WindowChunks. Vertices are
- * addressed by their places (ChunkPlan::local()). A chunk whose state has changed is written when
- * another one takes its memory.
+ * Consecutive chunks of a mesh in memory, at most ChunkPlan::WindowChunks. Vertices are addressed
+ * by their places (ChunkPlan::local()). A chunk whose state has changed is written when another one
+ * takes its memory.
  */
 class MarchWindow
 {
 public:
   MarchWindow(ChunkedMesh& mesh, Pool& pool);
 
-  /** Memory of a window on chunks of at most so many cells, inner and crossing ones. */
+  /** The bytes of a window on chunks with at most this many inner and crossing cells. */
   static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
     std::int64_t crossingCells);
 
@@ -82,7 +83,9 @@ public:
     return this->Mesh.plan.local(this->Mesh.firstOf(chunk));
   }
 
-  /** Calls visit(corners) for each cell of a vertex that is wholly in the window. */
+  /** Calls visit(corners) for each cell of a vertex that has all its corners in the window: inner
+   * cells of the chunk, and cells that cross to the chunk before it or after it, if that is shown.
+   * A cell that crosses to the next chunk is stored with that one. */
   template <int Corners>
   void forCellsOf(std::uint32_t vertex, auto visit) const
   {
@@ -122,8 +125,8 @@ public:
   std::uint8_t* flags() const { return this->Flag; }
   /** Null if they are not wanted. */
   std::int64_t* source() const { return this->Source; }
-  /** The corners of the facet through which the front has come to a vertex, as far as known: not
-   * since a chunk was read. */
+  /** The corners of the facet across which the front came to a vertex, padded with NoVertex; all
+   * NoVertex if that is not known, as after the chunk has been read again. */
   std::array<std::uint32_t, 3>* via() const { return this->Via; }
   static constexpr std::uint32_t NoVertex = 0xffffffff;
 
@@ -131,7 +134,7 @@ private:
   struct Slot
   {
     Buffer memory;
-    CellStars inner, crossing; ///< the latter of the vertices from `Span` before the chunk on
+    CellStars inner, crossing; ///< `crossing` numbers vertices from `Span` before the chunk on
     std::int64_t chunk = -1;
     bool hasPrevious = false, hasNext = false; ///< whether the neighbours are shown
   };
@@ -168,7 +171,7 @@ private:
   std::array<std::uint32_t, 3>* Via = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;
-  std::int64_t Shown = -1; ///< first chunk shown last
+  std::int64_t Shown = -1; ///< the first chunk of the position before
 };
 
 } // namespace smg

@@ -13,6 +13,14 @@
 #include <string>
 #include <vector>
 
+// Distances along paths in the mesh: sources are found, the mesh is cut into chunks on scratch
+// files (ChunkedMesh), the front marches through them until nothing changes (March), directions are
+// found in one further pass (MarchDirections). The solution reads the scratch files.
+//
+// The memory is checked twice: before the mesh is read, with the mean number of cells in a chunk,
+// so that a limit that is far too low is reported at once; and before the march, with the exact
+// numbers.
+
 namespace smg
 {
 
@@ -22,7 +30,7 @@ namespace
 /** Share of the first reading in the progress. */
 constexpr double FirstReading = 0.3;
 
-/** The files of the distances. */
+/** The scratch files of a distance, which its solution keeps alive. */
 struct DistanceFiles
 {
   DistanceFiles(const ChunkPlan& plan, DistanceRun& run)
@@ -34,7 +42,8 @@ struct DistanceFiles
   ScratchBlocks directions;
 };
 
-/** The span of a stream that does not know it. */
+/** The span of a stream whose information does not have it: takes a reading of the mesh. Chunks
+ * must be at least as long as the span, so it cannot be guessed. */
 std::int64_t measuredSpan(const StoredMesh& mesh)
 {
   const std::unique_ptr<MeshSource> source = mesh.source({}, {});
@@ -51,7 +60,8 @@ std::int64_t measuredSpan(const StoredMesh& mesh)
   return span;
 }
 
-/** Memory of the march, for chunks of at most so many cells. */
+/** The bytes of the march and of the pass for the directions, which follow each other, for chunks
+ * with at most this many cells. */
 std::int64_t neededBytes(const ChunkPlan& plan, std::int64_t vertices, bool directions,
   std::int64_t innerCells, std::int64_t crossingCells)
 {
@@ -61,6 +71,7 @@ std::int64_t neededBytes(const ChunkPlan& plan, std::int64_t vertices, bool dire
            : march;
 }
 
+/** Throws Error before the work, rather than in the middle of it. */
 void checkMemory(std::int64_t needed, const Pool& pool)
 {
   if (needed > pool.limit())
@@ -69,7 +80,7 @@ void checkMemory(std::int64_t needed, const Pool& pool)
   }
 }
 
-/** The largest numbers of inner and of crossing cells of a chunk. */
+/** The largest numbers of inner and of crossing cells in a chunk, not necessarily the same one. */
 ChunkedMesh::Chunk largestOf(const ChunkedMesh& mesh)
 {
   ChunkedMesh::Chunk largest;
@@ -81,7 +92,8 @@ ChunkedMesh::Chunk largestOf(const ChunkedMesh& mesh)
   return largest;
 }
 
-/** Products of four lengths must be numbers. */
+/** The formulas of the front multiply up to four lengths: their products must neither overflow nor
+ * underflow. */
 void checkExtent(const std::vector<double>& low, const std::vector<double>& high)
 {
   constexpr double Least = 1e-60, Most = 1e70;
@@ -96,7 +108,8 @@ void checkExtent(const std::vector<double>& low, const std::vector<double>& high
   }
 }
 
-/** Cuts the mesh into chunks. */
+/** Reads the mesh once: cuts it into chunks, marks sources, and checks the stream and its extent.
+ */
 void readMesh(
   const StoredMesh& mesh, DistanceSources& sources, ChunkedMesh& chunks, DistanceRun& run)
 {
@@ -123,6 +136,8 @@ void readMesh(
   run.report.cells = writer.cells();
   run.report.degenerate_cells = writer.skipped();
   run.report.prescribed = run.report.distance->sources = writer.sources();
+  // A selection that is empty has been an error above; "everywhere" in an empty mesh is not one of
+  // these.
   if (writer.sources() == 0)
   {
     throw Error("a distance needs at least one source, but the mesh has no vertex");
@@ -131,6 +146,7 @@ void readMesh(
   noteUnwelded(chunks.plan.cellType, check.vertices(), check.cells(), run.report);
 }
 
+/** Marches, and reports the passes. */
 void march(ChunkedMesh& chunks, DistanceRun& run)
 {
   March march(chunks, run.pool);
@@ -152,8 +168,10 @@ void march(ChunkedMesh& chunks, DistanceRun& run)
   }
 }
 
+/** The columns of the solution, in the order of distanceColumns(), and where they are stored. */
 std::vector<StoredColumn> columnsOf(DistanceFiles& files, const DistanceDescription& description)
 {
+  // Blocks that were never written have a value of their own: infinity, and -1 for no source.
   using Type = StoredColumn::Type;
   ScratchBlocks* state = &files.chunks.state;
   std::vector<StoredColumn> columns{ { state, ChunkedMesh::StateParts, ChunkedMesh::Distances,
@@ -186,12 +204,14 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), description.source);
   if (chunkVertices > 0)
   {
+    // Tests take short chunks, so that small meshes have many.
     plan.length = std::max(chunkVertices, plan.span);
   }
   if (info.vertices > 0)
   {
+    // A mesh that is shorter than a chunk needs less memory.
     plan.length = std::max(std::min(plan.length, info.vertices), plan.span);
-    // With the mean number of cells of a chunk; the exact need is known after the first reading.
+    // With the mean number of cells in a chunk, taken as inner ones.
     const double share = std::min(1.0, double(plan.length) / double(info.vertices));
     const auto cells = static_cast<std::int64_t>(std::ceil(share * double(info.cells)));
     checkMemory(neededBytes(plan, info.vertices, description.direction, cells, 0), run->pool);
@@ -202,7 +222,8 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   const Timer building;
   sources->prepare(mesh, run->scratch.path());
   readMesh(mesh, *sources, chunks, *run);
-  sources.reset(); // and its memory, before the march
+  // Gives its memory back before the march.
+  sources.reset();
   run->report.seconds.build = building.seconds();
   const ChunkedMesh::Chunk largest = largestOf(chunks);
   checkMemory(neededBytes(plan, chunks.vertices, description.direction, largest.innerCells,
@@ -211,9 +232,11 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   march(chunks, *run);
   if (description.direction)
   {
+    // The march has given its memory back: the pass needs about as much.
     MarchDirections(chunks, run->pool).write(files->directions, run->progress);
   }
   const std::vector<StoredColumn> columns = columnsOf(*files, description);
+  // The solution owns the run from here on; its report is completed after that.
   DistanceRun& shared = *run;
   auto solution = std::make_unique<DistanceSolution>(
     std::move(run), std::move(files), columns, chunks.vertices, plan.length);

@@ -10,8 +10,8 @@
 namespace smg
 {
 
-/** The distance along paths in the mesh: see smg::distance(). `plan` may shorten the chunks of the
- * march; by default they follow from the stream. */
+/** The distance along paths in the mesh: see smg::distance(). `chunkVertices`, if positive, is the
+ * length of the chunks of the march, at least the span; by default it follows from the stream. */
 std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   const DistanceDescription& description, std::unique_ptr<DistanceRun> run, const std::string& name,
   std::int64_t chunkVertices = 0);

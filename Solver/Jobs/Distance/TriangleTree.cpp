@@ -8,19 +8,30 @@
 #include <numeric>
 #include <utility>
 
+// A balanced tree of bounding boxes, in an array: a node is followed by its first child and all
+// nodes below that. Boxes are single precision, which saves memory, and rounded outwards, so that
+// their distances are lower bounds. A search visits the nearer child first and skips boxes that are
+// farther than the best triangle so far.
+//
+// Only boxes that are farther for certain, by more than rounding, are skipped, and of equally near
+// triangles the one with the lowest number counts. So the answer is the same, to the last bit, as
+// if all triangles were compared in their order, whatever the shape of the tree and the guess.
+// Building takes about n log n steps.
+
 namespace smg
 {
 
 namespace
 {
 
-/** The point of the way from a to b, at `part` of `whole`; a if there is no way. */
+/** The point a + way * part / whole, on an edge from a; a itself if the edge has no length. */
 Vector pointBetween(const double* a, const Vector& way, double part, double whole)
 {
   const double share = whole > 0 ? part / whole : 0;
   return { a[0] + share * way[0], a[1] + share * way[1], a[2] + share * way[2] };
 }
 
+/** Three times a coordinate of the centre, which is only compared. */
 double centreOf(const TrianglePoints& triangle, int axis)
 {
   return triangle.point[0][axis] + triangle.point[1][axis] + triangle.point[2][axis];
@@ -33,37 +44,46 @@ Vector nearestPoint(const TrianglePoints& triangle, const double* point)
   const auto& [a, b, c] = triangle.point;
   const Vector ab = difference(b, a), ac = difference(c, a), ap = difference(point, a);
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  // In the region of corner a. Names are taken from the book: d1 to d6 are products with the edges
+  // ab and ac, and va, vb, vc the barycentric coordinates of the projection, times the square of
+  // twice the area.
   if (d1 <= 0 && d2 <= 0)
   {
     return { a[0], a[1], a[2] };
   }
   const Vector bp = difference(point, b);
   const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  // Of corner b.
   if (d3 >= 0 && d4 <= d3)
   {
     return { b[0], b[1], b[2] };
   }
   const double vc = d1 * d4 - d3 * d2;
+  // Of the edge ab.
   if (vc <= 0 && d1 >= 0 && d3 <= 0)
   {
     return pointBetween(a, ab, d1, d1 - d3);
   }
   const Vector cp = difference(point, c);
   const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  // Of corner c.
   if (d6 >= 0 && d5 <= d6)
   {
     return { c[0], c[1], c[2] };
   }
   const double vb = d5 * d2 - d1 * d6;
+  // Of the edge ac.
   if (vb <= 0 && d2 >= 0 && d6 <= 0)
   {
     return pointBetween(a, ac, d2, d2 - d6);
   }
   const double va = d3 * d6 - d5 * d4;
+  // Of the edge bc.
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
   {
     return pointBetween(b, difference(c, b), d4 - d3, (d4 - d3) + (d5 - d6));
   }
+  // Inside.
   const double share = 1 / (va + vb + vc);
   Vector nearest{};
   for (int k = 0; k < 3; ++k)
@@ -89,12 +109,14 @@ TriangleTree::TriangleTree(Pool& pool, std::span<const TrianglePoints> triangles
   }
 }
 
-/** Each leaf has at least half of LeafTriangles, unless it is the only one. */
+/** An upper bound of the number of nodes: each leaf has at least half of LeafTriangles, unless it
+ * is the only one, and a tree has fewer than twice as many nodes as leaves. */
 std::int64_t TriangleTree::nodesFor(std::int64_t triangles)
 {
   return std::max<std::int64_t>(1, 2 * triangles / (LeafTriangles / 2));
 }
 
+/** Builds the tree of the triangles Order[begin, end), and returns its root. */
 std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end)
 {
   const std::uint32_t node = this->NodeCount++;
@@ -105,6 +127,7 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end)
   {
     const std::uint32_t middle = begin + (end - begin) / 2;
     this->split(begin, middle, end);
+    // The first child gets the next number, so only the second one is stored.
     this->build(begin, middle);
     this->Nodes[node].first = this->build(middle, end);
     this->Nodes[node].count = 0;
@@ -112,6 +135,8 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end)
   return node;
 }
 
+/** Halves the triangles in number, which keeps the tree balanced, along the axis in which their
+ * centres extend farthest. */
 void TriangleTree::split(std::uint32_t begin, std::uint32_t middle, std::uint32_t end)
 {
   std::array<double, 3> extent{};
@@ -122,6 +147,7 @@ void TriangleTree::split(std::uint32_t begin, std::uint32_t middle, std::uint32_
     extent[k] = centreOf(this->Triangles[high], k) - centreOf(this->Triangles[low], k);
   }
   const auto axis = static_cast<int>(std::ranges::max_element(extent) - extent.begin());
+  // Ties are broken by number, so that the halves do not depend on the order before.
   std::nth_element(this->Order.begin() + begin, this->Order.begin() + middle,
     this->Order.begin() + end,
     [&](std::uint32_t s, std::uint32_t t)
@@ -131,6 +157,7 @@ void TriangleTree::split(std::uint32_t begin, std::uint32_t middle, std::uint32_
     });
 }
 
+/** Encloses the corners of the triangles of a node. */
 void TriangleTree::enclose(Node& node, std::uint32_t begin, std::uint32_t end) const
 {
   constexpr double Infinite = std::numeric_limits<double>::infinity();
@@ -146,12 +173,13 @@ void TriangleTree::enclose(Node& node, std::uint32_t begin, std::uint32_t end) c
         high = std::max(high, point[k]);
       }
     }
-    // Rounded outwards.
+    // Rounded outwards: the nearest float may lie inside.
     node.low[k] = std::nextafter(static_cast<float>(low), -Most);
     node.high[k] = std::nextafter(static_cast<float>(high), Most);
   }
 }
 
+/** The squared distance of a point from the box of a node; 0 inside. */
 double TriangleTree::squareTo(const Node& node, const double* point)
 {
   double square = 0;
@@ -166,11 +194,13 @@ double TriangleTree::squareTo(const Node& node, const double* point)
 
 auto TriangleTree::nearest(const double* point, double bound, std::int64_t guess) const -> Nearest
 {
-  // Compared are distances, not their squares, so that a bound from another tree is compared like a
-  // distance of this one: the result does not depend on how triangles are divided among trees.
+  // Distances are compared, not their squares, so that a bound from another tree is compared in the
+  // same way as a distance of this one: the result does not depend on how triangles are divided
+  // among trees.
   Nearest best{ -1, bound };
   constexpr double Rounding = 1.0 + 1e-14;
-  double most = Rounding * bound * bound; // squares beyond it are farther for certain
+  // Boxes whose squared distance is above this are farther than the best triangle for certain.
+  double most = Rounding * bound * bound;
   const auto offer = [&](std::int64_t triangle)
   {
     const Vector way = difference(
@@ -186,7 +216,8 @@ auto TriangleTree::nearest(const double* point, double bound, std::int64_t guess
   {
     offer(guess);
   }
-  // The tree is balanced: its depth is that of the number of triangles, at most 32 bits.
+  // The nodes to be visited, on a stack. The tree is balanced and numbers of triangles have 32
+  // bits, so its depth is below 32; each level leaves at most one node on the stack.
   std::array<std::uint32_t, 64> open;
   std::size_t count = 0;
   if (this->NodeCount > 0)
@@ -201,6 +232,7 @@ auto TriangleTree::nearest(const double* point, double bound, std::int64_t guess
     {
       continue;
     }
+    // A leaf.
     if (node.count > 0)
     {
       std::ranges::for_each(this->Order.subspan(node.first, node.count), offer);

@@ -20,14 +20,14 @@ struct TrianglePoints
  * 2005, 5.1.5). Triangles without area are allowed. */
 Vector nearestPoint(const TrianglePoints& triangle, const double* point);
 
-/** A tree of bounding boxes over triangles, which answers which of them is nearest to a point. */
+/** A tree of bounding boxes over triangles, which finds the one nearest to a point. */
 class TriangleTree
 {
 public:
   /** Builds the tree; the triangles must outlive it. */
   TriangleTree(Pool& pool, std::span<const TrianglePoints> triangles);
 
-  /** An upper bound of the memory a triangle takes. */
+  /** An upper bound of the bytes per triangle. */
   static constexpr std::int64_t BytesPerTriangle = 4 + 32 / 2;
 
   struct Nearest
@@ -43,8 +43,8 @@ private:
   struct Node
   {
     float low[3], high[3]; ///< contains its triangles
-    /** Of a leaf its triangles in Order; else `first` is the second child and `count` is 0. The
-     * first child follows the node. */
+    /** The triangles of a leaf: `count` entries of Order from `first` on. For other nodes, `count`
+     * is 0 and `first` is the second child; the first child follows the node. */
     std::uint32_t first, count;
   };
   static constexpr std::int64_t LeafTriangles = 8;

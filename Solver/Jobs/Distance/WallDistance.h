@@ -11,9 +11,9 @@ namespace smg
 {
 
 /**
- * The Euclidean distance to walls: see smg::distance(). The wall triangles are held in memory, with
- * a tree, as many as the limit allows; a pass over the vertices finds the nearest of these. Each
- * further part of the wall takes another pass, so that the result is exact in any memory.
+ * The Euclidean distance to walls: see smg::distance(). As many wall triangles as the memory limit
+ * allows are in memory, with a tree; a pass over the vertices finds the nearest of them. Each
+ * further part of the wall takes another pass, so that the result is exact with any limit.
  */
 std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   const DistanceDescription& description, std::unique_ptr<DistanceRun> run,

@@ -9,6 +9,14 @@
 #include <cmath>
 #include <limits>
 
+// The two halves of a wall distance: collecting the wall triangles of a mesh stream
+// (WallTriangles), and lowering the distances of all vertices with a part of these (WallPass).
+//
+// A pass treats the vertices in chunks of fixed length, whatever the blocks are. The vertices of a
+// chunk are distributed over the threads; each is independent of all others, since the guess from
+// the vertex before it only makes the search faster. So the result depends on neither blocks nor
+// threads.
+
 namespace smg
 {
 
@@ -30,6 +38,8 @@ void WallTriangles::add(const MeshBlock& block)
   this->take(block.finalized);
 }
 
+/** Keeps positions and numbers of open vertices: a triangle is known when its lowest corner is
+ * final. */
 void WallTriangles::addVertices(const MeshBlock& block)
 {
   this->Vertices = block.firstVertex + block.vertices();
@@ -59,6 +69,8 @@ void WallTriangles::addCells(const MeshBlock& block)
     for (int k = 0; k < Corners; ++k)
     {
       const CellFacet facet = facetOf(CellType::Tetrahedron, corner, k);
+      // Both cells of an interior face are added, so that it is known as such, even if it is not
+      // selected. Boundary faces have one cell, whose selection is stored.
       const std::int32_t isWall = this->Everywhere || (selected[c] >> k & 1U) != 0 ? 1 : 0;
       this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], isWall);
     }
@@ -67,6 +79,8 @@ void WallTriangles::addCells(const MeshBlock& block)
 
 void WallTriangles::take(std::int64_t end)
 {
+  // In the order of the lowest corner, then of the stream: the numbers of triangles do not depend
+  // on blocks.
   for (; this->Final < end; ++this->Final)
   {
     this->Open.take(this->Final,
@@ -94,6 +108,8 @@ void WallTriangles::take(std::int64_t end)
   this->Numbers.release(this->Final);
 }
 
+/** All blocks but the last one have BlockTriangles triangles, so that any of them is found by
+ * division. */
 void WallTriangles::writeBlock()
 {
   this->To.write(this->Count / BlockTriangles, std::as_bytes(std::span(this->Block)));
@@ -119,6 +135,8 @@ WallPass::WallPass(std::span<const TrianglePoints> points,
   , Values(values)
   , Memory(pool, static_cast<std::size_t>(WallValues::ChunkVertices * WallValues::VertexBytes))
 {
+  // One allocation, from the type with the strictest alignment on. All parts have room, wanted or
+  // not.
   std::byte* next = this->Memory.data();
   const auto part = [&]<class T>(std::span<T>& of, std::int64_t components)
   {
@@ -136,6 +154,7 @@ void WallPass::add(std::span<const double> positions, tbb::task_arena& threads)
 {
   while (!positions.empty())
   {
+    // A block of the stream may be shorter or longer than a chunk.
     const auto room = static_cast<std::size_t>(3 * (WallValues::ChunkVertices - this->Count));
     const auto part = positions.first(std::min(positions.size(), room));
     std::ranges::copy(part, this->Position.begin() + 3 * this->Count);
@@ -156,9 +175,12 @@ void WallPass::finish(tbb::task_arena& threads)
   }
 }
 
+/** Lowers the distances of a chunk on all threads. Each vertex has places of its own for its
+ * results. */
 void WallPass::lowerChunk(tbb::task_arena& threads)
 {
   this->loadChunk();
+  // Enough vertices in a row for the guesses to pay, enough parts for many threads.
   constexpr std::int64_t PartVertices = 1024;
   runAll(threads, static_cast<int>((this->Count + PartVertices - 1) / PartVertices),
     [this](int part)
@@ -173,12 +195,15 @@ void WallPass::lowerChunk(tbb::task_arena& threads)
 
 void WallPass::lower(std::int64_t begin, std::int64_t end)
 {
-  // The triangle nearest to a vertex is a good guess for the next one.
+  // Consecutive vertices of a stream are mostly close together: the triangle nearest to one is a
+  // good guess for the next.
   std::int64_t guess = -1;
   for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v)
   {
     const double* point = this->Position.data() + 3 * v;
+    // The distance so far is the bound: infinite in the first pass.
     const TriangleTree::Nearest nearest = this->Tree.nearest(point, this->Distance[v], guess);
+    // An earlier part of the wall has a triangle that is at least as near.
     if (nearest.triangle < 0)
     {
       continue;
@@ -187,6 +212,7 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
     const auto triangle = static_cast<std::size_t>(nearest.triangle);
     const TrianglePoints& corners = this->Points[triangle];
     const Vector away = difference(point, nearestPoint(corners, point).data());
+    // The gradient points away from the nearest point of the wall.
     const double distance = nearest.distance;
     this->Distance[v] = distance;
     for (int k = 0; k < 3; ++k)
@@ -200,12 +226,14 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
         const Vector way = difference(point, corner);
         return dot(way, way);
       };
+      // The source is the corner of the nearest triangle that is nearest to the vertex.
       const auto corner = std::ranges::min_element(corners.point, {}, squareTo) - corners.point;
       this->Source[v] = this->Numbers[triangle][static_cast<std::size_t>(corner)];
     }
   }
 }
 
+/** The one place that knows which parts a chunk has, for reading and writing alike. */
 void WallPass::forParts(auto visit)
 {
   const auto count = static_cast<std::size_t>(this->Count);
@@ -224,6 +252,7 @@ void WallPass::loadChunk()
 {
   if (this->IsFirst)
   {
+    // Sources and directions are set with the first distance, which is finite.
     std::ranges::fill(this->Distance, std::numeric_limits<double>::infinity());
     return;
   }

@@ -25,16 +25,17 @@ struct WallTriangle
   std::array<std::int64_t, 3> numbers;
 };
 
-/** Collects the wall of a tetrahedral mesh in one reading, in the order of the stream: its boundary
- * triangles, or those that are selected. Cells that are flagged as duplicates or use a vertex twice
- * do not count. */
+/** Collects the wall of a tetrahedral mesh in one reading, in the order of the stream: all boundary
+ * triangles, or the selected ones. Cells that are flagged as duplicates or use a vertex twice do
+ * not count. */
 class WallTriangles
 {
 public:
   /** Block n of `to` gets the triangles from n * BlockTriangles on. */
   static constexpr std::int64_t BlockTriangles = 4096;
 
-  /** `selected` is null if all of the boundary is wall. */
+  /** `numbers` selects the triangles and numbers their corners; `everywhere`: the whole boundary is
+   * wall. */
   WallTriangles(ScratchBlocks& to, DistanceSources& numbers, bool everywhere, Pool& pool);
 
   /** Adds the next block, which has been checked: see StreamCheck. */
@@ -72,18 +73,20 @@ struct WallValues
     Directions, ///< three floats a vertex
     Parts
   };
-  /** Bytes that a pass holds for each vertex of a chunk, with its position. */
+  /** Bytes of a vertex of a chunk during a pass: position, distance, source, direction. */
   static constexpr std::int64_t VertexBytes = 3 * 8 + 8 + 8 + 3 * 4;
 
   ScratchBlocks& file; ///< block chunk * Parts + Part
   bool sources = false, directions = false;
 };
 
-/** A pass over the vertices of a mesh with a part of its wall: lowers their distances. */
+/** A pass over the vertices of a mesh that lowers their distances to those from a part of the wall.
+ */
 class WallPass
 {
 public:
-  /** `points` and `numbers` are those of the triangles; `isFirst`: there are no values yet. */
+  /** `points` and `numbers` belong to the triangles of the part. `isFirst`: there are no values
+   * yet. */
   WallPass(std::span<const TrianglePoints> points,
     std::span<const std::array<std::int64_t, 3>> numbers, bool isFirst, WallValues values,
     Pool& pool);

@@ -8,6 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+// Expected costs of computations, before any is made: proportional to the numbers of vertices,
+// passes and values, with constants that are fitted to measurements (docs/performance.md,
+// "Estimates"). Memory comes from MemoryEstimate, whose constants are fitted in the same way, and
+// depends on the span of the stream, too. All of it is arithmetic on the numbers of a StreamInfo.
+
 namespace smg
 {
 namespace
@@ -16,7 +21,7 @@ namespace
 // Measured by Testing/Benchmarks/estimates.py on surfaces and tetrahedral meshes of 40 thousand to
 // 4 million vertices, on an AMD EPYC: see docs/performance.md.
 
-/** Constants of a kind of cells; bytes and seconds are those of a vertex. */
+/** Constants of a kind of cells; bytes and seconds are per vertex. */
 struct Rates
 {
   double rowBytes;      ///< of the rows of all levels on disk
@@ -68,7 +73,8 @@ std::int64_t bytesOf(const StreamInfo& info, double ofVertex)
   return static_cast<std::int64_t>(static_cast<double>(info.vertices) * ofVertex);
 }
 
-/** V-cycles to the tolerance, `ease` times the usual number. */
+/** The number of V-cycles that a tolerance takes, if a problem takes `ease` times the usual number:
+ * in proportion to the digits of the tolerance. */
 int expectedCycles(const Rates& rates, const SolveOptions& options, double ease = 1.0)
 {
   const bool isPlain = options.acceleration == AccelerationKind::None;
@@ -80,10 +86,12 @@ int expectedCycles(const Rates& rates, const SolveOptions& options, double ease 
   return std::clamp(static_cast<int>(std::ceil(cycles)), 1, options.maxCycles);
 }
 
-/** The scratch files of one iterate: two generations, on all levels, and a third one of a
- * checkpoint; with acceleration its history, too. */
+/** Bytes per vertex of the scratch files of the iterate: two generations on all levels, and a third
+ * one with a checkpoint; with acceleration its history, too. */
 double iterateBytes(int columns, const SolveOptions& options, int cycles)
 {
+  // The number of nodes of all levels over that of the finest one; and the number of V-cycles from
+  // which acceleration pays.
   constexpr double AllLevels = 1.45;
   constexpr int MinAccelerated = 4;
   const bool accelerates =
@@ -92,12 +100,14 @@ double iterateBytes(int columns, const SolveOptions& options, int cycles)
   return sizeof(double) * columns * (generations * AllLevels + (accelerates ? 2.0 : 0.0));
 }
 
+/** Seconds per vertex of a pass that makes one V-cycle. Values are computed in groups of four. */
 double passSeconds(const Rates& rates, int columns)
 {
   return rates.passSeconds + rates.valueSeconds * strideOf(columns);
 }
 
-/** The costs of a solve of so many V-cycles. */
+/** The costs of a solve with this many V-cycles: the first pass builds the hierarchy, each further
+ * one makes a V-cycle. */
 Costs costsOfCycles(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options, int cycles)
 {
@@ -110,7 +120,8 @@ Costs costsOfCycles(
   {
     costs.scratch =
       bytesOf(info, rates.rowBytes + LabelBytes + iterateBytes(columns, options, cycles));
-    // All files of a checkpoint stay until the result is written.
+    // Without a checkpoint, only the solution stays until the result is written; all files of a
+    // checkpoint do.
     costs.kept = options.checkpoint.folder.empty()
                    ? bytesOf(info, 2.0 * sizeof(double) * columns + LabelBytes)
                    : costs.scratch;
@@ -128,12 +139,15 @@ Costs solveCosts(const StreamInfo& info, int columns, Weights weights, const Sol
     info, columns, weights, options, expectedCycles(ratesOf(info.cellType), options));
 }
 
+/** Two steps with the same number of V-cycles, which share a pass; the first one has four columns
+ * and determines the need. */
 Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
 {
   constexpr int RotationColumns = 4;
   const Rates& rates = ratesOf(info.cellType);
   const int cycles = options.cycles > 0 ? options.cycles : expectedCycles(rates, options);
   SolveOptions step = options;
+  // By default, a given number of V-cycles is not accelerated.
   if (options.cycles > 0)
   {
     step.acceleration = AccelerationKind::None;
@@ -142,6 +156,8 @@ Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
   costs.passes = 2 * cycles + 1;
   costs.seconds += static_cast<double>(info.vertices) *
                    (rates.readSeconds + cycles * passSeconds(rates, RotationColumns));
+  // The mesh at rest is on a scratch file, and in memory in the window of the shared pass. The rows
+  // come from the operators for few V-cycles.
   constexpr double RestBytes = 30;
   constexpr std::int64_t OpenRestBytes = 64, WindowSpans = 30;
   costs.memory += OpenRestBytes * std::min(info.vertices, WindowSpans * info.span);
@@ -151,13 +167,16 @@ Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
   return costs;
 }
 
+/** Each step is a solve, with edges to be kept two, beside readings for normals and the swept
+ * volume. */
 Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& options)
 {
   const bool movesPoints = options.column.empty();
   const bool keepsVolume = options.keepVolume && movesPoints;
   const int solves = options.steps * (options.keepEdges ? 2 : 1);
   const int readings = options.steps * ((options.keepEdges ? 1 : 0) + (keepsVolume ? 2 : 1));
-  // The equations of a step couple only vertices within about the size of the details.
+  // The equations of a step couple vertices only within about the size of the details, which makes
+  // them easier.
   constexpr double Ease = 0.65;
   const int cycles = expectedCycles(ratesOf(info.cellType), options, Ease);
   const Costs step = costsOfCycles(info, components, Weights::Cotangent, options, cycles);
@@ -165,7 +184,7 @@ Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& optio
   costs.passes = 1 + solves * step.passes + readings;
   costs.seconds = solves * step.seconds + (1 + readings) * static_cast<double>(info.vertices) *
                                             ratesOf(info.cellType).readSeconds;
-  // The values, those of the next step, those that show edges, and normals.
+  // Vertex files: the values, the next values, the presmoothed surface, and normals.
   const int files = 2 + (options.keepEdges ? 1 : 0) + (options.keepEdges || keepsVolume ? 1 : 0);
   const std::int64_t own = bytesOf(info, files * components * double(sizeof(double)));
   (options.inCore ? costs.memory : costs.scratch) += own;
@@ -173,6 +192,7 @@ Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& optio
   return costs;
 }
 
+/** A solve, beside readings for patches, averaged gradients and the steps that remain. */
 Costs blendCosts(
   const StreamInfo& info, int components, SeamGradient seam, const SolveOptions& options)
 {
@@ -187,6 +207,7 @@ Costs blendCosts(
   return costs;
 }
 
+/** The number of passes of a march is not bounded in advance; this is the usual one. */
 Costs distanceCosts(const StreamInfo& info, const DistanceDescription& description)
 {
   const bool surface = info.cellType == CellType::Triangle;
@@ -195,7 +216,7 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   Costs costs;
   if (description.wall)
   {
-    // The triangles of the boundary of a compact body.
+    // The boundary of a compact body of n vertices has of the order of n^(2/3) triangles.
     constexpr double WallBytes = 2400, WallSeconds = 11e-6;
     costs.memory = static_cast<std::int64_t>(WallBytes * std::pow(vertices, 2.0 / 3.0));
     costs.scratch = costs.memory + bytesOf(info, 8.0 * numbers);
@@ -208,8 +229,9 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   const std::int64_t least = std::int64_t(surface ? 1 : 3) << 20;
   costs.memory = least + bytesOfSpan * info.span;
   costs.scratch = costs.kept = bytesOf(info, ratesOf(info.cellType).chunkBytes + 8.0 * numbers);
-  // Larger meshes have more paths that turn against the stream.
-  constexpr double OnePass = 170000, Growth = 0.94; // passes for a mesh e times as large
+  // Larger meshes have more paths that turn against the direction of the stream: one pass up to
+  // OnePass vertices, and Growth more for a mesh e times as large.
+  constexpr double OnePass = 170000, Growth = 0.94;
   costs.passes =
     std::max(1, static_cast<int>(std::lround(1.0 + Growth * std::log(vertices / OnePass))));
   costs.seconds = vertices * ratesOf(info.cellType).marchSeconds;
@@ -222,6 +244,7 @@ int expectedComponents(const StreamInfo& info, const std::string& column, int us
   return found == info.vertexColumns.end() ? usual : found->components;
 }
 
+/** For a mesh that has not been ordered yet: of the order of its width, n^(1/2) or n^(2/3). */
 std::int64_t usualSpan(CellType cells, std::int64_t vertices)
 {
   const Rates& rates = ratesOf(cells);

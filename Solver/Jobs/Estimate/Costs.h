@@ -20,22 +20,22 @@ struct Costs
 {
   std::int64_t memory = 0;  ///< most accounted memory at once, bytes
   std::int64_t scratch = 0; ///< most bytes of scratch files at once
-  std::int64_t kept = 0;    ///< bytes of them that hold the solution until it is written
+  std::int64_t kept = 0;    ///< bytes of scratch files that stay until the solution is written
   int passes = 0;           ///< passes over the mesh
   double seconds = 0;       ///< processor time
 };
 
 /**
- * The costs of a computation on a stream, from its counts and its span, both of which must be
- * known. The constants are measured: see docs/performance.md#estimates. Meshes with many slivers
- * take more V-cycles.
+ * The expected costs of a computation on a stream, from its numbers of vertices and cells and its
+ * span, which must be known. The constants are measured: see docs/performance.md#estimates. Meshes
+ * with many slivers take more V-cycles.
  */
 SMG_EXPORT Costs solveCosts(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
 SMG_EXPORT Costs deformCosts(const StreamInfo& info, const DeformOptions& options);
-/** `components`: of the smoothed column; 3 of positions. */
+/** `components`: the number of components of the smoothed column; 3 for positions. */
 SMG_EXPORT Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& options);
-/** `components`: of all blended columns. */
+/** `components`: the number of components of all blended columns together. */
 SMG_EXPORT Costs blendCosts(
   const StreamInfo& info, int components, SeamGradient seam, const SolveOptions& options);
 
@@ -44,7 +44,7 @@ SMG_EXPORT Costs distanceCosts(const StreamInfo& info, const DistanceDescription
 /** The components of a column of the vertices; `usual` if the mesh is not known to have it. */
 SMG_EXPORT int expectedComponents(const StreamInfo& info, const std::string& column, int usual);
 
-/** The span that the breadth-first order of a mesh with so many vertices usually has. */
+/** The span that the breadth-first order of a mesh with this many vertices usually has. */
 SMG_EXPORT std::int64_t usualSpan(CellType cells, std::int64_t vertices);
 
 } // namespace smg

@@ -11,14 +11,20 @@
 #include <cmath>
 #include <utility>
 
+// The boundary of a surface, smoothed as curves: one-dimensional finite elements on the boundary
+// edges, by the same time step as the surface. Curves are short compared with the surface, so all
+// edges are in memory, and each step factorises its matrix once for the three coordinates (sparse
+// LDL^T). Vertices of any number of boundary edges are allowed. The edges come in the order of the
+// stream, and the computation is sequential: the same bits in any case.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Of an edge with its vertices, and of the matrix and its factor, whose fill-in is that of cycles.
- */
+/** Bytes of an edge with its vertices, and of its share in the matrix and the factor, which has
+ * little fill-in, since the graph of the matrix consists mostly of cycles. */
 constexpr std::int64_t BytesPerEdge = 112, SystemBytesPerEdge = 400;
 
 using CurvePoint = std::array<double, 3>;
@@ -28,8 +34,8 @@ Eigen::RowVector3d rowOf(const CurvePoint& position)
   return { position[0], position[1], position[2] };
 }
 
-/** The equations of a step. Held vertices, and those whose edges have no length, keep their
- * positions. */
+/** The equations of a step, with eliminated fixed vertices: held ones, and those without mass,
+ * whose edges have no length. */
 class CurveSystem
 {
 public:
@@ -51,6 +57,8 @@ public:
   void addEdge(const std::array<std::int64_t, 2>& ends, double weight,
     const std::vector<CurvePoint>& positions)
   {
+    // Both equations of the edge. A fixed neighbour goes to the right-hand side; of two free ones,
+    // the entry of the lower triangle is stored.
     for (const auto& [from, to] : { std::pair(ends[0], ends[1]), std::pair(ends[1], ends[0]) })
     {
       const auto place = static_cast<std::size_t>(from);
@@ -80,6 +88,7 @@ public:
     }
     Eigen::SparseMatrix<double> matrix(size, size);
     matrix.setFromTriplets(this->Entries.begin(), this->Entries.end());
+    // Symmetric and positive definite: free vertices have a mass.
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
     if (factor.info() != Eigen::Success)
     {
@@ -107,6 +116,7 @@ private:
 
 void BoundaryCurves::add(std::int64_t low, std::int64_t high)
 {
+  // Accounted for in chunks, not edge by edge.
   constexpr std::int64_t Chunk = 4096;
   if (this->Edges.size() % Chunk == 0)
   {
@@ -122,6 +132,7 @@ std::size_t BoundaryCurves::place(std::int64_t vertex) const
     std::ranges::lower_bound(this->Vertices, vertex) - this->Vertices.begin());
 }
 
+/** Numbers the vertices of the edges in ascending order, and measures the edges at rest. */
 void BoundaryCurves::begin(const VertexFile& positions)
 {
   for (const auto& ends : this->Edges)
@@ -135,6 +146,7 @@ void BoundaryCurves::begin(const VertexFile& positions)
   this->Held.assign(this->Vertices.size(), 0);
   for (std::size_t k = 0; k < this->Vertices.size(); ++k)
   {
+    // In ascending order, which suits the vertex file.
     positions.read(this->Vertices[k], 1, this->Positions[k].data());
   }
   for (std::size_t e = 0; e < this->Edges.size(); ++e)
@@ -164,6 +176,7 @@ double BoundaryCurves::length(std::size_t edge) const
   return std::sqrt(dot(along, along));
 }
 
+/** A step moves the curves; its system is accounted for only while it exists. */
 void BoundaryCurves::step(double t)
 {
   const auto bytes = static_cast<std::int64_t>(this->Edges.size()) * SystemBytesPerEdge;
@@ -176,6 +189,7 @@ void BoundaryCurves::step(double t)
   }
   for (std::size_t e = 0; e < this->Edges.size(); ++e)
   {
+    // 1 / length is the stiffness of a linear element.
     if (this->RestLengths[e] > 0.0)
     {
       system.addEdge(this->Edges[e], t / this->RestLengths[e], this->Positions);
@@ -186,7 +200,7 @@ void BoundaryCurves::step(double t)
   this->Acquired -= bytes;
 }
 
-/** Half the lengths of the edges of each vertex. */
+/** The lumped masses: half the current lengths of the edges of each vertex. */
 std::vector<double> BoundaryCurves::masses() const
 {
   std::vector<double> masses(this->Vertices.size());

@@ -14,9 +14,9 @@ namespace smg
 {
 
 /**
- * The boundary edges of a surface, smoothed as curves: a step solves (M_k + t L) x_{k+1} = M_k x_k
- * with the linear finite elements of the edges, whose lengths are those at rest in L and those of
- * step k in M_k. All of it is in memory and accounted for.
+ * The boundary edges of a surface, smoothed as curves. A step solves (M_k + t L) x_{k+1} = M_k x_k
+ * with linear finite elements on the edges: L has their lengths at rest, M_k those before step k.
+ * Everything is in memory and accounted for.
  */
 class BoundaryCurves
 {
@@ -33,7 +33,7 @@ public:
   void add(std::int64_t low, std::int64_t high);
   /** After the last edge: takes the positions at rest of the vertices. */
   void begin(const VertexFile& positions);
-  /** Fixes the vertices from stream index `first` on where `held` is 1. */
+  /** Fixes boundary vertices: `held` is 1 for those to be fixed, from stream index `first` on. */
   void hold(std::int64_t first, std::span<const std::uint8_t> held);
 
   bool isEmpty() const { return this->Vertices.empty(); }
@@ -59,9 +59,10 @@ private:
 
   Pool& Memory;
   std::int64_t Acquired = 0;
-  std::vector<std::array<std::int64_t, 2>> Edges; ///< by stream index, then by place
-  std::vector<double> RestLengths;                ///< of the edges
-  std::vector<std::int64_t> Vertices;             ///< ascending
+  /** The ends of each edge: stream indices until begin(), then places in `Vertices`. */
+  std::vector<std::array<std::int64_t, 2>> Edges;
+  std::vector<double> RestLengths;    ///< of the edges
+  std::vector<std::int64_t> Vertices; ///< ascending
   std::vector<std::array<double, 3>> Positions;
   std::vector<std::uint8_t> Held;
 };

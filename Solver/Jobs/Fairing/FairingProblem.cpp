@@ -7,20 +7,28 @@
 #include <algorithm>
 #include <cmath>
 
+// One step of implicit smoothing as a Problem, and the conductivity that keeps edges (Clarenz,
+// Diewald and Rumpf 2000).
+//
+// (M + t L) u = M x, divided by t, is a problem with the screening 1 / t and the source x / t. M
+// and L are lumped masses and stiffness; only the masses, or the stiffness as well, may come from a
+// surface whose positions are in a vertex file. What the problem returns depends on the vertex or
+// cell alone, not on blocks. In memory are the tuples at open vertices.
+
 namespace smg
 {
 
 double EdgeConductivity::factor(double curvature) const
 {
   const double turns = curvature * this->Length / this->Limit;
-  // The least conductivity keeps K definite.
+  // At least 1e-6, which keeps K positive definite.
   return std::max(1.0 / (1.0 + turns * turns * turns * turns), 1e-6);
 }
 
 std::array<double, 6> EdgeConductivity::at(
   const double* const* points, const double* const* normals) const
 {
-  // Axes u, v of the plane, u along the first edge.
+  // Orthonormal axes u, v of the plane of the triangle, with u along the first edge.
   const Vector ab = difference(points[1], points[0]);
   const Vector ac = difference(points[2], points[0]);
   const Vector area = cross(ab, ac);
@@ -31,7 +39,9 @@ std::array<double, 6> EdgeConductivity::at(
   const double cu = dot(ac, u);
   const double cv = dot(ac, v);
 
-  // The normal turns by (b - a) / width along u, and so that it is c at the third corner.
+  // The normal is linear in the triangle. Its derivative along u follows from the first two
+  // corners, the one along v such that the normal at the third corner is met. Its components in the
+  // plane are the shape operator, which is symmetrised.
   const Vector alongU = scaled(1.0 / width, difference(normals[1], normals[0]));
   const Vector toC = difference(normals[2], normals[0]);
   const Vector alongV{ (toC[0] - cu * alongU[0]) / cv, (toC[1] - cu * alongU[1]) / cv,
@@ -40,6 +50,8 @@ std::array<double, 6> EdgeConductivity::at(
   const double vv = dot(alongV, v);
   const double uv = 0.5 * (dot(alongU, v) + dot(alongV, u));
 
+  // Eigenvalues mean +- half of the symmetric 2 x 2 matrix, and the angle from u to the first
+  // principal direction.
   const double mean = 0.5 * (uu + vv);
   const double half = std::hypot(0.5 * (uu - vv), uv);
   const double angle = 0.5 * std::atan2(uv, 0.5 * (uu - vv));
@@ -47,6 +59,8 @@ std::array<double, 6> EdgeConductivity::at(
   const double second = this->factor(mean - half);
   const double c = std::cos(angle);
   const double s = std::sin(angle);
+  // The normal direction gets 1. It does not matter, since gradients lie in the plane, but keeps K
+  // definite.
   std::array<double, 6> K{};
   constexpr int Entry[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
   for (std::size_t k = 0; k < 6; ++k)
@@ -83,6 +97,7 @@ void FairingProblem::setEdges(const VertexFile& normals, const EdgeConductivity&
   this->Edges = conductivity;
 }
 
+/** Sets screening and source of the step, and prescribes held vertices and the boundary curves. */
 void FairingProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
   this->Values.startBlock(block);
@@ -94,6 +109,7 @@ void FairingProblem::conditions(const MeshBlock& block, VertexConditions& condit
     }
   }
   const std::span<const std::uint8_t> held = this->Held.at(block);
+  // The block has no vertices; its tuples have been started.
   if (held.empty())
   {
     return;
@@ -102,6 +118,7 @@ void FairingProblem::conditions(const MeshBlock& block, VertexConditions& condit
     this->Values.at(block.firstVertex), conditions.value.size(), conditions.value.begin());
   for (std::size_t i = 0; i < held.size(); ++i)
   {
+    // There is one Dirichlet condition, number 0.
     conditions.dirichlet[i] = held[i] ? 0 : -1;
     conditions.screening[i] = 1.0 / this->Time;
   }
@@ -109,6 +126,7 @@ void FairingProblem::conditions(const MeshBlock& block, VertexConditions& condit
   {
     conditions.source[k] = conditions.value[k] / this->Time;
   }
+  // The curves have been moved by this step already.
   if (this->Boundary)
   {
     this->Boundary->forVertices(block.firstVertex, block.vertices(),
@@ -120,6 +138,8 @@ void FairingProblem::conditions(const MeshBlock& block, VertexConditions& condit
   }
 }
 
+/** Takes the masses, and with edges the stiffness, from the surface. Cells that have no weight at
+ * rest stay without one. */
 void FairingProblem::cells(CellBatch& batch)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(batch.type));
@@ -138,10 +158,12 @@ void FairingProblem::cells(CellBatch& batch)
   }
 }
 
+/** Sets mass and, with edges, stiffness of one cell from the surface. */
 void FairingProblem::setWeights(
   CellBatch& batch, std::size_t cell, const double* const* points) const
 {
   const CellWeights own = cellWeights(batch.type, points);
+  // `own` is the triangle on the surface, `rest` its area in the mesh.
   const double rest = batch.measure[cell];
   if (own.measure > 0.0 && this->Edges)
   {
@@ -152,17 +174,21 @@ void FairingProblem::setWeights(
     }
     const CellWeights across =
       conductivityWeights(batch.type, points, this->Edges->at(points, normals).data());
-    // Of a flat triangle, they may be lost in rounding.
+    // The weights of a very flat triangle may be lost in rounding. Then it keeps the weights of the
+    // mesh.
     const std::span<const double> weights(across.weight, 3);
     if (std::ranges::all_of(weights, [](double weight) { return std::isfinite(weight); }) &&
         *std::ranges::max_element(weights) > 0.0)
     {
+      // The solve limits the flatness of the triangle in the mesh; this one may be flatter. K is at
+      // most 1, so that the limit of K = 1 applies.
       const double factor = flatnessFactor(batch.type, points, across);
       std::ranges::transform(weights, batch.weightsOf(cell).begin(),
         [factor](double weight) { return factor * weight; });
     }
   }
-  // A triangle that has collapsed keeps its stiffness at rest, and hardly any mass.
+  // A triangle that has collapsed keeps its stiffness at rest, but hardly any mass. Without any, it
+  // would lose its weights, too.
   constexpr double MinShare = 1e-6;
   batch.measure[cell] = std::max(own.measure, MinShare * rest);
 }

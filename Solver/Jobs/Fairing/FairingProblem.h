@@ -40,14 +40,15 @@ private:
 };
 
 /**
- * A step of implicit smoothing: (M + t L) u = M x with x as initial values, divided by t. M is the
- * lumped mass of the mesh, or of a surface of other positions; L is the stiffness of the mesh, or
- * of that surface with EdgeConductivity.
+ * A step of implicit smoothing: (M + t L) u = M x, divided by t, with x as initial values. M is the
+ * lumped mass of the mesh, or of the surface with other positions; L is the stiffness of the mesh,
+ * or of that surface with EdgeConductivity.
  */
 class FairingProblem : public Problem
 {
 public:
-  /** `values` are x. `held` and, if not null, `boundary` are prescribed. All must outlive this. */
+  /** `values` are x. The values of `held` vertices, and of those of `boundary` unless it is null,
+   * are prescribed. All must outlive this. */
   FairingProblem(Pool& pool, double t, const VertexFile& values, FixedVertices& held,
     const BoundaryCurves* boundary);
 

@@ -16,13 +16,20 @@
 namespace smg
 {
 
-/** Adds the report of a step to that of all steps: work is summed up, peaks are maxima, and what
- * describes the mesh is that of the step. `name` is that of the step, for Report::steps. */
+/** Adds the report of a step to the report of all steps: work is summed, peaks are maxima, and what
+ * describes the mesh is taken from the step. `name` is the name of the step in Report::steps. */
 void addStep(Report& total, const Report& step, const std::string& name);
 
 } // namespace smg
 
-// The steps of MeshFairing.
+// The steps of MeshFairing. In each, the boundary curves move first and become prescribed values of
+// the surface; then the surface is solved for; then it moves along its normals so that its volume
+// is kept. With edges to be kept, the surface is presmoothed first, to see its edges without noise,
+// and the step solves with a conductivity that is small across them.
+//
+// Values are read from one vertex file and written to another one, which is then exchanged with the
+// first: Result->values has the current values, Next those after the solve. All sums run in the
+// order of the stream, so that blocks and threads do not change a bit.
 
 namespace smg
 {
@@ -41,14 +48,16 @@ void MeshFairing::step(int k, Part part)
   {
     this->Curves->step(this->Time);
   }
-  // Of the first step and of columns, the masses are those of the mesh.
+  // In the first step, and for columns, the masses are those of the mesh as it is given. Later
+  // steps of positions take them from the current surface (Kazhdan, Solomon and Ben-Chen 2012).
   const VertexFile* surface = k > 0 && this->movesPoints() ? &this->Result->values : nullptr;
   const std::string name = "step " + std::to_string(k + 1);
   if (this->Options.keepEdges)
   {
     this->findEdges(k, part.of(0.0, 0.5));
     constexpr double Degree = std::numbers::pi / 180.0;
-    // The length over which presmoothing has spread the turn of an edge.
+    // Presmoothing spreads the turn of a sharp edge over about S / pi: its response to a jump
+    // decays over sqrt(t) = S / (2 pi) on either side.
     const EdgeConductivity conductivity(
       this->Size / std::numbers::pi, *this->Options.keepEdges * Degree);
     FairingProblem problem = this->problem(this->Time, &*this->Presmoothed);
@@ -70,16 +79,20 @@ void MeshFairing::step(int k, Part part)
   }
 }
 
-/** Presmooths the surface by one step of the whole size, which shows its edges without noise. */
+/** Presmooths the surface by one step of the whole size, whatever the number of steps, and finds
+ * the normals of the result. */
 void MeshFairing::findEdges(int k, Part part)
 {
   const double root = this->Size / (2.0 * std::numbers::pi);
   FairingProblem problem = this->problem(root * root, k > 0 ? &this->Result->values : nullptr);
   this->solveStep(
     problem, "presmoothing " + std::to_string(k + 1), part.of(0.0, 0.9), *this->Presmoothed);
+  // The normals of held vertices are needed, too: the surface turns there like anywhere.
   this->findNormals(*this->Presmoothed, true, part.of(0.9, 1.0));
 }
 
+/** The problem of a step of the time t. Masses are taken from `surface`, or, if that is null, from
+ * the mesh as it is given. */
 FairingProblem MeshFairing::problem(double t, const VertexFile* surface)
 {
   FairingProblem problem(this->Result->memory, t, this->Result->values, this->Held,
@@ -91,11 +104,15 @@ FairingProblem MeshFairing::problem(double t, const VertexFile* surface)
   return problem;
 }
 
+/** Solves one step and stores its result in `to`. */
 void MeshFairing::solveStep(
   FairingProblem& problem, const std::string& name, Part part, VertexFile& to)
 {
   SolveOptions options = this->Options;
-  const std::int64_t own = this->Result->memory.used(); // none of it by the problem, so far
+  // In use beside the solve. The problem has none of it so far, and reports its own
+  // (Problem::bytes()).
+  const std::int64_t own = this->Result->memory.used();
+  // The solve has its own pool: it gets what is left.
   options.memoryLimit = std::max<std::int64_t>(this->Options.memoryLimit - own, 1);
   if (this->Options.progress)
   {
@@ -111,6 +128,7 @@ void MeshFairing::solveStep(
   {
     throw error.inside(own, this->Options.memoryLimit);
   }
+  // The solution goes to the file of the next values before its scratch files are removed with it.
   to.restart();
   for (std::int64_t first = 0; first < solution->vertices(); first += ChunkVertices)
   {
@@ -124,7 +142,8 @@ void MeshFairing::solveStep(
   addStep(this->Result->total, report, name);
 }
 
-/** The normals at the vertices of a surface; those of held vertices are 0 unless `ofHeld`. */
+/** Finds the normals at the vertices of the surface with these positions. Those of held vertices
+ * are 0, so that they do not move, unless `ofHeld`. */
 void MeshFairing::findNormals(const VertexFile& positions, bool ofHeld, Part part)
 {
   this->Normals->restart();
@@ -148,8 +167,8 @@ void MeshFairing::findNormals(const VertexFile& positions, bool ofHeld, Part par
   normals.finish();
 }
 
-/** Makes the result of the last step the current positions, moved along their normals by the
- * distance that keeps the volume. */
+/** Makes the result of the last step the current positions, moved along the normals by the distance
+ * with which the surface sweeps no volume in this step. */
 void MeshFairing::keepVolume(Part part)
 {
   if (this->Options.keepVolume)
@@ -160,6 +179,7 @@ void MeshFairing::keepVolume(Part part)
   this->Result->total.volume->swept += this->sweptVolume(part.of(0.5, 1.0), distance);
   if (distance == 0.0)
   {
+    // Nothing to add: the files are exchanged.
     std::swap(this->Result->values, this->Next);
     return;
   }
@@ -175,15 +195,16 @@ void MeshFairing::keepVolume(Part part)
     this->Normals->read(first, count, normals.data());
     for (std::size_t k = 0; k < normals.size(); ++k)
     {
-      // A held vertex stays, to the bit.
+      // A normal of 0 marks a vertex that stays.
       this->Values[k] += normals[k] != 0.0 ? distance * normals[k] : 0.0;
     }
     moved.append(this->Values);
   }
 }
 
-/** The volume swept from the current positions to those of the last step, moved by `distance` along
- * their normals, which is set so that the volume is 0 if it is to be kept. */
+/** Returns the volume that the surface sweeps from the current positions to those of the last step,
+ * moved by `distance` along their normals. If the volume is to be kept, sets `distance` such that
+ * the swept volume is 0. One reading of the mesh gives the polynomial of which it is a root. */
 double MeshFairing::sweptVolume(Part part, double& distance)
 {
   SweptVolume volume;
@@ -221,6 +242,7 @@ double MeshFairing::sweptVolume(Part part, double& distance)
     });
   if (this->Options.keepVolume)
   {
+    // A motion by more than the size would destroy what the step has kept.
     const std::optional<double> root = volume.root(this->Size);
     distance = root.value_or(0.0);
     const char* note = "the volume could not be kept: no motion along the normals makes up for it";
@@ -233,9 +255,11 @@ double MeshFairing::sweptVolume(Part part, double& distance)
   return volume.at(distance);
 }
 
+/** Completes the report. The vertex files count as traffic of their own kind. */
 std::unique_ptr<Solution> MeshFairing::finish()
 {
   Report& report = this->Result->total;
+  // NaN before, if the surface has a boundary, stays NaN.
   if (report.volume)
   {
     report.volume->after = report.volume->before + report.volume->swept;
@@ -278,7 +302,7 @@ void addTraffic(std::vector<Report::Traffic>& total, const Report::Traffic& more
   same->written += more.written;
 }
 
-/** Adds those that are not there yet. */
+/** Adds the notes that are not there yet: most steps give the same ones. */
 void addNotes(std::vector<std::string>& notes, const std::vector<std::string>& more)
 {
   for (const std::string& note : more)

@@ -14,12 +14,23 @@
 #include <cmath>
 #include <numbers>
 
+// Implicit fairing of a surface, or of a column of any mesh (Desbrun, Meyer, Schroeder and Barr
+// 1999; smg/Smooth.h has the equations). This file has the survey: one reading that finds what is
+// held, the boundary, the current values and the lengths that a size refers to. FairingSteps.cpp
+// has the steps, each of which is a solve of a FairingProblem.
+//
+// A wave of length l is multiplied by 1 / (1 + t (2 pi / l)^2) in a step, so that N steps with t =
+// (2^(1/N) - 1) (S / 2 pi)^2 halve waves of length S; a step can be arbitrarily large without
+// becoming unstable. All values are in vertex files, on scratch files unless everything is in core,
+// so that the memory holds a solve, windows of the stream, and the boundary as a whole.
+
 namespace smg
 {
 
 namespace
 {
 
+/** The boundary as asked for, or the default, which differs for positions and columns. */
 SmoothedBoundary boundaryOf(const Smoothing& options)
 {
   return options.boundary.value_or(
@@ -32,6 +43,7 @@ std::optional<NamedColumn> columnOf(
 {
   if (name.empty())
   {
+    // Moving the boundary of a solid alone would invert cells.
     if (cellType != CellType::Triangle)
     {
       throw Error("the positions of tetrahedra cannot be smoothed, only those of triangles: name a "
@@ -72,9 +84,10 @@ MeshFairing::MeshFairing(const StoredMesh& mesh, const Smoothing& options)
   this->Columns.memory().setLimit(options.memoryLimit);
   if (this->Result->scratch)
   {
-    // Its limit is that of all scratch files.
+    // The folder counts the files of all solves that are made in it, too, for one common limit.
     this->Options.scratch = this->Result->scratch->path();
   }
+  // What is not needed takes no memory and no files.
   if (boundaryOf(options) == SmoothedBoundary::Smooth)
   {
     this->Curves.emplace(this->Result->memory);
@@ -91,7 +104,7 @@ MeshFairing::MeshFairing(const StoredMesh& mesh, const Smoothing& options)
 
 std::unique_ptr<Solution> MeshFairing::run()
 {
-  // The survey reads the mesh once, a step several times.
+  // Shares of the progress: the survey reads the mesh once, a step about ten times.
   const double surveyed = 1.0 / (1.0 + 10.0 * this->Options.steps);
   this->survey({ 0.0, surveyed });
   for (int k = 0; k<this->Options.steps&& this->Result->vertices()> 0; ++k)
@@ -102,10 +115,12 @@ std::unique_ptr<Solution> MeshFairing::run()
   return this->finish();
 }
 
+/** Reads the mesh once, and counts the pass. */
 void MeshFairing::read(Part part, const Visit& visit)
 {
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
   visitBlocks(*source, this->Options.progress, part.begin, part.end, visit);
+  // Passes of solves are added with their reports.
   ++this->Result->total.passes;
 }
 
@@ -116,6 +131,8 @@ void MeshFairing::survey(Part part)
   StreamCheck check(type);
   MeshMeasures measures(this->Result->memory, type);
   Reservation held(this->Result->memory);
+  // Keeping the volume needs to know which triangles are wound against each other, which facets
+  // tell.
   std::optional<BoundaryFacets> facets;
   if (this->Curves || (this->Options.keepVolume && this->movesPoints()))
   {
@@ -150,12 +167,15 @@ void MeshFairing::survey(Part part)
   }
   if (this->Curves)
   {
+    // The positions of all vertices are known only now: a boundary edge may be found long after its
+    // vertices.
     this->Curves->begin(this->Result->values);
     this->holdCurves(part.of(0.8, 1.0));
   }
   this->setSize(measures);
   if (this->movesPoints())
   {
+    // Without a closed surface there is no volume, only one that is swept.
     const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
     this->Result->total.volume = Report::Volume{};
     this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
@@ -166,8 +186,8 @@ void MeshFairing::survey(Part part)
   }
 }
 
-/** Notes what makes the volume, and the normals along which it is kept, others than expected.
- * `closed`: of a surface without boundary. */
+/** Notes triangles that are wound in ways that make the volume, and the normals along which it is
+ * kept, differ from what one would expect. `closed`: the measures of a surface without boundary. */
 void MeshFairing::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
 {
   std::vector<std::string>& notes = this->Result->total.notes;
@@ -190,6 +210,8 @@ void MeshFairing::noteWinding(std::int64_t turnedEdges, const MeshMeasures* clos
   }
 }
 
+/** Appends the values of a block, which are checked here, where a vertex can be named: one NaN
+ * would spread over the whole mesh. */
 void MeshFairing::keepValues(const MeshBlock& block)
 {
   if (!this->Column)
@@ -212,7 +234,8 @@ void MeshFairing::keepValues(const MeshBlock& block)
   this->Result->values.append(this->Values);
 }
 
-/** Fixes the vertices of the boundary that are held. */
+/** Fixes the vertices of the curves that are held. Takes a reading of its own: selections are
+ * evaluated block by block, and only after preparation. */
 void MeshFairing::holdCurves(Part part)
 {
   if (!this->Options.hold.empty() && this->hasCurves())
@@ -222,7 +245,8 @@ void MeshFairing::holdCurves(Part part)
   }
 }
 
-/** Triangles that share no edges would be smoothed each for itself, to points. */
+/** Refuses to smooth positions if most triangles share no edges with others: each would be smoothed
+ * by itself, and shrink. For columns, a note is enough. */
 void MeshFairing::requireWelded(const StreamCheck& check)
 {
   const CellType type = this->Mesh.info().cellType;
@@ -234,6 +258,7 @@ void MeshFairing::requireWelded(const StreamCheck& check)
   noteUnwelded(type, check.vertices(), check.cells(), this->Result->total);
 }
 
+/** Sets the size S in the unit of the mesh, and the time step t that follows from it. */
 void MeshFairing::setSize(const MeshMeasures& measures)
 {
   const SmoothingSize size = this->Options.size;
@@ -243,6 +268,8 @@ void MeshFairing::setSize(const MeshMeasures& measures)
   this->Size = size.value * unit;
   const double root = this->Size / (2.0 * std::numbers::pi);
   this->Time = (std::exp2(1.0 / this->Options.steps) - 1.0) * root * root;
+  // The equations contain t and 1 / t. The square of a size may overflow or underflow even if the
+  // size does not.
   if (this->Result->vertices() > 0 &&
       !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time)))
   {
@@ -252,6 +279,8 @@ void MeshFairing::setSize(const MeshMeasures& measures)
                   : "no cell of the mesh has an area or volume that a size could refer to: "
                     "give the size of the details to smooth in the unit of the mesh");
   }
+  // Most likely a size in a wrong unit: positions would be lost, a column only becomes nearly
+  // constant.
   if (this->Size > measures.diagonal())
   {
     const std::string sentence = "The size of the details to smooth, " + scientific(this->Size) +

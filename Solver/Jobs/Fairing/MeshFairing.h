@@ -24,7 +24,7 @@
 namespace smg
 {
 
-/** The result of smoothing: values at the vertices, the memory or files that they are in, and the
+/** The result of smoothing: values at the vertices, the memory or files that contain them, and the
  * report. */
 class FairedValues final : public Solution
 {

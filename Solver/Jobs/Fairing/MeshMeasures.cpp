@@ -8,12 +8,17 @@
 #include <cmath>
 #include <numeric>
 
+// Measures of a mesh stream, each from one reading in windows of open vertices: extent, mean edge
+// and volumes of the bodies; normals at vertices; and the volume that a moving surface sweeps. All
+// sums run over the cells in the order of the stream, so that blocks do not change a bit.
+
 namespace smg
 {
 
 void MeshMeasures::add(const MeshBlock& block)
 {
   this->Points.release(this->Finalized);
+  // Only triangles enclose volumes that their winding may turn.
   if (this->Type == CellType::Triangle)
   {
     this->Parts.release(this->Finalized);
@@ -44,14 +49,18 @@ void MeshMeasures::addCell(const std::int64_t* corners)
     const int* ends = edgeCorners(this->Type, e);
     const Vector edge =
       difference(this->Points.at(corners[ends[0]]), this->Points.at(corners[ends[1]]));
+    // An inner edge counts in each of its cells: to count it once would take a table of edges.
     this->Lengths += std::sqrt(dot(edge, edge));
     ++this->Edges;
   }
   if (this->Type == CellType::Triangle)
   {
+    // Six times the volume of the tetrahedron from the first vertex of the mesh: nearer than the
+    // origin of coordinates, which may be far away, so that less cancels.
     const auto corner = [&](int k)
     { return difference(this->Points.at(corners[k]), this->Origin.data()); };
     this->Parts.join(corners, 3);
+    // By label, since the components are known at the end only.
     const auto label = static_cast<std::size_t>(this->Parts.label(corners[0]));
     if (label >= this->Volumes.size())
     {
@@ -62,6 +71,7 @@ void MeshMeasures::addCell(const std::int64_t* corners)
   }
 }
 
+/** The volumes by component: joined labels are added at their root. */
 std::vector<double> MeshMeasures::bodyVolumes() const
 {
   std::vector<double> volumes(this->Volumes.size());
@@ -79,6 +89,7 @@ double MeshMeasures::volume() const
   return std::accumulate(volumes.begin(), volumes.end(), 0.0);
 }
 
+/** Bodies with a negative volume; a body is a component of the mesh. */
 double MeshMeasures::turnedVolume() const
 {
   const std::vector<double> volumes = this->bodyVolumes();
@@ -105,6 +116,7 @@ void PointNormals::add(const MeshBlock& block, std::span<const std::uint8_t> hel
   this->Sums.extend(block.firstVertex + block.vertices());
   for (std::size_t i = 0; i < held.size(); ++i)
   {
+    // The fourth number tells held vertices.
     this->Sums.at(block.firstVertex + static_cast<std::int64_t>(i))[3] = held[i];
   }
   forCells(
@@ -112,6 +124,7 @@ void PointNormals::add(const MeshBlock& block, std::span<const std::uint8_t> hel
   this->write(block.finalized);
 }
 
+/** Adds the unit normal of a triangle, times its angle at each corner, to the sums there. */
 void PointNormals::addCell(const std::int64_t* corners)
 {
   Vector edge[3]; // opposite to each corner
@@ -128,6 +141,8 @@ void PointNormals::addCell(const std::int64_t* corners)
   }
   for (int k = 0; k < 3; ++k)
   {
+    // Sine and cosine of the angle times the same product of lengths; exact for flat and for right
+    // angles alike.
     const double angle = std::atan2(size, -dot(edge[(k + 1) % 3], edge[(k + 2) % 3]));
     double* sum = this->Sums.at(corners[k]);
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -137,12 +152,14 @@ void PointNormals::addCell(const std::int64_t* corners)
   }
 }
 
+/** Writes the unit normals of the vertices below `finalized`, in stream order. */
 void PointNormals::write(std::int64_t finalized)
 {
   this->Units.clear();
   for (std::int64_t v = this->Normals.vertices(); v < finalized; ++v)
   {
     const double* sum = this->Sums.at(v);
+    // Zero for held vertices, and for vertices that have only flat triangles.
     const double size = sum[3] != 0.0 ? 0.0 : std::hypot(sum[0], sum[1], sum[2]);
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -164,7 +181,7 @@ void PointNormals::finish()
 namespace
 {
 
-/** The area vector of the triangle a + c b as a polynomial of c. */
+/** The area vector of the triangle with the corners a + c b: the coefficients of 1, c and c^2. */
 std::array<Vector, 3> areaVector(const Vector* a, const Vector* b)
 {
   const auto edge = [](const Vector* of, int k) { return difference(of[k].data(), of[0].data()); };
@@ -177,6 +194,7 @@ std::array<Vector, 3> areaVector(const Vector* a, const Vector* b)
 
 } // namespace
 
+/** Adds the polynomial of one triangle to the sum. */
 void SweptVolume::add(const double* const* x, const double* const* y, const double* const* n)
 {
   Vector before[3], half[3], after[3], normal[3], halfNormal[3], still[3] = {};
@@ -194,7 +212,8 @@ void SweptVolume::add(const double* const* x, const double* const* y, const doub
       direction[axis] += n[k][axis] / 3.0;
     }
   }
-  // The area vector is quadratic in time: Simpson's rule integrates it exactly.
+  // The volume is the integral over time of the mean velocity, y + c n - x, times the area vector.
+  // That is quadratic in time, so that Simpson's rule integrates it exactly.
   const std::array<Vector, 3> first = areaVector(before, still);
   const std::array<Vector, 3> middle = areaVector(half, halfNormal);
   const std::array<Vector, 3> last = areaVector(after, normal);
@@ -222,12 +241,15 @@ double SweptVolume::slope(double c) const
   return a[1] + c * (2.0 * a[2] + c * 3.0 * a[3]);
 }
 
+/** Newton's method from 0: the cubic is nearly linear over the small distances that are looked
+ * for. */
 std::optional<double> SweptVolume::root(double most) const
 {
   constexpr int Iterations = 50;
   double c = 0.0;
   for (int i = 0; i < Iterations && this->at(c) != 0.0; ++i)
   {
+    // A slope of 0 gives infinity or NaN, which fails the test below.
     const double step = this->at(c) / this->slope(c);
     if (!(std::fabs(c - step) <= most))
     {

@@ -19,8 +19,8 @@
 namespace smg
 {
 
-/** The diagonal, the mean edge and the volumes of the bodies of a mesh, from one reading of its
- * stream. Cells that are flagged or use a vertex twice are left out. */
+/** The diagonal, the mean edge length and the volumes of the bodies of a mesh, from one reading of
+ * its stream. Cells that are flagged or use a vertex twice are left out. */
 class MeshMeasures
 {
 public:
@@ -49,7 +49,7 @@ public:
 
 private:
   void addCell(const std::int64_t* corners);
-  /** Those of the bodies. */
+  /** The volume of each body, at the root of its labels; 0 at other labels. */
   std::vector<double> bodyVolumes() const;
 
   CellType Type;
@@ -57,11 +57,11 @@ private:
   Components Bodies;
   ComponentLabels Closed;
   OpenComponents Parts;
-  std::vector<double> Volumes; ///< six times those of the triangles of each label
+  std::vector<double> Volumes; ///< six times the volume of the triangles of each label
   Reservation OfVolumes;
   std::array<double, 3> Low{ Infinity, Infinity, Infinity };
   std::array<double, 3> High{ -Infinity, -Infinity, -Infinity };
-  std::array<double, 3> Origin{}; ///< of volumes: the first vertex
+  std::array<double, 3> Origin{}; ///< volumes are measured from here: the first vertex
   double Lengths = 0.0;
   std::int64_t Edges = 0;
   std::int64_t Finalized = 0; ///< after the previous block
@@ -106,9 +106,9 @@ private:
   std::int64_t Finalized = 0; ///< after the previous block
 };
 
-/** The unit normals at the vertices of a triangle mesh stream with other positions: means of the
- * normals of the triangles, weighted with their angles at the vertex. Triangles without area do not
- * count; a vertex without any other, and one that is held, has the normal 0. */
+/** The unit normals at the vertices of a triangle mesh stream with other positions: normals of the
+ * triangles, averaged with their angles at the vertex as weights. Triangles without area do not
+ * count. Held vertices, and those that have no triangle with an area, get the normal 0. */
 class PointNormals
 {
 public:
@@ -130,9 +130,9 @@ private:
   void write(std::int64_t finalized);
 
   OpenTuples Points;
-  Ring<double> Sums; ///< of weighted normals, and whether the vertex is held
+  Ring<double> Sums; ///< the sum of weighted normals, and whether the vertex is held
   VertexFile& Normals;
-  std::vector<double> Units; ///< to write
+  std::vector<double> Units; ///< normals to be written
 };
 
 /** Calls visit(corners) for each cell of a block that has distinct corners and is not flagged. */
@@ -164,8 +164,8 @@ public:
 
   /** The volume at the distance c. */
   double at(double c) const;
-  /** The distance nearest to 0, of at most `most`, with which no volume is swept, by Newton's
-   * method; none if that does not find it. */
+  /** A distance of at most `most` with which no volume is swept, by Newton's method from 0; none if
+   * that does not find one. */
   std::optional<double> root(double most) const;
 
 private:

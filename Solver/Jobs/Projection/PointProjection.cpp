@@ -7,15 +7,24 @@
 #include <cmath>
 #include <string>
 
+// Projects points to the nearest vertices of a stream in one pass, and finds the vertices that each
+// point influences: within a radius of its vertex, or within a number of edges ("rings").
+//
+// Vertices are compared in batches with a k-d tree, which is only built where the bounding box of
+// the batch is near enough to some point. Rings need edges around vertices that are not known until
+// the end: a window keeps everything that may still be near enough, and forgets the rest from time
+// to time. Where batches end depends on the blocks, the result does not: of equally near vertices
+// the first one counts.
+
 namespace smg
 {
 namespace
 {
 
-/** The points are compared with about this many vertices at once. */
+/** The number of vertices that the points are compared with at once, unless a block is larger. */
 constexpr std::size_t BatchVertices = 65536;
 
-/** The window of rings grows to this size before cells are discarded for the first time. */
+/** The size to which the window of rings grows before cells are discarded for the first time. */
 constexpr std::int64_t MinBytesToForgetAt = std::int64_t(16) << 20;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
@@ -41,6 +50,7 @@ std::span<const double, 3> tripleOf(std::span<const double> numbers, std::size_t
 
 } // namespace
 
+/** Checks points and influence, which come from a user. */
 PointProjection::PointProjection(std::span<const double> points, const Influence& influence,
   CellType cellType, std::int64_t memoryLimit)
   : Points(points.begin(), points.end())
@@ -74,9 +84,11 @@ PointProjection::PointProjection(std::span<const double> points, const Influence
   }
 }
 
+/** Collects vertices for a batch, and cells for the window of rings. */
 void PointProjection::add(const MeshBlock& block)
 {
   this->Check.add(block);
+  // Pending vertices are consecutive: the first index is enough.
   if (this->Pending.empty())
   {
     this->FirstPending = block.firstVertex;
@@ -98,6 +110,7 @@ void PointProjection::finish()
   this->finish(none);
 }
 
+/** Projects the rest of the vertices, and prepares influencing(). */
 void PointProjection::finish(Progress& progress)
 {
   this->project();
@@ -108,12 +121,14 @@ void PointProjection::finish(Progress& progress)
   std::vector<double> anchors;
   for (const Projected& found : this->Found)
   {
+    // The square of every distance has overflowed.
     if (found.vertex < 0)
     {
       throw Error("A handle's point lies too far from the mesh for a distance to be computed.");
     }
     anchors.insert(anchors.end(), found.position.begin(), found.position.end());
   }
+  // Influence is measured from the vertices, not from the points.
   this->Anchors = PointTree(anchors);
   if (this->Window)
   {
@@ -125,6 +140,7 @@ void PointProjection::finish(Progress& progress)
   }
 }
 
+/** The nearest vertices so far, which are the centers of rings. */
 std::vector<std::int64_t> PointProjection::nearestVertices() const
 {
   std::vector<std::int64_t> vertices;
@@ -138,9 +154,8 @@ std::vector<std::int64_t> PointProjection::nearestVertices() const
   return vertices;
 }
 
-/**
- * Discards parts of the window that no point needs; requires that all vertices have been compared.
- */
+/** Discards the parts of the window that no point needs. All vertices so far must have been
+ * compared with the points, since those discarded cannot become nearest vertices any more. */
 void PointProjection::forget()
 {
   this->Window->forget(this->nearestVertices());
@@ -153,10 +168,13 @@ void PointProjection::forget()
                 " are allowed: give fewer rings or points, or a radius instead, or convert the "
                 "mesh with the order bfs.");
   }
-  // Discarding costs as much as the remaining window: doubling the threshold amortises it.
+  // Discarding takes time in proportion to the window. With a threshold of twice what remains, it
+  // costs a constant amount per vertex that is added.
   this->BytesToForgetAt = std::min(this->MemoryLimit, std::max(MinBytesToForgetAt, 2 * bytes));
 }
 
+/** Whether the box may have a vertex nearer than the nearest one so far. Its distance is computed
+ * like the distances of vertices, so that rounding keeps it a lower bound. */
 bool PointProjection::isInReach(std::size_t point, const std::array<double, 6>& bounds) const
 {
   std::array<double, 3> nearest{};
@@ -167,6 +185,7 @@ bool PointProjection::isInReach(std::size_t point, const std::array<double, 6>& 
   return PointTree::squaredDistance(nearest, tripleOf(this->Points, point)) < this->Squared[point];
 }
 
+/** Compares the pending vertices with all points. */
 void PointProjection::project()
 {
   std::array<double, 6> bounds = NoBounds;
@@ -185,7 +204,7 @@ void PointProjection::project()
     }
     const PointTree::Nearest near =
       vertices->nearest(tripleOf(this->Points, point), this->Squared[point]);
-    // An equally near vertex of an earlier batch has a lower index.
+    // Only if strictly nearer: an equally near vertex of an earlier batch has a lower index.
     if (near.point >= 0 && near.squaredDistance < this->Squared[point])
     {
       Projected& found = this->Found[point];
@@ -196,6 +215,7 @@ void PointProjection::project()
     }
   }
   this->Pending.clear();
+  // Now that no vertex is pending.
   if (this->Window && this->Window->bytes() > this->BytesToForgetAt)
   {
     this->forget();
@@ -213,6 +233,7 @@ double PointProjection::diagonal() const
   return std::sqrt(squared);
 }
 
+/** Such points are probably in another unit or coordinate system than the mesh. */
 std::vector<std::int64_t> PointProjection::distantPoints(double part) const
 {
   const double limit = part * this->diagonal();
@@ -227,11 +248,13 @@ std::vector<std::int64_t> PointProjection::distantPoints(double part) const
   return distant;
 }
 
+/** The nearest vertex of a point within the radius, or a nearer one by rings. */
 std::int64_t PointProjection::influencing(
   std::int64_t vertex, std::span<const double, 3> position) const
 {
   PointTree::Nearest best =
     this->Anchors.nearest(position, this->Reach.radius * this->Reach.radius);
+  // The smallest possible second member finds the entry of the vertex, whatever its point is.
   const auto entry = std::lower_bound(this->InRings.begin(), this->InRings.end(),
     std::pair(vertex, std::numeric_limits<std::int64_t>::min()));
   if (entry != this->InRings.end() && entry->first == vertex)

@@ -23,7 +23,7 @@ namespace smg
  * Projects points to the nearest vertices of a mesh stream, in one pass over its blocks, and
  * determines the vertices that they influence. The result does not depend on the size of blocks.
  *
- * Besides the data of each point, it holds about 65,000 vertices, or a block if that is larger, and
+ * In memory are the data of each point, about 65,000 vertices or a block if that is larger, and
  * with rings a RingWindow of limited size.
  */
 class SMG_EXPORT PointProjection
@@ -73,8 +73,8 @@ public:
   /** The points whose distance exceeds this part of the diagonal, in ascending order. */
   std::vector<std::int64_t> distantPoints(double part = 0.01) const;
 
-  /** The point that influences the vertex, after finish(); -1: none. Of several, the one whose
-   * nearest vertex is nearest to this one; of equally near ones, the first. */
+  /** The point that influences the vertex, after finish(); -1: none. If there are several, it is
+   * the one whose nearest vertex is nearest to this vertex, of equally near ones the first. */
   std::int64_t influencing(std::int64_t vertex, std::span<const double, 3> position) const;
 
 private:

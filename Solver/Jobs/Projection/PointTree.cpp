@@ -3,6 +3,11 @@
 
 #include <algorithm>
 
+// A k-d tree in an array: the median of a range is in its middle and splits it along the longest
+// side of its bounds; smaller points are on its left. So a tree needs no pointers, and one byte for
+// the axis. Building takes about n log n steps. Of equally near points the one with the lowest
+// index is found, whatever the shape of the tree.
+
 namespace smg
 {
 namespace
@@ -30,12 +35,14 @@ PointTree::PointTree(std::span<const double> positions)
   this->build(0, this->Points.size());
 }
 
+/** Sorts the points [begin, end) into a tree. */
 void PointTree::build(std::size_t begin, std::size_t end)
 {
   if (end - begin <= LeafPoints)
   {
     return;
   }
+  // The longest side keeps the boxes of subtrees compact.
   std::array<double, 3> low = this->Points[begin].position, high = low;
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -67,6 +74,8 @@ PointTree::Nearest PointTree::nearest(std::span<const double, 3> place, double l
   return found;
 }
 
+/** Searches the side of the place first, and the other side only if it may have a point as near as
+ * the best one. */
 void PointTree::search(
   std::size_t begin, std::size_t end, std::span<const double, 3> place, Nearest& found) const
 {
@@ -92,7 +101,7 @@ void PointTree::search(
   compare(this->Points[middle]);
   const bool isLeft = beyond < 0.0;
   this->search(isLeft ? begin : middle + 1, isLeft ? middle : end, place, found);
-  // Not skipped at equality: there may be an equally near point with a lower index.
+  // Not skipped at equality, since there may be an equally near point with a lower index.
   if (beyond * beyond <= found.squaredDistance)
   {
     this->search(isLeft ? middle + 1 : begin, isLeft ? end : middle, place, found);

@@ -48,9 +48,10 @@ private:
   void search(
     std::size_t begin, std::size_t end, std::span<const double, 3> place, Nearest& found) const;
 
-  /** Ranges that are not leaves have the median in the middle, and smaller ones on its left. */
+  /** Every range that is not a leaf has its median in the middle, and smaller points on the left.
+   */
   std::vector<Point> Points;
-  std::vector<std::uint8_t> Axes; ///< split axis of the range with this middle
+  std::vector<std::uint8_t> Axes; ///< the split axis of the range whose middle is here
 };
 
 } // namespace smg

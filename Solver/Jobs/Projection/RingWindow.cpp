@@ -10,6 +10,15 @@
 #include <string>
 #include <utility>
 
+// The part of a mesh stream within a number of edges of chosen vertices. A window of vertices and
+// cells grows with the stream; forget() keeps what lies within the rings of the centers and of
+// vertices that are not final, by a breadth-first walk. A final vertex outside of these cannot come
+// within the rings any more, since all its edges are known and new centers are later vertices.
+//
+// At the end each center walks its rings once more and offers itself to the vertices there; the
+// nearest one in space remains. Adding and forgetting take constant amortised time per cell; the
+// last step takes the sum of the sizes of all rings.
+
 namespace smg
 {
 namespace
@@ -33,6 +42,7 @@ Incidence incidence(
   {
     ++at.begins[corner];
   }
+  // `begins` has the end of each list now, and counts down to its begin below.
   std::int64_t end = 0;
   for (std::int64_t& begin : at.begins)
   {
@@ -48,15 +58,17 @@ Incidence incidence(
 
 } // namespace
 
+/** Lists the neighbours of each vertex by way of its cells. */
 VertexGraph::VertexGraph(
   std::span<const std::int32_t> corners, int cornersOfCell, std::int64_t vertices)
 {
   const auto count = static_cast<std::size_t>(cornersOfCell);
   const Incidence at = incidence(corners, count, vertices);
+  // The vertex from which each vertex was last seen: finds repeated neighbours without sorting.
   std::vector<std::int32_t> lastSeenFrom(static_cast<std::size_t>(vertices), -1);
   this->Begins.reserve(static_cast<std::size_t>(vertices) + 1);
   this->Begins.push_back(0);
-  // On a surface, the number of corners plus that of boundary edges.
+  // On a surface there are as many neighbours as corners, plus one for each boundary edge.
   this->Neighbours.reserve(corners.size() + corners.size() / 8);
   for (std::int32_t vertex = 0; vertex < vertices; ++vertex)
   {
@@ -75,6 +87,7 @@ VertexGraph::VertexGraph(
   }
 }
 
+/** A breadth-first walk, ring by ring; `found` is its queue as well as its result. */
 std::size_t VertexGraph::walk(
   int rings, std::vector<std::int32_t>& found, std::vector<std::uint8_t>& isFound) const
 {
@@ -104,14 +117,14 @@ namespace
 
 constexpr std::int64_t MaxPlaces = std::numeric_limits<std::int32_t>::max();
 
-/** The memory per vertex and per corner of a cell, in the window and in a VertexGraph. */
+/** Bytes per vertex and per corner of a cell, in the window and in a VertexGraph together. */
 constexpr std::int64_t BytesOfVertex = 64;
 constexpr std::int64_t BytesOfCorner = 12;
 
-/** Cancellation is checked after about this many found vertices. */
+/** The number of found vertices after which cancellation is checked. */
 constexpr std::size_t FoundBetweenUpdates = 1 << 20;
 
-/** Reserves room for more items with less slack than the doubling of vectors. */
+/** Reserves room for more items, with less slack than vectors that double. */
 template <class T>
 void makeRoom(std::vector<T>& items, std::size_t more)
 {
@@ -130,12 +143,15 @@ RingWindow::RingWindow(CellType cellType, int rings)
 {
 }
 
+/** The stream index of the vertex at a place in the window. */
 std::int64_t RingWindow::idOf(std::int64_t place) const
 {
   const auto listed = static_cast<std::int64_t>(this->Listed.size());
   return place < listed ? this->Listed[place] : this->FirstRecent + place - listed;
 }
 
+/** The place of a vertex that the window has, by its stream index: recent ones are consecutive,
+ * listed ones are found by bisection. */
 std::int32_t RingWindow::placeOf(std::int64_t id) const
 {
   const auto listed = static_cast<std::int64_t>(this->Listed.size());
@@ -150,9 +166,11 @@ std::span<const double, 3> RingWindow::positionAt(std::int32_t place) const
   return std::span(this->Positions).subspan(3 * static_cast<std::size_t>(place)).first<3>();
 }
 
+/** Appends the vertices and cells of a block, with places in the window for stream indices. */
 void RingWindow::add(const MeshBlock& block)
 {
   const auto corners = static_cast<std::int64_t>(block.corners.size() / this->CornersOfCell);
+  // Places have 32 bits.
   if (this->vertices() + block.vertices() > MaxPlaces || this->cells() + corners > MaxPlaces)
   {
     throw Error("more than " + std::to_string(MaxPlaces) +
@@ -167,6 +185,7 @@ void RingWindow::add(const MeshBlock& block)
   this->Finalized = std::max(this->Finalized, block.finalized);
 }
 
+/** No vertex gets further neighbours. */
 void RingWindow::finish()
 {
   this->Finalized = this->idOf(this->vertices());
@@ -183,6 +202,7 @@ VertexGraph RingWindow::graph() const
   return { this->Corners, static_cast<int>(this->CornersOfCell), this->vertices() };
 }
 
+/** Walks the rings of the centers and of all vertices that are not final, and discards the rest. */
 void RingWindow::forget(std::span<const std::int64_t> centers)
 {
   std::vector<std::int32_t> found;
@@ -200,13 +220,16 @@ void RingWindow::forget(std::span<const std::int64_t> centers)
     begin(this->placeOf(center));
   }
   const std::int64_t end = this->idOf(this->vertices());
+  // Vertices that are not final may still get neighbours, through which a later center reaches
+  // them.
   for (std::int64_t id = std::max(this->Finalized, this->FirstRecent); id < end; ++id)
   {
     begin(this->placeOf(id));
   }
   const std::size_t inner = this->graph().walk(this->Rings, found, isFound);
 
-  // Edges between vertices of the last ring do not lead to other vertices within the rings.
+  // Cells with no vertex before the last ring have edges between vertices of that ring only, which
+  // lead to no other vertex within the rings.
   std::vector<std::uint8_t> isInner(isFound.size(), 0);
   for (std::size_t i = 0; i < inner; ++i)
   {
@@ -214,13 +237,14 @@ void RingWindow::forget(std::span<const std::int64_t> centers)
   }
   this->keepCells(isInner);
   const std::vector<std::int32_t> places = this->keepVertices(isFound);
+  // Vertices of kept cells are kept: they are neighbours of an inner vertex, hence found.
   for (std::int32_t& corner : this->Corners)
   {
     corner = places[corner];
   }
 }
 
-/** Keeps the cells with a marked vertex. */
+/** Keeps the cells that have a marked vertex. */
 void RingWindow::keepCells(const std::vector<std::uint8_t>& isInner)
 {
   auto kept = this->Corners.begin();
@@ -235,7 +259,8 @@ void RingWindow::keepCells(const std::vector<std::uint8_t>& isInner)
   this->Corners.erase(kept, this->Corners.end());
 }
 
-/** Keeps the marked vertices, including all that are not final. Returns their indices. */
+/** Keeps the marked vertices, which must include all that are not final, in their order. Returns
+ * the new place of each; -1: none. */
 std::vector<std::int32_t> RingWindow::keepVertices(const std::vector<std::uint8_t>& isKept)
 {
   std::vector<std::int32_t> places(isKept.size(), -1);
@@ -261,10 +286,12 @@ std::vector<std::int32_t> RingWindow::keepVertices(const std::vector<std::uint8_
   return places;
 }
 
+/** The nearest center of each vertex of the window, of those whose rings contain it. */
 std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
   std::span<const std::int64_t> centers, Progress& progress) const
 {
-  std::vector<std::pair<std::int32_t, std::int64_t>> sorted; // so that walks share cached data
+  // By place, so that consecutive walks find their data in the cache.
+  std::vector<std::pair<std::int32_t, std::int64_t>> sorted;
   for (std::size_t k = 0; k < centers.size(); ++k)
   {
     sorted.emplace_back(this->placeOf(centers[k]), static_cast<std::int64_t>(k));
@@ -278,7 +305,7 @@ std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
   std::int32_t last = -1;
   for (const auto& [place, center] : sorted)
   {
-    // The first of several centers at a vertex has been processed.
+    // Several centers at one vertex have the same rings and distances: the first one counts.
     if (std::exchange(last, place) == place)
     {
       continue;
@@ -288,6 +315,7 @@ std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
     graph.walk(this->Rings, found, isFound);
     for (const std::int32_t vertex : found)
     {
+      // Cleared along the walk, which costs less than clearing the whole window.
       isFound[vertex] = 0;
       const double squared =
         PointTree::squaredDistance(this->positionAt(place), this->positionAt(vertex));
@@ -308,6 +336,8 @@ std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
   return nearest;
 }
 
+/** Only vertices that some ring reaches, with their stream indices: places are in this order
+ * already. */
 std::vector<std::pair<std::int64_t, std::int64_t>> RingWindow::nearestCenters(
   std::span<const std::int64_t> centers, Progress& progress) const
 {

@@ -44,9 +44,10 @@ private:
  * The part of a mesh stream within a number of edges of chosen vertices, the centers. These are
  * chosen while the stream is read, and may change until its end.
  *
- * Memory is proportional to the number of vertices in that part, independent of how many rings they
- * are in. It includes the rings of vertices that are not final, and everything since the last call
- * of forget(). It is the whole mesh if the stream does not mark final vertices.
+ * The memory is proportional to the number of vertices in that part, however many rings overlap
+ * there. It includes the rings of vertices that are not final, and everything that has been added
+ * since the last call of forget(). If the stream does not mark final vertices, it is the whole
+ * mesh.
  */
 class RingWindow
 {

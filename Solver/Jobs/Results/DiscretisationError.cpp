@@ -7,6 +7,11 @@
 #include <algorithm>
 #include <utility>
 
+// The estimate of the discretisation error by the jumps of fluxes; the header has the formula. Each
+// facet collects R and s of its cells until its lowest vertex is final, when all of them are known,
+// and then contributes to the error. R comes from the weights of the cell, which the solve has,
+// too, in a constant number of steps per cell.
+
 namespace smg
 {
 
@@ -43,6 +48,8 @@ void DiscretisationError::add(const MeshBlock& block)
   this->finalize(block.finalized);
 }
 
+/** Asks for the conditions at the vertices of a block, and puts the solution in the place of their
+ * values. */
 void DiscretisationError::addVertices(const MeshBlock& block)
 {
   const std::int64_t begin = this->Vertices.end();
@@ -58,6 +65,7 @@ void DiscretisationError::addVertices(const MeshBlock& block)
   std::ranges::copy(this->Values, this->Vertices.values.at(begin));
 }
 
+/** Cells have the weights of the solve: flagged ones have none, and flat ones are scaled down. */
 void DiscretisationError::addCells(const MeshBlock& block)
 {
   const auto count = static_cast<std::size_t>(cornersOf(this->Type));
@@ -87,7 +95,7 @@ void DiscretisationError::addCells(const MeshBlock& block)
   }
 }
 
-/** Adds the energy in a cell, and what it contributes to each of its facets. */
+/** Adds the energy in a cell, and its R and s to each of its facets. */
 void DiscretisationError::addCell(const std::int64_t* corners, const double* const* points,
   const CellWeights& weights, double flatness)
 {
@@ -97,6 +105,7 @@ void DiscretisationError::addCell(const std::int64_t* corners, const double* con
   {
     slots[k] = this->termsOf(facetOf(this->Type, corners, k).vertex);
   }
+  // Pointers only now: each call of termsOf() may have moved the terms.
   double conductance[4] = {};
   double* terms[4] = {};
   for (int k = 0; k < count; ++k)
@@ -114,6 +123,7 @@ void DiscretisationError::addCell(const std::int64_t* corners, const double* con
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       const double step = b[k] - a[k];
+      // R_i gains w_ij (u_j - u_i), and R_j the opposite.
       this->Sums.solution += weight * step * step;
       terms[i][k] += weight * step;
       terms[j][k] -= weight * step;
@@ -121,18 +131,22 @@ void DiscretisationError::addCell(const std::int64_t* corners, const double* con
   }
   for (int k = 0; k < count; ++k)
   {
+    // Positive in exact arithmetic; rounding may make it negative in a flat cell.
     terms[k][this->Columns] += std::max(0.0, conductance[k]);
     terms[k][this->Columns + 1] += 1.0;
   }
   if (this->Own)
   {
+    // The flux is K grad u - q: the integral of q . grad phi_k is what q contributes to R_k.
     addFieldLoads(*this->Own, this->Type, points, static_cast<int>(this->Columns), terms);
   }
 }
 
-/** The terms of the facet with these corners in ascending order. */
+/** The slot with the terms of the facet with these corners in ascending order; zeroed if the facet
+ * is new. May move all terms. */
 std::int32_t DiscretisationError::termsOf(const std::int64_t* corners)
 {
+  // Taken in case that the facet is new, else given back: one search is enough.
   const std::int32_t fresh = this->Terms.take();
   const std::int32_t slot = this->Facets.join(
     corners[0], corners[1], this->Type == CellType::Triangle ? 0 : corners[2], fresh);
@@ -147,7 +161,8 @@ std::int32_t DiscretisationError::termsOf(const std::int64_t* corners)
   return slot;
 }
 
-/** Takes what conditions let flow in through boundary facets whose lowest corner is `vertex`. */
+/** Subtracts the prescribed inflow through boundary facets whose lowest corner is `vertex` from
+ * their R: on the boundary, the flux should equal it. */
 void DiscretisationError::addInflows(std::int64_t vertex)
 {
   const int count = BoundaryFacet::cornersOf(this->Type);
@@ -164,7 +179,9 @@ void DiscretisationError::addInflows(std::int64_t vertex)
         points[c] = this->Vertices.points.at(facet.corners[c]);
       }
       double* terms = this->Terms.at(this->termsOf(facet.corners));
-      const double share = facetArea(this->Type, points) / count / count; // count: the dimension
+      // An equal share of the flow for each corner, over d, which is the number of corners of a
+      // facet: the flux is d R.
+      const double share = facetArea(this->Type, points) / count / count;
       for (int c = 0; c < count; ++c)
       {
         const double* u = this->Vertices.values.at(facet.corners[c]);
@@ -187,6 +204,8 @@ bool DiscretisationError::isPrescribed(
          (this->Type == CellType::Triangle || dirichlet[high] >= 0);
 }
 
+/** Adds the error at all facets whose lowest vertex is below `end`: all their cells and inflows are
+ * known. */
 void DiscretisationError::finalize(std::int64_t end)
 {
   const double dimension = cornersOf(this->Type) - 1;
@@ -201,9 +220,12 @@ void DiscretisationError::finalize(std::int64_t end)
       {
         const double* terms = this->Terms.at(slot);
         const double cells = terms[this->Columns + 1];
+        // Boundary facets with prescribed corners have any flux. Those of cells without weight have
+        // no terms but perhaps an inflow: 0 cells.
         if (cells > 1.0 || (cells > 0.0 && !this->isPrescribed(this->Final, middle, high)))
         {
           const double sum = terms[this->Columns];
+          // 1 over the mean of s.
           const double resistance = sum > 0.0 ? cells / sum : 0.0;
           for (std::size_t k = 0; k < this->Columns; ++k)
           {
@@ -213,6 +235,7 @@ void DiscretisationError::finalize(std::int64_t end)
         this->Terms.give(slot);
       });
   }
+  // Facets need corners from the lowest one on, which is not final yet.
   this->Vertices.release(this->Final, this->Final);
   this->Facets.release(this->Final);
   if (this->Conditions)

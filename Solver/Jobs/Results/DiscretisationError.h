@@ -82,7 +82,7 @@ private:
   std::optional<ProblemCells> Own;
   std::optional<ProblemFacets> Conditions;
   OpenFacets Facets;
-  /** Of each facet the sum of R, `columns` numbers, that of s, and the number of cells. */
+  /** For each facet: the sum of R (`columns` numbers), the sum of s, and the number of cells. */
   Slots<double> Terms;
   std::vector<double> Values;
   EnergySquares Sums;

@@ -7,6 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+// Derived results of a solution in one further reading of the mesh. The matrix is not kept by a
+// solve; what the results need of it is computed again, in the same way as in the assembly, from
+// the same data of the problem: loads of all vertices, and the weights of edges that lead from
+// prescribed vertices out of their condition. The windows are the same as in the assembly, without
+// rows.
+
 namespace smg
 {
 namespace
@@ -35,6 +41,7 @@ ProblemResults::ProblemResults(
   , Sums(info.cellType, problem)
   , Terms(VertexTerms::size(this->Columns))
 {
+  // A solution of another problem would give plausible numbers without meaning.
   if (problem.columns() != solution.columns())
   {
     throw Error(
@@ -69,6 +76,7 @@ void ProblemResults::addPart(const MeshBlock& block)
   this->Facets.add(block);
 }
 
+/** Adds the vertices of a block, with the solution in place of prescribed and initial values. */
 void ProblemResults::addVertices(const MeshBlock& block)
 {
   const std::int64_t begin = this->Vertices.end();
@@ -89,14 +97,18 @@ void ProblemResults::addVertices(const MeshBlock& block)
   }
   this->Values.resize(static_cast<std::size_t>(end - begin) * this->Columns);
   this->Solved.read(begin, end - begin, this->Values);
+  // OpenVertices has asked the problem for its conditions, and stored its values here.
   std::ranges::copy(this->Values, this->Vertices.values.at(begin));
   for (std::size_t e = 0; e < this->Values.size(); ++e)
   {
+    // Extremes of all vertices, in stream order: of equal ones the first remains.
     this->Sums.compare(
       e % this->Columns, this->Values[e], begin + static_cast<std::int64_t>(e / this->Columns));
   }
 }
 
+/** The data of the problem in a cell are prepared before the cell is added, also if it has no
+ * weight: they come in batches. */
 void ProblemResults::addCells(const MeshBlock& block)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
@@ -114,6 +126,8 @@ void ProblemResults::addCells(const MeshBlock& block)
   }
 }
 
+/** Adds a cell as the assembly does (StiffnessRules::weigh()): the same cells have no weight, and
+ * the same ones connect their corners. */
 void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigned flags)
 {
   const int count = cornersOf(this->Type);
@@ -148,6 +162,7 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
   {
     this->CellLoads->add(corners, points, *this->Own);
   }
+  // The energy has been computed with the full weights; edges get the weights of the solve.
   if (flatness < 1.0)
   {
     for (double& weight : cell.weight)
@@ -158,7 +173,8 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
   this->connect(corners, points, cell);
 }
 
-/** Collects the weights, as in the solve, of the edges that carry a flux out of a condition. */
+/** Collects the weights, as in the solve, of the edges that carry a flow out of a condition. Most
+ * cells have no such edge, which the comparison of their corners shows at once. */
 void ProblemResults::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
@@ -180,6 +196,8 @@ void ProblemResults::connect(
   }
 }
 
+/** Adds the magnitudes of the weights at both ends of each edge, for the share of these rows in the
+ * residual: see commonShare(). */
 void ProblemResults::weighEdges(const std::int64_t* corners, const CellWeights& cell)
 {
   for (int e = 0; e < edgesOf(this->Type); ++e)
@@ -191,6 +209,8 @@ void ProblemResults::weighEdges(const std::int64_t* corners, const CellWeights& 
   }
 }
 
+/** Completes the vertices below `end`, in ascending order, which fixes the order of all sums, and
+ * releases what no later one needs. */
 void ProblemResults::finalize(std::int64_t end)
 {
   for (; this->Final < end; ++this->Final)
@@ -212,6 +232,7 @@ void ProblemResults::finalize(std::int64_t end)
   this->Edges.release(this->Final);
 }
 
+/** Adds the boundary facets whose lowest corner is i to their corners and conditions. */
 void ProblemResults::addBoundary(std::int64_t i)
 {
   this->Facets.take(i,
@@ -254,6 +275,7 @@ void ProblemResults::close(std::int64_t i, double* numbers)
     terms.inflow(k) = this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0;
     terms.outflow(k) = terms.outflowTerms(k) = 0.0;
   }
+  // Only edges out of a condition are stored, so most vertices have none.
   this->Neighbours.clear();
   this->Edges.take(i, this->Vertices.points, this->Neighbours);
   this->Reach.close(i, this->Neighbours.empty() ? i : std::max(i, this->Neighbours.back().to));
@@ -263,6 +285,7 @@ void ProblemResults::close(std::int64_t i, double* numbers)
   }
 }
 
+/** Adds what flows along the edges of a prescribed vertex, by the weights of the matrix. */
 void ProblemResults::addEdges(const double* u, VertexTerms terms)
 {
   for (const RowNeighbour& neighbour : this->Neighbours)
@@ -277,6 +300,8 @@ void ProblemResults::addEdges(const double* u, VertexTerms terms)
   }
 }
 
+/** All vertices of a part at once: the terms of other parts are added before they become
+ * results. */
 std::vector<double> ProblemResults::takeTerms()
 {
   const std::size_t each = this->Terms.size();

@@ -41,9 +41,9 @@ class SMG_EXPORT ProblemResults
 {
 public:
   /**
-   * `problem` is that of the solution; it is queried again from the first block on (also for
+   * `problem` is the one that was solved; it is queried again from the first block on (also for
    * CellBatch::conductivity if the flux is requested). Throws Error if the solution belongs to
-   * another problem, or if there are edge targets, which have no flux.
+   * another problem, or if the problem has edge targets, which have no flux.
    */
   ProblemResults(const StreamInfo& info, Problem& problem, Solution& solution,
     const ResultOptions& options = {});
@@ -68,8 +68,8 @@ public:
 
   /** Adds the only block. */
   void addPart(const MeshBlock& block);
-  /** The facets and edges of its cells. Those that other parts have as well are excluded, or joined
-   * with theirs, before the terms are taken. */
+  /** The facets and edges of the cells of the part. Before the terms are taken, facets that other
+   * parts have as well are to be excluded, and edges joined with those of other parts. */
   const OpenFacets& facets() const { return this->Facets.open(); }
   void exclude(FacetSet facets) { this->Inner = std::move(facets); }
   EdgeStiffness& edges() { return this->Edges; }

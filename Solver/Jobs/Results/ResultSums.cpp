@@ -11,6 +11,15 @@
 #include <limits>
 #include <string>
 
+// The figures that follow from a solution: energy, means, extremes, and the flow through each
+// condition. They are sums over cells, boundary facets and vertices, each taken in the order of the
+// stream, so that they have the same bits for any blocks. Sums over the parts of a distributed mesh
+// add up: every one of them can be listed as a number.
+//
+// The flow out of a Dirichlet condition is the reaction of its equations, (L + S) u - F, rather
+// than an integral of grad u: with reactions, inflow and outflow balance up to the residual of the
+// solve, on any mesh.
+
 namespace smg
 {
 
@@ -31,6 +40,8 @@ void CellResults::begin(std::size_t cells)
   this->Flux.assign(this->WantsFlux ? numbers : 0, 0.0);
 }
 
+/** Adds the energy of a cell by its weights, 1/2 the sum of w_ij (u_i - u_j)^2 over the edges,
+ * which holds for any K; gradients are computed only if they are wanted. */
 void CellResults::add(std::size_t c, const double* const* points, const double* const* values,
   const CellWeights& weights, double flatness, const double* K)
 {
@@ -82,10 +93,13 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
   this->Robin.assign(static_cast<std::size_t>(counts.robin), none);
 }
 
+/** Adds a facet to each condition that holds on it. Vertices without a value (NaN) have no share in
+ * the equations, and none here. */
 void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVertices& vertices)
 {
   const double share = area / this->Corners;
   const std::int32_t first = vertices.dirichlet[facet.corners[0]];
+  // A facet is part of a Dirichlet condition if all its corners are prescribed by it.
   bool same = first >= 0;
   for (int c = 1; c < this->Corners; ++c)
   {
@@ -120,11 +134,13 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
     {
       const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
       this->addFlux(sums, k, factor * (ambient - value[k]));
+      // The flux is a small difference of these where u is close to the ambient value.
       this->RobinTerms[k] += factor * (std::fabs(ambient) + std::fabs(value[k]));
     }
   }
 }
 
+/** Adds a prescribed vertex; its reaction is the flow through the condition there. */
 void ConditionSums::add(std::int32_t dirichlet, const double* value, const double* reaction)
 {
   Sums& sums = this->Dirichlet[static_cast<std::size_t>(dirichlet)];
@@ -136,6 +152,8 @@ void ConditionSums::add(std::int32_t dirichlet, const double* value, const doubl
   }
 }
 
+/** Adds a facet to the mean of u over a condition; its share without a value is left out of value
+ * and area alike. */
 void ConditionSums::addMean(
   Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices)
 {
@@ -150,9 +168,12 @@ void ConditionSums::addMean(
       sums.value[k] += share * value[k];
     }
   }
+  // The whole area in the usual case, free of the rounding of a sum of shares.
   sums.area += determined == this->Corners ? area : share * determined;
 }
 
+/** Adds a flow to its condition, to the inflow through all conditions, and to the magnitudes
+ * against which a balance is judged. */
 void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux)
 {
   sums.flux[column] += flux;
@@ -160,6 +181,8 @@ void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux)
   this->Magnitude[column] += std::fabs(flux);
 }
 
+/** Area and number of vertices of each condition, its sums by column, then the sums over all
+ * conditions. */
 void ConditionSums::appendNumbers(std::vector<double*>& numbers)
 {
   const auto append = [&numbers](std::vector<double>& sums)
@@ -188,6 +211,8 @@ std::vector<Report::Condition> ConditionSums::conditions() const
   return conditions;
 }
 
+/** The means of a condition: over its facets if it has any, else over its vertices; NaN if it holds
+ * nowhere. */
 void ConditionSums::append(
   const char* kind, const std::vector<Sums>& all, std::vector<Report::Condition>& conditions) const
 {
@@ -236,11 +261,13 @@ ResultSums::ResultSums(CellType type, Problem& problem)
   , ReactionTerms(this->Columns)
   , RobinTerms(this->Columns)
 {
+  // Extremes begin with values that every number replaces; the vertex stays -1 if there is none.
   constexpr double Far = std::numeric_limits<double>::infinity();
   this->minimum.assign(this->Columns, { Far, -1 });
   this->maximum.assign(this->Columns, { -Far, -1 });
 }
 
+/** Adds a vertex to all sums, unless nothing determines its value. */
 void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
 {
   if (isUndetermined(u))
@@ -268,6 +295,8 @@ void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
   }
 }
 
+/** Adds the Robin terms of a vertex with the share by which its row counts in the residual, see
+ * commonShare(). */
 void ResultSums::addRobinTerms(VertexTerms terms, const double* u)
 {
   const double share = commonShare(terms.transfer(), terms.edges());
@@ -278,7 +307,8 @@ void ResultSums::addRobinTerms(VertexTerms terms, const double* u)
   }
 }
 
-/** Adds the reaction ((L + S) u - F)_i without the edges within the condition, which cancel. */
+/** Adds the reaction ((L + S) u - F)_i of a prescribed vertex. Edges within the condition are left
+ * out, since what they carry cancels in the sum over its vertices. */
 void ResultSums::addDirichlet(VertexTerms terms, const double* u, std::int32_t dirichlet)
 {
   for (std::size_t k = 0; k < this->Columns; ++k)
@@ -290,12 +320,14 @@ void ResultSums::addDirichlet(VertexTerms terms, const double* u, std::int32_t d
   this->conditions.add(dirichlet, u, this->Reaction.data());
 }
 
+/** The cells have been summed on their own, over all blocks. */
 void ResultSums::setCells(const CellResults& cells)
 {
   this->CellEnergy = cells.energy();
   this->LeftOut = cells.leftOut();
 }
 
+/** The order is the same in all processes, which add these numbers. */
 std::vector<double*> ResultSums::numbers()
 {
   std::vector<double*> all{ &this->Mass };
@@ -309,6 +341,7 @@ std::vector<double*> ResultSums::numbers()
   return all;
 }
 
+/** The energy includes the term of screening, 1/2 s u^2. Means are weighted by mass. */
 void ResultSums::finish(Report& report) const
 {
   report.conditions = this->conditions.conditions();
@@ -326,6 +359,7 @@ void ResultSums::finish(Report& report) const
   this->noteFlatCells(report);
 }
 
+/** A condition without effect is most likely a mistake in the description. */
 void ResultSums::noteConditionsWithoutEffect(Report& report)
 {
   for (const Report::Condition& condition : report.conditions)
@@ -343,10 +377,12 @@ void ResultSums::noteConditionsWithoutEffect(Report& report)
   }
 }
 
+/** The balance of each column: what flows in through conditions and sources, minus what screening
+ * takes, relative to all that flows. */
 void ResultSums::reportBalance(Report& report) const
 {
-  // Fluxes below these shares of the terms that they are differences of are rounding or the
-  // remaining residual: they count as no flow.
+  // A flux is a difference of larger terms. Below these shares of them it is rounding, or what the
+  // residual of the solve leaves: it counts as no flow.
   constexpr double Rounding = 1e-12, Noted = 1e-3;
   double largest = 0.0;
   report.source = this->Source;
@@ -354,11 +390,13 @@ void ResultSums::reportBalance(Report& report) const
   report.balance.assign(this->Columns, 0.0);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
+    // What the solve has subtracted from sources of components without a condition.
     if (!report.removed_source.empty())
     {
       report.source[k] -= report.removed_source[k];
     }
     const double rest = this->conditions.inflow()[k] + report.source[k] - report.screening[k];
+    // With no flow at all, rest / all would be a quotient of rounding errors.
     const double all = this->conditions.magnitude()[k] + this->Magnitude[k];
     const double noise =
       std::max(Rounding * (this->ReactionTerms[k] + this->conditions.robinTerms()[k]),
@@ -375,8 +413,10 @@ void ResultSums::reportBalance(Report& report) const
   }
 }
 
-/** The energy d of a solution in the omitted part of the cells bounds the energy of its difference
- * from the exact one: for all v, a(u - u_h, v) = d(u_h, v) <= sqrt(d(u_h, u_h) a(v, v)). */
+/** Notes a bound of the error due to cells that were scaled down (flatnessFactor()). With the
+ * energy products a of finite elements and d of what was omitted of them, the solution u_h differs
+ * from the finite-element solution u by a(u - u_h, v) = d(u_h, v) <= sqrt(d(u_h, u_h) a(v, v)) for
+ * all v. */
 void ResultSums::noteFlatCells(Report& report) const
 {
   double share = 0.0;

@@ -27,7 +27,7 @@ public:
   /** Starts the next block, of this many cells. */
   void begin(std::size_t cells);
   /** Adds cell c of the block: the positions of its corners, the values there (`columns` each), its
-   * weights, the factor by which the solve has reduced these, and K (null: the identity). */
+   * weights, the factor by which the solve scaled these down, and K (null: the identity). */
   void add(std::size_t c, const double* const* points, const double* const* values,
     const CellWeights& weights, double flatness, const double* K);
 
@@ -66,7 +66,7 @@ public:
   void add(std::int32_t dirichlet, const double* value, const double* reaction);
 
   std::vector<Report::Condition> conditions() const;
-  /** Appends all sums: those of the parts of a mesh add up. */
+  /** Appends pointers to all sums, so that those of the parts of a mesh can be added up. */
   void appendNumbers(std::vector<double*>& numbers);
   /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
   const std::vector<double>& inflow() const { return this->Inflow; }
@@ -93,12 +93,12 @@ private:
   std::vector<double> Inflow, Magnitude, RobinTerms;
 };
 
-/** What the cells, boundary facets and edges of a vertex contribute to the results. These are sums
- * over them: what the parts of a mesh contribute to a vertex of several parts adds up. */
+/** What the cells, boundary facets and edges of a vertex contribute to the results. All of these
+ * are sums, so that the terms of a vertex that lies in several parts of a mesh are added up. */
 class VertexTerms
 {
 public:
-  /** The number of numbers. */
+  /** How many numbers a vertex has. */
   static std::size_t size(std::size_t columns) { return OfColumns + 4 * columns; }
 
   /** A view of this many numbers. */
@@ -108,17 +108,17 @@ public:
   }
 
   double& mass() { return this->Numbers[0]; }
-  double& screening() { return this->Numbers[1]; } ///< of the diagonal
-  double& transfer() { return this->Numbers[2]; }  ///< likewise, of Robin conditions
-  /** The magnitudes of the weights of all edges, if the problem has facets. */
+  double& screening() { return this->Numbers[1]; } ///< its part of the diagonal
+  double& transfer() { return this->Numbers[2]; }  ///< the part of Robin conditions in the diagonal
+  /** The sum of the magnitudes of the weights of all edges, if the problem has data on facets. */
   double& edges() { return this->Numbers[3]; }
 
   // Of column k:
 
-  double& source(std::size_t k) { return this->at(k, 0); } ///< of the right-hand side
-  double& inflow(std::size_t k) { return this->at(k, 1); } ///< likewise, of facets
-  /** What flows out of the condition along the edges of a Dirichlet vertex, and the magnitudes of
-   * the terms of its differences. */
+  double& source(std::size_t k) { return this->at(k, 0); } ///< on the right-hand side
+  double& inflow(std::size_t k) { return this->at(k, 1); } ///< on the right-hand side, by facets
+  /** The flow along the edges of a Dirichlet vertex that lead out of the condition, and the sum of
+   * the magnitudes of its terms. */
   double& outflow(std::size_t k) { return this->at(k, 2); }
   double& outflowTerms(std::size_t k) { return this->at(k, 3); }
 
@@ -149,7 +149,7 @@ public:
     most = value > most.value ? Report::Extreme{ value, vertex } : most;
   }
 
-  /** All sums: those of the parts of a mesh add up. */
+  /** Pointers to all sums, so that those of the parts of a mesh can be added up. */
   std::vector<double*> numbers();
 
   /** Sets conditions, energy, mean, minimum, maximum, source, screening and balance of the report
@@ -175,7 +175,7 @@ private:
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude;
   std::vector<double> CellEnergy, LeftOut; // see CellResults
   std::vector<double> ReactionTerms;       // magnitudes of the terms of the reactions
-  // Terms of Robin conditions that the residual of the solve may contain, see commonShare().
+  // Terms of Robin conditions as the residual of the solve counts them, see commonShare().
   std::vector<double> RobinTerms;
 };
 
