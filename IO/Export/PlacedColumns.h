@@ -14,7 +14,8 @@
 namespace smg
 {
 
-/** Columns of a restored mesh that a text format can hold, and the others. */
+/** The columns of a restored mesh that a text format can hold. The others are left out, with a
+ * note. */
 class PlacedColumns
 {
 public:
@@ -50,7 +51,7 @@ public:
     return this->OfElements.firstInteger(names);
   }
 
-  /** A note for the user on the columns that were not requested. */
+  /** A note for the user on the columns that were not asked for. */
   std::vector<std::string> leftOut(std::string_view suffix) const
   {
     const std::string names =

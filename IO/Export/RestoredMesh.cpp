@@ -10,6 +10,11 @@
 #include <limits>
 #include <span>
 
+// A mesh stream brought back into the order of its original file. The corners of the stream are
+// replaced by original numbers of vertices (Relabelling), and vertices and cells are sorted by
+// their original numbers (Restorers.h). The stream is read twice: once for vertices and corners,
+// once for the columns of the cells.
+
 namespace smg
 {
 
@@ -18,7 +23,8 @@ namespace
 
 const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
 
-/** The names of the columns, and then `last`. */
+/** The names of the columns, followed by `last`: the original numbers come last, and the columns of
+ * the mesh first. */
 std::vector<std::string> namesWith(const std::vector<ColumnSpec>& specs, const std::string& last)
 {
   std::vector<std::string> names;
@@ -51,7 +57,8 @@ RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspac
 {
   VsmReader reader(vsm, &workspace.traffic());
   this->readInfo(reader);
-  // The table of the numbers is released before the cells are merged.
+  // The table of the numbers is released before the cells are merged, which then have that memory
+  // as well.
   const std::int64_t memory = workspace.available();
   this->Vertices = std::make_unique<VertexRestorer>(workspace, memory / 4, this->Info, this->Name);
   this->Elements = std::make_unique<ElementRestorer>(workspace, memory / 3, this->Info);
@@ -59,6 +66,7 @@ RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspac
     Relabelling ids(workspace, reader.info().vertices, memory / 4);
     RecordFile<std::uint32_t> corners(workspace);
     this->readVertices(reader, ids, corners);
+    // Isolated vertices have original numbers as well: with them every number occurs once.
     this->readIsolated(reader);
     this->Vertices->sort();
     this->readCells(reader, ids, corners);
@@ -86,6 +94,7 @@ void RestoredMesh::readInfo(const VsmReader& reader)
   this->Info.cells = stream.cells;
   this->Info.vertexColumns = ownColumns(stream.vertexColumns);
   this->Info.elementColumns = ownColumns(stream.cellColumns);
+  // Numbers of vertices have 32 bits in the relabelling.
   if (this->Info.vertices >= std::int64_t(NoIndex))
   {
     throw Error(this->Name + ": has " + std::to_string(this->Info.vertices) +
@@ -114,6 +123,8 @@ void RestoredMesh::readVertices(
       ids.put(static_cast<std::uint32_t>(block.firstVertex + static_cast<std::int64_t>(i)),
         static_cast<std::uint32_t>(originals[i]));
     }
+    // The corners go to a file, since their original numbers are known only when all vertices have
+    // been read.
     numbers.assign(block.corners.begin(), block.corners.end());
     corners.put(std::span<const std::uint32_t>(numbers));
     this->Space.tell(
@@ -124,7 +135,7 @@ void RestoredMesh::readVertices(
 
 void RestoredMesh::readIsolated(VsmReader& reader)
 {
-  // The columns of the info come first, as for the other vertices.
+  // The columns of the info come first, as with the other vertices.
   std::vector<std::ptrdiff_t> places;
   for (const ColumnSpec& spec : this->Info.vertexColumns)
   {
@@ -159,6 +170,8 @@ void RestoredMesh::readCells(
   ids.apply(corners, cornersOfCell,
     [&](std::span<const std::uint32_t> numbers)
     {
+      // The corners come from the relabelling and the columns from a second reading of the stream,
+      // in the same order.
       while (cell == cells && source->next(block))
       {
         cell = 0;
@@ -183,7 +196,7 @@ void RestoredMesh::readCells(
     });
 }
 
-/** Reports the progress after this many more vertices or elements. */
+/** Reports the progress after `count` more vertices or elements. */
 void RestoredMesh::deliver(std::int64_t count)
 {
   this->Delivered += count;

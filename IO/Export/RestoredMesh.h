@@ -15,7 +15,7 @@ namespace smg
 
 class VsmReader;
 
-/** The columns that were not added by a conversion. */
+/** The columns without those that a conversion adds. */
 std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs);
 
 /**

@@ -10,6 +10,14 @@
 #include <cstring>
 #include <utility>
 
+// Vertices and elements in the order of the original file, by external sorts with the original
+// numbers as keys, in the memory of the workspace.
+//
+// Polygons were split into fans of triangles that have the number of their polygon. The last two
+// corners of these triangles are edges of a graph, and the polygon is an Euler trail of it:
+// Hierholzer's algorithm finds it whatever the order of the triangles, and even if corners are
+// repeated. Elements that are not such a fan are written cell by cell, which a note says.
+
 namespace smg
 {
 
@@ -21,6 +29,7 @@ bool FanChain::build(std::span<const std::uint32_t> triangles)
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::span<const std::uint32_t> triangle = triangles.subspan(3 * i, 3);
+    // A fan has one corner in all of its triangles, and it is the first one.
     if (triangle[0] != triangles[0])
     {
       return false;
@@ -37,6 +46,7 @@ bool FanChain::build(std::span<const std::uint32_t> triangles)
     return false;
   }
   this->walk(start);
+  // The edges fall into several pieces.
   if (this->Trail.size() != count + 1)
   {
     return false;
@@ -46,8 +56,8 @@ bool FanChain::build(std::span<const std::uint32_t> triangles)
   return true;
 }
 
-/** Finds the corner at which one more edge begins than ends. If the trail is closed there is none,
- * and `start` is not changed. Returns false if no trail uses all edges. */
+/** Finds the start of the trail: the corner at which one more edge begins than ends. A closed trail
+ * has none; `start` does not change then. Returns false if no trail can use all edges. */
 bool FanChain::findStart(std::uint32_t& start) const
 {
   std::size_t begins = 0;
@@ -78,12 +88,12 @@ bool FanChain::findStart(std::uint32_t& start) const
       excess += out - in;
     }
   }
+  // The degrees allow a trail; whether the edges are connected shows when it is walked.
   return excess <= 1;
 }
 
-/**
- * Hierholzer's algorithm: follows edges until none is left, and inserts detours when backtracking.
- */
+/** Hierholzer's algorithm: follows unused edges until there is none, and inserts detours on the way
+ * back. The trail comes out from its end to its start. */
 void FanChain::walk(std::uint32_t start)
 {
   this->Taken.assign(this->Edges.size(), 0);
@@ -94,6 +104,8 @@ void FanChain::walk(std::uint32_t start)
     const std::uint32_t corner = this->Stack.back();
     const auto first = std::lower_bound(this->Edges.begin(), this->Edges.end(), corner,
       [](const Edge& edge, std::uint32_t c) { return edge.first < c; });
+    // Edges are sorted by their first corner: those of a corner follow each other, and Taken counts
+    // how many were used.
     const auto place = static_cast<std::size_t>(first - this->Edges.begin());
     const std::size_t edge =
       place < this->Edges.size() ? place + this->Taken[place] : this->Edges.size();
@@ -152,6 +164,7 @@ void ElementRestorer::put(std::int64_t element, std::span<const std::uint32_t> c
 void ElementRestorer::restore(RestoredInfo& info)
 {
   this->Sorted.sort();
+  // For the cells of one element, which are in memory together.
   const Reservation reserved(this->Space.pool(), elementBytes(this->Space));
   for (RowSort::Row row; this->Sorted.next(row);)
   {
@@ -165,6 +178,8 @@ void ElementRestorer::restore(RestoredInfo& info)
   info.maxCorners = this->Counts.maxCorners;
 }
 
+/** Adds the next cell by ascending element. The cells of an element come in the order of put(),
+ * since the sort is stable. */
 void ElementRestorer::take(const RowSort::Row& row)
 {
   if (row.key != this->Element)
@@ -177,7 +192,7 @@ void ElementRestorer::take(const RowSort::Row& row)
   }
   if (this->Corners.size() == this->MaxCells * this->CornersOfCell)
   {
-    // The cells of such a large element are delivered one by one.
+    // A polygon of more corners than fit into the memory stays triangles.
     this->TooLarge = true;
     this->writeCells();
   }
@@ -198,7 +213,7 @@ void ElementRestorer::endGroup()
   {
     const std::span<const std::byte> tuples = this->Tuples;
     const std::size_t bytes = this->Columns.bytes();
-    // All tuples are equal if each equals the one before.
+    // All tuples are equal if each equals the one before it.
     const bool same =
       std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
     this->Different += same ? 0 : 1;
@@ -207,7 +222,7 @@ void ElementRestorer::endGroup()
     this->Tuples.clear();
     return;
   }
-  // More memory would only help a polygon.
+  // More memory would only help a polygon: other elements of several cells stay these cells anyway.
   this->Large += this->TooLarge && this->MayBeFan ? 1 : 0;
   this->Split += isOne || (this->TooLarge && this->MayBeFan) ? 0 : 1;
   this->writeCells();
@@ -229,6 +244,8 @@ void ElementRestorer::writeCells()
 void ElementRestorer::write(
   std::span<const std::uint32_t> corners, std::span<const std::byte> tuples)
 {
+  // A record for each element: number of corners, corners, columns. It can be read any number of
+  // times.
   const auto size = static_cast<std::uint32_t>(corners.size());
   this->Elements.put(0, size);
   this->Elements.append(0, std::as_bytes(corners));
@@ -283,6 +300,7 @@ bool ElementRestorer::next(RestoredElements& elements)
   elements.columns = emptyColumns(this->Columns.specs());
   std::vector<std::byte> tuples(this->Columns.bytes());
   std::vector<std::uint32_t> corners;
+  // Chunks are bounded by elements, by corners and by the bytes of columns.
   const std::int64_t most = std::clamp<std::int64_t>(
     static_cast<std::int64_t>(ElementChunkBytes / (1 + this->Columns.bytes())), 1, ChunkElements);
   std::uint32_t size = 0;
@@ -334,6 +352,8 @@ void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const doub
 {
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
+    // Checked as they come: with all numbers in range, one that is missing means that another one
+    // occurs twice.
     if (ids[i] < 0 || ids[i] >= this->Count)
     {
       this->fail("a vertex has the original number " + std::to_string(ids[i]) +
@@ -347,6 +367,7 @@ void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const doub
     }
     else
     {
+      // Positions that were in single precision take half the room in the sort, and lose nothing.
       const std::array<float, 3> single{ static_cast<float>(position[0]),
         static_cast<float>(position[1]), static_cast<float>(position[2]) };
       std::memcpy(row, single.data(), this->PositionBytes);

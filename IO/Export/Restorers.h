@@ -64,9 +64,9 @@ private:
 
 /**
  * Restores a polygon from its triangles. The polygon c0 c1 c2 ... was split into the fan of
- * triangles c0 c1 c2, c0 c2 c3 ..., given in any order: from c1 on, the corners are the trail that
- * uses the last two corners of each triangle once, as an edge. If corners of the polygon are
- * repeated, several polygons may have the same triangles; the result is one of these.
+ * triangles c0 c1 c2, c0 c2 c3 ..., which may come in any order: from c1 on, the corners are the
+ * trail that uses the last two corners of each triangle once, as an edge. If corners of the polygon
+ * are repeated, several polygons may have the same triangles; the result is one of these.
  */
 class FanChain
 {
@@ -161,8 +161,8 @@ struct RestoredElements
 /**
  * Restores the elements of the original file, in its order, from the cells of a mesh stream, out of
  * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
- * element that are the fan of a polygon become this polygon; other cells of one element keep their
- * order.
+ * element that are the fan of a polygon become this polygon; other cells of one element stay as
+ * they are, in their order.
  */
 class ElementRestorer
 {
@@ -170,7 +170,8 @@ public:
   /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. */
   ElementRestorer(Workspace& workspace, std::int64_t memory, const RestoredInfo& info);
 
-  /** Adds a cell with tuple `tuple` of the columns, which begin with those of the info. */
+  /** Adds a cell with tuple `tuple` of the columns, the first of which are the columns of the
+   * info. */
   void put(std::int64_t element, std::span<const std::uint32_t> corners,
     const std::vector<Column>& columns, std::size_t tuple);
 
@@ -215,7 +216,7 @@ private:
 };
 
 /** Sorts vertices by their original numbers, out of core: put() all, then sort(), then next()
- * delivers them. The numbers must be 0, 1, 2 ..., one vertex each. */
+ * delivers them. The numbers must be 0, 1, 2 ..., with one vertex each. */
 class VertexRestorer
 {
 public:
@@ -224,8 +225,8 @@ public:
   VertexRestorer(
     Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name);
 
-  /** Adds vertices with these numbers. The columns begin with those of the info. Throws Error if a
-   * number is out of range. */
+  /** Adds vertices with these numbers. The first columns are the columns of the info. Throws Error
+   * if a number is out of range. */
   void put(std::span<const std::int64_t> ids, std::span<const double> positions,
     const std::vector<Column>& columns);
 

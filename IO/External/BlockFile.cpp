@@ -5,12 +5,17 @@
 
 #include <cstring>
 
+// The index of a block file as bytes. parse() is given what may be a damaged file with a right
+// checksum, or one made on purpose: counts are bounded by the bytes that are left, sizes and places
+// by the file, and the blocks must account for every byte between header and index.
+
 namespace smg
 {
 
 namespace
 {
 
+/** Appends numbers in the byte order of the machine, without alignment. */
 class Packer
 {
 public:
@@ -31,6 +36,7 @@ public:
   std::vector<std::byte> Bytes;
 };
 
+/** Reads what a Packer has written, never beyond the end. */
 class Unpacker
 {
 public:
@@ -64,6 +70,7 @@ public:
   std::size_t getCount(std::size_t bytes)
   {
     const auto count = this->get<std::uint64_t>();
+    // Before memory is allocated for the items.
     if (count > this->Bytes.size() / bytes)
     {
       this->fail("a count is too large");
@@ -93,6 +100,7 @@ TableSpec parseTable(Unpacker& from)
 {
   TableSpec table;
   table.name = from.getText();
+  // Nine bytes at least: the length of the name, the type and the number of components.
   const std::size_t columns = from.getCount(9);
   for (std::size_t c = 0; c < columns; c++)
   {
@@ -116,6 +124,7 @@ std::int64_t parseBlocks(
   Unpacker& from, const TableSpec& table, Codec codec, std::int64_t tailOffset, TableIndex& index)
 {
   const std::size_t columns = table.columns.size();
+  // Rows, offset, and an entry for each column.
   const std::size_t blocks = from.getCount(16 + columns * sizeof(ColumnEntry));
   index.firstRow.reserve(blocks + 1);
   index.offset.reserve(blocks);
@@ -131,6 +140,8 @@ std::int64_t parseBlocks(
     {
       const auto entry = from.get<ColumnEntry>();
       const auto tuple = static_cast<std::int64_t>(column.tupleBytes());
+      // Stored bytes are never more than plain ones, and without compression the same; columns that
+      // are not opaque have one tuple for each row.
       good = good && entry.plainBytes <= MaxColumnBytes && entry.storedBytes <= entry.plainBytes &&
              (codec != Codec::None || entry.storedBytes == entry.plainBytes) &&
              (tuple == 0 ||
@@ -194,6 +205,7 @@ BlockFileIndex BlockFileIndex::parse(
     from.fail("the compression is unknown");
   }
   index.codec = static_cast<Codec>(codec);
+  // Twenty bytes at least: the length of the name and the numbers of columns and blocks.
   const std::size_t tables = from.getCount(20);
   std::int64_t total = 0;
   for (std::size_t t = 0; t < tables; t++)
@@ -202,6 +214,7 @@ BlockFileIndex BlockFileIndex::parse(
     total +=
       parseBlocks(from, index.tables.back(), index.codec, tailOffset, index.blocks.emplace_back());
   }
+  // Blocks that overlap, or bytes that belong to no block, show in the sum.
   if (!from.atEnd() || total != tailOffset - BlockFileHeaderBytes)
   {
     from.fail("it does not cover all bytes");

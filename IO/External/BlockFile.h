@@ -29,10 +29,10 @@ struct TableSpec
 };
 
 /**
- * Writes a block file: a container of tables, each split into blocks of rows, with each column of a
- * block compressed and checksummed (XXH3, 64 bits) separately. A JSON header, the table layout and
- * an index of all blocks allow reading any block independently. BlockFileLayout.h defines the
- * format.
+ * Writes a block file: a container of tables, each split into blocks of rows. Each column of a
+ * block is compressed and has a checksum (XXH3, 64 bits) of its own. A JSON header, the layout of
+ * the tables and an index of all blocks allow reading any block for itself; the format is at the
+ * end of this header.
  *
  * The file is written under a temporary name beside `path` and renamed by finish(); without
  * finish() the destructor removes it. A thread of the writer writes behind the caller; at most
@@ -43,13 +43,13 @@ class SMG_EXPORT BlockFileWriter
 {
 public:
   static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
-  /** The most blocks that are compressed at once, and the most bytes that each has in the mean if
-   * they are several. */
+  /** The most blocks that are compressed at once, and the most bytes that each of several may have
+   * on average. */
   static constexpr int MaxBlocks = 8;
   static constexpr std::size_t BlockBytes = std::size_t(256) << 10;
 
-  /** Blocks are compressed on the threads of `workers`, which must outlive the writer; null: on
-   * that of the caller. The file does not depend on it. */
+  /** Blocks are compressed on the threads of `workers`, which must outlive the writer; null: on the
+   * thread of the caller. The bytes of the file do not depend on it. */
   BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
     IoStatistics* statistics = nullptr, Workers* workers = nullptr);
   /** The most bytes of blocks that several threads compress, with compressors and results. */
@@ -86,7 +86,8 @@ public:
 
   /** The text of a JSON value. */
   const std::string& header() const;
-  /** A checksum of the header and the index, and by the checksums in these of the whole file. */
+  /** A checksum of the header and the index and, through the checksums in these, of the whole
+   * file. */
   std::uint64_t contentChecksum() const;
   const std::vector<TableSpec>& tables() const;
   Codec codec() const;

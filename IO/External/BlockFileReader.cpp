@@ -15,6 +15,11 @@
 #include <cstring>
 #include <utility>
 
+// Reading a block file. Opening verifies front, header and index with their checksums, and that the
+// index accounts for every byte of the file; reading verifies the checksum of the column of the
+// block. What has been verified is trusted, so the checks come in an order in which nothing is used
+// before its own checksum.
+
 namespace smg
 {
 
@@ -36,6 +41,8 @@ struct BlockFileReader::Implementation
     const std::size_t there = this->File.readSome(0, region);
     BlockFileFront front{};
     std::memcpy(&front, region.data(), std::min(there, sizeof(front)));
+    // First whether it is such a file at all, then whether this program can read it, then whether
+    // it is damaged: so that the message says what to do.
     if (std::string_view(front.magic, sizeof(front.magic)) != BlockFileMagic)
     {
       this->fail(
@@ -64,6 +71,7 @@ struct BlockFileReader::Implementation
   void checkLength(const BlockFileFront& front) const
   {
     const std::int64_t size = this->File.size();
+    // The sum of both must not overflow.
     const std::int64_t most = INT64_MAX / 2;
     if (front.tailOffset < BlockFileHeaderBytes || front.tailOffset > most || front.tailBytes < 0 ||
         front.tailBytes > most)
@@ -71,6 +79,7 @@ struct BlockFileReader::Implementation
       this->fail("its first bytes are invalid: the file is damaged; create it again.");
     }
     const std::int64_t expected = front.tailOffset + front.tailBytes;
+    // A file that was cut off, or had something appended, is found without reading it.
     if (size != expected)
     {
       this->fail((size < expected ? "is truncated: it has " : "has bytes appended: it has ") +
@@ -84,6 +93,8 @@ struct BlockFileReader::Implementation
     const BlockFileFront front = this->readFront(region);
     this->checkLength(front);
     const std::span<std::byte> rest = std::span(region).subspan(sizeof(front));
+    // The front is sound, but may have been made on purpose: its numbers are compared with the
+    // room.
     const bool fits =
       front.headerBytes >= 0 && front.headerBytes <= static_cast<std::int64_t>(rest.size());
     const auto header = rest.first(fits ? front.headerBytes : 0);
@@ -106,6 +117,8 @@ struct BlockFileReader::Implementation
     }
     this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
     this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
+    // The front has the checksums of header and index, and the index those of all columns: one
+    // number stands for the whole file.
     this->ContentChecksum = front.frontChecksum;
     this->count(BlockFileHeaderBytes + front.tailBytes, 0);
   }
@@ -148,14 +161,19 @@ struct BlockFileReader::Implementation
   std::span<const std::byte> fetch(
     int table, std::int64_t block, int column, std::span<std::byte> room)
   {
+    // The columns of a block follow each other in the file.
     std::int64_t offset = this->Index.blocks[table].offset[block];
+    // The index has the place of the block; columns have no places of their own.
     for (int c = 0; c < column; c++)
     {
       offset += this->Index.entry(table, block, c).storedBytes;
     }
+    // Only waiting counts: reading ahead itself goes on beside the work of the caller.
     const std::int64_t waited = this->Ahead.waitNanoseconds();
     const auto ahead = this->Ahead.find(offset, room.size());
     this->count(0, this->Ahead.waitNanoseconds() - waited);
+    // If it was not requested ahead, or that failed, it is read here, and a failure becomes an
+    // Error.
     if (ahead)
     {
       return *ahead;
@@ -261,13 +279,18 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   self.check(table, block);
   const ColumnEntry& entry = self.Index.entry(table, block, column);
   const ColumnSpec& spec = self.Index.tables[table].columns[column];
+  // Callers size their memory by the index; a mismatch would be a fault of the program, not of the
+  // file.
   if (bytes.size() != entry.plainBytes)
   {
     self.fail(self.place(table, block) + ": column '" + spec.name + "' has " +
               std::to_string(entry.plainBytes) + " bytes, not " + std::to_string(bytes.size()) +
               ".");
   }
+  // Columns that compression does not make smaller are stored as they are, and read straight to the
+  // caller.
   const bool compressed = entry.storedBytes < entry.plainBytes;
+  // One buffer for all reads, which grows to the largest column.
   if (compressed && self.Stored.size() < entry.storedBytes)
   {
     self.Stored.resize(entry.storedBytes);
@@ -275,6 +298,7 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   const std::span<std::byte> room =
     compressed ? std::span(self.Stored).first(entry.storedBytes) : bytes;
   const std::span<const std::byte> stored = self.fetch(table, block, column, room);
+  // Compared before decompression, so that decoders see only what an encoder has made.
   if (checksum(stored) != entry.checksum)
   {
     self.fail(self.place(table, block) + ": the checksum of column '" + spec.name +
@@ -289,6 +313,8 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   {
     std::memcpy(bytes.data(), stored.data(), stored.size());
   }
+  // Readers take the columns of a block in order: with the last one the range that was read ahead
+  // is free.
   if (column + 1 == static_cast<int>(self.Index.tables[table].columns.size()))
   {
     self.Ahead.release(self.Index.blocks[table].offset[block] +
@@ -300,6 +326,7 @@ void BlockFileReader::prefetch(int table, std::int64_t block)
 {
   Implementation& self = *this->Self;
   self.check(table, block);
+  // All columns of a block in one request: they are contiguous.
   const std::size_t bytes = self.storedBytes(table, block);
   if (bytes > 0 && self.Ahead.request(self.Index.blocks[table].offset[block], bytes))
   {
@@ -316,6 +343,7 @@ bool isBlockFile(const std::filesystem::path& path)
     return file.readSome(0, std::as_writable_bytes(std::span(magic))) == magic.size() &&
            std::string_view(magic.data(), magic.size()) == BlockFileMagic;
   }
+  // A file that cannot be opened is not a block file; whoever wants to read it gets the error.
   catch (const Error&)
   {
     return false;

@@ -14,13 +14,21 @@
 #include <optional>
 #include <utility>
 
+// Writing a block file. Blocks are compressed on several threads and written in the order of
+// append(), behind the caller; so the bytes of the file do not depend on threads.
+//
+// The front, which has the checksums of header and index, is written last: until then the file does
+// not begin with the magic. Then the file is synchronised and renamed, so that its name always
+// stands for a whole file. At most WriteBehindBytes wait to be written, and memoryFor() bounds what
+// is being compressed.
+
 namespace smg
 {
 
 namespace
 {
 
-/** A block that is being compressed. */
+/** A block that is being compressed, with the memory for it, which later blocks use again. */
 struct PendingBlock
 {
   int table = 0;
@@ -58,7 +66,8 @@ struct BlockFileWriter::Implementation
     this->Index.tables = std::move(tables);
   }
 
-  /** Submits a block, of which so many bytes are to be copied. */
+  /** Submits a block: copies its columns, since the caller may reuse them, and waits for earlier
+   * blocks if too much memory would be in use. */
   void submit(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns)
   {
     std::size_t bytes = 0;
@@ -86,7 +95,8 @@ struct BlockFileWriter::Implementation
     this->Blocks.submit();
   }
 
-  /** On any thread. */
+  /** Compresses the columns of a block, each for itself, so that a reader may read one of them. On
+   * any thread. */
   void compress(PendingBlock& block) const
   {
     if (!block.coder)
@@ -110,6 +120,7 @@ struct BlockFileWriter::Implementation
 
   void write(PendingBlock& block)
   {
+    // The index is written in the same order as the blocks.
     this->PendingBytes -= block.plain.size();
     TableIndex& index = this->Index.blocks[block.table];
     index.offset.push_back(this->Behind->offset());
@@ -118,7 +129,7 @@ struct BlockFileWriter::Implementation
     this->put(block.stored);
     if (block.plain.size() > BlockBytes && this->Blocks.most() > 1)
     {
-      block = PendingBlock(); // else each of the blocks would keep that much memory
+      block = PendingBlock(); // else each pending block would keep that much memory
     }
   }
 
@@ -140,6 +151,7 @@ struct BlockFileWriter::Implementation
 
   void checkWritten()
   {
+    // A write fails behind the caller, who learns of it with the next block or at the end.
     if (const int error = this->Behind->failed(); error != 0)
     {
       FileDescriptor::throwWriteError(this->Path, error);
@@ -170,6 +182,7 @@ struct BlockFileWriter::Implementation
     {
       const std::size_t tuple = spec.columns[c].tupleBytes();
       const std::size_t size = columns[c].size();
+      // Sizes are stored with 32 bits, and a reader allocates what they say.
       if (size > MaxColumnBytes ||
           (tuple > 0 && (size % tuple != 0 || size / tuple != std::size_t(rows))))
       {
@@ -189,11 +202,15 @@ struct BlockFileWriter::Implementation
     front.order = BlockFileFront::OrderMark;
     front.tailOffset = offset;
     front.tailBytes = static_cast<std::int64_t>(tail.size());
+    // The front has the places and checksums of everything else, and a checksum of itself at its
+    // end.
     front.tailChecksum = checksum(tail);
     front.headerBytes = static_cast<std::int64_t>(header.size());
     front.headerChecksum = checksum(std::as_bytes(std::span(header)));
     const auto bytes = std::as_bytes(std::span(&front, 1));
     front.frontChecksum = checksum(bytes.first(offsetof(BlockFileFront, frontChecksum)));
+    // The whole region is written, with zeros behind the header, so that the same content has the
+    // same bytes.
     std::vector<std::byte> region(BlockFileHeaderBytes);
     std::memcpy(region.data(), &front, sizeof(front));
     std::memcpy(region.data() + sizeof(front), header.data(), header.size());
@@ -235,6 +252,7 @@ void BlockFileWriter::append(
 {
   Implementation& self = *this->Self;
   self.checkColumns(table, rows, columns);
+  // A failure is reported before more work is done for the file.
   self.checkWritten();
   self.submit(table, rows, columns);
 }
@@ -250,13 +268,16 @@ void BlockFileWriter::finish(const std::string& header)
   }
   self.Blocks.takeAll();
   const std::int64_t tailOffset = self.Behind->offset();
+  // The index follows the blocks, since it is complete only after them.
   const std::vector<std::byte> tail = self.Index.serialize();
   self.put(tail);
   const std::int64_t waited = self.Behind->waitNanoseconds();
+  // The index must be written before it is known whether all writes have succeeded.
   self.Behind->flush();
   self.count(0, self.Behind->waitNanoseconds() - waited);
   self.checkWritten();
   self.writeFront(header, tail, tailOffset);
+  // The thread uses the file, which renameTo() closes.
   self.Behind.reset();
   self.File.renameTo(self.Path);
 }

@@ -7,6 +7,16 @@
 #include <cassert>
 #include <string>
 
+// Sequences of bytes in one scratch file, appended to in any order, each read from first to last. A
+// bucket collects its bytes in a chunk and writes that when it is full, so the file is written from
+// first to last and a bucket is a list of runs in it. With n buckets and m bytes of memory a run
+// has about m / n bytes: this decides how scattered the reads are.
+//
+// With several threads a full chunk is written by another one while the next is filled, and a
+// reader's next bytes are fetched while it uses those before. What a bucket holds does not depend
+// on that. CheckedFile adds checksums; reads end with its grains where possible, so that no grain
+// is read twice.
+
 namespace smg
 {
 
@@ -15,14 +25,15 @@ namespace
 
 constexpr std::int64_t MinMemoryAhead = std::int64_t(4) << 20;
 
-/** Whether the caller can leave work to other threads. */
+/** Whether the caller can leave work to other threads: not in a job, which must not wait for other
+ * jobs. */
 bool hasHelpers(Workspace& workspace)
 {
   return workspace.workers().threads() > 1 && !Workers::isCaller();
 }
 
-/** The size of chunks such that those of all buckets, and one that is written, stay below `memory`:
- * whole grains, if they are not smaller. */
+/** The size of a chunk, such that one for each bucket, and one that is being written, stay below
+ * `memory`: whole grains, unless they are smaller than one. */
 std::size_t chunkBytes(Workspace& workspace, int buckets, std::int64_t memory)
 {
   const auto chunks = static_cast<std::size_t>(buckets + (hasHelpers(workspace) ? 1 : 0));
@@ -57,11 +68,13 @@ public:
    * exchanged. Throws Error. */
   void write(Buffer& chunk, std::size_t bytes)
   {
+    // One chunk at a time: the file grows in the order of the calls.
     this->finish();
     if (!this->File.isOpen())
     {
       this->File.create(this->Space.folder());
     }
+    // The last, partly filled chunk of a bucket is written at once: it is released next.
     if (bytes < chunk.size() || !hasHelpers(this->Space))
     {
       this->File.append(chunk.bytes().first(bytes));
@@ -71,6 +84,7 @@ public:
     {
       this->Chunk = Buffer(this->Space.pool(), chunk.size());
     }
+    // The bucket goes on with the memory of the chunk that was written before.
     std::swap(this->Chunk, chunk);
     this->Space.workers().submit(this->Job);
     this->IsWriting = true;
@@ -111,6 +125,7 @@ BucketFile::~BucketFile() = default;
 BucketFile::BucketFile(BucketFile&&) noexcept = default;
 BucketFile& BucketFile::operator=(BucketFile&&) noexcept = default;
 
+/** append() for a bucket without a chunk, or whose chunk is about to become full. */
 void BucketFile::appendSlowly(Row& row, std::span<const std::byte> bytes)
 {
   if (!row.chunk.data())
@@ -142,6 +157,7 @@ void BucketFile::flush(Row& row)
   this->Out->write(row.chunk, row.used);
   this->End += bytes;
   this->Space->traffic().bytesWritten += bytes;
+  // The only bucket of a file has a single run, whatever its length.
   if (!row.runs.empty() && row.runs.back().offset + row.runs.back().bytes == begin)
   {
     row.runs.back().bytes += bytes;
@@ -151,6 +167,7 @@ void BucketFile::flush(Row& row)
     row.runs.push_back({ begin, bytes });
   }
   row.used = 0;
+  // After each chunk: the progress counts traffic.
   this->Space->poll();
 }
 
@@ -184,6 +201,7 @@ void BucketFile::load(StateReader& state, const std::filesystem::path& path)
     std::int64_t left = row.bytes;
     for (const Run& run : row.runs)
     {
+      // Runs lie within the file, and have all bytes of the bucket: reads need no further checks.
       state.require(run.offset >= 0 && run.offset <= this->End && run.bytes > 0 &&
                     run.bytes <= this->End - run.offset && run.bytes <= left);
       left -= run.bytes;
@@ -192,6 +210,8 @@ void BucketFile::load(StateReader& state, const std::filesystem::path& path)
   }
 }
 
+/** Runs first, then the chunk that is still in memory. It changes only `from`, so readers on
+ * several threads may be in it at the same time. */
 std::size_t BucketFile::fill(Position& from, std::span<std::byte> bytes) const
 {
   const Row& row = this->Rows[std::size_t(from.bucket)];
@@ -206,6 +226,7 @@ std::size_t BucketFile::fill(Position& from, std::span<std::byte> bytes) const
       const Run& run = row.runs[from.run];
       const std::int64_t offset = run.offset + from.runOffset;
       part = std::min(room, static_cast<std::size_t>(run.bytes - from.runOffset));
+      // A run that fills the room may be cut short so that the next read begins with a grain.
       isFull = part == room;
       part = isFull ? CheckedFile::untilGrain(offset, room) : part;
       this->Out->File.read(offset, bytes.subspan(filled, part));
@@ -230,7 +251,7 @@ std::size_t BucketFile::fill(Position& from, std::span<std::byte> bytes) const
   return filled;
 }
 
-/** The bytes after those of a reader, which another thread fetches. */
+/** What comes after the bytes of a reader; another thread fetches it. */
 class BucketFile::Reader::Ahead
 {
 public:
@@ -258,13 +279,14 @@ public:
     const std::size_t part = std::min(bytes.size(), this->End - this->At);
     std::memcpy(bytes.data(), this->Bytes.data() + this->At, part);
     this->At += part;
+    // All was taken: the next bytes are fetched while the reader uses these.
     if (part > 0 && this->At == this->End)
     {
       this->start();
     }
     return part;
   }
-  /** Takes all that was fetched, and says where the rest begins. */
+  /** Takes all that was fetched, and sets `rest` to where the bytes after it begin. */
   std::size_t end(std::span<std::byte> bytes, Position& rest)
   {
     this->finish();
@@ -301,13 +323,16 @@ BucketFile::Reader::Reader(const BucketFile& file, int bucket, std::size_t buffe
   : File(&file)
   , From{ bucket }
 {
+  // The last chunk may still be on its way to the file.
   file.Out->finish();
   Workspace& space = *file.Space;
   std::size_t ahead = 0;
+  // Only where it pays: a large buffer, more bytes than it holds, and memory to spare.
   if (bufferBytes >= MinAheadBytes && file.bytes(bucket) > std::int64_t(bufferBytes) &&
       space.available() > MinMemoryAhead && hasHelpers(space))
   {
-    // A part of a record may be left over before the bytes that were fetched.
+    // Less than half of the buffer, as part of a record may be left over in front of the bytes that
+    // were fetched.
     ahead = (bufferBytes / 2 - 1) / CheckedFile::GrainBytes * CheckedFile::GrainBytes;
   }
   this->Bytes = Buffer(space.pool(), bufferBytes - ahead);
@@ -322,6 +347,7 @@ bool BucketFile::Reader::refill()
 {
   const std::size_t kept = this->End - this->At;
   this->File->Space->poll();
+  // What was not used yet moves to the front.
   std::memmove(this->Bytes.data(), this->Bytes.data() + this->At, kept);
   const std::span<std::byte> room = this->Bytes.bytes().subspan(kept);
   this->At = 0;
@@ -339,7 +365,8 @@ bool BucketFile::Reader::refill()
   return this->End > kept;
 }
 
-/** Makes room for longer units than the buffer has when something is fetched ahead. */
+/** Gives up fetching ahead, so that the whole memory of the reader is one buffer: for units that
+ * are longer than the buffer beside it. */
 void BucketFile::Reader::stopAhead()
 {
   Buffer all(this->File->Space->pool(), this->Bytes.size() + this->AheadBytes);

@@ -20,13 +20,13 @@ namespace smg
 {
 
 /**
- * Sequences of bytes in one unnamed scratch file: bytes are appended to any of a number of buckets,
- * and each bucket is read sequentially, any number of times. Only the last chunk of a bucket is in
- * memory; no file is created until a chunk is full.
+ * Sequences of bytes in one unnamed scratch file. Bytes are appended to any of a number of buckets;
+ * each bucket is read from first to last, any number of times. Only the last chunk of a bucket is
+ * in memory; no file is created until a chunk is full.
  *
- * With several threads, the owner of the workspace's threads does not wait for the disk and for
- * checksums: while it fills a chunk, the one before is written on another thread, and readers fetch
- * what comes next. These have a part of the same memory for that.
+ * With several threads, the owner of the threads of the workspace waits neither for the disk nor
+ * for checksums: while it fills a chunk, the one before is written on another thread, and readers
+ * fetch what comes next. A part of the same memory serves for that.
  */
 class SMG_EXPORT BucketFile
 {
@@ -75,8 +75,8 @@ public:
   /** Closes the file, gives it a name in the same file system, waits until the disk has it, and
    * saves what load() needs. Later calls only save that. */
   void save(StateWriter& state, const std::filesystem::path& path);
-  /** Restores a file of as many buckets, which is empty so far; compares its content with its
-   * checksum. */
+  /** Restores a file, which must be empty and have as many buckets; compares its content with the
+   * checksums. */
   void load(StateReader& state, const std::filesystem::path& path);
 
 private:
@@ -149,8 +149,8 @@ private:
 
   void appendSlowly(Row& row, std::span<const std::byte> bytes);
   void flush(Row& row);
-  /** Fills `bytes` from a position, except for a part of a grain, and moves that; returns the
-   * number of bytes, 0 at the end. On any thread. */
+  /** Fills `bytes` from a position, except perhaps for a part of a grain at the end, and moves the
+   * position. Returns the number of bytes; 0 at the end. On any thread. */
   std::size_t fill(Position& from, std::span<std::byte> bytes) const;
 
   Workspace* Space;

@@ -7,6 +7,10 @@
 #include <lz4.h>
 #include <zstd.h>
 
+// Compression of the columns of blocks, by zstd at level 1 or LZ4. Bytes are regrouped first:
+// corresponding bytes of neighbouring tuples are similar, above all exponents and signs of
+// coordinates and high bytes of numbers.
+
 namespace smg
 {
 
@@ -15,6 +19,7 @@ namespace
 
 constexpr int ZstdLevel = 1;
 
+/** All first bytes of the tuples, then all second ones, and so on. */
 void split(std::span<const std::byte> tuples, std::size_t tupleBytes, std::byte* planes)
 {
   const std::size_t count = tuples.size() / tupleBytes;
@@ -29,6 +34,7 @@ void split(std::span<const std::byte> tuples, std::size_t tupleBytes, std::byte*
   }
 }
 
+/** The inverse of split(). */
 void join(const std::byte* planes, std::size_t tupleBytes, std::span<std::byte> tuples)
 {
   const std::size_t count = tuples.size() / tupleBytes;
@@ -43,7 +49,8 @@ void join(const std::byte* planes, std::size_t tupleBytes, std::span<std::byte> 
   }
 }
 
-/** Provides at least `size` bytes without clearing existing ones. */
+/** Provides at least `size` bytes; buffers never shrink, so that their memory is not cleared for
+ * each block. */
 std::byte* room(std::vector<std::byte>& buffer, std::size_t size)
 {
   if (buffer.size() < size)
@@ -69,6 +76,7 @@ struct ColumnCodec::Contexts
   Contexts(const Contexts&) = delete;
   Contexts& operator=(const Contexts&) = delete;
 
+  // Made with the first use: a writer needs no decompressor, and a reader no compressor.
   ZSTD_CCtx* compression()
   {
     if (!this->Compression && !(this->Compression = ZSTD_createCCtx()))
@@ -109,7 +117,7 @@ std::span<const std::byte> ColumnCodec::compress(
     split(plain, tupleBytes, planes);
     source = planes;
   }
-  // A result that is not smaller is discarded, so the input size is sufficient.
+  // A result that is not smaller is discarded, so there is room for one byte less than the input.
   const std::size_t most = plain.size() - 1;
   std::byte* target = room(this->Packed, plain.size());
   std::size_t size = 0;
@@ -130,6 +138,7 @@ std::span<const std::byte> ColumnCodec::compress(
 bool ColumnCodec::decompress(
   std::span<const std::byte> stored, std::span<std::byte> plain, std::size_t tupleBytes)
 {
+  // Stored as it was: compressed columns are always smaller.
   if (stored.size() == plain.size())
   {
     std::memcpy(plain.data(), stored.data(), plain.size());
@@ -154,6 +163,7 @@ bool ColumnCodec::decompress(
       this->Zstd->decompression(), target, plain.size(), stored.data(), stored.size());
     size = ZSTD_isError(size) ? 0 : size;
   }
+  // Decoders are given the expected size, and must reach it.
   if (size != plain.size())
   {
     return false;

@@ -19,7 +19,7 @@
 namespace smg
 {
 
-/** Rows of a sequence, which another thread produces while the owner takes those before them. */
+/** Rows of a sequence that another thread produces while the owner takes earlier ones. */
 template <class Row>
 class RowPrefetch
 {
@@ -117,11 +117,11 @@ private:
 /**
  * External merge sort in a given memory: put() all rows, then sort(), then next() delivers them in
  * order. Runs that fill the memory are sorted, written to scratch files and merged; rows that fit
- * into the memory need no files. The number of files is small, since runs of a rank are merged to
- * one of the next rank while rows arrive.
+ * into the memory need no files. The number of files stays small, since runs of a rank are merged
+ * to one of the next rank while rows arrive.
  *
- * `Rows` is the type of rows: RecordRows (ExternalSort), of a type, or KeyedRows (RowSort), of
- * bytes. Rows of a type that come from files are merged ahead on another thread.
+ * `Rows` is the type of rows: RecordRows (ExternalSort) for records of a type, or KeyedRows
+ * (RowSort) for bytes with a key. Records that come from files are merged ahead on another thread.
  */
 template <class Rows>
 class MergeSort
@@ -302,9 +302,10 @@ private:
     {
       return;
     }
-    // The memory of the chunk that mergeLast() needs.
+    // In the memory of the chunk that mergeLast() needs.
     static_assert(RowPrefetch<Row>::MemoryBytes <= BucketFile::ChunkBytes);
-    // Readers that fetch ahead submit jobs.
+    // Readers that fetch ahead submit jobs, which a job must not: their buffers must be too small
+    // for it.
     static_assert(
       MinBufferBytes < BucketFile::MinAheadBytes && sizeof(Row) < BucketFile::MinAheadBytes);
     this->Merged = std::make_unique<RowPrefetch<Row>>(this->Space,
@@ -347,7 +348,7 @@ private:
     this->sink(0);
   }
 
-  /** Rows with equal keys are in the order of their runs, which is that of put(). */
+  /** Rows with equal keys keep the order of put(), in which their runs are. */
   bool isBefore(std::uint32_t a, std::uint32_t b) const
   {
     const Row& rowA = this->Heads[a];

@@ -8,6 +8,11 @@
 #include <span>
 #include <utility>
 
+// An array of any length in a fixed amount of memory: pages in slots, the others in the blocks of a
+// scratch file, and a table with the state of each page. CLOCK chooses what is evicted. A page that
+// was never written is zero and takes no room on disk; one that has not changed since it was read
+// is not written again.
+
 namespace smg
 {
 
@@ -20,6 +25,7 @@ PageFile::PageFile(std::filesystem::path folder, std::int64_t memory)
 std::int64_t PageFile::maxSlots() const
 {
   constexpr std::int64_t Least = 4;
+  // The tables grow with the array, and count in its memory: pages give way to them.
   const auto tables = static_cast<std::int64_t>(this->States.capacity() * sizeof(std::int32_t)) +
                       this->Blocks * ScratchBlocks::TableBytes;
   return std::max(Least, (this->Memory - tables) / std::int64_t(PageBytes));
@@ -33,6 +39,7 @@ std::int32_t PageFile::load(std::int64_t page)
   }
   const std::int32_t number = this->makeRoom();
   Slot& slot = this->Slots[number];
+  // After makeRoom(), which changes the states of other pages.
   const std::int32_t state = std::exchange(this->stateOf(page), number);
   if (state != Untouched)
   {
@@ -49,7 +56,7 @@ std::int32_t PageFile::load(std::int64_t page)
 
 std::int32_t PageFile::makeRoom()
 {
-  // The tables may have grown.
+  // The tables may have grown since the last call, and left room for fewer slots.
   while (std::ssize(this->Slots) > this->maxSlots())
   {
     const auto last = static_cast<std::int32_t>(this->Slots.size()) - 1;
@@ -69,6 +76,7 @@ std::int32_t PageFile::makeRoom()
     this->Slots.emplace_back().bytes = std::make_unique<std::byte[]>(PageBytes);
     return static_cast<std::int32_t>(this->Slots.size()) - 1;
   }
+  // A slot that was used since the hand came by is passed once.
   while (std::exchange(this->Slots[this->Hand].used, false))
   {
     this->Hand = (this->Hand + 1) % this->Slots.size();
@@ -87,6 +95,8 @@ void PageFile::evict(Slot& slot)
     {
       this->createFile();
     }
+    // A page keeps its block in the file as long as it exists; blocks of discarded pages are used
+    // again.
     if (slot.block < 0 && this->SpareBlocks.empty())
     {
       slot.block = this->Blocks++;
@@ -104,6 +114,8 @@ void PageFile::evict(Slot& slot)
 
 void PageFile::createFile()
 {
+  // The folder is not a scratch folder: one is made in it, so that the bytes are counted and
+  // removed.
   if (!ScratchAccount::of(this->Folder))
   {
     this->Own = std::make_unique<ScratchFolder>(this->Folder);
@@ -121,6 +133,7 @@ void PageFile::discardBelow(std::int64_t page)
     std::int32_t block = state < Untouched ? onDisk(state) : -1;
     if (state >= 0)
     {
+      // The memory of the slot stays for another page.
       block = this->Slots[state].block;
       this->Slots[state] = { std::move(this->Slots[state].bytes) };
       this->Vacant.push_back(state);
@@ -130,7 +143,8 @@ void PageFile::discardBelow(std::int64_t page)
       this->SpareBlocks.push_back(block);
     }
   }
-  // States are moved only when half of them are of discarded pages: amortised once per page.
+  // States are moved only when more than half of them are of discarded pages, so each is moved
+  // about once.
   if (const std::int64_t dead = this->FirstKept - this->FirstPage;
       dead > std::ssize(this->States) / 2)
   {

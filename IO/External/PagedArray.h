@@ -19,12 +19,12 @@ namespace smg
 {
 
 /**
- * An unbounded sequence of pages of bytes, initially zero; a few are in memory, the others in an
- * unnamed scratch file, which is created only when the memory is exhausted. It is in `folder`, or,
- * if that is no open ScratchFolder, in one made there: the bytes of scratch files are counted.
+ * An unbounded sequence of pages of bytes, initially zero. A few are in memory, the others in an
+ * unnamed scratch file, which is created only when the memory is exhausted. It lies in `folder` if
+ * that is an open ScratchFolder, and otherwise in one made there, so that its bytes are counted.
  *
- * Its tables take about 1/200 of the bytes of the pages from the first that is not discarded to the
- * last. Pages in memory give way to them, down to four.
+ * Its tables take about 1/200 of the bytes of the pages, from the first that is not discarded to
+ * the last. Pages in memory give way to them, down to four.
  */
 class PageFile
 {
@@ -52,9 +52,9 @@ public:
   void discardBelow(std::int64_t page);
 
 private:
-  /** The state of a page: the number of its slot, this, or that of its block in the file. */
+  /** The state of a page is the number of its slot, or this value, or that of onDisk(). */
   static constexpr std::int32_t Untouched = -1;
-  /** The state of a page in a block of the file, and the reverse. */
+  /** The state of a page that is in a block of the file; it is its own inverse. */
   static constexpr std::int32_t onDisk(std::int32_t block) { return -2 - block; }
 
   struct Slot
@@ -63,7 +63,7 @@ private:
     std::int64_t page = -1;  ///< none
     std::int32_t block = -1; ///< of the page in the file; none
     bool changed = false;    ///< since it was there
-    bool used = false;       ///< since the last visit of the hand
+    bool used = false;       ///< since the hand has last passed
   };
 
   /** Brings a page into memory; returns its slot. */
@@ -78,7 +78,7 @@ private:
 
   std::filesystem::path Folder;
   IoStatistics Traffic;
-  std::unique_ptr<ScratchFolder> Own; ///< if one had to be made
+  std::unique_ptr<ScratchFolder> Own; ///< if it had to be made
   std::optional<ScratchBlocks> File;
   std::int64_t Memory;
   std::vector<Slot> Slots;
@@ -86,7 +86,7 @@ private:
   std::vector<std::int32_t> States; ///< of the pages from FirstPage on
   std::int64_t FirstPage = 0;
   std::vector<std::int32_t> SpareBlocks; ///< of the file
-  std::int32_t Blocks = 0;               ///< that the file has had
+  std::int32_t Blocks = 0;               ///< number of blocks that the file has had
   std::size_t Hand = 0;
   std::int64_t FirstKept = 0; ///< the first page that is not discarded
 };

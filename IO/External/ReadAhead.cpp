@@ -11,6 +11,12 @@
 #include <system_error>
 #include <utility>
 
+// Threads for disk work: one that reads ranges ahead of their use, one that writes bytes behind the
+// caller.
+//
+// These threads allocate nothing, since each allocating thread costs an arena of address space, and
+// throw nothing: buffers are made by the caller, and a failure is a state that the caller finds.
+
 namespace smg
 {
 
@@ -19,8 +25,8 @@ namespace
 
 constexpr std::size_t StackBytes = std::size_t(512) << 10;
 
-/** Blocks signals, which are for the threads of the program: a thread inherits the mask of its
- * creator. */
+/** Blocks all signals while a thread is created, which inherits the mask: signals are for the
+ * threads of the program. */
 class BlockedSignals
 {
 public:
@@ -50,6 +56,7 @@ void IoThread::start(std::function<void()> body)
   this->Body = std::move(body);
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
+  // The default stack takes 8 MiB of address space for each thread.
   pthread_attr_setstacksize(&attributes, StackBytes);
   const BlockedSignals blocked;
   const int error = pthread_create(
@@ -92,6 +99,7 @@ ReadAhead::~ReadAhead()
   this->Thread.join();
 }
 
+/** The caller holds the mutex, here and in oldestQueued(). */
 ReadAhead::Range* ReadAhead::lookUp(std::int64_t offset, std::size_t bytes)
 {
   for (Range& range : this->Kept)
@@ -120,6 +128,7 @@ ReadAhead::Range* ReadAhead::oldestQueued()
 
 bool ReadAhead::request(std::int64_t offset, std::size_t bytes)
 {
+  // The thread starts with the first request: readers that never ask for anything have none.
   if (!this->Thread.isStarted())
   {
     this->Thread.start([this] { this->run(); });
@@ -134,6 +143,8 @@ bool ReadAhead::request(std::int64_t offset, std::size_t bytes)
     for (Range& range : this->Kept)
     {
       const bool busy = range.state == State::Queued || range.state == State::Reading;
+      // A range that is queued or being read must not be replaced: the thread is writing to its
+      // memory, or will.
       if (!busy && (!chosen || range.age < chosen->age))
       {
         chosen = &range;
@@ -143,7 +154,7 @@ bool ReadAhead::request(std::int64_t offset, std::size_t bytes)
     {
       return false;
     }
-    // Allocated here, since the thread must not allocate.
+    // Allocated here, since the thread must not. If that fails, the range is free.
     if (chosen->bytes.size() < bytes)
     {
       chosen->state = State::Free;
@@ -173,6 +184,7 @@ std::optional<std::span<const std::byte>> ReadAhead::find(std::int64_t offset, s
     this->Changed.wait(lock, isRead);
     this->Waited += std::chrono::nanoseconds(std::chrono::steady_clock::now() - begin).count();
   }
+  // The caller reads it once more, and gets the error with its reason.
   if (range->state == State::Failed)
   {
     return {};
@@ -207,6 +219,7 @@ void ReadAhead::run()
     range->state = State::Reading;
     const std::int64_t offset = range->offset;
     const std::span bytes = std::span(range->bytes).first(range->size);
+    // The range is in state Reading, so its memory stays while the lock is not held.
     lock.unlock();
     const int error = this->File.tryRead(offset, bytes);
     lock.lock();
@@ -223,6 +236,7 @@ WriteBehind::WriteBehind(const FileDescriptor& file, std::int64_t offset, std::s
   {
     chunk.bytes.resize(std::max<std::size_t>(bytes / Chunks, 1));
   }
+  // Three chunks: one that is filled, and two that wait or are being written.
   this->Ring[0].offset = offset;
 }
 
@@ -249,6 +263,8 @@ void WriteBehind::waitUntil(std::unique_lock<std::mutex>& lock, Condition condit
 
 void WriteBehind::put(std::span<const std::byte> bytes)
 {
+  // Where the next bytes will be in the file, although these may not be written yet: an index can
+  // be made at once.
   this->Offset += static_cast<std::int64_t>(bytes.size());
   while (!bytes.empty())
   {
@@ -270,6 +286,7 @@ void WriteBehind::handOver()
   {
     this->Thread.start([this] { this->run(); });
   }
+  // Chunks follow each other in the file without gaps.
   const std::int64_t next =
     this->Ring[this->Current].offset + std::int64_t(this->Ring[this->Current].used);
   {
@@ -314,6 +331,8 @@ void WriteBehind::run()
     {
       return;
     }
+    // After a failure nothing more is written; chunks are only counted, so that the caller does not
+    // wait for ever.
     if (this->FirstError == 0)
     {
       const Chunk& chunk = this->Ring[next];

@@ -17,7 +17,7 @@
 namespace smg
 {
 
-/** A thread for disk I/O or for Workers. Its stack is small and its function should allocate no
+/** A thread for disk work or for Workers. Its stack is small and its function should allocate no
  * memory: there may be tens of these threads, and each allocating thread costs an arena of address
  * space. */
 class IoThread
@@ -41,7 +41,7 @@ private:
   bool Started = false;
 };
 
-/** Reads ranges of a file ahead of their use, on a separate thread. It keeps a few ranges; a new
+/** Reads ranges of a file ahead of their use, on a thread of its own. It keeps a few ranges; a new
  * one replaces the oldest. */
 class ReadAhead
 {
@@ -52,8 +52,8 @@ public:
   explicit ReadAhead(const FileDescriptor& file);
   ~ReadAhead();
 
-  /** Starts to read `bytes` bytes at `offset`. Returns false and reads nothing if they are already
-   * read or requested, or if all ranges are busy. */
+  /** Starts to read `bytes` bytes at `offset`. Returns false, and reads nothing, if they are
+   * already read or requested, or all ranges are busy. */
   bool request(std::int64_t offset, std::size_t bytes);
   /**
    * The `bytes` bytes at `offset`, after waiting for a pending read; nothing if they are not part
@@ -103,8 +103,8 @@ private:
   IoThread Thread;
 };
 
-/** Writes bytes to a file sequentially, on a separate thread. The bytes are copied into a few
- * chunks of memory; the caller waits only if all chunks are pending. */
+/** Writes bytes to a file one after another, on a thread of its own. The bytes are copied into a
+ * few chunks of memory; the caller waits only if all chunks are pending. */
 class SMG_EXPORT WriteBehind
 {
 public:

@@ -10,13 +10,21 @@
 #include <utility>
 #include <vector>
 
+// Rows by their numbers, and numbers replaced by others, out of core.
+//
+// RowTable distributes rows to buckets, one for each range of numbers that fits into the memory,
+// and then brings one bucket at a time into place: everything is written once and read once.
+// Relabelling replaces the numbers of a file with such tables: one pass over the file for each
+// table, which replaces the numbers of its range and copies the results of the passes before.
+// Numbers are replaced in chunks on all threads and taken in the order of the file.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Buckets of equal size, as few as the memory permits. */
+/** The numbers of a bucket: buckets of equal size, as few as the memory permits. */
 std::uint32_t rangeOf(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
 {
   const std::int64_t most = std::max<std::int64_t>(memory / static_cast<std::int64_t>(rowBytes), 1);
@@ -44,6 +52,7 @@ void RowTable::load(int bucket)
   {
     this->Rows = Buffer(this->Space.pool(), std::size_t(this->Range) * this->RowBytes);
   }
+  // Rows that were not put have all bits set: NoIndex, if they are numbers.
   std::ranges::fill(this->Rows.bytes(), std::byte(0xff));
   this->Loaded = -1; // unless all of it can be read
   const std::size_t first = std::size_t(bucket) * this->Range;
@@ -56,6 +65,7 @@ void RowTable::load(int bucket)
     {
       std::uint32_t number = 0;
       std::memcpy(&number, &bytes[at], sizeof(number));
+      // In the order of put(), so the last row of a number remains.
       std::memcpy(this->Rows.data() + (number - first) * this->RowBytes,
         &bytes[at + sizeof(number)], this->RowBytes);
     }
@@ -100,6 +110,7 @@ std::vector<int> Relabelling::neededBuckets() const
       needed.push_back(bucket);
     }
   }
+  // At least one pass is needed to pass the numbers on.
   return needed.empty() ? std::vector<int>{ 0 } : needed;
 }
 
@@ -109,7 +120,7 @@ void Relabelling::applyChunks(
   const std::vector<int> buckets = this->neededBuckets();
   RowTable table = std::move(this->Table); // whose memory is released afterwards
   table.close();
-  // The numbers replaced by the passes so far; NoIndex elsewhere.
+  // The numbers that earlier passes have replaced; NoIndex elsewhere.
   std::optional<RecordFile<std::uint32_t>> done;
   for (const int bucket : buckets)
   {
@@ -117,6 +128,7 @@ void Relabelling::applyChunks(
     const std::span<const std::byte> rows = table.read(first);
     const std::span labels(
       reinterpret_cast<const std::uint32_t*>(rows.data()), rows.size() / sizeof(std::uint32_t));
+    // Only the last pass has all numbers, and passes them on instead of storing them.
     const bool last = bucket == buckets.back();
     RecordFile<std::uint32_t>::Reader in(file);
     std::optional<RecordFile<std::uint32_t>::Reader> before;
@@ -136,6 +148,7 @@ void Relabelling::applyChunks(
           const std::uint32_t place = chunk.numbers[i] - first;
           if (place < labels.size())
           {
+            // Each number is in the range of one table, so passes do not disturb each other.
             chunk.replaced[i] = labels[place];
           }
         }
@@ -157,6 +170,7 @@ void Relabelling::applyChunks(
       chunks.submit();
     }
     chunks.takeAll();
+    // The reader ends before its file is replaced.
     before.reset();
     done.emplace(std::move(next));
   }

@@ -13,10 +13,9 @@
 namespace smg
 {
 
-/**
- * A table of rows of bytes, out of core: put() rows by their numbers in any order, then read() them
- * by ascending number. They are distributed to buckets for ranges of numbers that fit the memory.
- */
+/** A table of rows of bytes, out of core: put() rows by their numbers in any order, then read()
+ * them by ascending number. Rows are distributed to buckets for ranges of numbers that fit into
+ * the memory. */
 class RowTable
 {
 public:
@@ -43,10 +42,9 @@ public:
   int buckets() const { return this->Buckets.buckets(); }
   bool hasRows(int bucket) const { return this->Buckets.bytes(bucket) > 0; }
 
-  /**
-   * The rows of the numbers from `first` on, below count(), to the end of its bucket, at most
-   * `most`. To be called after close(); valid until the next call. Missing rows have all bits set.
-   */
+  /** The rows of the numbers from `first`, which is below count(), to the end of its bucket, but at
+   * most `most`. To be called after close(); valid until the next call. Rows that were not put
+   * have all bits set. */
   std::span<const std::byte> read(std::int64_t first, std::int64_t most = INT64_MAX);
 
 private:
@@ -61,14 +59,12 @@ private:
   int Loaded = -1;
 };
 
-/** A number that stands for none. */
+/** A number that stands for no vertex or row. */
 inline constexpr std::uint32_t NoIndex = std::numeric_limits<std::uint32_t>::max();
 
-/**
- * Replaces numbers below a given end by others, out of core: put() the pairs in any order, then
+/** Replaces numbers below a given end by others, out of core: put() the pairs in any order, then
  * apply() to a file of numbers. This takes a pass over the file for each table that fits into the
- * memory.
- */
+ * memory. */
 class Relabelling
 {
 public:
@@ -87,7 +83,8 @@ public:
   /** Releases the memory of the pairs; to be called after the last put(). */
   void close() { this->Table.close(); }
 
-  /** The number of passes of apply() over the file: none for tables without numbers. */
+  /** The number of passes of apply() over the file: one for each table that has numbers, but at
+   * least one. */
   int passes() const { return static_cast<int>(this->neededBuckets().size()); }
 
   /** Passes the replaced numbers of `file` to `take`, in records of `count` numbers, in the order

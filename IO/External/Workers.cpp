@@ -8,6 +8,11 @@
 #include <algorithm>
 #include <utility>
 
+// A team of threads that run jobs for their owner. The owner runs jobs itself while it waits for
+// one, so everything makes progress even if no thread could be started, and one thread in all needs
+// no special case. Jobs may take microseconds: threads spin for a moment before they sleep, unless
+// there are more of them than cores.
+
 namespace smg
 {
 
@@ -41,6 +46,8 @@ Workers::~Workers()
     this->Stop = true;
     this->HasWork = true;
   }
+  // Team is declared last, so its destructor joins the threads while mutex and conditions still
+  // exist.
   this->Submitted.notify_all();
 }
 
@@ -51,6 +58,7 @@ bool Workers::isCaller()
 
 void Workers::start()
 {
+  // Nothing may throw between the start of a thread and its entry in the list.
   this->Team.reserve(static_cast<std::size_t>(this->Threads - 1)); // a started thread must be kept
   while (!this->IsComplete && std::ssize(this->Team) < this->Threads - 1)
   {
@@ -60,6 +68,7 @@ void Workers::start()
       thread->start([this] { this->runThread(); });
       this->Team.push_back(std::move(thread));
     }
+    // Fewer threads than wanted are no failure: the owner runs what they do not.
     catch (const Error&)
     {
       this->IsComplete = true; // as many as the system permits
@@ -77,6 +86,7 @@ void Workers::submit(Job& job)
     job.IsDone.store(false, std::memory_order_relaxed);
     this->Waiting.push_back(&job);
     this->HasWork.store(true, std::memory_order_relaxed);
+    // A thread that spins sees HasWork by itself; waking one costs a call to the system.
     isAwaited = this->Sleeping > 0;
   }
   if (isAwaited)
@@ -110,12 +120,14 @@ void Workers::run(Job& job)
   }
   catch (...)
   {
+    // For finish(): an exception must not leave the thread.
     job.Failure = std::current_exception();
   }
 }
 
 void Workers::runThread()
 {
+  // So code that may run in a job can tell that it must not submit jobs itself.
   isOfWorkers = true;
   std::unique_lock lock(this->Mutex);
   for (;;)
@@ -124,10 +136,12 @@ void Workers::runThread()
     {
       Job& job = *this->Waiting.front();
       this->Waiting.pop_front();
+      // Threads that spin read this without the mutex; what counts is tested again under it.
       this->HasWork.store(this->Stop || !this->Waiting.empty(), std::memory_order_relaxed);
       lock.unlock();
       this->run(job);
       lock.lock();
+      // Under the mutex, so that the owner cannot miss it between its test and its sleep.
       job.IsDone.store(true, std::memory_order_release);
       if (this->OwnerSleeps)
       {
@@ -151,7 +165,7 @@ void Workers::runThread()
   }
 }
 
-/** Runs jobs that wait until this one is done. */
+/** Runs waiting jobs until this one is done. The job itself may be among them. */
 void Workers::wait(Job& job)
 {
   std::unique_lock lock(this->Mutex);
@@ -173,6 +187,7 @@ void Workers::wait(Job& job)
     lock.lock();
     if (!isDone)
     {
+      // Nothing waits, so the job is running on another thread.
       this->OwnerSleeps = true;
       this->Finished.wait(lock, [&job] { return job.IsDone.load(std::memory_order_relaxed); });
       this->OwnerSleeps = false;
@@ -194,6 +209,7 @@ void Workers::cancel(Job& job) noexcept
   {
     const std::lock_guard lock(this->Mutex);
     const auto waiting = std::ranges::find(this->Waiting, &job);
+    // It has not begun and never will.
     if (waiting != this->Waiting.end())
     {
       this->Waiting.erase(waiting);

@@ -20,13 +20,13 @@ namespace smg
 {
 
 /**
- * Threads that run jobs for another one, their owner. The owner runs jobs, too, while it waits for
- * one: so jobs make progress with any number of threads, also without any. Jobs are begun in the
- * order in which they were submitted. A thread without jobs spins for a moment before it sleeps,
- * since jobs may take microseconds.
+ * Threads that run jobs for another one, their owner. The owner runs jobs as well while it waits
+ * for one, so jobs make progress with any number of threads, even none. Jobs are begun in the order
+ * in which they were submitted. A thread without jobs spins for a moment before it sleeps, since
+ * jobs may take microseconds.
  *
- * Its mutex orders the accesses of the owner before submit() and after finish(), and those of the
- * job, as race detectors can see.
+ * The mutex orders what the owner does before submit() and after finish() and what the job does, in
+ * a way that race detectors see.
  */
 class SMG_EXPORT Workers
 {
@@ -41,10 +41,10 @@ public:
   /** The number of jobs that can run at once, with one of the owner. */
   int threads() const { return this->Threads; }
 
-  /** Whether the caller is a thread of any workers, not an owner. */
+  /** Whether the caller is a thread of some workers, and not an owner. */
   static bool isCaller();
 
-  /** Work that is submitted any number of times, one after the other. */
+  /** Work that may be submitted any number of times, but only once at a time. */
   class Job
   {
   public:
@@ -88,8 +88,8 @@ private:
   std::vector<std::unique_ptr<IoThread>> Team;
 };
 
-/** Runs task(0) .. task(count - 1), each once, on all threads and waits for them. An exception of
- * the task of the lowest number is rethrown. */
+/** Runs task(0) .. task(count - 1), each once, on all threads, and waits for all. Rethrows the
+ * exception of the task with the lowest number. */
 template <class Task>
 void runAll(Workers& workers, int count, Task&& task)
 {
@@ -131,8 +131,8 @@ void runAll(Workers& workers, int count, Task&& task)
 /**
  * An ordered pipeline of jobs with a bounded number of items: the owner fills an item, `work` is
  * done to it on any thread, and the owner takes the items in the order in which they were filled.
- * What it takes, and in which order, does therefore not depend on the number of threads; nor does
- * an exception, which is thrown when its item is to be taken.
+ * So what it takes, and in which order, does not depend on the number of threads; nor does an
+ * exception, which is thrown when its item is to be taken.
  */
 template <class Item>
 class OrderedJobs

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 
+// The resources that out-of-core operations share, and their progress. Progress is measured by
+// traffic of scratch files: a part says how much it expects, so that operations need not know how
+// far they are.
+
 namespace smg
 {
 
@@ -26,6 +30,7 @@ std::int64_t Workspace::itemsAtOnce(std::int64_t bytes) const
 {
   constexpr std::int64_t Most = 16;
   const std::int64_t threads = this->Threads.threads();
+  // A sixteenth of the memory, since several such pipelines may be at work within one another.
   return threads == 1 || Workers::isCaller()
            ? 1
            : std::clamp<std::int64_t>(
@@ -34,6 +39,7 @@ std::int64_t Workspace::itemsAtOnce(std::int64_t bytes) const
 
 void Workspace::beginPart(double end, std::int64_t bytes)
 {
+  // A part begins where the one before has ended, whatever that has reported.
   this->PartBegin = this->PartEnd;
   this->PartEnd = end;
   this->PartTraffic = this->trafficBytes();
@@ -49,6 +55,7 @@ void Workspace::tell(double done)
 
 void Workspace::poll()
 {
+  // Progress functions are called on the thread of the owner alone.
   if (Workers::isCaller())
   {
     return;

@@ -39,12 +39,12 @@ public:
   std::int64_t peakScratch() const { return this->Folder.account().peak(); }
   IoStatistics& traffic() { return this->Traffic; }
   Workers& workers() { return this->Threads; }
-  /** The number of items of so many bytes, at least 1, that all threads work on at once in a
+  /** The number of items of `bytes` bytes, at least 1, on which all threads work at once in a
    * sixteenth of the memory that is left: see OrderedJobs. 1 in a job on another thread. */
   std::int64_t itemsAtOnce(std::int64_t bytes) const;
 
-  /** Begins the part of the operation that ends when the fraction `end` of the whole is done; its
-   * traffic is about `bytes`, from which poll() computes the progress. */
+  /** Begins the part of the operation that ends when the fraction `end` of the whole is done. Its
+   * traffic is about `bytes`, by which poll() computes the progress. */
   void beginPart(double end, std::int64_t bytes);
   /** The fraction that is done at the end of the current part. */
   double partEnd() const { return this->PartEnd; }

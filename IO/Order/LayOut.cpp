@@ -10,13 +10,19 @@
 #include <optional>
 #include <utility>
 
+// From a mesh in the order of its file to a stream, in three parts: vertices in pages along a curve
+// (Pages), an order of the vertices (Search), the cells in that order (Assembly). The workspace
+// bounds the memory, whatever the size of the mesh; the files of a part are removed when it has
+// been used. docs/convert.md says what the orders are for, and what a conversion costs.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Measured bytes of traffic per vertex and per corner, for the progress. */
+/** Measured bytes of traffic per vertex and per corner, by which the progress of a part is
+ * judged. */
 constexpr std::int64_t PagesBytes[] = { 90, 20 };
 constexpr std::int64_t SearchBytes[] = { 120, 20 };
 constexpr std::int64_t AssemblyBytes[] = { 90, 32 };
@@ -26,6 +32,8 @@ std::int64_t bytesFor(const RawMesh& mesh, const std::int64_t (&bytes)[2])
   return mesh.vertices * bytes[0] + mesh.corners.size() * bytes[1];
 }
 
+/** Orders paged vertices, and completes the counts: the search counts the components as it goes,
+ * the other orders need a search of their own for that. */
 OrderedVertices orderPages(
   PagedMesh& paged, StreamOrder order, Workspace& workspace, LayOutCounts& counts)
 {
@@ -49,10 +57,13 @@ StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace
   const double begin = workspace.partEnd();
   const auto part = [&](double done) { return begin + (progressEnd - begin) * done; };
   workspace.beginPart(part(0.4), bytesFor(mesh, PagesBytes));
+  // The pages are released before the cells are sorted: they would take room on the disk.
   std::optional<OrderedVertices> vertices;
   {
     PagedMesh paged = buildPages(mesh, workspace);
     workspace.beginPart(part(0.7), bytesFor(mesh, SearchBytes));
+    // The order of the file needs no pages. They are made for the counts of components and of edges
+    // on the boundary.
     if (order == StreamOrder::Keep)
     {
       counts.mesh = paged.counts;
@@ -64,6 +75,7 @@ StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace
     }
   }
   const bool keep = order == StreamOrder::Keep;
+  // From the file alone, without the pages.
   if (keep)
   {
     vertices.emplace(firstUseOrder(mesh, workspace));

@@ -22,9 +22,9 @@ struct LayOutCounts
 };
 
 /**
- * Brings a mesh into an order as a stream, out of core. Throws Error; Cancelled.
+ * Brings a mesh into a stream order, out of core. Throws Error; Cancelled.
  *
- * The parts of the workspace's progress go up to `progressEnd`.
+ * The progress of the workspace is advanced up to `progressEnd`.
  */
 StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace,
   LayOutCounts& counts, double progressEnd = 1.0);

@@ -10,12 +10,15 @@
 #include <utility>
 #include <vector>
 
+// Bodies, the connected components of a surface, by union and find over its triangles; the largest
+// ones by the diagonals of their bounds. About linear in the triangles, and a sort of the bodies.
+
 namespace smg
 {
 namespace
 {
 
-/** The bodies of a surface, as sets of its vertices. */
+/** The bodies of a surface as sets of its vertices. */
 DisjointSets<std::uint32_t> bodySets(const SurfacePart& part)
 {
   DisjointSets<std::uint32_t> sets(part.vertices());
@@ -45,7 +48,7 @@ struct Body
   }
 };
 
-/** The bodies at the vertices that stand for them. */
+/** The bodies, each at the place of the first of its vertices. */
 std::vector<Body> bodiesOf(
   const SurfacePart& part, std::span<const std::uint8_t> locked, DisjointSets<std::uint32_t>& sets)
 {
@@ -54,6 +57,7 @@ std::vector<Body> bodiesOf(
   for (std::uint32_t v = 0; v < part.vertices(); ++v)
   {
     Body& body = bodies[sets.first(v)];
+    // A body with a locked vertex may go on elsewhere.
     body.isComplete = body.isComplete && locked[v] == 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -87,6 +91,7 @@ KeptBodies keepLargestBodies(
   {
     if (sets.first(v) == v && bodies[v].isComplete)
     {
+      // Negative, so that the largest come first; ties go to the first vertex.
       complete.emplace_back(-bodies[v].squaredDiagonal(), v);
     }
   }
@@ -106,6 +111,8 @@ KeptBodies keepLargestBodies(
   {
     triangles += bodies[body].triangles;
   }
+  // A closed body has at least four triangles. Bodies with three or fewer on average are the
+  // triangles of one surface that do not share their vertices: to drop any would tear holes.
   if (triangles <= OfFragment * complete.size())
   {
     return { 0, true };

@@ -10,21 +10,35 @@
 #include <numeric>
 #include <vector>
 
+// Edge collapse by quadric error metrics (Garland and Heckbert 1997) in passes instead of by a
+// priority queue.
+//
+// A pass ranks all edges, sorts them by a counting sort, and collapses in that order those whose
+// ends are untouched in the pass; neighbours of a collapse wait for the next one. A pass ends early
+// when the edges get much worse than necessary, so that the order of the collapses is nearly that
+// of a queue. About ten passes leave an eighth of the vertices, each linear in the triangles.
+//
+// Vertices only move onto others, so each that is left is a vertex of the mesh where it was. The
+// quadric of a vertex is the sum of the quadrics of all vertices that it stands for. All decisions
+// are taken in the order of the edges, so the result is unique.
+
 namespace smg
 {
 namespace
 {
 
-/** Of edges of equal errors, this share of the squared length decides. */
+/** The share of the squared length that is added to the squared error: of edges with equal errors,
+ * as in flat regions, the shortest goes first. */
 constexpr double LengthShare = 1e-3;
-/** The weight of a boundary edge compared with triangles of its length. */
+/** The weight of the plane that holds a boundary edge, compared with triangles of its length. */
 constexpr double BoundaryWeight = 10.0;
-/** Where the topology may change, it does for an error that is four times smaller than others. */
+/** Where the topology may change, a collapse that changes it must have an error four times smaller
+ * than that of others: squared, sixteen times. */
 constexpr float PinchWorth = 16.0F;
 /** The least cosine of the angle by which a triangle may turn. */
 constexpr double MinCosine = 0.2;
 
-/** A collapse of `from` onto `to`. */
+/** A possible collapse of the vertex `from` onto `to`. */
 struct Collapse
 {
   std::uint32_t from, to;
@@ -38,6 +52,8 @@ public:
     : Part(part)
     , Surface(part.corners, open)
   {
+    // Ranks are relative to the extent of the part, so that they neither overflow nor vanish in
+    // single precision.
     double extent = 0.0;
     for (std::size_t i = 0; i < part.points.size(); ++i)
     {
@@ -46,7 +62,8 @@ public:
     this->InverseSquare = extent > 0.0 ? 1.0 / extent / extent : 1.0;
   }
 
-  /** Makes the quadrics of the triangles. */
+  /** Computes the quadrics of the vertices from the planes of their triangles, weighted by
+   * areas. */
   void addPlanes()
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
@@ -61,8 +78,9 @@ public:
     }
   }
 
-  /** Adds to boundary edges the planes that hold them, of each edge once: as soon as one of its
-   * ends has all its triangles here. */
+  /** Adds for each boundary edge the plane through it that is perpendicular to its triangle, which
+   * holds the boundary where it is. Each edge gets it once: as soon as all triangles of one of its
+   * ends are in the part. */
   void addBoundary()
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
@@ -71,6 +89,7 @@ public:
     {
       const std::size_t next = i % 3 == 2 ? i - 2 : i + 1, last = i % 3 == 0 ? i + 2 : i - 1;
       const std::uint32_t ends[2] = { corners[i], corners[next] };
+      // If either end has had its boundary edges before, this edge was among them.
       if (lacks[ends[0]] && lacks[ends[1]] && this->Surface.isBoundary(ends[0], ends[1]))
       {
         const Vector edge = difference(this->point(ends[1]), this->point(ends[0]));
@@ -81,10 +100,13 @@ public:
     }
     for (std::uint32_t v = 0; v < lacks.size(); ++v)
     {
+      // Open vertices may have further boundary edges in later parts.
       lacks[v] = lacks[v] != 0 && this->Surface.isOpen(v) ? 1 : 0;
     }
   }
 
+  /** Passes until the goal is reached or nothing can collapse. Where the topology may change and
+   * nothing else is possible, collapses that change it compete with any error from then on. */
   double run(const CollapseGoal& goal)
   {
     this->MayPinch = goal.mayPinch && goal.vertices < this->Part.vertices();
@@ -102,6 +124,8 @@ public:
       this->Surface.endPass();
       if (this->Pinched > 0)
       {
+        // Sheets that came to lie on each other are removed, and with them vertices that only they
+        // have.
         left = this->Surface.dropFolded();
       }
       if (gone == 0)
@@ -123,15 +147,19 @@ private:
     return this->Part.points.data() + 3 * std::size_t(v);
   }
 
-  /** Adds the plane of this normal, of any length, to some vertices in it. */
+  /** Adds the plane with this normal, of any length, through the first of some vertices that lie in
+   * it, to all of them. */
   void addPlane(std::span<const std::uint32_t> to, const Vector& normal, double weight)
   {
     const double length = std::sqrt(dot(normal, normal));
+    // A triangle without area has no plane.
     if (!(length > 0.0))
     {
       return;
     }
     const Vector unit{ normal[0] / length, normal[1] / length, normal[2] / length };
+    // Relative to a point of the mesh: far from the origin of the coordinates, squares would lose
+    // their digits.
     const Vector at = difference(this->point(to[0]), this->Part.origin.data());
     Quadric plane;
     plane.addPlane(unit.data(), at.data(), weight);
@@ -141,14 +169,14 @@ private:
     }
   }
 
-  /** The squared error of a collapse. */
+  /** The squared error of a collapse: what `from` stands for, measured at the place of `to`. */
   double errorOf(std::uint32_t from, std::uint32_t to) const
   {
     const Vector at = difference(this->point(to), this->Part.origin.data());
     return this->Part.quadrics[from].squaredDistance(at.data());
   }
 
-  /** Lists the edges with an end that may go within a squared error. */
+  /** Lists the edges one of whose ends may go with at most this squared error. */
   void rankEdges(double limit)
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
@@ -156,8 +184,9 @@ private:
     for (std::size_t i = 0; i < corners.size(); ++i)
     {
       const std::uint32_t a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
-      // The second triangle of an edge runs along it in the other direction. Where it does not,
-      // both list the edge.
+      // An edge of two triangles is listed by that which runs along it upwards; the other one runs
+      // along it in the other direction. At the boundary, or where triangles are wound against each
+      // other, every triangle lists it: a second entry does no harm.
       if (a < b || this->Surface.mayBeBoundary(a, b) || this->Surface.isTurned())
       {
         this->rank(a, b, limit);
@@ -180,7 +209,9 @@ private:
     }
   }
 
-  /** The edges by ascending rank, those of about the same in their order. */
+  /** Sorts the edges by ascending rank, and edges of nearly the same rank by their numbers: a
+   * counting sort by the leading bits of the rank. The bits of a positive float have the order of
+   * its value. */
   void sortEdges()
   {
     constexpr int Dropped = 15; // bits of the number: 8 of the mantissa count
@@ -199,14 +230,15 @@ private:
     }
   }
 
-  /** Collapses edges of so many vertices, at most `most`; returns their number. Those that change
-   * the topology must have a rank `worth` times smaller than the others. */
+  /** Collapses at most `most` edges and returns their number. Those that change the topology must
+   * have a rank `worth` times smaller than the usual one. */
   std::size_t collapse(std::size_t most, std::size_t vertices, float worth)
   {
     this->sortEdges();
-    // Neighbours of a collapse wait for the next pass: this one ends before edges that are much
-    // worse than those that would suffice without such neighbours; but not before a thirtieth of
-    // the vertices, for which a pass over all would not pay.
+    // Neighbours of a collapse wait for the next pass. So this one goes on to edges that are
+    // somewhat worse than those that would suffice without such neighbours, but not much worse. It
+    // collapses at least a thirtieth of the vertices if it can, since a pass costs the same for
+    // fewer.
     constexpr float Worse = 1.5F;
     const std::size_t least = std::max(most / 6, vertices / 30);
     const std::size_t enough = std::min(most, this->Edges.size() / 2);
@@ -219,6 +251,7 @@ private:
       {
         break;
       }
+      // The triangles of both must be those that were ranked.
       if (!this->Surface.areUntouched(from, to))
       {
         continue;
@@ -239,13 +272,15 @@ private:
     return done;
   }
 
-  /** Whether a triangle of `from` turns by too much when that vertex goes. */
+  /** Whether a triangle of `from` would turn by too much, or collapse, if that vertex moved onto
+   * `to`. */
   bool turnsOver(std::uint32_t from, std::uint32_t to) const
   {
     return std::ranges::any_of(this->Surface.star(from),
       [&](std::uint32_t triangle)
       {
         const auto [a, b] = this->Surface.others(triangle, from);
+        // This triangle disappears, or has in this pass.
         if (a == b || a == to || b == to)
         {
           return false;
@@ -253,6 +288,8 @@ private:
         const Vector edge = difference(this->point(b), this->point(a));
         const Vector before = cross(edge, difference(this->point(from), this->point(a)));
         const Vector after = cross(edge, difference(this->point(to), this->point(a)));
+        // The cosine is compared in squares, without roots and divisions. Triangles without area
+        // may turn as they like.
         const double product = dot(before, after), size = dot(before, before);
         return size > 0.0 && !(product > 0.0 && product * product >
                                                   MinCosine * MinCosine * size * dot(after, after));
@@ -284,6 +321,8 @@ double collapseEdges(
   {
     collapser.addPlanes();
   }
+  // Also for parts that have quadrics: edges whose ends were open before may be complete by this
+  // time.
   collapser.addBoundary();
   return collapser.run(goal);
 }

@@ -11,41 +11,42 @@
 namespace smg
 {
 
-/** Where collapsing edges ends: at what comes first. */
+/** Where collapsing ends: at the number of vertices or at the error, whichever comes first. */
 struct CollapseGoal
 {
-  std::size_t vertices = 0; ///< so many are left
+  std::size_t vertices = 0; ///< number that is left
   /** The largest error of a collapse, see collapseEdges(). */
   double error = std::numeric_limits<double>::infinity();
   /** Whether collapses may close handles and merge sheets, where their error is four times smaller
-   * than that of others or no other is possible, so that edges may get more than two triangles.
-   * Triangles that lie on each other then are removed. */
+   * than that of others or no other is possible. Edges may then get more than two triangles;
+   * triangles that come to lie on each other are removed. */
   bool mayPinch = false;
 };
 
-/** Bytes that collapseEdges() needs for a triangle of a part, beside the part. */
+/** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */
 inline constexpr std::int64_t CollapseBytes = 110;
 
 /**
  * Collapses edges of a surface onto one of their ends, so that each vertex that is left is where it
  * was. The error of a collapse is the distance of the end that stays from the planes of the
- * triangles that were at the vertex that goes, and at all that have gone to it before: the root of
- * the mean of the squares, weighted by areas (Garland and Heckbert 1997). Edges of the smallest
- * error go first, of equal ones the shortest.
+ * triangles that were at the vertex that goes, and at all vertices that have gone to it before: the
+ * root of the mean of the squares, weighted by areas (Garland and Heckbert 1997). Edges with the
+ * smallest error go first, of equal ones the shortest.
  *
  * The topology stays (see SurfaceTopology): bodies, handles and boundary curves stay, and no edge
  * gets more than two triangles. No triangle turns over. Vertices where the surface is not manifold
  * do not go; how triangles are wound does not matter.
  *
- * In each of some passes over the edges, those collapse that have no end in common, in the order of
- * their errors, up to an error that leaves enough for the pass: about 10 passes leave an eighth.
- * O(n) each.
+ * Each of several passes over the edges collapses edges that have no end in common, in the order of
+ * their errors, up to an error that leaves enough for the pass. About 10 passes leave an eighth of
+ * the vertices; each takes O(n) time.
  *
- * @param part the triangles; has only vertices that they use. Without quadrics, it gets those of
- * its triangles, and of edges of one triangle that of the plane perpendicular to it, which holds
- * the boundary; not of an edge between two locked vertices, which may have other triangles
+ * @param part the triangles; has only vertices that they use. If it has no quadrics it gets those
+ * of its triangles, and for each edge of one triangle that of the plane perpendicular to it, which
+ * holds the boundary; not for an edge between two open vertices, which may have other triangles
  * elsewhere.
- * @param open of each vertex: not 0 for one that may have more triangles elsewhere: it does not go
+ * @param open for each vertex: not 0 if it may have more triangles elsewhere, so that it must not
+ * go
  * @param goal where to end
  * @return the largest error of a collapse
  */

@@ -7,6 +7,10 @@
 #include <span>
 #include <utility>
 
+// The parts of a simplified surface as one mesh stream. Vertices that several parts have are
+// numbered once, at their first use, and remembered until no later part can have them: memory grows
+// with the borders between parts.
+
 namespace smg
 {
 
@@ -17,6 +21,7 @@ SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, const SimplificationGoal& goal,
   , Info(mesh.info())
 {
   this->Info.cellType = CellType::Triangle;
+  // Counted as the stream goes; what the mesh says of its order does not hold for the result.
   this->Info.vertices = this->Info.cells = 0;
   this->Info.width = this->Info.span = -1;
   this->Info.cellColumns.clear();
@@ -45,6 +50,7 @@ bool SimplifiedMesh::next(MeshBlock& block)
   std::vector<std::int64_t> numbers(surface.vertices(), -1);
   for (std::size_t v = 0; v < numbers.size(); ++v)
   {
+    // Vertices of earlier parts have their numbers already.
     if (const auto known = this->Numbers.find(surface.ids[v]); known != this->Numbers.end())
     {
       numbers[v] = known->second;
@@ -52,6 +58,7 @@ bool SimplifiedMesh::next(MeshBlock& block)
   }
   for (const std::uint32_t corner : surface.corners)
   {
+    // Numbered by first use, as a stream requires.
     if (numbers[corner] < 0)
     {
       numbers[corner] = this->Info.vertices++;
@@ -67,10 +74,12 @@ bool SimplifiedMesh::next(MeshBlock& block)
       this->Numbers.emplace(surface.ids[v], numbers[v]);
     }
   }
+  // First the new shared vertices, then those that have ended, which may be among them.
   for (const std::int64_t id : this->Part.ended)
   {
     this->Numbers.erase(id);
   }
+  // Final are the vertices below the first one that a later part may use.
   made.finalized = this->Info.vertices;
   for (const auto& [id, number] : this->Numbers)
   {

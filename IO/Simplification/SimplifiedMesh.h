@@ -16,10 +16,9 @@
 namespace smg
 {
 
-/**
- * A simplified surface as a mesh stream, with the vertex columns of the mesh, and with OriginalId,
- * the stream index in the mesh, if that has no such column. Its counts are known at its end.
- */
+/** A simplified surface as a mesh stream, with the vertex columns of the mesh, and with OriginalId,
+ * the stream index in the mesh, if the mesh has no such column. Its counts are known only at its
+ * end. */
 class SMG_EXPORT SimplifiedMesh : public MeshSource
 {
 public:
@@ -47,9 +46,9 @@ private:
 /** Throws Error unless simplify() can write a file of this name. */
 SMG_EXPORT void checkSimplifiedPath(const std::filesystem::path& path);
 
-/** What simplify() of `mesh` to the file `out` is expected to cost; without a number of vertices at
- * most, for a result as large as the mesh. Of `conversion` the folder for scratch files counts.
- * Throws Error if the options are not those of a simplification. */
+/** The expected cost of simplify() of `mesh` to the file `out`; without a limit of the vertices,
+ * for a result as large as the mesh. Of `conversion` only the folder for scratch files counts.
+ * Throws Error if the options are not valid. */
 SMG_EXPORT JobEstimate simplifyEstimate(const EstimatedInput& mesh,
   const std::filesystem::path& out, const SimplifyOptions& options,
   const ConversionOptions& conversion);

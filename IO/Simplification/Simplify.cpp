@@ -28,6 +28,9 @@
 #include <optional>
 #include <span>
 
+// simplify(): a mesh file to a simplified surface, through a .vsm file. A .vsm result is written as
+// the parts come; any other format is written from a .vsm file in a scratch folder.
+
 namespace smg
 {
 namespace
@@ -61,10 +64,12 @@ void check(const SimplifyOptions& options)
   }
 }
 
-/** What the checkpoints of a simplification agree in. */
+/** What must be the same when a simplification is continued: the mesh and everything that its
+ * result depends on. Threads do not. */
 std::vector<Checkpoint::Item> subjectOf(const SimplifyOptions& options)
 {
   char error[32];
+  // Seventeen digits: different numbers are different texts.
   std::snprintf(error, sizeof(error), "%.17g", options.error);
   return { { "kind of task", "simplification" }, { "mesh", options.meshIdentity },
     { "number of vertices", std::to_string(options.vertices) }, { "error", error },
@@ -104,7 +109,8 @@ std::vector<std::string> notesOn(
   return notes;
 }
 
-/** `kept` is the folder of the checkpoint, or null. */
+/** Simplifies the mesh to a .vsm file and reports what it did. `kept` is the folder of the
+ * checkpoint, or null. */
 SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path& vsm,
   const SimplifyOptions& options, double end, ScratchFolder* kept)
 {
@@ -113,6 +119,7 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   const auto source = mesh.source(columnNames(mesh.info().vertexColumns), {});
   SimplificationGoal goal;
   goal.vertices = options.vertices;
+  // 0 stands for no limit.
   goal.error = options.error > 0.0 ? options.error : goal.error;
   SimplifiedMesh simplified(
     *source, goal, options.memoryLimit, workers, [&done](double share) { done.update(share); });
@@ -141,7 +148,8 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   return report;
 }
 
-/** Writes a format that has an order of its own: that of the stream. */
+/** Writes a format that can only be restored, that is, written in the order of an original file:
+ * the numbers of vertices and cells in the stream take the place of the original ones. */
 std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const std::filesystem::path& scratch,
   const SimplifyOptions& options)
@@ -149,6 +157,7 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
   const VsmReader reader(vsm);
   std::vector<std::string> columns = columnNames(reader.info().vertexColumns);
   std::erase(columns, OriginalIdName);
+  // Vertices and cells are numbered as they come.
   const auto number = [](std::int64_t first, std::span<std::int64_t> numbers)
   { std::iota(numbers.begin(), numbers.end(), first); };
   AddedColumn ordered(
@@ -252,6 +261,7 @@ SimplifyReport simplify(
   }
   if (kept)
   {
+    // Only when the result is complete and has its name.
     Checkpoint(*kept, subjectOf(options)).discard();
   }
   report.rss_bytes_peak = peakResidentBytes();

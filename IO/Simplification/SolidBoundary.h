@@ -13,11 +13,9 @@
 namespace smg
 {
 
-/**
- * Finds the outer surface of a stream of tetrahedra: the faces of exactly one tetrahedron. A face
- * is kept as long as all of its vertices may still be used, so memory is bounded by the window of
- * the stream.
- */
+/** Finds the outer surface of a stream of tetrahedra: the faces that exactly one tetrahedron has. A
+ * face is in memory as long as all of its vertices may still be used, so memory is bounded by the
+ * window of the stream. */
 class OpenFaces
 {
 public:
@@ -37,7 +35,7 @@ private:
   {
     std::size_t operator()(const Face& face) const;
   };
-  /** From the sorted corners to the corners in outward order. */
+  /** The corners in outward order, by the sorted corners. */
   std::unordered_map<Face, Face, Hash> Open;
 };
 

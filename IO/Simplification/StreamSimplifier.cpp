@@ -10,6 +10,16 @@
 #include <cmath>
 #include <utility>
 
+// Simplification of a stream in bounded memory: parts on all threads, appended to a window, which
+// is simplified as a whole when it is full. Vertices that others still need are locked at each of
+// these steps, so surfaces fit together, and in the window all edges between parts have their turn.
+// Parts are taken in the order of the stream (OrderedJobs), so the result does not depend on
+// threads.
+//
+// Memory: 45 % for the window, the same for the parts in work, the rest for open vertices of the
+// stream. Time: each triangle is in one part and about twice in a full window. docs/simplify.md has
+// measurements.
+
 namespace smg
 {
 namespace
@@ -20,17 +30,20 @@ constexpr PoolUse SimplificationMemory{ "the simplification",
 
 /** The least number of triangles of a window. */
 constexpr std::int64_t MinWindow = 20000;
-/** The window has the triangles of so many parts. */
+/** The number of parts whose triangles the window holds. */
 constexpr std::int64_t PartsOfWindow = 3;
-/** The least share of its vertices that a part keeps: more, where that is not many times what is
- * left of the mesh. */
+/** The least share of its vertices that a part keeps: PartShare, but more, up to UsualShare, where
+ * that is not SmallGoal times what will be left of the mesh, so that the window has something to
+ * choose from. */
 constexpr double PartShare = 1.0 / 16.0, SmallGoal = 16.0, UsualShare = 1.0 / 8.0;
-/** The share of the vertices of a result that windows before the last one may deliver. */
+/** The share of the vertices of the result that is aimed at before the end, so that the last window
+ * is not left without any. */
 constexpr double Aim = 0.98;
-/** A window has at least so many triangles for each locked vertex. */
+/** A window has at least so many triangles for each locked vertex: otherwise little of it could be
+ * simplified. */
 constexpr std::size_t TrianglesPerLocked = 8;
 
-/** The bytes that a triangle of a surface with such columns takes while its edges collapse. */
+/** The bytes that a triangle of a surface with these columns takes while its edges collapse. */
 std::int64_t bytesOfTriangle(const StreamInfo& info)
 {
   const std::int64_t row = rowBytes(info.vertexColumns);
@@ -39,8 +52,8 @@ std::int64_t bytesOfTriangle(const StreamInfo& info)
   return CollapseBytes + 12 + (OfVertex + 2 * row) / 2;
 }
 
-/** The triangles of a part. The window, which has those of three parts, and three parts have the
- * same share of the memory; the rest is for open vertices. */
+/** The triangles of a part. The window, which has those of PartsOfWindow parts, and as many parts
+ * in work have the same share of the memory; the rest is for open vertices. */
 std::size_t partOf(std::int64_t memory, const StreamInfo& info)
 {
   constexpr std::int64_t Most = std::int64_t(1) << 29; // the corners of a window have 32 bits
@@ -68,7 +81,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
         {
           locked[v] = item.part.isInside(v) ? 0 : 1;
         }
-        // Of the vertices that other parts have, all are left.
+        // Vertices that other parts have are all left; the share is of the others.
         const auto inside = static_cast<std::size_t>(std::ranges::count(locked, 0));
         CollapseGoal goal{ locked.size() - inside, item.error };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
@@ -80,6 +93,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
         this->append(item.part);
       })
 {
+  // Twice as many triangles as vertices, unless the mesh says its counts: then in its proportion.
   const auto window = static_cast<std::int64_t>(this->Capacity);
   if (this->Info.cells > 0 && this->Info.vertices > 0)
   {
@@ -87,7 +101,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
       static_cast<double>(this->Info.cells) / static_cast<double>(this->Info.vertices);
     this->Triangles = static_cast<std::int64_t>(share * static_cast<double>(goal.vertices));
   }
-  // The cells of the boundary of a solid are not known.
+  // The number of cells of the boundary of a solid is not known.
   const bool mayBeLarge = this->Info.cells <= 0 || this->Info.cells > window;
   this->Streams = mayBeLarge && (this->limitsError() || this->Triangles > window / 3);
   const std::int64_t used = this->Info.cells > 0 ? std::min(window, this->Info.cells) : window;
@@ -102,6 +116,7 @@ double StreamSimplifier::done() const
 
 bool StreamSimplifier::next(Result& result)
 {
+  // What a killed program has delivered comes first, from the checkpoint.
   if (this->Replayed < this->ResumedResults)
   {
     this->loadResult(this->Replayed++, result);
@@ -120,6 +135,8 @@ bool StreamSimplifier::next(Result& result)
   return true;
 }
 
+/** Submits the next part, which appends the oldest one if as many are in work as may be; at the end
+ * of the stream appends the rest. */
 void StreamSimplifier::step()
 {
   Item& item = this->Jobs.next();
@@ -137,8 +154,8 @@ void StreamSimplifier::step()
   this->finish();
 }
 
-/** The share of its vertices that is left of a part: of a stream that fits into the window, or may
- * do so, all. */
+/** The share of its vertices that a part keeps: all, if the stream fits into the window or may do
+ * so. */
 double StreamSimplifier::shareOfPart() const
 {
   const std::int64_t cells = std::max(this->Info.cells, this->Parts.cells());
@@ -153,7 +170,8 @@ double StreamSimplifier::shareOfPart() const
   return share > 0.5 ? 1.0 : std::max(share, this->Goal.vertices == 0 ? UsualShare : least);
 }
 
-/** Appends a part to the window. */
+/** Appends a part to the window. Vertices that it shares with earlier parts are in the window
+ * already (Open); their quadrics are added. */
 void StreamSimplifier::append(const StreamPart& part)
 {
   const SurfacePart& from = part.surface;
@@ -165,6 +183,7 @@ void StreamSimplifier::append(const StreamPart& part)
     const auto place = static_cast<std::uint32_t>(to.vertices());
     if (!part.isInside(v))
     {
+      // Only vertices that other parts may have are looked up; those inside cannot be known.
       const auto [known, isNew] = this->Open.try_emplace(from.ids[v], place);
       if (!isNew)
       {
@@ -192,7 +211,8 @@ void StreamSimplifier::append(const StreamPart& part)
   }
 }
 
-/** Of each vertex of the window, whether later parts or delivered ones have it. */
+/** For each vertex of the window whether later parts, or parts of the result that were delivered,
+ * have it. */
 std::vector<std::uint8_t> StreamSimplifier::locked() const
 {
   std::vector<std::uint8_t> locked(this->Window.vertices());
@@ -204,6 +224,7 @@ std::vector<std::uint8_t> StreamSimplifier::locked() const
   return locked;
 }
 
+/** For the window alone; the parts keep their size. */
 void StreamSimplifier::enlarge(std::size_t capacity)
 {
   const auto more = static_cast<std::int64_t>(capacity - this->Capacity);
@@ -211,7 +232,8 @@ void StreamSimplifier::enlarge(std::size_t capacity)
   this->Capacity = capacity;
 }
 
-/** Makes the window larger if too many of its vertices may not go. */
+/** Makes the window larger if too many of its vertices are locked, as in a stream with a very large
+ * span. Throws Error if the memory does not suffice. */
 bool StreamSimplifier::grow()
 {
   const std::vector<std::uint8_t> locked = this->locked();
@@ -224,7 +246,7 @@ bool StreamSimplifier::grow()
   return true;
 }
 
-/** Simplifies the full window; a part of a large result leaves it. */
+/** Simplifies the full window. Of a result that does not fit into it, a part then leaves it. */
 void StreamSimplifier::makeRoom()
 {
   if (this->grow())
@@ -233,11 +255,14 @@ void StreamSimplifier::makeRoom()
   }
   if (!this->Streams)
   {
+    // About twice the vertices of the result, within bounds, so that the last simplification can
+    // still choose.
     const auto wanted = static_cast<std::size_t>(this->Triangles);
     this->shrink(std::clamp(wanted, this->Capacity / 8, this->Capacity / 4));
   }
   else
   {
+    // Each part of the stream gets its share of the vertices of the result.
     const double share = this->done() * Aim * static_cast<double>(this->Goal.vertices);
     const auto left = static_cast<std::int64_t>(share) - this->DeliveredVertices;
     this->collapse(left);
@@ -246,13 +271,13 @@ void StreamSimplifier::makeRoom()
       this->deliverOlderHalf();
     }
   }
+  // Collapses have moved vertices to other places.
   this->renumber();
   ++this->FullWindows;
   this->save();
 }
 
-/** Collapses edges of the window until it has so many vertices that later parts do not have and
- * that were not delivered. */
+/** Collapses edges of the window until it has `vertices` vertices that are not locked. */
 void StreamSimplifier::collapse(std::int64_t vertices, bool mayPinch)
 {
   const std::vector<std::uint8_t> locked = this->locked();
@@ -262,7 +287,8 @@ void StreamSimplifier::collapse(std::int64_t vertices, bool mayPinch)
   this->Counts.error = std::max(this->Counts.error, collapseEdges(this->Window, locked, goal));
 }
 
-/** Simplifies a window whose result stays in it to about so many vertices. */
+/** Simplifies a window whose result stays in it, to about this number of vertices. If collapses
+ * cannot make enough room, vertices are merged by their positions. */
 void StreamSimplifier::shrink(std::size_t vertices)
 {
   const auto wanted = static_cast<std::int64_t>(vertices);
@@ -279,7 +305,8 @@ void StreamSimplifier::shrink(std::size_t vertices)
   }
 }
 
-/** The triangles of the window that are older than half of them leave it. */
+/** Delivers the older half of the triangles of the window. The age of a triangle is its last vertex
+ * in the stream. */
 void StreamSimplifier::deliverOlderHalf()
 {
   const SurfacePart& window = this->Window;
@@ -302,7 +329,8 @@ void StreamSimplifier::deliverOlderHalf()
   this->deliver(older, std::move(rest));
 }
 
-/** Moves triangles of the window to the result; the rest stays. */
+/** Moves triangles of the window to the result; `rest` stays. Vertices of both are locked from here
+ * on, and known to the result as shared until nothing in the window or the stream uses them. */
 void StreamSimplifier::deliver(
   const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t> rest)
 {
@@ -314,6 +342,7 @@ void StreamSimplifier::deliver(
   Result result{ this->Window.extract(corners), {}, {} };
   this->DeliveredVertices += std::ranges::count_if(
     result.surface.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
+  // What the window still uses, or later parts may.
   std::unordered_set<std::int64_t> staying;
   for (std::size_t v = 0; v < stays.size(); ++v)
   {
@@ -343,6 +372,7 @@ void StreamSimplifier::deliver(
     });
   this->Window.corners = std::move(rest);
   this->Window.dropUnusedVertices();
+  // Saved before the state that counts it: a program that continues finds all parts of the result.
   if (this->Kept && !this->IsFinished)
   {
     this->keptResult(this->KeptResults++).save(1, [&](StateWriter& state) { state(result); });
@@ -354,11 +384,14 @@ void StreamSimplifier::finish()
 {
   this->IsFinished = true;
   this->Counts.vertices = this->Parts.vertices();
+  // No later parts: only delivered vertices are locked.
   this->End = this->Parts.vertices();
   const std::int64_t most =
     std::max<std::int64_t>(0, this->Goal.vertices - this->DeliveredVertices);
   const bool mayDrop = !this->Streams && !this->limitsError() && this->Goal.vertices > 0;
   bool areFragments = false;
+  // The smallest bodies are left out, where there are more than every twentieth vertex: no collapse
+  // removes a body.
   if (mayDrop && this->remaining() > most)
   {
     const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), bodiesFor(most));
@@ -367,16 +400,18 @@ void StreamSimplifier::finish()
   }
   if (!areFragments && (this->Goal.vertices == 0 || this->remaining() > most))
   {
-    // The parts, which had the same share of the memory, are gone.
+    // A copy fits, since the parts in work, which had the same share of the memory, are gone.
     SurfacePart before = this->Window;
     this->collapse(most);
     if (this->Window.triangles() == 0)
     {
-      // Sheets that were merged are folded away: so few vertices need the topology of the mesh.
+      // Merged sheets were folded away and nothing is left: with so few vertices the topology has
+      // to stay.
       this->Window = std::move(before);
       this->collapse(most, false);
     }
   }
+  // Collapses alone leave too many vertices: they are merged by their positions.
   if (mayDrop && this->remaining() > most)
   {
     SurfacePart merged = this->Window;
@@ -405,7 +440,8 @@ std::int64_t StreamSimplifier::remaining() const
 namespace smg
 {
 
-/** What is saved when the window was full; the rest follows from the stream. */
+/** What is saved when the window has been simplified. Everything else follows from reading the
+ * stream to the same place. */
 template <class State>
 void StreamSimplifier::exchange(State& state)
 {
@@ -417,7 +453,7 @@ void StreamSimplifier::exchange(State& state)
   this->Capacity = static_cast<std::size_t>(capacity);
 }
 
-/** The checkpoint of a part of the result. */
+/** A part of the result is a state of its own, with a name of its own. */
 Checkpoint StreamSimplifier::keptResult(std::int64_t number) const
 {
   return { *this->Folder, this->Subject,
@@ -455,6 +491,8 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
   {
     return;
   }
+  // The constructor has acquired the memory for its own capacity: only what the window has grown by
+  // is added.
   const std::size_t least = this->Capacity;
   this->exchange(*state);
   state->finish();
@@ -469,6 +507,7 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
   this->renumber();
   this->Counts.resumedAt = this->TakenVertices;
   this->ResumedResults = this->KeptResults;
+  // The same parts are read again, but not simplified.
   StreamPart taken;
   for (std::int64_t k = 0; k < this->TakenParts; ++k)
   {
@@ -476,7 +515,7 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
   }
 }
 
-/** Finds the vertices of later parts in the window again. */
+/** Lists the places of those vertices of the window that later parts may have. */
 void StreamSimplifier::renumber()
 {
   this->Open.clear();

@@ -24,38 +24,38 @@
 namespace smg
 {
 
-/** What is left of a surface that is simplified: at most so many vertices, or what an error allows;
- * both: what comes first. */
+/** How far a surface is simplified: to at most so many vertices, or as far as an error allows; with
+ * both, until either is reached. */
 struct SimplificationGoal
 {
   std::int64_t vertices = 0;                              ///< 0: not limited
   double error = std::numeric_limits<double>::infinity(); ///< in the unit of the mesh
 };
 
-/** What a simplification has done. */
+/** What a simplification did. */
 struct SimplificationCounts
 {
   std::int64_t vertices = 0;  ///< that were read
   double error = 0.0;         ///< the largest of a collapse, see collapseEdges()
   std::int64_t dropped = 0;   ///< small bodies
   bool isClustered = false;   ///< whether edges of some parts could not be collapsed
-  std::int64_t resumedAt = 0; ///< vertices that an earlier program had simplified, see keepIn()
+  std::int64_t resumedAt = 0; ///< vertices simplified by an earlier program, see keepIn()
 };
 
 /**
  * Simplifies a stream of triangles by edge collapse in bounded memory.
  *
- * Parts of the stream are simplified to an eighth on all threads, with the vertices locked that
- * other parts have, and appended to a window. When that is full, it is simplified as a whole, with
- * its vertices locked that later parts have: so no edge between parts remains. A result that fits
- * into the window stays there until the end, when all of it is simplified to the goal; of a larger
- * one, the older half leaves the window whenever that is full.
+ * Parts of the stream are simplified to an eighth on all threads, with those vertices locked that
+ * other parts have, and appended to a window. When that is full it is simplified as a whole, with
+ * those of its vertices locked that later parts have, so that no edge between parts remains. A
+ * result that fits into the window stays there until the end, when all of it is simplified to the
+ * goal; of a larger one, the older half leaves the window whenever that is full.
  *
- * The small bodies of a surface with very many are dropped, so that at most every twentieth point
- * is a body of its own.
+ * Of a surface with very many bodies the smallest are left out, so that at most every twentieth
+ * vertex of the result is a body of its own.
  *
- * The result depends on the memory and on the blocks of the stream, but not on threads.
- * Every triangle is simplified once in a part, and about twice in the window.
+ * The result depends on the memory and on the blocks of the stream, but not on threads. Every
+ * triangle is simplified once in a part, and about twice in the window.
  */
 class SMG_EXPORT StreamSimplifier
 {
@@ -80,11 +80,10 @@ public:
   StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
 
-  /**
-   * To be called before next(): saves the state in a kept folder, which must outlive this, whenever
-   * the window was simplified. A simplification of the same subject that has its state there is
-   * continued: the stream is read from its begin, but not simplified once more.
-   */
+  /** To be called before next(): saves the state in a kept folder, which must outlive this
+   * object, whenever the window has been simplified. A simplification of the same subject that
+   * has its state there is continued: the stream is read from its beginning, but not
+   * simplified once more. */
   void keepIn(ScratchFolder& folder, std::vector<Checkpoint::Item> subject);
 
   /** Replaces `result` by the next part of the result; returns whether there is one. Throws Error
@@ -102,7 +101,8 @@ private:
     double error = 0.0; ///< that is allowed, and then the largest of a collapse
   };
 
-  /** The share of the vertices in parts that were appended; 0 if their number is not known. */
+  /** The share of the vertices of the stream that is in the window or delivered; 0 if their number
+   * is not known. */
   double done() const;
   bool limitsError() const { return std::isfinite(this->Goal.error); }
   void step();
@@ -136,7 +136,7 @@ private:
   SurfacePart Window;
   std::unordered_map<std::int64_t, std::uint32_t> Open; ///< places of vertices of later parts
   std::unordered_set<std::int64_t> Delivered;           ///< vertices that the window still uses
-  std::int64_t End = 0; ///< later parts have no new triangles at the vertices below
+  std::int64_t End = 0; ///< later parts have no triangles at the vertices below
   std::int64_t DeliveredVertices = 0;
   std::int64_t TakenVertices = 0; ///< of the parts that were appended
   std::int64_t TakenParts = 0, FullWindows = 0;

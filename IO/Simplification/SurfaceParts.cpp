@@ -8,6 +8,10 @@
 #include <limits>
 #include <utility>
 
+// Parts of a surface with their vertices, and the cutting of a stream into parts. Vertices that
+// later cells may use stay in a window (OpenValues); a part gets copies of those that it uses, in
+// the order of the stream, so it needs nothing else.
+
 namespace smg
 {
 
@@ -16,7 +20,7 @@ namespace
 
 constexpr std::uint32_t Unused = std::numeric_limits<std::uint32_t>::max();
 
-/** Of each vertex: 0 if a triangle uses it, else Unused. */
+/** For each vertex 0 if a triangle uses it, else Unused. */
 std::vector<std::uint32_t> usedBy(const std::vector<std::uint32_t>& corners, std::size_t vertices)
 {
   std::vector<std::uint32_t> used(vertices, Unused);
@@ -78,6 +82,7 @@ void SurfacePart::dropUnusedVertices()
 {
   std::vector<std::uint32_t> place = usedBy(this->corners, this->vertices());
   const std::size_t stride = this->rowBytes();
+  // In place: a vertex never moves up.
   const bool hasQuadrics = !this->quadrics.empty();
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < place.size(); ++v)
@@ -124,6 +129,7 @@ SurfaceParts::SurfaceParts(
 bool SurfaceParts::next(StreamPart& part)
 {
   this->Corners.clear();
+  // What no later cell uses goes before the next blocks are read.
   this->Points.release(this->Final);
   if (this->RowBytes > 0)
   {
@@ -140,6 +146,7 @@ bool SurfaceParts::next(StreamPart& part)
     else
     {
       this->IsAtEnd = true;
+      // At the end of the stream all vertices are final.
       this->Final = this->Vertices;
     }
   }
@@ -153,12 +160,16 @@ void SurfaceParts::add(const MeshBlock& block)
 {
   if (this->Vertices == 0 && !block.positions.empty())
   {
+    // The origin of all quadrics, the same for all parts, since quadrics of different parts are
+    // added.
     std::copy_n(block.positions.begin(), 3, this->Origin.begin());
   }
   std::ranges::copy(block.positions, this->Points.append(block.vertices()).begin());
   if (this->RowBytes > 0)
   {
     std::byte* rows = this->Rows.append(block.vertices()).data();
+    // The tuples of all columns of a vertex follow each other, so that they move with it as one
+    // row.
     for (const Column& column : block.vertexColumns)
     {
       const std::size_t bytes = column.spec.tupleBytes();
@@ -173,6 +184,7 @@ void SurfaceParts::add(const MeshBlock& block)
   for (std::size_t i = 0; i + 2 < block.corners.size(); i += 3)
   {
     const std::int64_t* c = block.corners.data() + i;
+    // Triangles that lie on each other or have no area would only keep edges from collapsing.
     const bool isRepeated = flags && (flags->as<std::uint8_t>()[i / 3] & DuplicateCell) != 0;
     if (!isRepeated && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
     {
@@ -189,7 +201,8 @@ void SurfaceParts::add(const MeshBlock& block)
   }
 }
 
-/** Makes the surface of the triangles, with its vertices in the order of the stream. */
+/** Makes a surface of the collected triangles, whose vertices are numbered in the order of the
+ * stream. */
 void SurfaceParts::localise(SurfacePart& surface)
 {
   constexpr std::uint32_t Unused = std::numeric_limits<std::uint32_t>::max();

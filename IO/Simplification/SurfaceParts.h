@@ -62,15 +62,16 @@ struct Quadric
 /** Triangles of a surface with their vertices, in a numbering of their own. */
 struct SurfacePart
 {
-  std::vector<std::int64_t> ids; ///< stream indices of the vertices, each once
+  std::vector<std::int64_t> ids; ///< stream indices of the vertices, all different
   std::vector<double> points;    ///< x, y, z of each vertex
-  /** Of each vertex: the planes of the triangles that were there and at vertices that have
+  /** For each vertex the planes of the triangles that were at it, and at vertices that have
    * collapsed onto it, for points relative to `origin`. */
   std::vector<Quadric> quadrics;
   std::array<double, 3> origin{};
-  /** Of each vertex, with quadrics: not 0 if those of its boundary edges may be missing. */
+  /** For each vertex, if there are quadrics: not 0 if the planes of its boundary edges may be
+   * missing. */
   std::vector<std::uint8_t> lacksBoundary;
-  std::vector<std::byte> rows;        ///< of each vertex, its tuples of all columns one by one
+  std::vector<std::byte> rows;        ///< for each vertex its tuples of all columns
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
 
   std::size_t vertices() const { return this->ids.size(); }
@@ -103,8 +104,8 @@ struct SurfacePart
 struct StreamPart
 {
   SurfacePart surface;
-  /** Earlier parts may have the vertices below `begin`, later ones those from `end` on, which may
-   * be less. */
+  /** Earlier parts may have the vertices below `begin`, later ones those from `end` on; `end` may
+   * be less than `begin`. */
   std::int64_t begin = 0, end = 0;
   std::int64_t endVertex = 0; ///< the number of vertices that were read
 
@@ -115,16 +116,15 @@ struct StreamPart
   }
 };
 
-/**
- * Cuts a stream of triangles into parts, with the columns of their vertices. Cells that repeat a
- * corner, and duplicates (see CellFlag), are left out. The memory is that of a part and of the open
- * vertices of the stream, which `pool` accounts for.
- */
+/** Cuts a stream of triangles into parts, with the columns of their vertices. Cells that repeat a
+ * corner, and duplicates (see CellFlag), are left out. A part and the open vertices of the stream
+ * are in memory; `pool` accounts for the latter. */
 class SurfaceParts
 {
 public:
-  /** A part has at least so many triangles, the last one fewer, in whole blocks. `progress`
-   * receives the share of the vertices that was read, if their number is known, and may throw. */
+  /** Each part has at least `triangles` triangles, in whole blocks; the last one may have fewer.
+   * `progress` receives the share of the vertices that was read, if their number is known, and may
+   * throw. */
   SurfaceParts(
     MeshSource& source, Pool& pool, std::size_t triangles, std::function<void(double)> progress);
 

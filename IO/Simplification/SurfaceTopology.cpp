@@ -5,13 +5,23 @@
 #include <numeric>
 #include <utility>
 
+// Which edges of a surface may collapse without a change of its topology: the link condition (Dey,
+// Edelsbrunner, Guha and Nekhayev 1999), tested on the triangles around both ends.
+//
+// In a pass no vertex goes that another one has come to, nor the other way round. So the triangles
+// of a vertex are those listed at the beginning of the pass, with corners where they have gone
+// since (Target), and lists are made once in a pass. Vertices are marked with numbers that only
+// grow, so marks are never cleared. Testing an edge takes time linear in the triangles of its ends,
+// of which there are at most MaxTriangles each.
+
 namespace smg
 {
 
 namespace
 {
 
-/** A vertex of more triangles does not go, and no other one goes to it. */
+/** A vertex of more triangles does not go, and no other one goes to it: such stars would be
+ * searched for each of their edges. */
 constexpr std::size_t MaxTriangles = 512;
 
 } // namespace
@@ -34,7 +44,7 @@ SurfaceTopology::SurfaceTopology(
   }
 }
 
-/** Lists the triangles of each vertex. */
+/** Lists the triangles of each vertex, by a counting sort. */
 void SurfaceTopology::findStars()
 {
   this->Begin.assign(this->vertices() + 2, 0);
@@ -46,14 +56,15 @@ void SurfaceTopology::findStars()
   this->Stars.resize(this->Corners.size());
   for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
-    // The begin of each vertex is one place behind, and becomes that of the next one.
+    // The begins are shifted by one place, so that counting them up makes each the beginning of the
+    // next vertex.
     this->Stars[this->Begin[this->Corners[i] + 1]++] = static_cast<std::uint32_t>(i / 3);
   }
   std::iota(this->Target.begin(), this->Target.end(), 0U);
   std::ranges::fill(this->Touched, 0);
 }
 
-/** Finds whether v may go, and whether it is at the boundary. */
+/** Finds whether v may go, and whether it is on the boundary. */
 void SurfaceTopology::classify(std::uint32_t v)
 {
   this->Pairs.clear();
@@ -61,8 +72,8 @@ void SurfaceTopology::classify(std::uint32_t v)
   {
     this->Pairs.push_back(this->others(t, v));
   }
-  // Each neighbour has two triangles, or one at an end of the fan. Each of these comes first in
-  // one of its triangles and last in the other one if both are wound alike.
+  // Each neighbour has two triangles, or one at an end of the fan. In a fan that is wound alike a
+  // neighbour comes first in at most one of its triangles and last in at most one.
   std::size_t neighbours = 0;
   const std::uint32_t known = ++this->Mark;
   for (const std::size_t place : { 0, 1 })
@@ -78,17 +89,21 @@ void SurfaceTopology::classify(std::uint32_t v)
     }
   }
   const std::size_t triangles = this->Pairs.size();
+  // A closed fan has as many neighbours as triangles.
   this->IsBoundary[v] = neighbours != triangles ? 1 : 0;
-  // To look at all triangles of a hub for each of its edges would take the square of their number.
+  // To look at all triangles of such a vertex for each of its edges would take the square of their
+  // number.
   const bool isHub = triangles > MaxTriangles;
   this->IsFixed[v] =
     isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? 1 : 0;
 }
 
-/** Whether the triangles with these ends are one fan, with at most two at each end. */
+/** Whether the triangles whose other corners are Pairs form one fan, with at most two triangles at
+ * each edge. */
 bool SurfaceTopology::isFan()
 {
-  // Walks along the fan in both directions from the first triangle.
+  // Walks along the fan from the first triangle in both directions; those that were passed are
+  // moved to the front.
   std::size_t walked = 1;
   for (std::uint32_t end : this->Pairs[0])
   {
@@ -103,6 +118,7 @@ bool SurfaceTopology::isFan()
       }
     }
   }
+  // Triangles that the walk has not reached belong to another fan.
   if (walked < this->Pairs.size())
   {
     return false;
@@ -112,6 +128,7 @@ bool SurfaceTopology::isFan()
   {
     for (const std::uint32_t w : pair)
     {
+      // The third triangle at the edge to w.
       if (this->Common[w] == this->Mark)
       {
         return false;
@@ -143,7 +160,7 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     const auto [a, b] = this->others(t, from);
     for (const std::uint32_t w : { a, b })
     {
-      // Two vertices that may have more triangles elsewhere may be neighbours there.
+      // Two open vertices may be neighbours by triangles elsewhere: they count as neighbours.
       const bool isCommon =
         this->Seen[w] == this->Mark || (this->Open[w] != 0 && this->Open[to] != 0);
       if (w != to && isCommon && this->Common[w] != this->Mark)
@@ -157,15 +174,17 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
       opposite[std::min<std::size_t>(shared++, 1)] = a == to ? b : a;
     }
   }
+  // Their triangles have gone in this pass; or `from` is on the boundary and would leave it.
   if (shared == 0 || (this->IsBoundary[from] != 0 && shared != 1))
   {
     return Change::Impossible;
   }
+  // The link condition: the only common neighbours are the corners opposite to the edge.
   if (common != shared || shared > 2)
   {
     return Change::Pinch;
   }
-  // At the boundary, a triangle with two boundary edges goes, but not one with three.
+  // A triangle with two boundary edges may go, but not one with three: it is all of its body.
   const bool isLast = shared == 2 ? this->isTetrahedron(from, to, opposite)
                                   : this->trianglesAt(from, opposite[0]) == 1 &&
                                       this->trianglesAt(to, opposite[0]) == 1;
@@ -183,14 +202,14 @@ std::size_t SurfaceTopology::trianglesAt(std::uint32_t v, std::uint32_t w) const
     }));
 }
 
-/** Whether the surface is a tetrahedron: the ends of the edge have a triangle each with both
- * opposite corners. */
+/** Whether both ends of the edge have a triangle with both opposite corners: then the body is a
+ * tetrahedron, which would collapse to a doubled triangle. */
 bool SurfaceTopology::isTetrahedron(
   std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const
 {
   const auto hasBoth = [&](std::uint32_t v)
   {
-    // Three vertices that may have more triangles elsewhere may have one in common there.
+    // Three open vertices may have a triangle elsewhere: it counts as if it were there.
     if (this->Open[v] != 0 && this->Open[opposite[0]] != 0 && this->Open[opposite[1]] != 0)
     {
       return true;
@@ -205,6 +224,7 @@ bool SurfaceTopology::isTetrahedron(
   return hasBoth(from) && hasBoth(to);
 }
 
+/** Replaces corners by where they have gone and removes the triangles that have collapsed. */
 void SurfaceTopology::endPass()
 {
   std::size_t kept = 0;
@@ -225,7 +245,8 @@ void SurfaceTopology::endPass()
   this->findStars();
 }
 
-/** Of each triangle: whether it lies on another one, wound the other way; both in pairs. */
+/** For each triangle whether it lies on another one with the same corners that is wound the other
+ * way: such triangles are marked in pairs. */
 std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
 {
   using Triangle = std::array<std::uint32_t, 3>; // its larger corners, ascending, and its place
@@ -239,6 +260,7 @@ std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
     for (const std::uint32_t t : this->star(least))
     {
       const auto [a, b] = this->others(t, least);
+      // Each triangle is looked at from its least corner, so once.
       if (least < a && least < b)
       {
         triangles.push_back({ std::min(a, b), std::max(a, b), t });
@@ -262,6 +284,8 @@ std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
   return isFolded;
 }
 
+/** A surface that has folded triangles from the beginning keeps them: they are not the work of
+ * collapses. */
 void SurfaceTopology::allowPinching()
 {
   this->KeepsFolded = std::ranges::count(this->foldedTriangles(), 1) > 0;

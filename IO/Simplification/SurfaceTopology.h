@@ -11,15 +11,15 @@ namespace smg
 {
 
 /**
- * The triangles of a surface whose vertices move onto neighbours, in passes: within a pass no
- * vertex goes that another one came to, or the other way round, so that the triangles of a vertex
- * are those at the begin of the pass, with the corners where they have gone.
+ * The triangles of a surface whose vertices move onto neighbours, in passes. Within a pass no
+ * vertex goes that another one came to, or the other way round, so the triangles of a vertex are
+ * those at the beginning of the pass, with their corners where they have gone.
  *
  * A move keeps the topology if the two vertices have no common neighbours but the corners opposite
- * to their edge, and are not two of the four vertices of a tetrahedron; at the boundary if they
+ * to their edge, and are not two of the four vertices of a tetrahedron; at the boundary, if they
  * move along it (the link condition of Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving
- * edge contraction, 1999). Vertices whose triangles are not one fan, and those of
- * very many, may not go.
+ * edge contraction, 1999). Vertices whose triangles are not one fan, and those of very many
+ * triangles, may not go.
  */
 class SurfaceTopology
 {
@@ -33,14 +33,14 @@ public:
   bool isOpen(std::uint32_t v) const { return this->Open[v] != 0; }
   /** Whether a vertex may go somewhere. */
   bool mayGo(std::uint32_t v) const { return this->IsFixed[v] == 0; }
-  /** Whether an edge may be that of one triangle; false if its ends certainly have two. */
+  /** Whether an edge may have a single triangle; false if it certainly has two. */
   bool mayBeBoundary(std::uint32_t a, std::uint32_t b) const
   {
     return this->IsBoundary[a] != 0 && this->IsBoundary[b] != 0;
   }
-  /** Whether two triangles somewhere run along an edge in the same direction. */
+  /** Whether two triangles run along some edge in the same direction. */
   bool isTurned() const { return this->IsTurned; }
-  /** Whether an edge has one triangle, here and elsewhere. */
+  /** Whether an edge certainly has one triangle, counting those elsewhere. */
   bool isBoundary(std::uint32_t a, std::uint32_t b) const
   {
     return this->mayBeBoundary(a, b) && !(this->Open[a] != 0 && this->Open[b] != 0) &&
@@ -52,7 +52,7 @@ public:
   {
     return { this->Stars.data() + this->Begin[v], this->Begin[v + 1] - this->Begin[v] };
   }
-  /** The two corners of a triangle of v that follow it, where they have gone. */
+  /** The two corners of a triangle that follow its corner v, where they have gone. */
   std::array<std::uint32_t, 2> others(std::uint32_t triangle, std::uint32_t v) const
   {
     const std::uint32_t* c = this->Corners.data() + 3 * std::size_t(triangle);
@@ -83,8 +83,8 @@ public:
 
   /** To be called before the first pinching move. */
   void allowPinching();
-  /** Removes pairs of triangles that lie on each other, which pinching leaves, unless the surface
-   * had any before. Returns the number of vertices that are left. */
+  /** Removes pairs of triangles that lie on each other, which pinching leaves behind, unless the
+   * surface had such pairs before. Returns the number of vertices that are left. */
   std::size_t dropFolded();
 
 private:

@@ -9,12 +9,16 @@
 #include <utility>
 #include <vector>
 
+// Merging of vertices by their positions, by meshoptimizer (meshopt_simplifySloppy): for surfaces
+// whose edges cannot be collapsed far enough. The target of the library is a number of triangles,
+// so fewer are asked for until few enough vertices are left.
+
 namespace smg
 {
 namespace
 {
 
-/** The points in the unit cube at the origin, so that single precision is enough. */
+/** The points scaled into the unit cube at the origin, where single precision is enough. */
 std::vector<float> unitPoints(const std::vector<double>& points)
 {
   std::array<double, 3> low{}, high{};
@@ -37,7 +41,7 @@ std::vector<float> unitPoints(const std::vector<double>& points)
   return unit;
 }
 
-/** Keeps one of the triangles with the same corners. */
+/** Keeps the first of the triangles with the same corners. */
 void dropRepeated(std::vector<std::uint32_t>& corners)
 {
   std::set<std::array<std::uint32_t, 3>> known;

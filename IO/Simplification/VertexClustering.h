@@ -8,8 +8,9 @@
 namespace smg
 {
 
-/** Merges vertices that are near one another, wherever they belong, into at most so many: for
- * surfaces of which the edges cannot be collapsed, since triangles do not share vertices. */
+/** Merges vertices that are near one another, whatever surface they belong to, into at most
+ * `vertices`: for surfaces whose edges cannot be collapsed since their triangles do not share
+ * vertices. */
 void clusterVertices(SurfacePart& part, std::size_t vertices);
 
 } // namespace smg

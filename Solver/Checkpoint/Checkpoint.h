@@ -22,21 +22,21 @@ namespace smg
 {
 
 /**
- * The states of a computation in a kept folder, by which a program continues it where another one
- * was killed. A step saves its state when the disk has the scratch files that the state refers to;
- * the next step keeps what this state refers to.
+ * The states of a computation in a kept folder, from which a program continues what a killed one
+ * has begun. A step saves its state when the scratch files that the state refers to are on the
+ * disk; the next step does not modify what this state refers to.
  *
- * The files `state.0` and `state.1` (or of another name) have the last two states. Each is complete
- * when it gets its name, and has checksums of its subject and content; the content has those of the
- * scratch files. If one file is damaged, the other one is used, provided that the scratch files
- * still agree.
+ * The files `state.0` and `state.1` (or with another name) hold the last two states. Each is
+ * complete when it gets its name, and has checksums of its front and content; the content has those
+ * of the scratch files. If one file is damaged, the other one is used, provided that the scratch
+ * files still agree with it.
  */
 class SMG_EXPORT Checkpoint
 {
 public:
   static constexpr const char* StateName = "state";
 
-  /** Something in which the computations of a checkpoint agree. */
+  /** Something that must be the same when a computation is continued. */
   struct Item
   {
     std::string what;  ///< for example "tolerance"
@@ -49,20 +49,20 @@ public:
     }
   };
 
-  /** The states `name`.0 and `name`.1 in `folder`, of a computation that agrees in `subject` and in
-   * the version of the program. `name` begins with StateName. */
+  /** The states `name`.0 and `name`.1 in `folder`, of a computation with this subject and by this
+   * version of the program. `name` begins with StateName. */
   Checkpoint(ScratchFolder& folder, std::vector<Item> subject, std::string name = StateName);
 
   /** The number of steps of the last of the states `name` in a folder; 0 if there is none. */
   static std::int64_t steps(
     const std::filesystem::path& folder, const std::string& name = StateName);
 
-  /** The last state; none: the computation begins. Throws Error if it is damaged or of another
-   * subject. */
+  /** The last state; none if the computation has to begin. Throws Error if it is damaged or of
+   * another subject. */
   std::optional<StateReader> open(Pool& pool);
   /** Saves the state after `steps` steps, more than before; `write` writes it. */
   void save(std::int64_t steps, const std::function<void(StateWriter&)>& write);
-  /** The folder is removed when the scratch files are closed. */
+  /** The computation is complete: removes the states. The folder is removed when it is closed. */
   void discard();
 
 private:
@@ -72,10 +72,10 @@ private:
   ScratchFolder& Folder;
   std::vector<Item> Subject;
   std::string Name;
-  int Last = 1; // the slot of the last state
+  int Last = 1; // slot of the last state; the first one is written to slot 0
 };
 
-/** The first bytes of the file of a state, see Checkpoint. */
+/** The first bytes of the file of a state. */
 struct StateFront
 {
   static constexpr std::string_view Magic = "SMGSTATE";

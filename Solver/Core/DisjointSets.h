@@ -9,8 +9,9 @@
 namespace smg
 {
 
-/** Sets of the numbers 0 ... size - 1, at first of one each, that are joined (union and find with
- * path halving). Each set stands under its first number. */
+/** Disjoint sets of the numbers 0 ... size - 1, each alone at first (union and find with path
+ * halving). A set is represented by its smallest number, so the result does not depend on the
+ * order of join(). */
 template <class Index>
 class DisjointSets
 {

@@ -3,11 +3,17 @@
 
 #include <nlohmann/json.hpp>
 
+// The report as JSON: the text that --report writes, the filters return and scripts read. Entries
+// are in the order in which they are inserted here. Those of only some computations (passes, steps,
+// volumes, seams, distances, processes ...) are left out where they do not apply, all others are
+// always there. docs/solve.md describes them.
+
 namespace smg
 {
 namespace
 {
 
+/** The smallest or largest value of each column, with the vertex that has it. */
 nlohmann::ordered_json extremes(const std::vector<Report::Extreme>& of)
 {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
@@ -18,9 +24,11 @@ nlohmann::ordered_json extremes(const std::vector<Report::Extreme>& of)
   return out;
 }
 
-/** NaN is written as null. */
+/** What the solution makes of the conditions, and its energy and balance. JSON has no NaN: numbers
+ * that are not known are written as null. */
 void addResults(const Report& report, nlohmann::ordered_json& out)
 {
+  // An array even if it is empty, so that a script may loop over it without a test.
   out["conditions"] = nlohmann::ordered_json::array();
   for (const Report::Condition& condition : report.conditions)
   {
@@ -39,6 +47,7 @@ void addResults(const Report& report, nlohmann::ordered_json& out)
 /** The figures of a smoothing, a blend, a distance or a deformation. */
 void addJob(const Report& report, nlohmann::ordered_json& out)
 {
+  // The volume of a surface with a boundary is not a number, hence null.
   if (report.volume)
   {
     out["volume"] = { { "before", report.volume->before }, { "after", report.volume->after },
@@ -49,6 +58,7 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
     out["seams"].push_back(
       { { "column", seam.column }, { "before", seam.before }, { "after", seam.after } });
   }
+  // What a blend has clipped goes with its seams.
   if (!report.seams.empty())
   {
     out["clipped"] = report.clipped;
@@ -64,12 +74,14 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
   {
     nlohmann::ordered_json& inverted = out["inverted"];
     inverted = { { "cells", report.inverted->cells }, { "share", report.inverted->share } };
+    // Without an inverted cell there is no worst one.
     if (report.inverted->cells > 0)
     {
       inverted["worst"] = { { "cell", report.inverted->worst }, { "ratio", report.inverted->ratio },
         { "place", report.inverted->place } };
     }
   }
+  // One figure of memory for each process, in their order.
   if (report.distributed)
   {
     out["distributed"] = { { "processes", report.distributed->processes },
@@ -95,6 +107,7 @@ std::string Report::json(int indent) const
   out["resumed_passes"] = this->resumed_passes;
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
+  // Without passes, as in a solve by several processes, there is no entry.
   for (const Pass& pass : this->by_pass)
   {
     out["by_pass"].push_back({ { "residual", pass.residual }, { "seconds", pass.seconds },
@@ -132,6 +145,7 @@ std::string Report::json(int indent) const
   out["cpu_seconds"] = this->cpu_seconds;
   out["threads"] = this->threads;
   out["prescribed"] = this->prescribed;
+  // Of a deformation, the number of vertices that several handles hold.
   if (!this->steps.empty())
   {
     out["shared"] = this->shared;
@@ -152,6 +166,7 @@ std::string Report::json(int indent) const
       { "discretisation", this->errors->discretisation },
       { "energy_norm", this->errors->energy_norm } };
   }
+  // The results of the conditions exist only where they were evaluated (SolvedMesh::finish()).
   if (!this->mean.empty())
   {
     addResults(*this, out);

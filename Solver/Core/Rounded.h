@@ -8,8 +8,8 @@
 namespace smg
 {
 
-/** The doubles that an arithmetic type can hold when they are rounded: from `low` to before `end`.
- * The largest number of a 64-bit type is no double; the one after it is. */
+/** The doubles that an arithmetic type can hold when they are rounded: from `low` to below `end`.
+ * The largest number of a 64-bit type is not a double, but the one after it is. */
 struct RoundedRange
 {
   double low = -HUGE_VAL, end = HUGE_VAL;
@@ -31,7 +31,8 @@ struct RoundedRange
   bool contains(double value) const { return value >= this->low && value < this->end; }
 };
 
-/** Converts a value to a type; one for integers is rounded and, beyond the type, clipped. */
+/** Converts a value to a type. For integer types it is rounded, and clipped to the range of the
+ * type. */
 template <class T>
 T rounded(double value)
 {

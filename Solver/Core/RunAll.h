@@ -14,11 +14,9 @@
 namespace smg
 {
 
-/**
- * The order in which threads begin the tasks of each of many steps: those that took the longest in
- * the steps so far come first, so that the threads become idle at about the same time (Graham,
- * 1969). Only task 0 is always the first one.
- */
+/** The order in which threads begin the tasks of a step that is repeated many times: those that
+ * have taken the longest so far come first, so that the threads become idle at about the same time
+ * (Graham, 1969). Task 0 is always the first one. */
 class LongestTaskFirst
 {
 public:
@@ -32,7 +30,7 @@ public:
   int tasks() const { return static_cast<int>(this->Order.size()); }
   int operator[](int place) const { return this->Order[static_cast<std::size_t>(place)]; }
 
-  /** Adds the time of a task in a step: for different tasks, on any threads. */
+  /** Adds the time of a task in a step. Threads may do so at the same time for different tasks. */
   void add(int task, double seconds) { this->Seconds[static_cast<std::size_t>(task)] += seconds; }
   /** To be called between steps. */
   void sort()
@@ -47,7 +45,7 @@ private:
 };
 
 /** Runs task(0) .. task(count - 1) on the threads of the arena and waits for all: task(0) on the
- * calling thread, the others on any available thread. An exception of a task is rethrown. */
+ * calling thread, the others on any thread that is free. An exception of a task is rethrown. */
 template <class Task>
 void runAll(tbb::task_arena& arena, int count, Task&& task)
 {

@@ -9,7 +9,8 @@
 namespace smg
 {
 
-/** A vector of `Count` values of Real: right-hand sides that are contiguous in memory. */
+/** A vector of `Count` values of Real: the right-hand sides of a node, which are contiguous in
+ * memory. */
 template <class Real, int Count>
 struct SimdPack
 {

@@ -13,11 +13,9 @@
 namespace smg
 {
 
-/**
- * The calls to the system that concern files and the mapping of memory: everything that Solver and
- * IO do with files goes through this table, as in the Unix layer of SQLite. Each entry behaves as
- * the call of its name; a test replaces entries to make the n-th call fail.
- */
+/** The calls to the system that concern files and the mapping of memory. What Solver and IO do with
+ * files goes through this table, as in the Unix layer of SQLite. Each entry behaves like the call
+ * of its name; a test replaces entries to make the n-th call fail. */
 struct SystemCalls
 {
   int (*open)(const char* path, int flags, mode_t mode);
@@ -40,10 +38,10 @@ struct SystemCalls
   void* (*mmap)(void* address, std::size_t size, int protection, int flags, int file, off_t offset);
 };
 
-/** The table of this process. It may change only while no file is used. */
+/** The table of this process. It may be changed only while no file is in use. */
 SMG_EXPORT SystemCalls& systemCalls() noexcept;
 
-/** What the system says of an error number, and what a user can do about it. */
+/** The system's description of an error number, and what a user can do about it. */
 std::string systemError(int errorNumber);
 
 } // namespace smg

@@ -31,8 +31,8 @@ inline std::string groupedDigits(std::int64_t number)
   return digits;
 }
 
-/** The text without line breaks and other control characters, for an error message that quotes what
- * a file has. */
+/** The text without line breaks and other control characters, for an error message that quotes a
+ * file. */
 inline std::string oneLine(std::string text)
 {
   for (char& c : text)

@@ -33,8 +33,8 @@ inline double processSeconds()
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/** The peak resident memory of the process in bytes; 0 if unknown. Not the figure of getrusage,
- * which a program inherits from its parent. */
+/** The peak resident memory of the process in bytes; 0 if unknown. getrusage() does not tell it:
+ * its figure starts with that of the parent process. */
 inline std::int64_t peakResidentBytes()
 {
   std::ifstream status("/proc/self/status");

@@ -10,6 +10,10 @@
 #include <sstream>
 #include <string>
 
+// Checks of the parts of a mesh: that each is valid, and that processes agree on the vertices that
+// they share. The first are local; the second compare each shared vertex with its owner, one
+// exchange for each kind of data.
+
 namespace smg
 {
 
@@ -18,6 +22,7 @@ void checkPart(const MeshPart& part)
   const MeshBlock& block = part.block;
   const auto vertices = static_cast<std::int64_t>(part.ids.size());
   const auto corners = static_cast<std::size_t>(cornersOf(part.info.cellType));
+  // Sizes first: what follows uses them as bounds.
   if (block.positions.size() != 3 * part.ids.size() || block.corners.size() % corners != 0 ||
       block.firstVertex != 0 || block.finalized != 0)
   {
@@ -33,6 +38,7 @@ void checkPart(const MeshPart& part)
     throw Error(
       "the position of vertex " + std::to_string(part.ids[place]) + " is not a finite number");
   }
+  // Corners are places in the part. A corner outside of it would be read beyond the arrays.
   const auto outside = std::ranges::find_if(
     block.corners, [vertices](std::int64_t v) { return v < 0 || v >= vertices; });
   if (outside != block.corners.end())
@@ -47,11 +53,13 @@ void checkPart(const MeshPart& part)
 namespace
 {
 
-/** What may differ, of the largest number: arrays in single precision that are sums over cells, in
- * another order on each process. */
+/** The share of the largest number by which shared data may differ: arrays in single precision that
+ * are sums over cells, which each process adds up in another order. */
 constexpr double Rounding = 1e-6;
 
-/** Throws Error if `what` differs: take(vertex, numbers) sets the `lanes` numbers of a vertex. */
+/** Throws Error if `what` differs at a shared vertex, given take(vertex, numbers), which sets the
+ * `lanes` numbers of a vertex. The message names the first such vertex of this process and both
+ * processes. */
 template <class Take>
 void checkSame(const SharedVertices& vertices, const MeshPart& part, const std::string& what,
   int lanes, Take&& take)
@@ -71,6 +79,7 @@ void checkSame(const SharedVertices& vertices, const MeshPart& part, const std::
               "cells; positions and arrays must be the same wherever a vertex is");
 }
 
+/** Copies as many values as there are numbers. */
 void set(std::span<double> numbers, const double* values)
 {
   std::copy_n(values, numbers.size(), numbers.begin());
@@ -88,10 +97,12 @@ void checkSharedPositions(const SharedVertices& vertices, const MeshPart& part)
 void checkSharedConditions(
   const SharedVertices& vertices, const MeshPart& part, const OpenVertices& given)
 {
+  // First whether a value is prescribed, then the value: a vertex that one process prescribes and
+  // another one computes would make the matrix unsymmetric.
   const auto isKnown = [&given](std::int64_t v) { return given.dirichlet[v] >= 0; };
   checkSame(vertices, part, "whether the problem prescribes the value", 1,
     [&](std::int64_t v, std::span<double> numbers) { numbers[0] = isKnown(v) ? 1.0 : 0.0; });
-  // Initial values are those of the owner.
+  // Where nothing is prescribed `values` has initial values, which may differ: the owner's count.
   checkSame(vertices, part, "the prescribed value", given.values.lanes(),
     [&](std::int64_t v, std::span<double> numbers)
     {
@@ -113,6 +124,7 @@ void checkSharedTargets(
   checkSame(vertices, part, "the target that a handle gives", 3,
     [&](std::int64_t v, std::span<double> numbers)
     {
+      // What is not held has no target, and compares as equal.
       std::ranges::fill(numbers, 0.0);
       if (handles.mask[static_cast<std::size_t>(v)] > 0)
       {

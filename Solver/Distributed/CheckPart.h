@@ -17,17 +17,17 @@ namespace smg
 /** Throws Error if the mesh of a part is not valid. */
 void checkPart(const MeshPart& part);
 
-// Vertices of several processes must be the same on each: the data of a process go into its cells
-// and into the rows of others, so that what differs makes the matrix unsymmetric, or the result
-// that of no problem. What rounding makes of them, 1e-6 of the largest number, is the same. Called
-// on all processes; throw Error.
+// A vertex that several processes have must have the same data on each: they go into the cells of
+// each process and into the rows of others, so a difference would make the matrix unsymmetric, or
+// the result one that solves no problem. Differences up to 1e-6 of the largest number count as
+// rounding. These functions are called on all processes and throw Error.
 
 /** Compares the positions. */
 void checkSharedPositions(const SharedVertices& vertices, const MeshPart& part);
-/** Compares what the problem says of the vertices of the part. */
+/** Compares what the problem prescribes at the vertices of the part. */
 void checkSharedConditions(
   const SharedVertices& vertices, const MeshPart& part, const OpenVertices& given);
-/** Compares where held vertices go. */
+/** Compares the targets of held vertices. */
 void checkSharedTargets(
   const SharedVertices& vertices, const MeshPart& part, const VertexHandles& handles);
 

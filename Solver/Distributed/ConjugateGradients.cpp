@@ -6,6 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+// Conjugate gradients with a V-cycle of hypre's BoomerAMG as preconditioner, for one right-hand
+// side. The V-cycle is symmetric (HypreObjects.cpp), which conjugate gradients require. The
+// iteration is the library's own, not hypre's, so that it stops by the same criterion as the
+// streaming engine (Convergence), reports progress and can be cancelled.
+//
+// An iteration costs a V-cycle, a product with the matrix and three sums over all processes.
+// Vectors are plain arrays with the own rows; hypre gets copies.
+
 namespace smg
 {
 
@@ -32,6 +40,7 @@ std::span<const double> ConjugateGradients::residual(
 
 void ConjugateGradients::setResidual(std::span<const double> b, std::span<const double> x)
 {
+  // R serves as the place for the product first.
   this->multiply(x, this->R);
   for (std::size_t k = 0; k < this->R.size(); ++k)
   {
@@ -41,6 +50,7 @@ void ConjugateGradients::setResidual(std::span<const double> b, std::span<const 
 
 void ConjugateGradients::multiply(std::span<const double> x, std::span<double> product)
 {
+  // From and To serve the products and the preconditioner alike: two vectors of hypre for all.
   this->From.set(x);
   HYPRE_ParCSRMatrixMatvec(
     1.0, this->A.parallel(), this->From.parallel(), 0.0, this->To.parallel());
@@ -54,6 +64,8 @@ void ConjugateGradients::precondition()
   this->To.get(this->Z);
 }
 
+/** Without Team::agree(): nothing in an iteration can fail on one process alone, and its end has
+ * one. */
 double ConjugateGradients::dot(const Numbers& a, const Numbers& b) const
 {
   double product = std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -65,6 +77,7 @@ void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
   Convergence& convergence, const std::function<void()>& iterated)
 {
   this->Processes.agree();
+  // The convergence criterion compares with the residual of the values to begin with.
   this->setResidual(b, x);
   convergence.begin(std::sqrt(this->dot(this->R, this->R)));
   double before = 0.0;
@@ -72,6 +85,8 @@ void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
   {
     this->precondition();
     const double product = this->dot(this->R, this->Z);
+    // The first direction is the preconditioned residual itself; later ones are conjugate to the
+    // one before.
     const double share = before > 0.0 ? product / before : 0.0;
     for (std::size_t k = 0; k < this->P.size(); ++k)
     {
@@ -85,10 +100,13 @@ void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
       this->R[k] -= step * this->Q[k];
     }
     before = product;
+    // All processes have the same norm, so they stop after the same iteration.
     double norm = std::sqrt(this->dot(this->R, this->R));
     if (convergence.meets(norm))
     {
-      // The recurrence of R loses what rounding takes from x.
+      // R is updated, not computed, and drifts from b - A x by rounding. Before it counts as
+      // converged, the true residual is computed; if that is still too large, the iteration goes on
+      // from it.
       this->setResidual(b, x);
       norm = std::sqrt(this->dot(this->R, this->R));
     }

@@ -21,10 +21,8 @@ public:
   /** b - A x of the rows of this process, valid until the next call. */
   std::span<const double> residual(std::span<const double> b, std::span<const double> x);
 
-  /**
-   * Continues from x until `convergence` says so; it gets the residual after each iteration. After
-   * each, `iterated` is called, which may throw.
-   */
+  /** Iterates from x until `convergence` ends it, which gets the residual after each iteration.
+   * `iterated` is called after each iteration and may throw. */
   void solve(std::span<const double> b, std::span<double> x, Convergence& convergence,
     const std::function<void()>& iterated);
 

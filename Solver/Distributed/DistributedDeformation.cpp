@@ -12,15 +12,20 @@
 #include <string>
 #include <utility>
 
+// A deformation by several processes: the rotations (four right-hand sides), then the displacements
+// (three), with one matrix and one set-up of the preconditioner, since both problems prescribe the
+// same vertices and have the same weights. The streaming engine has the same equations
+// (Jobs/Deformation); docs/cluster.md has the right-hand side of the displacements.
+
 namespace smg
 {
 namespace
 {
 
-/** The share of the rotations in the progress, which have four of the seven right-hand sides. */
+/** The share of the rotations in the progress: four of the seven right-hand sides. */
 constexpr double Share = 4.0 / 7.0;
 
-/** The handles of a part, whose errors name vertices of the mesh. */
+/** The handles of a part. Errors name vertices by their numbers in the mesh, not in the part. */
 class PartHandles final : public Handles
 {
 public:
@@ -33,6 +38,7 @@ public:
   void at(const MeshBlock& block, VertexHandles& handles) override
   {
     this->Given.at(block, handles);
+    // Checked here, since a problem that asked for the handles would see only numbers of the part.
     checkSize(handles, block.vertices());
     for (std::size_t k = 0; k < handles.mask.size(); ++k)
     {
@@ -50,7 +56,8 @@ private:
   const MeshPart& Part;
 };
 
-/** The number of vertices that several handles hold, on all processes. */
+/** The number of vertices of the mesh that several handles hold: each process counts its own
+ * vertices, so that shared ones count once. */
 std::int64_t countShared(const SharedVertices& vertices, const VertexHandles& handles)
 {
   const auto own = std::span(handles.mask)
@@ -74,17 +81,23 @@ void solveStep(DistributedRun& run, const char* name, double begin, double end)
 DistributedSolution deformParts(const SharedVertices& vertices, const MeshPart& part,
   Handles& handles, Weights weights, const DistributedOptions& options)
 {
+  // The columns of both steps count in the estimate of the memory.
   constexpr int Columns = RotationProblem::Columns + PositionProblem::Columns;
   DistributedRun run(vertices, part, options, Columns);
   PartHandles given(handles, part);
   RotationProblem rotations(given, weights);
   run.assemble(rotations);
+  // Only the counts over all processes say whether a handle holds anything.
   checkAnyHeld(run.report);
   checkSharedTargets(vertices, part, rotations.handles());
   run.report.shared = countShared(vertices, rotations.handles());
   solveStep(run, "rotation", 0.0, Share);
+  // The rotations at all vertices of the part, also at vertices of other owners: an edge needs both
+  // ends.
   PositionProblem positions(rotations, run.values());
   run.assemble(positions);
+  // Rotations of very large targets may overflow; the squares of the right-hand sides show it
+  // before the solve.
   checkMotions(run.system().counts.termSquares);
   solveStep(run, "position", Share, 1.0);
   DistributedSolution solution;
@@ -97,6 +110,8 @@ DistributedSolution deformParts(const SharedVertices& vertices, const MeshPart& 
   return solution;
 }
 
+/** A rotation vector and a logarithm of the scale become the matrix s R - I of each vertex once,
+ * not once for each of its edges. */
 PositionProblem::PositionProblem(const RotationProblem& rotations, std::span<const double> turns)
   : Rotations(rotations)
 {
@@ -117,6 +132,8 @@ void PositionProblem::conditions(const MeshBlock& block, VertexConditions& condi
       conditions.dirichlet[k] = 0;
       for (std::size_t c = 3 * k; c < 3 * k + 3; ++c)
       {
+        // The unknown is the displacement u = x - p: near zero where nothing moves, so that
+        // rounding and tolerance refer to the motion and not to the coordinates.
         conditions.value[c] = handles.target[c] - block.positions[c];
       }
     }
@@ -134,12 +151,14 @@ void PositionProblem::edgeTargets(EdgeBatch& batch)
     const double edge[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
     for (int c = 0; c < Columns; ++c)
     {
+      // The mean of the frames at both ends: antisymmetric in the ends, as edge targets must be.
       batch.target[3 * e + static_cast<std::size_t>(c)] =
         0.5 * (from.change(c, edge) + to.change(c, edge));
     }
   }
 }
 
+/** Held vertices get their targets as they were given: start + (target - start) would round. */
 void PositionProblem::addStart(const MeshBlock& block, std::span<double> values) const
 {
   const VertexHandles& handles = this->Rotations.handles();

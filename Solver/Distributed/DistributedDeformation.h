@@ -18,8 +18,8 @@ DistributedSolution deformParts(const SharedVertices& vertices, const MeshPart& 
   Handles& handles, Weights weights, const DistributedOptions& options);
 
 /** The second step of a deformation on a part of the mesh: the displacements u = x - p, prescribed
- * at held vertices, with the edge targets ((s_i R_i + s_j R_j) / 2 - I) (p_i - p_j). See
- * PositionStep, which has the same equations for a stream. */
+ * at held vertices, with the edge targets ((s_i R_i + s_j R_j) / 2 - I) (p_i - p_j). PositionStep
+ * has the same equations for a stream. */
 class PositionProblem final : public Problem
 {
 public:
@@ -35,8 +35,8 @@ public:
   bool hasEdgeTargets() const override { return true; }
   void edgeTargets(EdgeBatch& batch) override;
 
-  /** The new positions of the vertices of the part, given their displacements in their place; of
-   * held ones exactly the targets. */
+  /** Replaces the displacements of the vertices of the part by their new positions; those of held
+   * vertices are exactly the targets. */
   void addStart(const MeshBlock& block, std::span<double> values) const;
 
 private:

@@ -12,11 +12,21 @@
 #include <sstream>
 #include <utility>
 
+// One or more solves with the same matrix, on all processes: assembly, set-up of the preconditioner
+// for the first one, conjugate gradients for each right-hand side, what the equations leave open,
+// and the report.
+//
+// The course depends only on what all processes know alike: options (compared at the beginning),
+// and norms and counts that are sums over the processes. Otherwise one would stop while others wait
+// for it.
+
 namespace smg
 {
 namespace
 {
 
+/** Checks what the options say for themselves; that they are the same on all processes is checked
+ * later. */
 void checkOptions(const DistributedOptions& options)
 {
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
@@ -47,6 +57,8 @@ DistributedRun::DistributedRun(const SharedVertices& vertices, const MeshPart& p
 {
   checkOptions(options);
   const auto corners = static_cast<std::int64_t>(part.block.corners.size());
+  // hypre allocates without a limit, so the estimate is compared with the limit before anything is
+  // built.
   checkPartMemory(
     vertices.vertices(), corners / cornersOf(part.info.cellType), columns, options.memoryLimit);
   this->Costs.processes = this->Processes.size();
@@ -63,9 +75,12 @@ void DistributedRun::assemble(Problem& problem)
   const Timer wall;
   this->requireSameOptions(problem);
   Report& r = this->report;
+  // Method is made by iterate(), so the first assembly is the one before it.
   const bool isFirst = !this->Method;
   Pool pool(this->Options.memoryLimit,
     { "the assembly of a part of the mesh", "raise the memory limit, or use more processes" });
+  // The matrix of the problem before, if any, is used as it is: then only right-hand sides are
+  // assembled.
   std::unique_ptr<HypreMatrix> matrix = std::move(this->System.matrix);
   this->System = {}; // releases the memory of the problem before
   PartAssembly assembly(pool, this->Vertices, this->Part, problem);
@@ -73,6 +88,7 @@ void DistributedRun::assemble(Problem& problem)
   r.pool_bytes_peak = std::max(r.pool_bytes_peak, pool.peak());
   if (isFirst)
   {
+    // Further problems have the same mesh and matrix, hence the same counts.
     reportAssembly(this->System.counts, r);
     if (r.vertices == 0)
     {
@@ -88,7 +104,8 @@ void DistributedRun::assemble(Problem& problem)
   r.seconds.build += wall.seconds();
 }
 
-/** Otherwise some processes would stop before others. */
+/** Compares what decides when a process stops. Numbers are compared as text, in hexadecimal without
+ * rounding. */
 void DistributedRun::requireSameOptions(const Problem& problem)
 {
   std::ostringstream text;
@@ -111,6 +128,7 @@ Report::Step DistributedRun::iterate(const std::string& what, double begin, doub
   const double share = (end - begin) / static_cast<double>(columns);
   for (std::size_t c = 0; c < columns; ++c)
   {
+    // Each right-hand side converges for itself; notes and residuals say which one they belong to.
     const std::string column = columns == 1 ? "" : "right-hand side " + std::to_string(c) + ": ";
     const double first = begin + static_cast<double>(c) * share;
     const Convergence convergence = this->solveColumn(c, first, first + share);
@@ -119,6 +137,8 @@ Report::Step DistributedRun::iterate(const std::string& what, double begin, doub
     this->Costs.iterations.push_back(convergence.cycles());
     convergence.addNotes(r.notes, what + column);
     step.cycles += convergence.cycles();
+    // A step is as good as the worst of its right-hand sides. One whose initial values solve it
+    // needs no iteration.
     step.residual = std::max(step.residual, residuals.empty() ? 0.0 : residuals.back());
     step.converged = step.converged && convergence.converged();
   }
@@ -127,6 +147,8 @@ Report::Step DistributedRun::iterate(const std::string& what, double begin, doub
   return step;
 }
 
+/** Solves for one right-hand side. The norm of the initial residual, by which the tolerance is
+ * measured, weighs rows by their shares (commonShare()), as in the streaming engine. */
 Convergence DistributedRun::solveColumn(std::size_t column, double begin, double end)
 {
   ConjugateGradients& method = *this->Method;
@@ -141,6 +163,7 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
   const double tolerance = this->Options.tolerance;
   Convergence convergence({ tolerance, this->Options.maxIterations },
     { std::sqrt(squares), roundingOf(system.termSquares[column]) });
+  // The residual decreases about geometrically, so its logarithm says how much is done.
   const auto iterated = [&]
   {
     const double done =
@@ -153,6 +176,7 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
 
 void DistributedRun::fix(const Problem& problem)
 {
+  // The means come first: they are sums over values that must be finite.
   this->fixMeans();
   this->LeavesUndetermined = !problem.keepsUndetermined();
   if (!this->LeavesUndetermined)
@@ -168,6 +192,8 @@ void DistributedRun::fix(const Problem& problem)
   }
 }
 
+/** In a component without constraint the solution is determined up to a constant. It gets the mean
+ * of the initial values, weighted by masses, as in the streaming engine. */
 void DistributedRun::fixMeans()
 {
   if (this->report.free_components == 0)
@@ -199,6 +225,7 @@ std::vector<double> DistributedRun::values() const
   const PartSystem& system = this->System;
   const std::size_t columns = system.x.size();
   std::vector<double> values(static_cast<std::size_t>(this->Vertices.vertices()) * columns);
+  // Own vertices are contiguous in the part; all others come from their owners.
   double* own = values.data() + this->Vertices.begin() * static_cast<std::int64_t>(columns);
   for (std::size_t k = 0; k < system.mass.size(); ++k)
   {
@@ -217,6 +244,7 @@ void DistributedRun::finish()
   addAssemblyNotes(r, this->LeavesUndetermined);
   r.seconds.total = this->Wall.seconds();
   Team& team = this->Processes;
+  // The slowest process counts; all time that is not assembly is the solve.
   std::array<double, 2> seconds{ r.seconds.build, r.seconds.total };
   team.largest(std::span<double>(seconds));
   r.seconds.build = seconds[0];
@@ -224,6 +252,8 @@ void DistributedRun::finish()
   r.seconds.solve = r.seconds.total - r.seconds.build;
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
   team.sum({ &r.cpu_seconds, 1 });
+  // One figure for each process, in the order of the processes; the report's own figure is the
+  // largest.
   this->Costs.rss_bytes_peak = team.gather(std::vector<std::int64_t>{ peakResidentBytes() });
   this->Costs.pool_bytes_peak = team.gather(std::vector<std::int64_t>{ r.pool_bytes_peak });
   r.rss_bytes_peak = *std::ranges::max_element(this->Costs.rss_bytes_peak);

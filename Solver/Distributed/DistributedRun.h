@@ -15,16 +15,14 @@
 namespace smg
 {
 
-/**
- * Solves problems with one matrix, one after the other: the processes have assembled it and set up
- * its preconditioner for the first one, and the further ones add right-hand sides alone. All
- * functions are called on all processes.
- */
+/** Solves problems that have one matrix, one after the other: for the first one the processes
+ * assemble the matrix and set up its preconditioner, for the others they assemble right-hand sides
+ * alone. All functions are called on all processes. */
 class DistributedRun
 {
 public:
-  /** Throws Error if an option is out of range, or if the estimated memory for so many columns of
-   * all problems together exceeds the limit. */
+  /** Throws Error if an option is out of range, or if the estimated memory exceeds the limit.
+   * `columns`: the number for all problems together. */
   DistributedRun(const SharedVertices& vertices, const MeshPart& part,
     const DistributedOptions& options, int columns);
 
@@ -38,8 +36,8 @@ public:
    * @return the iterations, the largest residual of the columns, and whether all converged
    */
   Report::Step iterate(const std::string& what = {}, double begin = 0.0, double end = 1.0);
-  /** Makes components without constraint keep the mean of their initial values, and what nothing
-   * determines not a number, if the problem does. */
+  /** After iterate(): gives components without constraint the mean of their initial values, and
+   * makes values that nothing determines not a number, if the problem wants that. */
   void fix(const Problem& problem);
   /** The solution at all vertices of the part, a number for each column. */
   std::vector<double> values() const;

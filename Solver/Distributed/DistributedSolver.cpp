@@ -15,10 +15,16 @@
 #include <optional>
 #include <string>
 
+// The public interface of the distributed engine, and the passing of its result to process 0. Every
+// function runs inside Team::run(), so an error of one process is thrown on all.
+//
+// gather() moves the solution block by block: process 0 asks the owners for the vertices that it
+// needs next, so no process ever holds the whole solution, which is as large as the mesh.
+
 namespace smg
 {
 
-/** See DistributedSolver::gather(). */
+/** What DistributedSolver::gather() does on each process. */
 void gatherSolution(const SharedVertices& vertices, const DistributedSolution& solution,
   const std::function<void(Solution&)>& use);
 
@@ -31,6 +37,7 @@ struct DistributedSolver::Implementation
     this->team.run(
       [this]
       {
+        // First what needs no other process, so that indices can be trusted in the exchanges.
         checkPart(this->part);
         this->vertices.emplace(this->team, this->part);
         checkSharedPositions(*this->vertices, this->part);
@@ -38,7 +45,7 @@ struct DistributedSolver::Implementation
   }
 
   PartsOfMesh parts() const { return { *this->vertices, this->part.info.cellType }; }
-  /** What is described may be a problem or handles. */
+  /** For a problem or for handles, which are prepared alike. */
   template <class Described>
   void prepare(
     Described& described, const std::filesystem::path& scratch, std::int64_t memoryLimit);
@@ -56,6 +63,7 @@ void DistributedSolver::Implementation::prepare(
   this->team.run(
     [&]
     {
+      // Selections are made on the part, and then completed with what the other parts say of them.
       PartSource source(this->part);
       described.preparePart(source, scratch, memoryLimit);
       PartsOfMesh all = this->parts();
@@ -66,6 +74,7 @@ void DistributedSolver::Implementation::prepare(
 DistributedSolution DistributedSolver::Implementation::solve(
   Problem& problem, const DistributedOptions& options)
 {
+  // The report is complete only with finish(), which gathers the costs of all processes.
   DistributedRun run(*this->vertices, this->part, options, problem.columns());
   run.assemble(problem);
   run.iterate();
@@ -174,7 +183,8 @@ void DistributedSolver::together(const std::function<void()>& work)
 namespace
 {
 
-/** Vertices whose values process 0 wants; none: no more. */
+/** A request of process 0 for the values of consecutive vertices. Without vertices it ends the
+ * service. */
 struct Request
 {
   std::int64_t first = 0, count = 0;
@@ -186,17 +196,19 @@ enum Tag
   ValuesTag
 };
 
-/** Values are sent in pieces of this number of vertices. */
+/** The most vertices of a message: their values are counted by an int. */
 constexpr std::int64_t MaxVertices = std::int64_t(1) << 20;
 
-/** The values of own vertices, by stream index. */
+/** The values from an own vertex on, given its stream index. */
 const double* valuesOf(
   const SharedVertices& vertices, const DistributedSolution& solution, std::int64_t id)
 {
   return solution.values.data() + vertices.find(id) * solution.columns;
 }
 
-/** The solution on process 0, whose other vertices are asked of their owners. */
+/** The solution as process 0 sees it: what it does not own is asked of the owners. The destructor
+ * ends the service of the other processes, also if `use` throws; Team::run() then tells them of
+ * the failure. */
 class GatheredSolution final : public Solution
 {
 public:
@@ -224,6 +236,7 @@ public:
       first, count, values.size() / static_cast<std::size_t>(this->columns()), this->vertices());
     for (double* to = values.data(); count > 0;)
     {
+      // A range may extend over the vertices of several owners.
       const int owner = this->Vertices.ownerOf(first);
       const std::int64_t part =
         std::min({ count, this->Vertices.endOf(owner) - first, MaxVertices });
@@ -258,7 +271,7 @@ private:
   const DistributedSolution& Part;
 };
 
-/** Answers the requests of process 0. */
+/** Answers the requests of process 0 until it sends one without vertices. */
 void serve(const SharedVertices& vertices, const DistributedSolution& solution)
 {
   const MPI_Comm processes = vertices.team().communicator();
@@ -281,6 +294,7 @@ void serve(const SharedVertices& vertices, const DistributedSolution& solution)
 void gatherSolution(const SharedVertices& vertices, const DistributedSolution& solution,
   const std::function<void(Solution&)>& use)
 {
+  // Only process 0 uses the solution; all others wait and serve.
   if (vertices.team().rank() != 0)
   {
     serve(vertices, solution);

@@ -7,6 +7,9 @@
 #include <numeric>
 #include <string>
 
+// The objects of hypre that are used here, as classes: their owners release them also if a
+// constructor throws, and every error code becomes an Error.
+
 namespace smg
 {
 
@@ -14,6 +17,7 @@ HypreRows::HypreRows(std::int64_t first, std::int64_t last, std::int64_t all)
   : begin(static_cast<HYPRE_BigInt>(first))
   , end(static_cast<HYPRE_BigInt>(last))
 {
+  // HYPRE_BigInt numbers the rows of all processes; HYPRE_Int counts what one process has.
   if (all > static_cast<std::int64_t>(std::numeric_limits<HYPRE_BigInt>::max()))
   {
     throw Error("the mesh has " + std::to_string(all) +
@@ -28,6 +32,7 @@ HypreRows::HypreRows(std::int64_t first, std::int64_t last, std::int64_t all)
   }
 }
 
+/** hypre keeps an error until it is cleared, and returns it from later functions as well. */
 void checkHypre(HYPRE_Int error, const char* what)
 {
   if (error != 0)
@@ -42,13 +47,17 @@ void checkHypre(HYPRE_Int error, const char* what)
 HypreMatrix::HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize)
   : Processes(team)
 {
-  // Errors that other users of hypre have left would be taken for those of the next calls.
+  // An error that another user of hypre has left would be taken for one of the next calls.
   HYPRE_ClearAllErrors();
-  // Kept to the end of the program: hypre counts no users.
+  // hypre does not count its users. It is started once and kept to the end of the program, in which
+  // another library may be using it.
   static const HYPRE_Int started = HYPRE_Init();
   checkHypre(started, "start");
+  // The usual number of entries of a row. Rows may have more, for which hypre allocates; with a
+  // good guess it rarely has to.
   const std::vector<HYPRE_Int> sizes(static_cast<std::size_t>(rows.count()), rowSize);
   team.agree();
+  // A process has a contiguous range of rows, and the same range of columns; ends are inclusive.
   HYPRE_IJMatrixCreate(
     team.communicator(), rows.begin, rows.end - 1, rows.begin, rows.end - 1, &this->Self.object);
   HYPRE_IJMatrixSetObjectType(this->Self, HYPRE_PARCSR);
@@ -56,6 +65,7 @@ HypreMatrix::HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize)
   checkHypre(HYPRE_IJMatrixInitialize(this->Self), "begin a matrix");
 }
 
+/** Entries for rows of other processes are sent to them by assemble(). */
 void HypreMatrix::add(
   HYPRE_BigInt row, std::span<const HYPRE_BigInt> columns, std::span<const double> values)
 {
@@ -76,6 +86,7 @@ void HypreMatrix::assemble()
 HypreVector::HypreVector(Team& team, const HypreRows& rows)
   : Numbers(static_cast<std::size_t>(rows.count()))
 {
+  // hypre takes values with the numbers of their rows.
   std::iota(this->Numbers.begin(), this->Numbers.end(), rows.begin);
   team.agree();
   HYPRE_IJVectorCreate(team.communicator(), rows.begin, rows.end - 1, &this->Self.object);
@@ -105,11 +116,13 @@ BoomerAmg::BoomerAmg(const HypreMatrix& matrix, const HypreVector& b, const Hypr
   : Matrix(matrix)
 {
   HYPRE_BoomerAMGCreate(&this->Self.object);
+  // As a preconditioner: one V-cycle from zero, whatever the residual.
   HYPRE_BoomerAMGSetTol(this->Self, 0.0);
   HYPRE_BoomerAMGSetMaxIter(this->Self, 1);
   HYPRE_BoomerAMGSetPrintLevel(this->Self, 0);
   // Symmetric Gauss-Seidel with the l1 norms of couplings to other processes in the diagonal: it
-  // converges for any number of processes (Baker, Falgout, Kolev and Yang 2011).
+  // converges for any number of processes (Baker, Falgout, Kolev and Yang 2011) and is symmetric,
+  // as conjugate gradients require.
   HYPRE_BoomerAMGSetRelaxType(this->Self, 8);
   checkHypre(HYPRE_BoomerAMGSetup(this->Self, matrix.parallel(), b.parallel(), x.parallel()),
     "set up BoomerAMG");
@@ -117,6 +130,7 @@ BoomerAmg::BoomerAmg(const HypreMatrix& matrix, const HypreVector& b, const Hypr
 
 void BoomerAmg::apply(const HypreVector& b, HypreVector& x) const
 {
+  // A preconditioner is linear: it begins with zero each time.
   HYPRE_ParVectorSetConstantValues(x.parallel(), 0.0);
   HYPRE_BoomerAMGSolve(this->Self, this->Matrix.parallel(), b.parallel(), x.parallel());
   // One cycle does not reach a tolerance, which hypre may report as an error.

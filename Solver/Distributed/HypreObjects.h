@@ -14,11 +14,12 @@
 namespace smg
 {
 
-/** The rows of a matrix or vector of hypre that this process has. Every number of the mesh becomes
- * a HYPRE_BigInt. */
+/** The rows of a matrix or vector of hypre that belong to this process. Numbers of vertices become
+ * numbers of type HYPRE_BigInt. */
 struct HypreRows
 {
-  /** Throws Error if hypre cannot count to `all`, or not the entries of so many rows. */
+  /** Throws Error if hypre cannot count to `all`, or cannot count the entries of the rows from
+   * `begin` to `end`. */
   HypreRows(std::int64_t begin, std::int64_t end, std::int64_t all);
 
   HYPRE_BigInt begin, end;
@@ -28,7 +29,7 @@ struct HypreRows
 /** Throws Error if a function of hypre returned an error; `what` is what it was to do. */
 void checkHypre(HYPRE_Int error, const char* what);
 
-/** Owns an object of hypre, also while a constructor that makes it throws. */
+/** Owns an object of hypre, and releases it also if the constructor that makes it throws. */
 template <class Object, auto Destroy>
 struct HypreOwner
 {
@@ -47,12 +48,11 @@ struct HypreOwner
   Object object = nullptr;
 };
 
-/** A square matrix of hypre. Constructor, assemble(), multiply() and destructor are called on all
- * processes. */
+/** A square matrix of hypre. Constructor, assemble() and destructor are called on all processes. */
 class HypreMatrix
 {
 public:
-  /** Reserves memory for `rowSize` entries of a row. */
+  /** Expects about `rowSize` entries in a row. */
   HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize);
 
   /** Adds numbers to a row of any process. */

@@ -11,6 +11,18 @@
 #include <limits>
 #include <utility>
 
+// The matrix and right-hand sides of a mesh in parts. The weights, loads and masses of cells come
+// from the code of the streaming engine (CellAssembly); here they are joined across parts.
+//
+// Invariant: every edge of the mesh has one process that adds it to both of its rows, with the
+// weight summed over the cells of all parts; what belongs to vertices is summed at their owners,
+// which add the diagonals. So the matrix is symmetric, and its row sums equal those of a solve of
+// one stream up to rounding, whoever has the cells. Prescribed vertices are eliminated
+// symmetrically: their edges go to diagonals and right-hand sides alone, and their rows have 1 on
+// the diagonal.
+//
+// A second problem with the same matrix goes the same way and adds nothing to the matrix.
+
 namespace smg
 {
 
@@ -30,6 +42,8 @@ PartAssembly::PartAssembly(
 PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
 {
   const CellType type = this->Part.info.cellType;
+  // The order matters: data are compared before they are used; edges and facets are joined before
+  // rows are made from them.
   this->Cells.add(this->Part.block);
   checkSharedConditions(this->Vertices, this->Part, this->Cells.vertices);
   joinSharedEdges(this->Vertices, this->Cells.edges);
@@ -43,14 +57,17 @@ PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
   {
     const std::int64_t first = this->Part.firstOwned;
     const HypreRows rows(first, this->Part.endOwned, this->Part.info.vertices);
+    // Usual numbers of entries of a row, as a hint for the memory.
     const HYPRE_Int usual = type == CellType::Triangle ? 8 : 16;
     system.matrix = std::make_unique<HypreMatrix>(this->Vertices.team(), rows, usual);
     this->Incomplete = system.matrix.get();
   }
   std::vector<double> sums(static_cast<std::size_t>(this->Vertices.vertices() * this->lanes()));
+  // Each lane of `sums` is the contribution of this part; the owners get the sums over all parts.
   this->joinScales();
   this->addEdges(sums);
   this->Vertices.addToOwners(sums, this->lanes());
+  // Components of the part alone, from its cells, are joined with the components of other parts.
   system.components = std::make_unique<SharedComponents>(
     this->Vertices, this->LabelOf, static_cast<std::int32_t>(this->Labels.labels()), this->Columns);
   this->close(sums, system);
@@ -58,7 +75,8 @@ PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
   return system;
 }
 
-/** Finds the size of the weights of each vertex, whose cells several parts may have. */
+/** Finds the largest scale of the weights at each vertex, over the cells of all parts. Only
+ * problems with weights of their own have other scales than 1. */
 void PartAssembly::joinScales()
 {
   this->Scales.assign(static_cast<std::size_t>(this->Vertices.vertices()), 1.0F);
@@ -70,6 +88,7 @@ void PartAssembly::joinScales()
   {
     this->Scales[static_cast<std::size_t>(i)] = this->Cells.vertices.scale[i];
   }
+  // The largest at the owner, and from there to all parts.
   this->Vertices.collect<float>(this->Scales,
     [this](std::int64_t i, float scale)
     {
@@ -79,9 +98,12 @@ void PartAssembly::joinScales()
   this->Vertices.copyFromOwners(std::span(this->Scales), 1);
 }
 
-/** Adds the edges to the matrix and what the part contributes to its vertices to `sums`. */
+/** Adds the edges to the matrix, and to `sums` what the part contributes to each of its
+ * vertices. */
 void PartAssembly::addEdges(std::vector<double>& sums)
 {
+  // In ascending order, which OpenEdges needs: it passes an edge on from its lower to its upper
+  // vertex.
   for (std::int64_t i = 0; i < this->Vertices.vertices(); ++i)
   {
     double* of = sums.data() + i * this->lanes();
@@ -94,7 +116,7 @@ void PartAssembly::addEdges(std::vector<double>& sums)
 }
 
 /** Adds the edges of vertex i, except those that another process has. Edges to prescribed vertices
- * go to the diagonal and the right-hand side. */
+ * go to the diagonal and the right-hand side. The row may belong to another process. */
 void PartAssembly::addRow(std::int64_t i, double* sums)
 {
   this->Neighbours.clear();
@@ -102,17 +124,20 @@ void PartAssembly::addRow(std::int64_t i, double* sums)
   {
     this->Cells.edges.take(i, this->Cells.vertices.points, this->Neighbours);
   }
+  // Named by the numbers of the original file, which the user knows.
   catch (const EdgeWeightError& error)
   {
     throw EdgeWeightError(error.from, error.to, nameOfVertex(this->Part, error.from),
       nameOfVertex(this->Part, error.to));
   }
+  // The edges are taken nevertheless, since they must be passed on to their upper vertices.
   if (this->isKnown(i))
   {
     return;
   }
   this->Places.clear();
   this->Values.clear();
+  // All targets of a row are asked for at once.
   const std::size_t end = this->Neighbours.size();
   this->Targets.ask(i, this->Neighbours, { &end, 1 });
   for (std::size_t e = 0; e < end; ++e)
@@ -123,6 +148,7 @@ void PartAssembly::addRow(std::int64_t i, double* sums)
     {
       sums[Load + k] += neighbour.weight * target[k];
     }
+    // An edge counts in the diagonal whether its other end is an unknown or prescribed.
     sums[Diagonal] += neighbour.weight;
     const double magnitude = std::fabs(neighbour.weight);
     sums[Terms] += magnitude;
@@ -130,6 +156,7 @@ void PartAssembly::addRow(std::int64_t i, double* sums)
     sums[Edges] += 1.0;
     if (!this->isKnown(neighbour.to))
     {
+      // A column of hypre is a stream index: vertices are numbered as in the whole mesh.
       this->Places.push_back(static_cast<HYPRE_BigInt>(this->Vertices.id(neighbour.to)));
       this->Values.push_back(-neighbour.weight);
       continue;
@@ -147,7 +174,8 @@ void PartAssembly::addRow(std::int64_t i, double* sums)
   }
 }
 
-/** The largest weight of the edge that counts in the initial residual of vertex i. */
+/** The largest weight with which the edge counts in the initial residual of vertex i, see
+ * commonShare(). Other weights than cotangents have no outliers. */
 double PartAssembly::regularWeight(std::int64_t i, std::int64_t to) const
 {
   if (this->Kind != Weights::Cotangent)
@@ -159,7 +187,7 @@ double PartAssembly::regularWeight(std::int64_t i, std::int64_t to) const
          static_cast<double>(this->Scales[static_cast<std::size_t>(i)]);
 }
 
-/** Completes the own vertices. */
+/** Completes the equations of the own vertices, given the sums over all parts. */
 void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
 {
   const auto own = static_cast<std::size_t>(this->Vertices.end() - this->Vertices.begin());
@@ -169,6 +197,7 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
   system.share.assign(own, 0.0);
   system.mass.assign(own, 0.0);
   system.termSquares.assign(columns, 0.0);
+  // Rows that are not unknowns are x = value: 1 on the diagonal.
   this->Diagonals.assign(own, 1.0);
   this->IsUnknown.assign(own, 0);
   for (std::size_t k = 0; k < own; ++k)
@@ -182,12 +211,15 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
     }
     const SharedComponents::Place place = system.components->of(static_cast<std::int64_t>(k));
     const bool isKnown = this->isKnown(i);
+    // No edge and nothing else in the row: the value is determined by nothing and stays as it is.
     const bool isHeld = !isKnown && of[Edges] == 0.0 && of[RowSum] == 0.0;
     this->Prescribed += isKnown ? 1 : 0;
     if (isHeld)
     {
       system.undetermined.push_back(static_cast<std::int64_t>(k));
     }
+    // What makes a component solvable: a vertex whose value is known, or a diagonal beyond the
+    // edges.
     if (place.components && (isKnown || isHeld || of[RowSum] > 0.0))
     {
       place.components->anchor(place.label);
@@ -203,6 +235,8 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
 void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& system)
 {
   const auto row = static_cast<std::size_t>(k);
+  // Cotangents have both signs: a diagonal that is smaller than the rounding of its terms is
+  // raised, see lostDiagonalOf().
   const double edges = sums[Diagonal];
   const double raise = this->Kind == Weights::Cotangent ? lostDiagonalOf(sums[RowSum] + edges,
                                                             std::fabs(sums[RowSum]) + sums[Terms])
@@ -216,18 +250,21 @@ void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& 
   for (std::size_t c = 0; c < x.size(); ++c)
   {
     x[c] = system.x[c][row];
-    // What keeps the vertex near its initial value is no part of the problem.
+    // What keeps the vertex near its initial value is not part of the problem: it is on both sides
+    // of the equation.
     system.b[c][row] = sums[Load + c] + raise * x[c];
   }
   const SharedComponents::Place place = system.components->of(k);
   if (place.components)
   {
+    // Components would also sum residuals, which are not needed here.
     const std::vector<double> none(x.size());
     place.components->count(place.label, sums + Load, x.data(), none.data(), sums[Mass]);
   }
 }
 
-/** Makes components without constraint solvable, and completes the matrix. */
+/** Makes components without constraint solvable, and completes the matrix. For those the right-hand
+ * side must sum to zero: the mean of the source is subtracted. */
 void PartAssembly::finish(PartSystem& system)
 {
   system.components->combine();
@@ -245,14 +282,17 @@ void PartAssembly::finish(PartSystem& system)
         system.b[column][row] -= place.components->weightOf(place.label, system.mass[row]) *
                                  shifts(place, this->Columns, c);
       }
+      // The rounding of the residual grows with the terms of b - A x, not with their difference.
       const double terms[2] = { system.b[column][row],
         this->Diagonals[row] * system.x[column][row] };
       system.termSquares[column] +=
         this->IsUnknown[row] ? terms[0] * terms[0] + terms[1] * terms[1] : 0.0;
     }
   }
-  // A larger diagonal of one unknown of a free component makes the matrix definite. The sum of its
-  // equations then says that the correction is zero there: the solution remains one of the problem.
+  // A free component has a singular matrix: constants are in its kernel. With the diagonal of one
+  // of its unknowns doubled it is definite. The sum of its equations, whose right-hand sides sum to
+  // zero, then says that this unknown is zero: the solution remains one of the problem, and fix()
+  // gives it its mean.
   const auto isUnknown = [this](std::int64_t k)
   { return this->IsUnknown[static_cast<std::size_t>(k)] != 0; };
   for (const std::int64_t k : system.components->representatives(isUnknown))
@@ -271,7 +311,7 @@ void PartAssembly::finish(PartSystem& system)
   this->count(system);
 }
 
-/** Adds to a row of the matrix, unless that is taken as it is. */
+/** Adds to a row of the matrix, unless that is complete from an earlier problem. */
 void PartAssembly::add(
   std::int64_t row, std::span<const HYPRE_BigInt> columns, std::span<const double> values)
 {
@@ -281,7 +321,7 @@ void PartAssembly::add(
   }
 }
 
-/** Sums up what the processes have counted. */
+/** Sums what the processes have counted, in one reduction for all counts. */
 void PartAssembly::count(PartSystem& system) const
 {
   Team& team = this->Vertices.team();
@@ -313,6 +353,7 @@ void PartAssembly::count(PartSystem& system) const
   system.nonzeros = counts[8];
   all.components = system.components->components();
   all.freeComponents = system.components->freeComponents();
+  // Of the column with the largest terms.
   all.termSquares = *std::ranges::max_element(system.termSquares);
 }
 

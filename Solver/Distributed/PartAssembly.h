@@ -18,7 +18,7 @@ namespace smg
 {
 
 /** The equations of the vertices that a process owns, after the elimination of prescribed values.
- * Vectors have a number, or one for each column, for each of these. */
+ * Each vector has an element for each of these vertices. */
 struct PartSystem
 {
   std::unique_ptr<HypreMatrix> matrix;
@@ -33,31 +33,29 @@ struct PartSystem
   std::int64_t nonzeros = 0; ///< of the matrix, without rows that are no unknowns
 };
 
-/**
- * Assembles the equations of the whole mesh from the cells of the parts, as Assembly does from a
- * stream: each process adds what its cells contribute, to the rows of others as well, and completes
- * the rows that it owns. Called on all processes.
- */
+/** Assembles the equations of the whole mesh from the cells of the parts, as Assembly does from a
+ * stream. Each process adds what its cells contribute, also to rows of others, and completes the
+ * rows that it owns. Called on all processes. */
 class PartAssembly
 {
 public:
   /** `pool` accounts for the memory. */
   PartAssembly(Pool& pool, const SharedVertices& vertices, const MeshPart& part, Problem& problem);
 
-  /** `matrix`: null, or that of a problem with the same weights and prescribed vertices, which is
-   * taken as it is. */
+  /** `matrix`: the complete matrix of a problem with the same weights and prescribed vertices,
+   * which is not changed; or null: the matrix is assembled. */
   PartSystem assemble(std::unique_ptr<HypreMatrix> matrix = nullptr);
 
 private:
-  /** Numbers of a vertex that are summed over the parts; the right-hand side follows. */
+  /** The numbers of a vertex that are summed over the parts. The right-hand sides follow them. */
   enum Lane
   {
     Mass,
-    RowSum,   ///< the part of the diagonal that no edge has
-    Diagonal, ///< of all edges
+    RowSum,   ///< the part of the diagonal that is not from edges
+    Diagonal, ///< sum of the weights of all edges
     Terms,    ///< magnitudes of the weights of all edges
-    Ordinary, ///< likewise of regular cells, see commonShare()
-    Edges,    ///< number of these
+    Ordinary, ///< the same with weights as of regular cells, see commonShare()
+    Edges,    ///< their number
     Load
   };
 
@@ -82,11 +80,11 @@ private:
   ComponentLabels Closed;
   CellAssembly Cells;
   EdgeTargets Targets;
-  HypreMatrix* Incomplete = nullptr; ///< null: the matrix is taken as it is
+  HypreMatrix* Incomplete = nullptr; ///< the matrix to add to; null: it is complete
   std::vector<std::int32_t> LabelOf; ///< of the vertices of the part
-  std::vector<float> Scales;         ///< likewise, see OpenVertices
+  std::vector<float> Scales;         ///< of the vertices of the part, see OpenVertices
   std::vector<double> Diagonals;     ///< of own vertices
-  std::vector<char> IsUnknown;       ///< likewise
+  std::vector<char> IsUnknown;       ///< of own vertices
   std::int64_t Prescribed = 0, Raised = 0, Entries = 0;
   // A row.
   std::vector<RowNeighbour> Neighbours;

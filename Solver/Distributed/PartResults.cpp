@@ -10,12 +10,17 @@
 #include <limits>
 #include <vector>
 
+// The derived results of a solution in parts. Each process evaluates its own cells with the code of
+// the streaming engine; facets and edges between parts are joined before, so that each counts once,
+// and what cells contribute to vertices is summed at the owners. Sums over the mesh are reductions,
+// so they agree with the results of one stream up to rounding.
+
 namespace smg
 {
 namespace
 {
 
-/** Adds the sums of all processes. */
+/** Replaces the sums of this process by those over all processes, in one reduction. */
 void sumUp(ResultSums& sums, Team& team)
 {
   const std::vector<double*> places = sums.numbers();
@@ -28,11 +33,14 @@ void sumUp(ResultSums& sums, Team& team)
   }
 }
 
-/** The least of the values of all processes, at the first vertex in stream order that has it, and
- * named by its original number; `sign` -1: the largest. */
+/** Replaces the smallest value of each column on this process by the smallest one on all processes,
+ * at the first vertex in stream order that has it, under its original number. `sign` -1: the
+ * largest value. */
 void findExtremes(const SharedVertices& vertices, const MeshPart& part, double sign,
   std::vector<Report::Extreme>& extremes)
 {
+  // Three reductions: the value; among the vertices with it the first stream index; and its
+  // original number, which only the processes that have the vertex know.
   constexpr std::int64_t None = std::numeric_limits<std::int64_t>::max();
   Team& team = vertices.team();
   std::vector<double> values;
@@ -44,6 +52,7 @@ void findExtremes(const SharedVertices& vertices, const MeshPart& part, double s
   std::vector<std::int64_t> ids(extremes.size(), None);
   for (std::size_t k = 0; k < ids.size(); ++k)
   {
+    // Comparing for equality is exact: `values` holds a value of one of the processes, not a sum.
     if (extremes[k].vertex >= 0 && sign * extremes[k].value == values[k])
     {
       ids[k] = vertices.id(extremes[k].vertex);
@@ -55,6 +64,8 @@ void findExtremes(const SharedVertices& vertices, const MeshPart& part, double s
   for (std::size_t k = 0; k < ids.size(); ++k)
   {
     const std::int64_t vertex = ids[k] == None ? -1 : vertices.find(ids[k]);
+    // Asked of the info, which is the same on all processes: the block of a process without cells
+    // may have no columns.
     if (findColumn(part.info.vertexColumns, OriginalIdSpec) >= 0)
     {
       names[k] = vertex < 0 ? None
@@ -80,6 +91,7 @@ void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem&
   results.addPart(part.block);
   solution.gradient.assign(results.gradient().begin(), results.gradient().end());
   solution.flux.assign(results.flux().begin(), results.flux().end());
+  // Edges between vertices with different conditions carry flux; each is left to one process.
   joinSharedEdges(vertices, results.edges());
   results.exclude(innerFacets(vertices, type, results.facets()));
   std::vector<double> terms = results.takeTerms();
@@ -87,6 +99,7 @@ void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem&
   const std::size_t lanes = VertexTerms::size(columns);
   vertices.addToOwners(terms, static_cast<int>(lanes));
   ResultSums& sums = results.sums();
+  // Each vertex is counted by its owner alone.
   for (std::int64_t i = vertices.begin(); i < vertices.end(); ++i)
   {
     const auto vertex = static_cast<std::size_t>(i);
@@ -99,6 +112,7 @@ void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem&
   sums.finish(solution.report);
 }
 
+/** The owner of a vertex collects the marks of all parts and passes the result on. */
 void PartsOfMesh::join(std::span<std::uint8_t> marks)
 {
   this->Vertices.collect(std::span<const std::uint8_t>(marks),
@@ -107,6 +121,8 @@ void PartsOfMesh::join(std::span<std::uint8_t> marks)
   this->Vertices.copyFromOwners(marks, 1);
 }
 
+/** Of equal distances the vertex that comes first in the stream, whichever process has it: so a
+ * point selects the same vertex with any number of processes. */
 void PartsOfMesh::nearest(std::span<double> distances, std::span<std::int64_t> vertices)
 {
   std::vector<double> least(distances.begin(), distances.end());

@@ -14,7 +14,7 @@ namespace smg
 void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem& problem,
   const ResultOptions& options, DistributedSolution& solution);
 
-/** What selections ask of the parts of a mesh on several processes. */
+/** Answers what selections ask about the parts of a mesh on several processes. */
 class PartsOfMesh final : public MeshParts
 {
 public:

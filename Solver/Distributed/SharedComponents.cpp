@@ -6,6 +6,14 @@
 #include <functional>
 #include <limits>
 
+// The connected components of a mesh in parts. Each process finds the components of its own cells;
+// labels that two processes have at the same vertex belong together.
+//
+// Only labels that meet others are known to all processes ("split"): their pairs are gathered, and
+// every process joins them in the same order, so all have the same sets. The components that lie
+// within one process ("whole") stay there. Memory and messages grow with the number of labels at
+// the interfaces, not with the number of vertices.
+
 namespace smg
 {
 
@@ -20,7 +28,8 @@ SharedComponents::SharedComponents(const SharedVertices& vertices,
   this->findSplit(this->namesOf(labels, count));
 }
 
-/** Names the labels of all processes, one process after the other. */
+/** Numbers the labels of all processes consecutively, process by process, so that each has a name
+ * of its own. */
 std::vector<std::int64_t> SharedComponents::namesOf(
   std::span<const std::int32_t> labels, std::int32_t count)
 {
@@ -36,7 +45,7 @@ std::vector<std::int64_t> SharedComponents::namesOf(
   return names;
 }
 
-/** Joins the labels that processes have at the same vertex. */
+/** Joins the labels that processes have at the same vertex, as seen by its owner. */
 void SharedComponents::findSplit(const std::vector<std::int64_t>& names)
 {
   using Pair = std::array<std::int64_t, 2>;
@@ -49,10 +58,12 @@ void SharedComponents::findSplit(const std::vector<std::int64_t>& names)
       {
         return;
       }
-      // The cells of the owner may have no weight: then the vertex is of the component of another.
+      // The cells of the owner may have no weight, so that it has no label there: then the vertex
+      // belongs to the component of another process.
       std::int64_t& own = this->Names[static_cast<std::size_t>(vertex - this->Vertices.begin())];
       own = own < 0 ? name : own;
       const Pair pair{ std::min(own, name), std::max(own, name) };
+      // Neighbouring vertices mostly repeat the same pair.
       if (pairs.empty() || pairs.back() != pair)
       {
         pairs.push_back(pair);
@@ -64,12 +75,14 @@ void SharedComponents::findSplit(const std::vector<std::int64_t>& names)
     items.erase(std::unique(items.begin(), items.end()), items.end());
   };
   removeCopies(pairs);
+  // From here on all processes have the same list.
   pairs = this->Vertices.team().gather(pairs);
   for (const Pair& pair : pairs)
   {
     this->SplitNames.insert(this->SplitNames.end(), pair.begin(), pair.end());
   }
   removeCopies(this->SplitNames);
+  // The labels of Split are the places in SplitNames.
   for (std::size_t k = 0; k < this->SplitNames.size(); ++k)
   {
     this->Split.add();
@@ -98,11 +111,14 @@ SharedComponents::Place SharedComponents::of(std::int64_t k)
     return { &this->Split,
       this->Split.root(static_cast<std::int32_t>(place - this->SplitNames.begin())) };
   }
+  // Labels of Whole are given out when a vertex first asks for them.
   std::int32_t& label = this->WholeLabels[static_cast<std::size_t>(name - this->FirstName)];
   label = label < 0 ? this->Whole.add() : label;
   return { &this->Whole, label };
 }
 
+/** Whole is complete on this process. Split has the same labels on all processes, so its sums over
+ * the vertices of each are added label by label. */
 void SharedComponents::combine()
 {
   this->Whole.settle();
@@ -139,6 +155,8 @@ std::vector<double> SharedComponents::shiftedSums() const
   return sums;
 }
 
+/** The vertex with the smallest stream index of each free component: of a split one by a reduction,
+ * after which only the process that owns the vertex takes it. */
 std::vector<std::int64_t> SharedComponents::representatives(
   const std::function<bool(std::int64_t)>& chosen)
 {
@@ -183,6 +201,7 @@ SharedComponents::Shifts SharedComponents::rightSideShifts() const
 SharedComponents::Shifts SharedComponents::meanShifts(
   const std::function<double(std::int64_t, int)>& value)
 {
+  // Sums over the own vertices; for split components they are completed over the processes.
   const auto columns = static_cast<std::size_t>(this->Columns);
   std::vector<double> ofWhole(static_cast<std::size_t>(this->Whole.labels()) * columns);
   std::vector<double> ofSplit(static_cast<std::size_t>(this->Split.labels()) * columns);

@@ -13,10 +13,9 @@
 namespace smg
 {
 
-/**
- * The connected components of a mesh in parts. Those whose vertices all belong to one process are
- * its own; every process has all others, with the sums over all processes.
- */
+/** The connected components of a mesh in parts. A component whose vertices all belong to one
+ * process is known to that process alone; all others are known to every process, with the sums
+ * over all of them. */
 class SharedComponents
 {
 public:
@@ -27,15 +26,15 @@ public:
     std::int32_t label = -1;          ///< a root of these
   };
 
-  /** `labels`: of the vertices of the part, from its cells alone: from 0, below `count`; -1: of no
-   * component. Called on all processes. */
+  /** `labels`: the labels of the vertices of the part, found from its cells alone: 0 to below
+   * `count`, or -1 for no component. Called on all processes. */
   SharedComponents(const SharedVertices& vertices, std::span<const std::int32_t> labels,
     std::int32_t count, int columns);
 
   /** The component of own vertex number k, from 0. */
   Place of(std::int64_t k);
 
-  /** After the own vertices were counted: sums up over the processes. */
+  /** To be called when the own vertices have been counted: sums over the processes. */
   void combine();
 
   // On all processes, after that:
@@ -44,10 +43,8 @@ public:
   /** See Components. */
   double incompatibility() const;
   std::vector<double> shiftedSums() const;
-  /**
-   * Chooses one own vertex of each free component, the first one with chosen(k), on one of its
-   * processes.
-   */
+  /** Chooses the first vertex with chosen(k) of each free component; each is returned on the
+   * process that owns it, as its number among the own vertices. */
   std::vector<std::int64_t> representatives(const std::function<bool(std::int64_t)>& chosen);
 
   /** Components::rightSideShifts() of the own and of the shared components. */
@@ -64,8 +61,8 @@ public:
     }
   };
   Shifts rightSideShifts() const;
-  /** Components::meanShifts(), given `columns` weighted values of own vertices: value(k, column),
-   * for those of free components. */
+  /** Components::meanShifts(), given the weighted values value(k, column) of own vertices k of free
+   * components. */
   Shifts meanShifts(const std::function<double(std::int64_t, int)>& value);
 
 private:
@@ -75,10 +72,10 @@ private:
   const SharedVertices& Vertices;
   int Columns;
   Components Whole, Split;
-  std::int64_t FirstName = 0;            ///< of the labels of this process among those of all
-  std::vector<std::int64_t> SplitNames;  ///< ascending; of the labels of Split
-  std::vector<std::int64_t> Names;       ///< of own vertices: their labels among those of all
-  std::vector<std::int32_t> WholeLabels; ///< of the labels of the part; -1: none yet
+  std::int64_t FirstName = 0;            ///< name of label 0 of this process
+  std::vector<std::int64_t> SplitNames;  ///< ascending: the names of the labels of Split
+  std::vector<std::int64_t> Names;       ///< of own vertices: the names of their labels
+  std::vector<std::int32_t> WholeLabels; ///< label in Whole of each label of the part; -1: none yet
 };
 
 } // namespace smg

@@ -6,12 +6,17 @@
 #include <utility>
 #include <vector>
 
+// Cells, edges and facets between parts. Items with the same vertices meet at the owner of their
+// first vertex (rendezvous()), which is the only process that has to know all of them. Each process
+// sends only items whose vertices are all shared: their number grows with the interfaces, not with
+// the parts.
+
 namespace smg
 {
 namespace
 {
 
-/** A cell of a part. */
+/** A cell of a part, in which several processes are compared by the vertices. */
 struct PartCell
 {
   std::array<std::int64_t, 4> key; ///< stream indices, ascending; of a triangle the last one is 0
@@ -27,13 +32,14 @@ std::int64_t repeatedCells(const SharedVertices& vertices, const MeshPart& part)
   for (std::size_t c = 0; c < corners.size(); c += each)
   {
     const auto cell = std::span(corners).subspan(c, each);
-    // Another process can only have the cell if it has all corners.
+    // Another process can only have the cell if it has all of its corners.
     if (!std::ranges::all_of(cell, [&](std::int64_t v) { return vertices.isShared(v); }))
     {
       continue;
     }
     PartCell item{};
     std::ranges::transform(cell, item.key.begin(), [&](std::int64_t v) { return vertices.id(v); });
+    // In ascending order: the same vertices are the same cell, however it is turned.
     std::sort(item.key.begin(), item.key.begin() + static_cast<std::ptrdiff_t>(each));
     items.push_back(item);
   }
@@ -41,6 +47,7 @@ std::int64_t repeatedCells(const SharedVertices& vertices, const MeshPart& part)
   rendezvous<std::uint8_t>(vertices, items,
     [&](auto meetings)
     {
+      // A cell that one process has twice is left to the checks of the mesh itself.
       const auto isElsewhere = [&](const auto& meeting)
       { return meeting.process != meetings.front().process; };
       repeated += std::ranges::any_of(meetings, isElsewhere) ? 1 : 0;
@@ -63,6 +70,7 @@ struct PartEdge
 
 void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges)
 {
+  // Visits the shared edges in the same order when they are sent and when the answers come.
   const auto forShared = [&](auto visit)
   {
     for (std::int64_t low = 0; low < vertices.vertices(); ++low)
@@ -88,6 +96,8 @@ void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges)
   const auto sums = rendezvous<EdgeStiffness::Sum>(vertices, items,
     [&edges](auto meetings)
     {
+      // The first process keeps the edge with the sum over all parts. The weights are joined before
+      // they become entries, since clamped and uniform weights are not sums over the parts.
       EdgeStiffness::Sum& whole = meetings.front().answer;
       whole = meetings.front().item.sum;
       for (auto& meeting : meetings.subspan(1))
@@ -96,6 +106,7 @@ void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges)
         meeting.answer = { EdgeStiffness::Elsewhere, 0.0 };
       }
     });
+  // One answer for each edge sent, in the same order.
   auto next = sums.begin();
   forShared([&next](std::int64_t, std::int64_t, EdgeStiffness::Sum& sum) { sum = *next++; });
 }
@@ -103,7 +114,7 @@ void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges)
 namespace
 {
 
-/** A facet of cells of a part. */
+/** A facet of a cell of a part. */
 struct PartFacet
 {
   FacetSet::Corners key; ///< stream indices
@@ -120,6 +131,7 @@ FacetSet innerFacets(const SharedVertices& vertices, CellType type, const OpenFa
   for (std::int64_t low = 0; low < vertices.vertices(); ++low)
   {
     // Another process can only have the facet if it has all corners.
+    // Facets are listed by their lowest vertex.
     if (!vertices.isShared(low))
     {
       continue;
@@ -140,12 +152,14 @@ FacetSet innerFacets(const SharedVertices& vertices, CellType type, const OpenFa
     {
       for (auto& meeting : meetings)
       {
+        // Several parts have it, so it is not a boundary facet of the mesh.
         meeting.answer = meetings.size() > 1 ? 1 : 0;
       }
     });
   std::vector<FacetSet::Corners> found;
   for (std::size_t k = 0; k < items.size(); ++k)
   {
+    // A facet with several cells in this part counts as inner anyway.
     if (inner[k] != 0 && !items[k].several)
     {
       found.push_back(places[k]);

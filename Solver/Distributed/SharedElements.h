@@ -14,18 +14,20 @@
 namespace smg
 {
 
-/** The number of cells, by their vertices, that several processes have. Called on all processes. */
+/** The number of cells that several processes have, compared by their vertices. Called on all
+ * processes. */
 std::int64_t repeatedCells(const SharedVertices& vertices, const MeshPart& part);
 
-/** Sums the weights of the edges that several parts have: one process keeps the sum, the others
+/** Sums the weights of the edges that several parts have. One process gets the sum, the others
  * leave the edge out (EdgeStiffness::Elsewhere). Called on all processes. */
 void joinSharedEdges(const SharedVertices& vertices, EdgeStiffness& edges);
 
-/** The facets with one cell in this part, but several in all parts. Called on all processes. */
+/** The facets that have one cell in this part, but several in all parts together. Called on all
+ * processes. */
 FacetSet innerFacets(const SharedVertices& vertices, CellType type, const OpenFacets& facets);
 
-/** An item of several processes: of all those that have an equal `key`, an array of stream indices
- * whose first one is a vertex of the item. */
+/** An item that a process has sent to the meeting. Items are the same if their `key` is equal: an
+ * array of stream indices, whose first one is a vertex of the item. */
 template <class Item, class Answer>
 struct Meeting
 {
@@ -36,10 +38,10 @@ struct Meeting
 };
 
 /**
- * Joins items that lie between vertices of several processes. They meet at the owner of the first
- * vertex of their key, who calls join(meetings) for all items of a key, in the order of the
- * processes, to set their answers.
- * @return the answer to each of the items of this process
+ * Joins items that several processes may have. They meet at the owner of the first vertex of their
+ * key, which calls join(meetings) for all items of a key, in the order of the processes, to set
+ * their answers.
+ * @return the answer to each of the items of this process, in their order
  */
 template <class Answer, class Item, class Join>
 std::vector<Answer> rendezvous(

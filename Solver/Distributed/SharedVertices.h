@@ -14,7 +14,7 @@
 namespace smg
 {
 
-/** Which vertices of a part other processes own or use, and the exchange of numbers at these. */
+/** The vertices of a part that other processes own or use, and the exchange of numbers at these. */
 class SMG_EXPORT SharedVertices
 {
 public:
@@ -33,26 +33,26 @@ public:
   {
     return this->Shared[static_cast<std::size_t>(vertex)] != 0;
   }
-  /** The stream index of a vertex of the part. */
+  /** The stream index of a vertex, given its place in the part. */
   std::int64_t id(std::int64_t vertex) const { return this->Ids[static_cast<std::size_t>(vertex)]; }
-  /** The vertex of the part with a stream index; -1: none. */
+  /** The place in the part of a stream index; -1: the part does not have it. */
   std::int64_t find(std::int64_t id) const;
   /** The process that owns a stream index. */
   int ownerOf(std::int64_t id) const;
   /** The end of the stream indices that a process owns. */
   std::int64_t endOf(int process) const { return this->Ends[static_cast<std::size_t>(process)]; }
 
-  /** Adds the numbers of each vertex, `lanes` of them, to those at its owner. */
+  /** Adds the `lanes` numbers of each vertex to those at its owner. */
   void addToOwners(std::span<double> values, int lanes) const;
-  /** Sets the numbers of each vertex to those at its owner. */
+  /** Replaces the numbers of each vertex by those at its owner. */
   template <class T>
   void copyFromOwners(std::span<T> values, int lanes) const;
-  /** The first vertex of the part whose numbers are not those at its owner, within this share of
-   * the largest magnitude of those of common vertices; -1: none. `take`: take(vertex, numbers) sets
-   * the `lanes` numbers of a vertex. */
+  /** The first vertex of the part whose numbers differ from those at its owner by more than
+   * `tolerance` times the largest magnitude at shared vertices; -1: none. take(vertex, numbers)
+   * sets the `lanes` numbers of a vertex. */
   template <class Take>
   std::int64_t findDifferent(int lanes, double tolerance, Take&& take) const;
-  /** For each own vertex that others use: calls join(vertex, value) with the value at each of them,
+  /** Calls join(vertex, value) for each own vertex that others use, with the value at each of them,
    * one process after the other. */
   template <class T, class Join>
   void collect(std::span<const T> values, Join&& join) const;
@@ -66,10 +66,10 @@ private:
 
   Team& Processes;
   std::span<const std::int64_t> Ids;
-  std::vector<std::int64_t> Ends; ///< of the stream indices that each process owns
+  std::vector<std::int64_t> Ends; ///< end of the stream indices that each process owns
   std::int64_t Begin = 0, End = 0;
-  std::vector<std::vector<std::int64_t>> Foreign; ///< vertices that each other process owns
-  std::vector<std::vector<std::int64_t>> Used;    ///< own vertices that each other process uses
+  std::vector<std::vector<std::int64_t>> Foreign; ///< by process: vertices of the part that it owns
+  std::vector<std::vector<std::int64_t>> Used;    ///< by process: own vertices that it uses
   std::vector<std::uint8_t> Shared;
 };
 

@@ -7,12 +7,22 @@
 #include <climits>
 #include <cstdio>
 
+// The processes of a solve, and how a failure of one becomes a failure of all.
+//
+// A process that throws and leaves would let the others wait for ever in the next collective call.
+// Therefore every collective call begins with agree(), one reduction over all processes: either all
+// go on, or all throw the same error. What may fail on one process alone, above all the allocation
+// of much memory, comes before it.
+//
+// Cost: one reduction of an integer for each collective call, which is small beside what it guards.
+
 namespace smg
 {
 namespace
 {
 
-/** Items of so many bytes as a type of messages. */
+/** A type of messages with items of `bytes` bytes. Counts and begins of a message are int in MPI:
+ * they count items, not bytes, and so reach further. */
 class ItemType
 {
 public:
@@ -33,6 +43,7 @@ private:
 template <class T>
 void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation, MPI_Comm processes)
 {
+  // Counts of MPI are int: longer arrays are reduced in pieces.
   constexpr std::size_t Most = std::size_t(1) << 28;
   for (std::size_t first = 0; first < values.size(); first += Most)
   {
@@ -43,6 +54,8 @@ void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation, MPI_Comm p
 
 } // namespace
 
+/** A communicator of its own: messages of the program or of other libraries cannot be mixed up with
+ * those of the solve. */
 Team::Team(MPI_Comm communicator)
 {
   MPI_Comm_dup(communicator, &this->Processes);
@@ -52,6 +65,7 @@ Team::Team(MPI_Comm communicator)
 
 Team::~Team()
 {
+  // After MPI_Finalize() no function of MPI may be called, and the communicator is gone.
   int finalized = 0;
   MPI_Finalized(&finalized);
   if (!finalized)
@@ -60,18 +74,21 @@ Team::~Team()
   }
 }
 
-/** `failure`: why this process fails; null: it does not, or fails if `cancelled`. The first process
- * that has failed tells all why. */
+/** Finds out whether a process has failed, and throws the error of the first one on all of them.
+ * `failure` is the reason of this process; null: it has not failed. `cancelled`: its failure is
+ * that the user has cancelled. */
 void Team::agree(const char* failure, bool cancelled)
 {
+  // The smallest rank among those that have failed; the number of processes if none has.
   int first = failure ? this->Rank : this->Size;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, this->Processes);
   if (first == this->Size)
   {
     return;
   }
+  // All processes leave their work with the exception below; run() must not report it once more.
   this->Over = true;
-  // On the stack: a process without memory must take part, too, or the others wait for it.
+  // On the stack: a process without memory must take part, too, or the others would wait for it.
   struct
   {
     int isCancelled;
@@ -89,6 +106,8 @@ void Team::agree(const char* failure, bool cancelled)
   throw TeamError(message.text);
 }
 
+/** Reports the failure of this process to all others, which are in agree() or will come to it. For
+ * a lack of memory the text is made without allocating. */
 void Team::fail(const char* failure, bool cancelled)
 {
   char text[80];
@@ -127,6 +146,8 @@ void Team::largest(std::span<double> values)
   reduce(values, MPI_DOUBLE, MPI_MAX, this->Processes);
 }
 
+/** One reduction for the smallest and the largest checksum: the latter is the smallest of the
+ * negative ones. Without the last bit the checksum is not negative, so its sign can be changed. */
 void Team::requireSame(const std::string& what, std::string_view value)
 {
   const auto sum = static_cast<std::int64_t>(checksum(std::as_bytes(std::span(value))) >> 1);
@@ -139,6 +160,7 @@ void Team::requireSame(const std::string& what, std::string_view value)
   }
 }
 
+/** Where the items of each process begin in one message. */
 Team::Layout Team::layout(const std::vector<std::size_t>& counts) const
 {
   Layout layout;

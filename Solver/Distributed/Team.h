@@ -19,18 +19,16 @@
 namespace smg
 {
 
-/** An error that all processes have, with the same text. */
+/** An error that is thrown on all processes with the same text. */
 class SMG_EXPORT TeamError : public Error
 {
 public:
   using Error::Error;
 };
 
-/**
- * The processes that solve a problem together. A failure of one of them ends the work of all, with
+/** The processes that solve a problem together. A failure of one of them ends the work of all with
  * the same error: every collective operation begins with agree(), in which a process that has
- * failed takes part as well. What it throws must therefore come from between two such operations.
- */
+ * failed takes part as well. A process may therefore throw only between two such operations. */
 class SMG_EXPORT Team
 {
 public:
@@ -52,14 +50,15 @@ public:
   /** Throws TeamError, or Cancelled, on all processes if one has failed. */
   void agree() { this->agree(nullptr, false); }
 
-  /** Each number becomes the sum, or the smallest or largest one, over all processes. */
+  /** Replaces each number by the sum, or by the smallest or largest one, over all processes. */
   void sum(std::span<double> values);
   void sum(std::span<std::int64_t> values);
   void least(std::span<double> values);
   void least(std::span<std::int64_t> values);
   void largest(std::span<double> values);
 
-  /** Throws Error on all processes unless each has the same `value`; `what` names it. */
+  /** Throws Error on all processes unless `value` is the same on each. `what` names it in the
+   * message. */
   void requireSame(const std::string& what, std::string_view value);
 
   /** Sends to[p] to each process p; returns what each process sent. */
@@ -72,7 +71,8 @@ public:
 private:
   void agree(const char* failure, bool cancelled);
   [[noreturn]] void fail(const char* failure, bool cancelled);
-  /** The counts and their begins; throws Error if they are too many for a message. */
+  /** Numbers of items for each process and where they begin. layout() throws Error if they are too
+   * many for a message. */
   struct Layout
   {
     std::vector<int> counts, begins;
@@ -102,8 +102,8 @@ void Team::run(Work&& work)
   }
   catch (const std::exception& error)
   {
-    // Once all know of the failure, another one, as of memory for its message, concerns no other
-    // process: these have ended their work and would not answer.
+    // Once all know of a failure, a further one, for instance of memory for its message, concerns
+    // this process alone: the others have ended their work and would not answer.
     if (this->Over)
     {
       throw;
@@ -125,6 +125,7 @@ std::vector<std::vector<T>> Team::exchange(const std::vector<std::vector<T>>& to
     counts[p] = to[p].size();
     sent.insert(sent.end(), to[p].begin(), to[p].end());
   }
+  // What may throw comes before agree(): the layouts, and the memory for what is received.
   const Layout mine = this->layout(counts);
   this->agree();
   const Layout others = this->layout(this->exchangeCounts(counts));

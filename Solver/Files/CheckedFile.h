@@ -21,19 +21,19 @@ class StateReader;
 class StateWriter;
 
 /**
- * A scratch file that grows at its end and is read anywhere. Checksums (XXH3) of its grains, in
- * memory, verify that the bytes read are those written; reads of whole grains cost least.
+ * A scratch file that grows at its end and is read anywhere. The checksum (XXH3) of each grain of
+ * it is in memory and verifies that the bytes read are those written. Reads of whole grains cost
+ * least.
  *
- * The file is unnamed, unless it is saved with a checkpoint: it is removed with this object or the
- * program.
+ * The file is unnamed and disappears with this object or the program, unless a checkpoint saves it.
  */
 class SMG_EXPORT CheckedFile
 {
 public:
   /** The checksums take 0.05 % of the bytes. */
   static constexpr std::size_t GrainBytes = std::size_t(16) << 10;
-  /** The bytes of the longest read from `offset` on that ends with a grain and has at most `most`
-   * bytes; `most` if there is none. */
+  /** The length of the longest read that starts at `offset`, ends with a grain and has at most
+   * `most` bytes; `most` if there is none. */
   static std::size_t untilGrain(std::int64_t offset, std::size_t most);
 
   /** Creates the file in `folder`. Throws Error. */
@@ -51,7 +51,7 @@ public:
   /** Gives the file a name in the same file system if it has none, waits until the disk has it, and
    * saves what load() needs. Nothing may be appended afterwards. */
   void save(StateWriter& state, const std::filesystem::path& path);
-  /** Restores the file and compares its content with the checksums. */
+  /** Opens the file that save() named and compares its content with the checksums. */
   void load(StateReader& state, const std::filesystem::path& path);
 
 private:
@@ -63,12 +63,12 @@ private:
 
   FileDescriptor File;
   std::int64_t End = 0;
-  std::vector<std::uint64_t> Sums; // of each grain; the last one of what there is
+  std::vector<std::uint64_t> Sums; // of each grain; the last grain may be short
   RunningChecksum LastSum;
   bool IsNamed = false;
 };
 
-/** Where the values of vertices are kept. */
+/** Where a VertexFile keeps its values. */
 struct VertexStorage
 {
   Pool& pool;                  ///< accounts for values in memory
@@ -87,7 +87,7 @@ public:
 
   /** Adds the tuples of the next vertices. */
   void append(std::span<const double> values);
-  /** The next vertex to append is vertex 0; the space is reused. */
+  /** The next vertex to append is vertex 0; memory or file are used again. */
   void restart();
   /** Reads the tuples of the vertices [first, first + count), which must exist. */
   void read(std::int64_t first, std::int64_t count, double* values) const;

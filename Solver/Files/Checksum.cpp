@@ -8,6 +8,10 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+// XXH3 with 64 bits. XXH_INLINE_ALL compiles it into this file, the only one that includes
+// xxhash.h. The checksum finds faults of disks and memory; it is no protection against somebody who
+// changes a file on purpose.
+
 namespace smg
 {
 
@@ -26,6 +30,8 @@ RunningChecksum::~RunningChecksum() = default;
 RunningChecksum::RunningChecksum(RunningChecksum&& other) noexcept = default;
 RunningChecksum& RunningChecksum::operator=(RunningChecksum&& other) noexcept = default;
 
+/** The state of XXH3 has several hundred bytes and an alignment of its own: it exists only while
+ * there are bytes. */
 void RunningChecksum::restart()
 {
   this->Parts.reset();
@@ -43,6 +49,7 @@ void RunningChecksum::add(std::span<const std::byte> bytes)
 
 std::uint64_t RunningChecksum::value() const noexcept
 {
+  // The checksum of no bytes must be the same in both ways of computing it.
   return this->Parts ? XXH3_64bits_digest(&this->Parts->xxh) : checksum({});
 }
 

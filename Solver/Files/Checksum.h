@@ -14,7 +14,7 @@ namespace smg
 /** The checksum of all files of the library: XXH3, 64 bits. */
 SMG_EXPORT std::uint64_t checksum(std::span<const std::byte> bytes) noexcept;
 
-/** The same of bytes that arrive one part after another. */
+/** The same checksum for bytes that arrive in several parts. */
 class SMG_EXPORT RunningChecksum
 {
 public:
@@ -30,7 +30,7 @@ public:
 
 private:
   struct State;
-  std::unique_ptr<State> Parts; // null: no bytes so far
+  std::unique_ptr<State> Parts; // null as long as there are no bytes
 };
 
 /** Throws the Error of a block of a scratch file whose checksum is wrong. */

@@ -19,12 +19,23 @@
 #include <unistd.h>
 #include <utility>
 
+// All reading and writing of files: transfers at given offsets, which continue after interruptions
+// and partial transfers, and results that get their name only when they are complete.
+//
+// A result is written under a temporary name beside its target, synchronised, renamed, and then the
+// folder is synchronised (renameTo). At every moment the name belongs to the old file or to the
+// whole new one, also after a kill or a power cut. Files in scratch folders skip the waiting:
+// nothing in them outlives the program.
+//
+// All calls go through the table of SystemCalls.h, so that tests can let each of them fail.
+
 namespace smg
 {
 
 namespace
 {
 
+/** Refuses folders, pipes and devices, which could be opened: they have no size, or block. */
 void requireRegular(int file, const std::filesystem::path& path)
 {
   struct stat status = {};
@@ -34,6 +45,7 @@ void requireRegular(int file, const std::filesystem::path& path)
   }
 }
 
+/** O_EXCL: the file must not exist. So no file or link of somebody else is ever written to. */
 int openNew(const std::filesystem::path& path)
 {
   return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -78,7 +90,8 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
 {
   FileDescriptor file;
   file.Path = file.Shown = path;
-  // A named pipe without a writer would wait for one.
+  // O_NONBLOCK: to open a named pipe without a writer would wait for one, before requireRegular()
+  // can refuse it.
   file.Number = systemCalls().open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC, 0);
   if (!file.isOpen())
   {
@@ -91,6 +104,8 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
 std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path)
 {
   constexpr int MaxLinks = 40; // the limit of the system
+  // The system resolves links when it opens a file, but rename() would replace the link itself.
+  // Links that form a circle have no target.
   std::filesystem::path target = path;
   std::error_code none;
   for (int links = 0; std::filesystem::is_symlink(target, none); ++links)
@@ -99,7 +114,8 @@ std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path
     {
       throwWriteError(path, ELOOP);
     }
-    // A link to an absolute path replaces the whole path.
+    // The target of a link is relative to the folder of the link; operator/ replaces the whole path
+    // if it is absolute.
     target = target.parent_path() / std::filesystem::read_symlink(target, none);
   }
   return target;
@@ -110,7 +126,10 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   const std::filesystem::path target = targetOf(path);
   FileDescriptor file;
   file.Shown = path;
+  // A program that was killed while it wrote this result has left its temporary file.
   removeAbandonedTemporaries(target);
+  // The name is new, but another program may take the file for an abandoned one and remove it
+  // before it is locked: then the next name is tried.
   do
   {
     file.close();
@@ -122,6 +141,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
     throw Error(path.string() + ": cannot be created: " + systemError(errno) + ".");
   }
   file.IsTemporary = true;
+  // From here on the destructor removes the file unless it is renamed.
   file.Share = shareIn(target.parent_path());
   return file;
 }
@@ -135,7 +155,8 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
   file.Number = systemCalls().open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (!file.isOpen())
   {
-    // Not every file system supports unnamed files.
+    // Not every file system supports unnamed files (O_TMPFILE). There, a file is created and its
+    // name removed at once: it exists until it is closed, also when the program is killed.
     file = createBeside(place / "scratch file");
     systemCalls().unlink(file.Path.c_str());
     file.IsTemporary = false;
@@ -147,6 +168,8 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
 {
   FileDescriptor file;
   file.Path = file.Shown = path;
+  // O_NOFOLLOW: a link in the folder of a checkpoint, perhaps made by somebody else, must not lead
+  // to a file outside of it.
   file.Number =
     systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (!file.isOpen())
@@ -158,7 +181,8 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
   file.Share = shareIn(path.parent_path());
   if (file.Share)
   {
-    // From now on the share has the bytes that an earlier program left.
+    // The bytes that an earlier program left are in the account of the folder, under the path. They
+    // are handed over to the share of this open file.
     ScratchAccount::of(path.parent_path())->remove(path);
     if (!file.Share->extend(file.size()))
     {
@@ -171,6 +195,8 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
 void FileDescriptor::giveName(const std::filesystem::path& path)
 {
   const std::string self = "/proc/self/fd/" + std::to_string(this->Number);
+  // linkat() does not replace a file. The link in /proc stands for the unnamed file, which has no
+  // other path.
   removeClosed(path);
   if (systemCalls().linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
   {
@@ -194,6 +220,7 @@ std::int64_t FileDescriptor::size() const
 std::size_t FileDescriptor::readSome(std::int64_t offset, std::span<std::byte> bytes) const
 {
   std::size_t done = 0;
+  // A read may return fewer bytes than asked for without being at the end; only 0 means the end.
   while (done < bytes.size())
   {
     const ssize_t n = systemCalls().pread(
@@ -219,6 +246,7 @@ int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) con
   while (!bytes.empty())
   {
     const ssize_t n = systemCalls().pread(this->Number, bytes.data(), bytes.size(), offset);
+    // The callers know the size of what they read: an early end is an error of its own kind.
     if (n == 0)
     {
       return EndOfFile;
@@ -236,12 +264,14 @@ int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) con
   return 0;
 }
 
+/** With RWF_NOWAIT the system returns what it has in memory and does not touch the disk. */
 std::size_t FileDescriptor::readCached(
   std::int64_t offset, std::span<std::byte> bytes) const noexcept
 {
   iovec part{ bytes.data(), bytes.size() };
   const ssize_t n = systemCalls().preadv2(this->Number, &part, 1, offset, RWF_NOWAIT);
-  // Not every file system supports this: then nothing counts as cached.
+  // Not every file system supports it. Then nothing counts as cached, and all of the read as
+  // waiting.
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
 
@@ -253,6 +283,7 @@ int FileDescriptor::tryRead(
   {
     return 0;
   }
+  // Only the rest, which comes from the disk, counts as waiting.
   const WaitClock clock;
   const int error =
     this->tryRead(offset + static_cast<std::int64_t>(cached), bytes.subspan(cached));
@@ -262,6 +293,7 @@ int FileDescriptor::tryRead(
 
 int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept
 {
+  // The limit of scratch files is asked before the file grows, so that it is never exceeded.
   if (this->Share && !this->Share->extend(offset + static_cast<std::int64_t>(bytes.size())))
   {
     return ScratchLimit;
@@ -271,7 +303,7 @@ int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> byt
     const ssize_t n = systemCalls().pwrite(this->Number, bytes.data(), bytes.size(), offset);
     if (n == 0)
     {
-      // The system takes no byte and names no reason: trying again might never end.
+      // The system takes no byte and names no reason: to try again might never end.
       return EIO;
     }
     if (n > 0)
@@ -305,8 +337,11 @@ void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes
 
 void FileDescriptor::reserve(std::int64_t size) const
 {
+  // FALLOC_FL_KEEP_SIZE: the room is taken, but the file does not grow, so that a file that is not
+  // written to its end does not end in zeros.
   while (size > 0 && systemCalls().fallocate(this->Number, FALLOC_FL_KEEP_SIZE, 0, size) != 0)
   {
+    // Without the reservation a full disk is noticed when it is full.
     if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL)
     {
       return;
@@ -325,17 +360,20 @@ void FileDescriptor::willRead(std::int64_t offset, std::size_t bytes) const noex
 
 void FileDescriptor::close()
 {
+  // After EINTR the descriptor is closed on Linux; to close it once more could hit another file.
   if (this->isOpen() && systemCalls().close(std::exchange(this->Number, -1)) != 0 && errno != EINTR)
   {
     throwWriteError(this->Shown, errno);
   }
+  // A temporary file is on the disk, and is counted, until it is renamed or removed.
   if (!this->IsTemporary)
   {
     this->releaseShare();
   }
 }
 
-/** The bytes of a file that stays under its name still count. */
+/** Stops counting the file. The bytes of one that stays under its name are handed to the
+ * account. */
 void FileDescriptor::releaseShare() noexcept
 {
   if (this->Share && this->IsNamed)
@@ -351,6 +389,8 @@ void FileDescriptor::remove() noexcept
   {
     systemCalls().close(std::exchange(this->Number, -1));
   }
+  // Called by destructors, also while an exception is on its way: failures are ignored here, and
+  // the next program that writes the same result removes what is left.
   if (std::exchange(this->IsTemporary, false))
   {
     systemCalls().unlink(this->Path.c_str());
@@ -371,6 +411,8 @@ void FileDescriptor::throwWriteError(const std::filesystem::path& path, int erro
 {
   if (errorNumber == ScratchLimit)
   {
+    // The message names both figures and the folder that the user has chosen, not the one made in
+    // it.
     const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path());
     throw Error(ScratchFolder::placeOf(path.parent_path()).string() + ": " +
                 (account ? *account : ScratchAccount::process()).refusal() + '.');
@@ -387,16 +429,20 @@ void FileDescriptor::throwReadError(const std::filesystem::path& path, int error
 
 } // namespace smg
 
-// What makes files and their names durable.
+// What makes files and their names durable: fsync() of the file before the renaming, since the
+// rename might otherwise reach the disk before the content, and fsync() of the folder after it,
+// since the name is content of the folder.
 
 namespace smg
 {
 namespace
 {
 
+/** For all threads of the process; --no-sync clears it. */
 std::atomic<bool> durable{ true };
 
-/** Fsync; some file systems have none. */
+/** fsync(), continued after interruptions. Some file systems have none, which is not an error:
+ * there is nothing to wait for. */
 bool sync(int file) noexcept
 {
   int result = 0;
@@ -407,7 +453,11 @@ bool sync(int file) noexcept
   return result == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 
-/** Keeps the lock of a temporary file while it is closed, which may report an error, and renamed.
+/**
+ * Keeps the lock of a temporary file until it is renamed, although the file has to be closed
+ * before, as only close() reports some failed writes. A lock belongs to the open file, which a
+ * second descriptor of it keeps open. Without the lock, another program would remove the file as
+ * abandoned.
  */
 class LockedUntilRenamed
 {
@@ -436,6 +486,7 @@ void FileDescriptor::renameTo(const std::filesystem::path& path)
 {
   const std::filesystem::path target = targetOf(path);
   const bool isKept = !ScratchFolder::isOne(target.parent_path());
+  // In a scratch folder nothing needs to survive: no waiting for the disk.
   if (isKept)
   {
     this->sync();
@@ -446,7 +497,9 @@ void FileDescriptor::renameTo(const std::filesystem::path& path)
   {
     throwWriteError(path, errno);
   }
+  // If the rename fails the file is still temporary, and its destructor removes it.
   this->IsTemporary = false;
+  // A file in a scratch folder counts under its new name until it is removed.
   if (this->Share)
   {
     this->Share->keep(target);
@@ -479,7 +532,8 @@ void FileDescriptor::syncPath(const std::filesystem::path& path, const std::file
 {
   const std::filesystem::path place = path.empty() ? std::filesystem::path(".") : path;
   const int file = systemCalls().open(place.c_str(), O_RDONLY | O_CLOEXEC, 0);
-  // There are folders in which one may write, but not read.
+  // There are folders in which one may write, but not read: these cannot be opened to synchronise
+  // them.
   const bool good = file >= 0 ? trySync(file) : errno == EACCES;
   const int error = errno;
   if (file >= 0)
@@ -496,6 +550,8 @@ void FileDescriptor::syncPath(const std::filesystem::path& path, const std::file
 
 void writeFile(const std::filesystem::path& path, std::string_view text)
 {
+  // If anything fails before the rename, the destructor removes the temporary file, and an existing
+  // file of this name is as it was.
   FileDescriptor file = FileDescriptor::createBeside(path);
   file.write(0, std::as_bytes(std::span(text)));
   file.renameTo(path);

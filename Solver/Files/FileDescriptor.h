@@ -15,11 +15,9 @@ namespace smg
 
 class ScratchShare;
 
-/**
- * An open file that is read and written at given offsets. Reads and writes continue after
- * interruptions and partial transfers; every failure is an Error that names the file and the reason
- * of the system. A file that is created in a ScratchFolder counts in its account.
- */
+/** An open file that is read and written at given offsets. Reads and writes continue after
+ * interruptions and partial transfers. Every failure is an Error that names the file and the
+ * reason that the system gives. A file that is created in a ScratchFolder counts in its account. */
 class SMG_EXPORT FileDescriptor
 {
 public:
@@ -32,12 +30,12 @@ public:
 
   /** Opens an existing regular file for reading. */
   static FileDescriptor openForReading(const std::filesystem::path& path);
-  /** The file that a path refers to, with symbolic links resolved, also if it does not exist.
-   * Throws Error for cyclic links. */
+  /** The file that a path refers to when symbolic links are followed; it need not exist. Throws
+   * Error for links that form a circle. */
   static std::filesystem::path targetOf(const std::filesystem::path& path);
-  /** Creates a file with a temporary name, path(), beside the target of `path`. It is removed
-   * unless it is renamed; where the program is killed, by the next one that creates a file beside
-   * the same target. */
+  /** Creates a file with a temporary name, path(), beside the target of `path`. The destructor
+   * removes it unless it was renamed; if the program is killed, the next one that creates a file
+   * beside the same target does. */
   static FileDescriptor createBeside(const std::filesystem::path& path);
   /**
    * Creates an unnamed file in `folder`, which is removed when it is closed or the program ends.
@@ -46,8 +44,8 @@ public:
   /** Opens a file for reading and writing, and creates it if it does not exist. A symbolic link is
    * an error. */
   static FileDescriptor openOrCreate(const std::filesystem::path& path);
-  /** Gives a nameless file a name in the same file system, and that to messages; a file of this
-   * name is replaced. */
+  /** Gives an unnamed file a name in the same file system, also in messages. An existing file of
+   * this name is replaced. */
   void giveName(const std::filesystem::path& path);
 
   bool isOpen() const { return this->Number >= 0; }
@@ -77,16 +75,17 @@ public:
   void close();
   /** Waits until the content is on the disk, unless setDurable(false). Throws Error. */
   void sync() const;
-  /** The same of a closed file, or of the names in a folder, for the file `shown`, which errors
+  /** The same for a closed file, or for the names in a folder. `shown` is the file that errors
    * name. */
   static void syncPath(const std::filesystem::path& path, const std::filesystem::path& shown);
-  /** The same of an opened file or folder; returns whether it is on the disk, if it has to be. */
+  /** The same for an open file or folder, without exceptions; returns false if it failed. */
   static bool trySync(int file) noexcept;
   /**
    * Closes the file and atomically renames it to `path`, replacing an existing file; the target of
-   * a symbolic link is replaced and the link is kept. Content and name are durable then, except in
-   * a ScratchFolder: after a power cut `path` is the old file or the whole new one. On failure
-   * Error is thrown, and the file keeps its temporary name, unless only the new one is not durable.
+   * a symbolic link is replaced and the link is kept. After that, content and name are durable,
+   * except in a ScratchFolder: after a power cut `path` is the old file or the whole new one.
+   * Throws Error on failure; the file then keeps its temporary name, unless it is renamed and only
+   * the new name is not durable.
    */
   void renameTo(const std::filesystem::path& path);
   /** Closes the file, and removes it if its name is temporary. */
@@ -108,7 +107,7 @@ private:
 
   int Number = -1;
   std::filesystem::path Path;
-  std::filesystem::path Shown; // the name in errors: that of the result, not of its temporary file
+  std::filesystem::path Shown; // the name in errors: of the result, not of its temporary file
   bool IsTemporary = false;
   bool IsNamed = false;                // and remains under its name
   std::shared_ptr<ScratchShare> Share; // of a scratch file; else null

@@ -18,22 +18,34 @@
 #include <unistd.h>
 #include <vector>
 
+// Folders without std::filesystem's exceptions, temporary files beside a result, and locks.
+//
+// Whether a program is still running is told by locks, never by process numbers, which are used
+// again, or by ages of files: the kernel drops a lock when its holder ends, however it ends. A
+// temporary file therefore counts as abandoned when nobody has its lock, and where the file system
+// has no locks nothing is ever removed.
+
 namespace smg
 {
 namespace
 {
 
+/** Removes a file or, from the leaves up, a folder. It works with descriptors relative to the
+ * parent, so that a link that somebody puts in the way cannot lead the removal out of the
+ * folder. */
 void removeEntry(int parent, const char* name) noexcept
 {
   if (systemCalls().unlinkat(parent, name, 0) == 0)
   {
     return;
   }
+  // unlinkat() refuses folders. O_NOFOLLOW: what was a folder may be a link by this time.
   const int file = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (file < 0)
   {
     return;
   }
+  // closedir() will close `file`, but the entries are removed relative to an open folder.
   const int own = ::fcntl(file, F_DUPFD_CLOEXEC, 0);
   FolderEntries entries(file);
   while (const char* entry = entries.next())
@@ -105,7 +117,8 @@ bool isTemporaryOf(std::string_view name, std::string_view of)
          isNumber(numbers.substr(dash + 1));
 }
 
-/** Not flock(): with that HDF5 protects a file that it writes from us. */
+/** A lock of the open file (F_OFD_SETLK), not flock(): HDF5 uses flock() to protect a file that it
+ * writes, and would find the file taken by us. */
 bool lock(int file) noexcept
 {
   struct flock whole = {};
@@ -118,6 +131,7 @@ bool lock(int file) noexcept
 
 std::filesystem::path temporaryName(const std::filesystem::path& path)
 {
+  // The process number tells programs apart, the counter the files of this one.
   static std::atomic<unsigned> count{ 0 };
   return path.string() + std::string(Infix) + std::to_string(::getpid()) + "-" +
          std::to_string(count++);
@@ -125,6 +139,8 @@ std::filesystem::path temporaryName(const std::filesystem::path& path)
 
 bool lockTemporary(int file) noexcept
 {
+  // Between creation and lock, another program may have found the file, locked and removed it. Then
+  // it has no name any more, which the number of its links says, and the caller makes another one.
   lock(file); // where there are no locks, nothing is removed either
   struct stat status = {};
   return systemCalls().fstat(file, &status) != 0 || status.st_nlink > 0;
@@ -132,6 +148,7 @@ bool lockTemporary(int file) noexcept
 
 void removeAbandonedTemporaries(const std::filesystem::path& path)
 {
+  // Only names that temporaryName() can have made for this file: everything else is the user's.
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const std::string of = path.filename().string();
   FolderEntries entries(folder);
@@ -142,10 +159,14 @@ void removeAbandonedTemporaries(const std::filesystem::path& path)
       continue;
     }
     const std::string found = (folder / name).string();
+    // O_RDWR since a write lock needs it; O_NONBLOCK so that a named pipe does not wait for a
+    // writer.
     const int file =
       systemCalls().open(found.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0);
     if (file >= 0)
     {
+      // Nobody holds it, so its program has ended. The name is removed while the lock is held: a
+      // program that is just creating a file of this name sees that it is gone (lockTemporary).
       if (lock(file))
       {
         systemCalls().unlink(found.c_str());
@@ -165,12 +186,15 @@ std::mutex& lockGuard()
   return mutex;
 }
 
+/** The locks of this process. flock() belongs to an open folder: a second descriptor of the same
+ * folder in the same process would be refused, so parts of a program share one lock instead. */
 std::vector<std::weak_ptr<FolderLock>>& heldLocks()
 {
   static std::vector<std::weak_ptr<FolderLock>> locks;
   return locks;
 }
 
+/** A folder is known by device and inode: its path may be spelled in several ways. */
 bool areSame(const struct stat& a, const struct stat& b)
 {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
@@ -183,10 +207,12 @@ bool areSame(const struct stat& a, const struct stat& b)
               "folder.");
 }
 
-/** The lock of this folder, if the program has it. */
+/** The lock of this folder if this process already has it, else null. */
 std::shared_ptr<FolderLock> held(const struct stat& folder)
 {
   std::vector<std::weak_ptr<FolderLock>>& locks = heldLocks();
+  // The list is short and rarely used, so expired entries are removed here rather than by
+  // destructors.
   std::erase_if(locks, [](const std::weak_ptr<FolderLock>& lock) { return lock.expired(); });
   for (const std::weak_ptr<FolderLock>& each : locks)
   {
@@ -200,7 +226,7 @@ std::shared_ptr<FolderLock> held(const struct stat& folder)
   return nullptr;
 }
 
-/** An open folder, closed unless it is released. */
+/** An open folder, which is closed unless its descriptor is taken over. */
 struct OpenFolder
 {
   explicit OpenFolder(const std::filesystem::path& path)
@@ -235,6 +261,7 @@ std::shared_ptr<FolderLock> FolderLock::acquire(const std::filesystem::path& fol
   {
     return lock;
   }
+  // Not waiting: another program may hold the checkpoint for hours.
   if (::flock(opened.number, LOCK_EX | LOCK_NB) != 0)
   {
     if (errno == EWOULDBLOCK)
@@ -243,12 +270,13 @@ std::shared_ptr<FolderLock> FolderLock::acquire(const std::filesystem::path& fol
     }
     throw Error(folder.string() + ": the folder cannot be locked: " + systemError(errno) + '.');
   }
-  // Another program may have removed the folder, and a third one made it anew, before the lock.
+  // Between opening and locking, another program may have removed the folder and a third one made
+  // it again. The lock would then be on a folder without a name, and protect nothing.
   if (::stat(folder.c_str(), &named) != 0 || !areSame(status, named))
   {
     failUsed(folder);
   }
-  // Owned from here on, also where there is no memory for the shared_ptr.
+  // From here on the lock owns the descriptor, even if there is no memory for the shared_ptr.
   std::unique_ptr<FolderLock> owner(new FolderLock(opened.number));
   opened.number = -1;
   const std::shared_ptr<FolderLock> lock = std::move(owner);

@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * The names in a folder, one after another. Unlike std::filesystem it can be used where memory may
- * be short and no exception may leave: in destructors and for cleaning up.
- */
+/** The names in a folder, one by one. Unlike std::filesystem it throws nothing, so it can be used
+ * in destructors and for cleaning up, also when memory is short. */
 class FolderEntries
 {
 public:
@@ -39,22 +37,20 @@ void removeFolder(const char* folder) noexcept;
 
 /** A temporary name beside a file, unique unless a terminated program left a file with it. */
 std::filesystem::path temporaryName(const std::filesystem::path& path);
-/** Locks a temporary file as long as it is open, so that no other program removes it as abandoned.
- * False if one has. */
+/** Locks a temporary file until it is closed, so that no other program removes it as abandoned.
+ * Returns false if one already has. */
 bool lockTemporary(int file) noexcept;
-/** Removes the temporary files beside `path` whose programs were killed: those without a lock.
- * Where the file system has no locks, none. */
+/** Removes the temporary files of `path` that killed programs have left: those without a lock. In a
+ * file system without locks it removes none. */
 void removeAbandonedTemporaries(const std::filesystem::path& path);
 
-/**
- * The lock of a folder, by which one program at a time uses it. Within the program it can be held
- * by several parts, which work on the folder one after another; one at a time uses it.
- */
+/** The lock of a folder, which one program at a time has. Within the program several parts may
+ * share it; they use the folder one after another (use(), endUse()). */
 class SMG_EXPORT FolderLock
 {
 public:
-  /** Locks an existing folder, or shares the lock that this program has. Throws Error if another
-   * program has it, or the folder cannot be opened or locked. */
+  /** Locks an existing folder, or shares the lock if this program already has it. Throws Error if
+   * another program has it, or the folder cannot be opened or locked. */
   static std::shared_ptr<FolderLock> acquire(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

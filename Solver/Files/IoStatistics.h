@@ -17,7 +17,7 @@ struct IoStatistics
 {
   std::atomic<std::int64_t> bytesRead{ 0 };
   std::atomic<std::int64_t> bytesWritten{ 0 };
-  /** Nanoseconds in which a caller waited for the disk. */
+  /** Nanoseconds for which callers waited for the disk. */
   std::atomic<std::int64_t> waitNanoseconds{ 0 };
 };
 
@@ -33,10 +33,10 @@ public:
   };
   static constexpr int NoLevel = -1;
 
-  /** Adds an account for a kind of file, of a level or of none; its address does not change. */
+  /** Adds an account for a kind of file, of a level or of none. Its address does not change. */
   IoStatistics& add(std::string name, int level = NoLevel)
   {
-    // Not a vector: accounts are in use while others are added.
+    // A deque, not a vector: references to accounts are in use while others are added.
     Kind& kind = this->Kinds.emplace_back();
     kind.name = std::move(name);
     kind.level = level;
@@ -55,7 +55,7 @@ public:
 
   std::int64_t bytesRead() const { return this->sum(&IoStatistics::bytesRead); }
   std::int64_t bytesWritten() const { return this->sum(&IoStatistics::bytesWritten); }
-  /** Seconds in which the callers of all files have waited for the disk, summed over threads. */
+  /** Seconds for which the callers of all files waited for the disk, summed over threads. */
   double waitSeconds() const
   {
     return 1e-9 * static_cast<double>(this->sum(&IoStatistics::waitNanoseconds));
@@ -76,7 +76,7 @@ private:
   std::deque<Kind> Kinds;
 };
 
-/** Measures the waiting time of its thread since construction: wall time minus CPU time. */
+/** The time since construction for which its thread has waited: wall time minus processor time. */
 class WaitClock
 {
 public:

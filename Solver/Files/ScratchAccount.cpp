@@ -7,6 +7,14 @@
 #include <mutex>
 #include <new>
 
+// How many bytes the scratch files have. Accounts are nested: what a folder has also counts in the
+// folder around it, and in the end in the account of the process, which carries the limit of a
+// whole command (--scratch-limit).
+//
+// Invariant: no account exceeds its limit, because bytes are acquired before a file grows, for all
+// accounts at once or for none. One mutex guards them all, since they change together; to take it
+// costs little beside the write that it counts.
+
 namespace smg
 {
 namespace
@@ -21,7 +29,8 @@ std::mutex& guard()
   return mutex;
 }
 
-/** Those of the open folders, by their paths. */
+/** The accounts of the open folders, by their paths: a file finds its account by the folder in
+ * which it is created. */
 Accounts& openAccounts()
 {
   static Accounts accounts;
@@ -42,6 +51,7 @@ ScratchAccount& ScratchAccount::process()
   return account;
 }
 
+/** The account in which the bytes of this one count, too; null for the account of the process. */
 const ScratchAccount* ScratchAccount::outer() const
 {
   return this->Around ? this->Around.get() : this == &process() ? nullptr : &process();
@@ -58,6 +68,7 @@ std::shared_ptr<ScratchAccount> ScratchAccount::open(
   auto account = std::make_shared<ScratchAccount>();
   account->setLimit(limit);
   const std::lock_guard lock(guard());
+  // A scratch folder may lie in another one.
   account->Around = accountOf(folder.parent_path());
   openAccounts()[folder.native()] = account;
   return account;
@@ -69,6 +80,8 @@ std::shared_ptr<ScratchAccount> ScratchAccount::of(const std::filesystem::path& 
   return accountOf(folder);
 }
 
+/** The files of the folder are about to be removed. Bytes of files that are still open remain
+ * counted until their shares end, since the disk has them until then. */
 void ScratchAccount::close(const std::filesystem::path& folder) noexcept
 {
   const std::lock_guard lock(guard());
@@ -84,6 +97,9 @@ void ScratchAccount::close(const std::filesystem::path& folder) noexcept
 void ScratchAccount::keep(const std::filesystem::path& path, std::int64_t bytes) noexcept
 {
   const std::lock_guard lock(guard());
+  // Called while exceptions may be on their way and memory may be short. If the entry cannot be
+  // made, the file exists uncounted: the limit is then kept less strictly, but the computation goes
+  // on.
   std::int64_t* counted = nullptr;
   try
   {
@@ -91,8 +107,10 @@ void ScratchAccount::keep(const std::filesystem::path& path, std::int64_t bytes)
   }
   catch (const std::bad_alloc&)
   {
-    // As below.
+    // The same as a closed account: nothing remembers the bytes, so they are released below.
   }
+  // The bytes were counted while the file was open. Those of an older file of this name are
+  // replaced; if the new ones are not remembered, they go.
   this->add(-(counted ? std::exchange(*counted, bytes) : bytes));
 }
 
@@ -109,8 +127,10 @@ void ScratchAccount::remove(const std::filesystem::path& path) noexcept
 bool ScratchAccount::acquire(std::int64_t bytes) noexcept
 {
   const std::lock_guard lock(guard());
+  // First all limits, then the bytes: a refusal must leave every account as it was.
   for (ScratchAccount* account = this; account; account = account->outer())
   {
+    // Written as a difference, since the sum might overflow.
     if (bytes > account->Limit - account->Used)
     {
       account->Refused = account->Used + bytes;
@@ -127,7 +147,7 @@ void ScratchAccount::release(std::int64_t bytes) noexcept
   this->add(-bytes);
 }
 
-/** The accounts must be locked. */
+/** Adds to the account and to all around it. The caller holds the lock. */
 void ScratchAccount::add(std::int64_t bytes) noexcept
 {
   for (ScratchAccount* account = this; account; account = account->outer())
@@ -158,6 +178,7 @@ std::int64_t ScratchAccount::peak() const
 std::string ScratchAccount::refusal() const
 {
   const std::lock_guard lock(guard());
+  // The innermost account that has refused something is the one whose limit the user has to raise.
   const ScratchAccount* account = this;
   while (account->Refused == 0 && account->outer())
   {

@@ -15,8 +15,9 @@ namespace smg
 {
 
 /**
- * Counts the bytes of existing scratch files, and enforces a limit. Each ScratchFolder has an
- * account; its bytes also count in the account of a folder around it, and in that of the process.
+ * Counts the bytes of the scratch files that exist, and enforces a limit. Each ScratchFolder has an
+ * account; its bytes count in the account of a folder around it as well, and in that of the
+ * process.
  *
  * The account only counts: FileDescriptor asks it before a file in a scratch folder grows. Any
  * thread may do so.
@@ -35,8 +36,8 @@ public:
   /** Closes the account of a folder that is removed with its files. Nameless files that are open
    * count until they are closed. */
   void close(const std::filesystem::path& folder) noexcept;
-  /** Counts the bytes of a closed file until remove(), replacing those of an older file `path`.
-   * Where memory is short, or the account is closed, they no longer count. */
+  /** Goes on counting a closed file until remove(); an older file `path` is replaced. If there is
+   * no memory for the entry, or the account is closed, the bytes are released. */
   void keep(const std::filesystem::path& path, std::int64_t bytes) noexcept;
   void remove(const std::filesystem::path& path) noexcept;
 
@@ -49,7 +50,7 @@ public:
   std::int64_t used() const;
   /** The most bytes that existed at once. */
   std::int64_t peak() const;
-  /** What is wrong after acquire() failed: both figures, and what to do. */
+  /** The text of the error after acquire() failed: both figures, and what to do. */
   std::string refusal() const;
 
 private:
@@ -59,11 +60,11 @@ private:
   ScratchAccount* outer();
   void add(std::int64_t bytes) noexcept;
 
-  std::shared_ptr<ScratchAccount> Around; ///< of the folder around; null: none
+  std::shared_ptr<ScratchAccount> Around; ///< of the folder around this one, or null
   std::int64_t Limit = Unlimited;
   bool IsOpen = true;
   std::int64_t Used = 0, Peak = 0;
-  std::int64_t Refused = 0;                             ///< what would have been in use
+  std::int64_t Refused = 0; ///< bytes that a refused request would have led to
   std::unordered_map<std::string, std::int64_t> Closed; ///< bytes of closed files by their paths
 };
 
@@ -79,9 +80,11 @@ public:
   ScratchShare(const ScratchShare&) = delete;
   ScratchShare& operator=(const ScratchShare&) = delete;
 
-  /** The file will have at least `end` bytes. Returns false if a limit would be exceeded. */
+  /** The file is about to have at least `end` bytes. Returns false if a limit would be exceeded. */
   bool extend(std::int64_t end) noexcept
   {
+    // Several threads may extend the file: each acquires what it has added, and none the same
+    // bytes.
     std::int64_t before = this->Bytes;
     while (before < end && !this->Bytes.compare_exchange_weak(before, end))
     {
@@ -93,7 +96,7 @@ public:
     this->Bytes -= end - before;
     return false;
   }
-  /** The file is closed and has the name `path`. */
+  /** The file is closed and stays under the name `path`. */
   void keep(const std::filesystem::path& path) noexcept
   {
     this->Account->keep(path, this->Bytes.exchange(0));

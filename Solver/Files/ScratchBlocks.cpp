@@ -4,17 +4,23 @@
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/IoStatistics.h"
 
+// Numbered blocks in one scratch file, written and rewritten in any order. Block tables are in
+// memory; a block keeps its place unless it grows, and then moves to the end of the file. Every
+// read is compared with the checksum of what was written last.
+
 namespace smg
 {
 
 void ScratchBlocks::write(std::int64_t index, std::span<const std::byte> bytes)
 {
   const WaitClock clock;
+  // Blocks between the old end and this one exist from here on, without bytes.
   if (index >= static_cast<std::int64_t>(this->Blocks.size()))
   {
     this->Blocks.resize(static_cast<std::size_t>(index) + 1);
   }
   Block& block = this->Blocks[static_cast<std::size_t>(index)];
+  // It moves to the end of the file, and its old room is given up.
   if (bytes.size() > block.room)
   {
     block.offset = this->End;
@@ -40,6 +46,7 @@ std::size_t ScratchBlocks::bytes(std::int64_t index) const
 
 void ScratchBlocks::read(std::int64_t index, std::span<std::byte> bytes)
 {
+  // A block that was not written reads as one without bytes.
   const Block block =
     this->bytes(index) > 0 ? this->Blocks[static_cast<std::size_t>(index)] : Block{};
   std::int64_t waited = 0;

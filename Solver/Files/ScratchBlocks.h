@@ -16,10 +16,10 @@ namespace smg
 {
 
 /**
- * A scratch file of numbered blocks that are written, rewritten and read in any order. A block that
- * does not grow keeps its place. Blocks that were not written have no bytes.
+ * A scratch file of numbered blocks that are written, rewritten and read in any order. A block
+ * keeps its place unless it grows. Blocks that were not written have no bytes.
  *
- * The file is unnamed: it is removed with this object or the program. Checksums (XXH3) verify that
+ * The file is unnamed: it disappears with this object or the program. Checksums (XXH3) verify that
  * the bytes read are those written.
  */
 class SMG_EXPORT ScratchBlocks
@@ -28,7 +28,7 @@ public:
   /** Memory for each block, with room for more. */
   static constexpr std::int64_t TableBytes = 64;
 
-  /** `path` is the folder, and the name in messages. */
+  /** An unnamed file in the folder of `path`, which is its name in messages. */
   ScratchBlocks(std::filesystem::path path, IoStatistics& statistics)
     : Path(std::move(path))
     , Statistics(&statistics)

@@ -20,21 +20,21 @@ namespace smg
 {
 
 /**
- * A scratch file of blocks of any size that a pass reads from first to last, with read-ahead, and
- * that it may rewrite at the same time: the next pass reads the appended blocks. The generation
- * that is read is not modified until the pass ends; a block replaces the block with the same index
- * of the generation before, if it fits. Pages in the cache of the system are thus overwritten
- * instead of released and allocated again.
+ * A scratch file of blocks of any size. A pass reads them from first to last, with read-ahead, and
+ * may at the same time append the blocks that the next pass reads. The generation that is read is
+ * not modified until the pass ends: a block takes the place of the block with the same index in the
+ * generation before, if it fits. Pages in the cache of the system are thus overwritten instead of
+ * released and allocated again.
  *
- * The file is unnamed: it is removed with the stream or the program. In a kept folder it has a
- * name, and save() lets another program read the generation of the last rewriting pass as long as
- * no second rewriting pass has begun. Checksums (XXH3) verify that the bytes read are those
+ * The file is unnamed: it disappears with the stream or the program. In a kept folder it has a
+ * name, and after save() another program can read the generation of the last rewriting pass, as
+ * long as no second rewriting pass has begun. Checksums (XXH3) verify that the bytes read are those
  * written.
  */
 class SMG_EXPORT ScratchStream
 {
 public:
-  /** `path` is the folder, and the name in messages. */
+  /** An unnamed file in the folder of `path`, which is its name in messages. */
   ScratchStream(std::filesystem::path path, IoStatistics& statistics)
     : Path(std::move(path))
     , Statistics(&statistics)
@@ -62,10 +62,10 @@ public:
 
   /** Between passes: waits until the disk has the blocks, and saves their places. */
   void save(StateWriter& state);
-  /** Calls with the number of a block and its bytes. */
+  /** Receives the number of a block and its bytes. */
   using BlockCheck = std::function<void(std::int64_t, std::span<const std::byte>)>;
-  /** Restores the places; compares all blocks of the last rewriting pass, which must be so many,
-   * with their checksums, and calls `check` for each. */
+  /** Restores the places, and compares all blocks of the last rewriting pass with their checksums.
+   * There must be `blocks` of them. `check` is called with each. */
   void load(StateReader& state, std::int64_t blocks, const BlockCheck& check = {});
 
 private:
@@ -103,7 +103,7 @@ private:
   std::filesystem::path Path;
   IoStatistics* Statistics;
   FileDescriptor File;
-  Generation Last, Coming; // written by the last rewriting pass, and by this one
+  Generation Last, Coming; // of the last rewriting pass, and of the current one
   std::int64_t End = 0;    // of the file
   bool Rewriting = false;
   bool Unsynced = false; // something was written since save()

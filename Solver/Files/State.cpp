@@ -7,6 +7,17 @@
 #include <algorithm>
 #include <array>
 
+// Writing and reading the state of a checkpoint: one sequence of values, whose layout is the list
+// of members that both directions share (exchange()).
+//
+// The bytes are treated in pages of 64 KiB. The checksum after a page covers the page and the
+// checksum before it, so one number stands for everything up to there, and neither side has more
+// than a page in memory; the reader also has one checksum per page.
+//
+// The reader believes nothing before it is checked: a count is compared with the bytes that are
+// left before memory is allocated for it, so a damaged state ends with an Error and not with a huge
+// allocation. Writing and reading are linear in the size of the state.
+
 namespace smg
 {
 
@@ -21,6 +32,8 @@ StateReader::StateReader(FileDescriptor file, std::int64_t offset, std::int64_t 
   {
     this->fail("it has not the size that it names");
   }
+  // What the state holds goes to the memory of the computation: more than its limit cannot be
+  // restored.
   if (bytes > pool.limit())
   {
     throw Error(this->File.path().string() +
@@ -41,6 +54,7 @@ std::uint64_t StateReader::checksum()
     page.resize(static_cast<std::size_t>(bytes));
     this->File.read(at, page);
     sum = StatePages::add(sum, page);
+    // Kept for checkPage(): the bytes are read again when the values are restored.
     this->Sums.push_back(sum);
     at += bytes;
   }
@@ -60,6 +74,7 @@ void StateReader::part(std::string_view name)
 void StateReader::read(std::span<std::byte> bytes)
 {
   this->require(static_cast<std::int64_t>(bytes.size()) <= this->left());
+  // Values may be longer than a page, and may begin and end anywhere in one.
   while (!bytes.empty())
   {
     if (this->PageUsed == this->Page.size())
@@ -79,6 +94,9 @@ void StateReader::read(std::span<std::byte> bytes)
   }
 }
 
+/** Compares the page in memory with what checksum() found there: a disk that returns different
+ * bytes at the second reading would otherwise restore a state that nobody has checked. Without
+ * checksum() there is nothing to compare with. */
 void StateReader::checkPage() const
 {
   const auto page = static_cast<std::size_t>(this->Next - this->Begin) / StatePages::Bytes;
@@ -94,6 +112,8 @@ std::size_t StateReader::count(std::size_t itemBytes)
   std::uint64_t items = 0;
   this->get(items);
   this->require(items <= static_cast<std::uint64_t>(this->left()) / itemBytes);
+  // Items of fewer bytes than `itemBytes` do not exist, so the count cannot exceed what the file
+  // holds.
   return static_cast<std::size_t>(items);
 }
 
@@ -116,6 +136,7 @@ void StateWriter::write(std::span<const std::byte> bytes)
     const std::size_t part = std::min(bytes.size(), StatePages::Bytes - this->Page.size());
     this->Page.insert(this->Page.end(), bytes.begin(), bytes.begin() + part);
     bytes = bytes.subspan(part);
+    // Pages are full except for the last one: the reader cuts the bytes at the same places.
     if (this->Page.size() == StatePages::Bytes)
     {
       this->finish();
@@ -123,6 +144,7 @@ void StateWriter::write(std::span<const std::byte> bytes)
   }
 }
 
+/** Writes the page in memory, full or not. As the last call it completes bytes() and checksum(). */
 void StateWriter::finish()
 {
   if (!this->Page.empty())

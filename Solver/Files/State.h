@@ -20,19 +20,17 @@
 namespace smg
 {
 
-/**
- * Restores a state that a StateWriter has written; see there. No count is believed before it is
- * compared with the bytes that are left; what cannot be is an Error that names the file.
- */
+/** Restores a state that a StateWriter has written; see there. A count is compared with the bytes
+ * that are left before it is believed; what cannot be is an Error that names the file. */
 class SMG_EXPORT StateReader
 {
 public:
-  /** The state is `bytes` bytes from `offset` on, which must not exceed the limit of the pool. Its
-   * checksum is the caller's to check, with checksum(). */
+  /** The state is the `bytes` bytes of the file from `offset` on; more than the limit of the pool
+   * are an Error. The caller compares checksum() with the one that it knows. */
   StateReader(FileDescriptor file, std::int64_t offset, std::int64_t bytes, Pool& pool);
 
-  /** The checksum of all bytes, as of StateWriter. From then on, read() throws Error if it finds
-   * others. */
+  /** The checksum of all bytes, computed like StateWriter::checksum(). From then on, read() throws
+   * Error if the file returns other bytes. */
   std::uint64_t checksum();
 
   template <class... Values>
@@ -135,11 +133,11 @@ private:
     }
   }
   void checkPage() const;
-  /** A number of items of at least so many bytes each. */
+  /** Reads a number of items, each of which takes at least `itemBytes` bytes. */
   std::size_t count(std::size_t itemBytes);
 
   FileDescriptor File;
-  std::int64_t Begin, Next, End; // Next: the next byte to read
+  std::int64_t Begin, Next, End; // offsets in the file; Next: of the next byte to read
   Pool* Memory;
   std::vector<std::byte> Page;
   std::size_t PageUsed = 0;
@@ -173,7 +171,7 @@ public:
     (this->put(values), ...);
   }
 
-  /** Begins a part with a name, by which the reader finds out if it reads something else. */
+  /** Begins a part with a name, by which the reader notices that it reads something else. */
   void part(std::string_view name) { this->put(std::string(name)); }
 
   /** Appends bytes. */
@@ -243,13 +241,13 @@ private:
   }
 
   const FileDescriptor& File;
-  std::int64_t Begin, End; // End: of what is written
+  std::int64_t Begin, End; // offsets in the file; End: behind what is written
   std::uint64_t Checksum = 0;
   std::vector<std::byte> Page;
 };
 
-/** The bytes of a state are checked page by page: the checksum after a page is that of the page and
- * of the checksum before. */
+/** The chained checksum of a state: that after a page covers the page and the checksum before
+ * it. */
 struct SMG_EXPORT StatePages
 {
   static constexpr std::size_t Bytes = std::size_t(64) << 10;

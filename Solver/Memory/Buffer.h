@@ -98,7 +98,8 @@ public:
   }
 
 private:
-  /** From this size on, memory is mapped and returned to the system: the heap would keep it. */
+  /** From this size on, memory is mapped, and so returned to the system at once when it is
+   * released: the heap would keep it. */
   static constexpr std::size_t MappedBytes = std::size_t(32) << 10;
 
   /** Rounds up to whole cache lines, without overflow for huge sizes. */
@@ -157,7 +158,8 @@ public:
     return buffer;
   }
   void give(Buffer buffer) { this->Spare.push_back(std::move(buffer)); }
-  /** Moves its buffers to `others`, which keep at most `most`. */
+  /** Moves its buffers to `others`, as long as these have fewer than `most`, and releases the
+   * rest. */
   void giveTo(SpareBuffers& others, std::size_t most)
   {
     for (; !this->Spare.empty() && others.Spare.size() < most; this->Spare.pop_back())

@@ -7,12 +7,18 @@
 #include <limits>
 #include <string>
 
+// The accounted memory of an operation. The pool does not allocate: whoever does acquires the bytes
+// first, so the limit is never exceeded by what is accounted for. What is not: small objects, code,
+// stacks, and up to UnaccountedBytes of a block of the stream.
+
 namespace smg
 {
 
 std::string memoryLimitSentence(
   std::int64_t needed, std::int64_t allowed, const PoolUse& use, std::int64_t usual)
 {
+  // The first figure is what is missing at this moment; an operation may need more later on, for
+  // which the estimate stands.
   const std::string usually =
     usual > 0 ? " (about " + mebibytes(usual) + " usually suffice)" : std::string();
   return std::string(use.operation) + " needs at least " + exactMebibytes(needed) + " of memory" +
@@ -22,15 +28,19 @@ std::string memoryLimitSentence(
 void Pool::acquire(std::int64_t bytes)
 {
   const std::lock_guard lock(this->Mutex);
-  // A damaged file may request any size: the sum must not overflow.
+  // The request may come from a damaged file and have any size: the sum must not overflow. Nothing
+  // is added if it fails, so a caller may try with less.
   if (bytes < 0 || bytes > this->Limit - this->Used)
   {
     constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
+    // The error names what would have been needed in all, as far as that is a number.
     const bool fits = bytes >= 0 && bytes <= Most - this->Used;
     throw MemoryLimitError(fits ? this->Used + bytes : Most, this->Limit, this->Use);
   }
   this->Used += bytes;
   this->Peak = std::max(this->Peak, this->Used);
+  // Two peaks: of the whole operation, and since restartPeak(), by which a solve measures what one
+  // of its passes needs.
   this->Recent = std::max(this->Recent, this->Used);
 }
 
@@ -61,6 +71,7 @@ std::int64_t Pool::recentPeak() const
 void Pool::restartPeak()
 {
   const std::lock_guard lock(this->Mutex);
+  // What is in use at this moment counts, even if nothing is acquired in the new period.
   this->Recent = this->Used;
 }
 

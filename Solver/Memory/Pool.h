@@ -24,7 +24,7 @@ inline constexpr PoolUse SolveMemory{ "the solve",
   "raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps" };
 
 /**
- * Accounts for all block memory of an operation and enforces its limit: a request above it throws
+ * Accounts for the large memory of an operation and enforces its limit: a request above it throws
  * an Error that names the required bytes, the allowed bytes and a remedy.
  *
  * The pool only counts; Ring and Buffer allocate the memory. Any thread may acquire and release.
@@ -49,10 +49,11 @@ public:
   /** The peak since it was last restarted. */
   std::int64_t recentPeak() const;
   void restartPeak();
-  /** Counts an earlier use of so many bytes. */
+  /** Raises the peak to at least `bytes`, which a program has used that this one continues. */
   void raisePeak(std::int64_t bytes);
   std::int64_t limit() const { return this->Limit; }
-  /** What is in use stays, even if it is more. Not while another thread acquires. */
+  /** Memory in use stays, even if it is more than the new limit. No other thread may acquire
+   * meanwhile. */
   void setLimit(std::int64_t limit) { this->Limit = limit; }
 
 private:
@@ -83,8 +84,8 @@ public:
   {
   }
 
-  /** The same error of an operation that is expected to need so many bytes, 0 if unknown. The part
-   * that failed may be any of many. */
+  /** The same error with a figure for the whole operation, which is expected to need `bytes` (0 if
+   * unknown): the part that failed may be any of many. */
   MemoryLimitError expecting(std::int64_t bytes) const
   {
     if (bytes == 0)
@@ -96,8 +97,8 @@ public:
       std::max(sufficient, plus(this->Needed, this->Needed / 4)) };
   }
 
-  /** The error of an operation that holds `own` bytes beside the part that failed, all of it within
-   * the limit `allowed`. */
+  /** The same error for an operation that has `own` bytes beside the part that failed and whose
+   * limit for both is `allowed`. */
   MemoryLimitError inside(std::int64_t own, std::int64_t allowed) const
   {
     const std::int64_t usual = this->Usual > 0 ? plus(this->Usual, own) : 0;
@@ -116,9 +117,9 @@ private:
   PoolUse Use;
 };
 
-/** What is made of a block of the stream is not accounted for up to so many bytes, a constant that
- * blocks of usual streams do not reach; more of it is, where very many vertices become final at
- * once. */
+/** Up to so many bytes of what is computed from a block of the stream are not accounted for, which
+ * is enough for the blocks of usual streams. Where very many vertices become final at once there
+ * is more, and that is accounted for. */
 inline constexpr std::int64_t UnaccountedBytes = std::int64_t(4) << 20;
 
 constexpr std::int64_t accountedBytes(std::int64_t bytes)
@@ -126,7 +127,7 @@ constexpr std::int64_t accountedBytes(std::int64_t bytes)
   return std::max<std::int64_t>(0, bytes - UnaccountedBytes);
 }
 
-/** Memory that another class uses, accounted for in a pool. */
+/** Accounts in a pool for memory that another class allocates. */
 class Reservation
 {
 public:
@@ -141,7 +142,7 @@ public:
   Reservation& operator=(const Reservation&) = delete;
 
   std::int64_t bytes() const { return this->Bytes; }
-  /** Accounts for so many bytes instead. Above the limit, throws Error and changes nothing. */
+  /** Changes the reservation to `bytes`. Above the limit, throws Error and changes nothing. */
   void resize(std::int64_t bytes)
   {
     if (bytes > this->Bytes)

@@ -13,8 +13,8 @@
 namespace smg
 {
 
-/** The part in memory of an unbounded array of rows of any length. Rows are contiguous: a row that
- * does not fit before the end of the memory is stored at its beginning. */
+/** The part of an unbounded array of rows of any length that is in memory. Rows are contiguous: a
+ * row that does not fit before the end of the memory is stored at its beginning. */
 template <class T>
 class RaggedRing
 {
@@ -35,7 +35,7 @@ public:
   std::int64_t size(std::int64_t row) const { return this->Ends.at(row)[1] - this->start(row); }
   T* row(std::int64_t row) const { return this->data() + this->start(row); }
 
-  /** The rows near one of them, by their distance from it. */
+  /** The rows around a row, addressed by their distance from it. */
   class Near
   {
   public:
@@ -68,8 +68,8 @@ public:
   }
   /** The open row. */
   T* opened() const { return this->data() + this->Open; }
-  /** Closes the open row with `size` entries; what it has left of its room is the next open row.
-   */
+  /** Closes the open row with `size` entries. The room that it does not use belongs to the next
+   * row. */
   void close(std::int64_t size)
   {
     const std::int64_t row = this->Ends.end();
@@ -83,8 +83,8 @@ public:
     this->Ends[row] = static_cast<std::uint32_t>(this->Tail);
   }
 
-  /** Provides room for so many more rows with so many entries in all: until they are appended, rows
-   * do not move, so that other threads may read earlier ones. */
+  /** Provides room for `rows` more rows with `entries` entries in all. Until they are appended,
+   * rows do not move, so other threads may read earlier ones. */
   void reserve(std::int64_t rows, std::int64_t entries)
   {
     this->Ends.reserve(this->Ends.end() - this->Ends.first() + rows);
@@ -135,7 +135,8 @@ private:
     return first < this->end() ? this->start(first) : this->Tail;
   }
 
-  /** Chooses the position of a row of `size` entries; returns whether there is one. */
+  /** Chooses the position of a row of `size` entries and returns whether there is one. One entry
+   * before the first row stays free: a full ring and an empty one would otherwise look alike. */
   bool fits(std::int64_t size)
   {
     const std::int64_t head = this->head();
@@ -144,7 +145,8 @@ private:
     {
       return size <= this->Room;
     }
-    // Between the new end and the first row, once this row is closed.
+    // At the beginning, before the first row. `Room` is what will be left from the tail, once this
+    // row is closed.
     this->Room = head - 1 - this->Tail;
     this->Open = 0;
     return size < head;
@@ -158,12 +160,15 @@ private:
     const std::int64_t before = this->capacity();
     const std::int64_t least = wrapped ? before + this->Tail + size + 1 - head : this->Tail + size;
     const std::int64_t entries = std::max(least, before + before / 32);
+    // The ends of rows are stored with 32 bits.
     if (entries > UINT32_MAX)
     {
       throw Error(
         "neighbours lie too far apart in the stream: convert the mesh with the order bfs");
     }
     this->Memory.grow(*this->Owner, static_cast<std::size_t>(entries) * sizeof(T));
+    // The rows from the first one to the end of the old memory move to the end of the new one; the
+    // gap before them is the new room.
     if (wrapped)
     {
       this->moveToEnd(this->Ends.first(), this->capacity() - before);
@@ -191,7 +196,7 @@ private:
   Buffer Memory;
   Ring<std::uint32_t> Ends; ///< Ends[row + 1]: end of the row, in entries
   std::int64_t Tail = 0;    ///< end of the last row
-  std::int64_t Room = 0;    ///< at least so many entries fit there
+  std::int64_t Room = 0;    ///< entries that certainly fit behind it
   std::int64_t Open = 0;    ///< begin of the open row
 };
 

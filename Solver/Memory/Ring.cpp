@@ -11,6 +11,14 @@
 #include <unistd.h>
 #include <utility>
 
+// Memory for windows over unbounded arrays: one file in memory (memfd), mapped three times side by
+// side.
+//
+// An item near the end of the ring has its neighbours in the next image, at the address where they
+// would be in an array without an end. So kernels access neighbours by address arithmetic, without
+// a test for the wrap in their inner loops. The price is address space, three times the size of the
+// window, and pages that are counted as resident in each image that touches them.
+
 namespace smg
 {
 namespace
@@ -43,10 +51,12 @@ MirroredMemory& MirroredMemory::operator=(MirroredMemory&& other) noexcept
 
 void MirroredMemory::grow(std::size_t bytes)
 {
+  // Windows only grow: clear() releases the memory.
   if (bytes <= this->Size)
   {
     return;
   }
+  // Accounted once: the three images are the same memory.
   this->Owner->acquire(static_cast<std::int64_t>(bytes - this->Size));
   const std::size_t before = this->Size;
   try
@@ -55,11 +65,14 @@ void MirroredMemory::grow(std::size_t bytes)
     {
       this->Descriptor = systemCalls().memfd_create("smg-window", MFD_CLOEXEC);
     }
+    // The file grows at its end and keeps its content, so the items keep their offsets.
     if (this->Descriptor < 0 ||
         systemCalls().ftruncate(this->Descriptor, static_cast<off_t>(bytes)) != 0)
     {
       fail("memfd");
     }
+    // The images lie side by side, so they cannot grow in place: all are mapped again, usually
+    // elsewhere.
     this->unmap();
     this->map(bytes);
   }
@@ -72,6 +85,8 @@ void MirroredMemory::grow(std::size_t bytes)
 
 void MirroredMemory::map(std::size_t bytes)
 {
+  // First one reservation of address space for all three images, which ensures that they are
+  // adjacent; the images then replace it part by part (MAP_FIXED).
   void* all = systemCalls().mmap(
     nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (all == MAP_FAILED)
@@ -88,6 +103,7 @@ void MirroredMemory::map(std::size_t bytes)
       fail("mapping");
     }
   }
+  // Accesses start in the middle image and may go beyond either end.
   this->Data = first + bytes;
   this->Size = bytes;
 }

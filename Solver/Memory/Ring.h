@@ -16,10 +16,10 @@ namespace smg
 {
 
 /**
- * Memory that is mapped three times in a row: accesses beyond an end of the middle image wrap
- * around to the other end, so that the neighbourhood of an item of a ring buffer is accessed
- * without a wrap test. A page counts as resident once for each image in which it is touched:
- * accesses should start in the middle image, so that most pages count once.
+ * Memory that is mapped three times in a row. Accesses beyond an end of the middle image continue
+ * at the other end, so the neighbours of an item of a ring buffer are accessed without a wrap test.
+ * A page counts as resident once for each image in which it is touched: accesses should start in
+ * the middle image, so that most pages count once.
  */
 class SMG_EXPORT MirroredMemory
 {
@@ -54,10 +54,10 @@ private:
 };
 
 /**
- * The part [first, end) in memory of an unbounded array of items, each of `lanes` values of T.
- * Items are addressed by their index in the unbounded array; the neighbours of any item are
- * contiguous in memory (MirroredMemory), so `at(i) + lanes * d` is item i + d. But at(i + d) may be
- * another image of it: two results of at() do not bound a range.
+ * The part [first, end) of an unbounded array of items, each of `lanes` values of T, that is in
+ * memory. Items are addressed by their index in the unbounded array. The neighbours of any item are
+ * contiguous in memory (MirroredMemory), so `at(i) + lanes * d` is item i + d. But at(i + d) may
+ * point to another image of it: two results of at() do not bound a range.
  */
 template <class T>
 class Ring
@@ -74,7 +74,7 @@ public:
   std::int64_t first() const { return this->First; }
   std::int64_t end() const { return this->End; }
   int lanes() const { return this->Lanes; }
-  /** The items for which there is memory. */
+  /** The number of items for which there is memory. */
   std::int64_t capacity() const { return this->Capacity; }
 
   /** The first value of item `i`, first() <= i <= end(). */
@@ -151,7 +151,7 @@ public:
     }
   }
 
-  /** Provides capacity for so many further items. */
+  /** Provides capacity for `items` more items. */
   void reserveMore(std::int64_t items) { this->reserve(this->End - this->First + items); }
 
 private:
@@ -160,6 +160,8 @@ private:
     this->Lap = this->Capacity == 0 ? this->First : this->Lap;
     const auto itemBytes = static_cast<std::int64_t>(sizeof(T)) * this->Lanes;
     const std::int64_t page = MirroredMemory::PageBytes;
+    // The images are mapped by whole pages and hold whole items: the capacity in items is a
+    // multiple of this.
     const std::int64_t granule = page / std::gcd(page, itemBytes);
     const std::int64_t capacity = (items + granule - 1) / granule * granule;
     const std::int64_t added = capacity - this->Capacity;
@@ -167,7 +169,8 @@ private:
     this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
     if (wrapped > 0)
     {
-      // Items at the beginning that follow the others are moved behind these, as many as fit.
+      // The items that had wrapped around are at the beginning of the memory. They follow the
+      // others, so they move into the new part, as many as fit; the rest moves up to the beginning.
       std::byte* data = this->Memory.data();
       const std::int64_t moved = std::min(wrapped, added);
       std::memcpy(
@@ -189,10 +192,11 @@ private:
 };
 
 /**
- * A window of a non-decreasing sequence of 64-bit indices, stored by their low 32 bits: all values
- * in memory are within 2^31 of the last one at the last call of release(), or of the first one
- * after it if none was left, which determines the high bits. So a thread may append while others
- * read earlier values, if there is room.
+ * A window of a non-decreasing sequence of 64-bit indices, of which the low 32 bits are stored. All
+ * values in memory are within 2^31 of a reference, which determines the high bits: the last value
+ * at the last call of release(), or, if none was left then, the first value after it. append() does
+ * not change the reference otherwise, so a thread may append while others read earlier values, if
+ * there is room.
  */
 class MonotoneRing
 {
@@ -227,7 +231,7 @@ public:
     this->Low[i] = static_cast<std::uint32_t>(this->Last);
   }
 
-  /** Provides room for so many more values. */
+  /** Provides room for `more` more values. */
   void reserve(std::int64_t more) { this->Low.reserve(this->end() - this->Low.first() + more); }
 
   /** Releases the values below `first`; if that is beyond the end, it is the next one. */

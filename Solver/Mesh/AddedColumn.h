@@ -66,14 +66,14 @@ private:
   Fill FillColumn;
 };
 
-/** A name for a vertex or cell in messages, by its index in the original file or in the stream. */
+/** The name of a vertex or cell in messages: its index in the original file or in the stream. */
 inline std::string nameOfRow(std::int64_t number, bool original)
 {
   return std::to_string(number) + (original ? " of the mesh's file" : " of the stream");
 }
 
-/** The same for row `i` of a block that begins with row `first`: by its column of original indices,
- * if any. */
+/** The same for row `i` of a block that begins with row `first`: its original index if the block
+ * has that column. */
 inline std::string nameOfRow(
   const std::vector<Column>& columns, const ColumnSpec& numbers, std::int64_t first, std::size_t i)
 {

@@ -10,9 +10,9 @@
 namespace smg
 {
 
-/** Reads a mesh stream a block ahead of its use, which is on another thread meanwhile, if the mesh
- * may be read on any. The two blocks, whose size is a choice of the mesh source, are not accounted
- * for. */
+/** Reads a mesh stream one block ahead: the next block is read on another thread while the current
+ * one is used, if the mesh may be read on any thread. The two blocks, whose size the mesh source
+ * chooses, are not accounted for. */
 class MeshPrefetch
 {
 public:
@@ -23,7 +23,7 @@ public:
   {
   }
 
-  /** Makes the block that follows the current one; not while read() or block() runs. */
+  /** Makes the block that was read ahead the current one. Not while read() or block() runs. */
   void advance()
   {
     if (this->Ahead)
@@ -48,7 +48,8 @@ public:
     }
     catch (...)
     {
-      // Due when the blocks before it have been processed.
+      // block() rethrows it when the blocks before it have been processed, as without reading
+      // ahead.
       this->Following.failure = std::current_exception();
     }
     this->Ended = this->Following.ended || this->Following.failure;
@@ -56,15 +57,16 @@ public:
 
   const StreamInfo& info() const { return this->Mesh.info(); }
   bool isAhead() const { return this->Ahead; }
-  /** If it reads ahead, the vertices of the current block, 0 at the end of the stream. */
+  /** The number of vertices of the current block if it was read ahead; 0 at the end of the
+   * stream. */
   std::int64_t vertices() const
   {
     const bool is = this->Current.read && !this->Current.ended && !this->Current.failure;
     return is ? this->Current.block.vertices() : 0;
   }
 
-  /** The current block, or null at the end of the stream; to be called once after each advance(),
-   * on the caller's thread. Throws what reading it has thrown. */
+  /** The current block, or null at the end of the stream. To be called once after each advance(),
+   * on the thread of the caller. Rethrows what reading the block has thrown. */
   const MeshBlock* block()
   {
     if (!this->Ahead)

@@ -8,6 +8,11 @@
 #include <string>
 #include <utility>
 
+// Checks of mesh streams, block by block. Everything behind a stream relies on what is checked
+// here: windows release a vertex when it is final, so a later cell that uses it would read memory
+// that holds another vertex. Only three numbers are remembered, so the check costs a comparison per
+// coordinate and corner and no memory.
+
 namespace smg
 {
 
@@ -27,6 +32,8 @@ void StreamCheck::add(const MeshBlock& block)
                 ", expected " + std::to_string(this->Vertices) + " and " +
                 std::to_string(this->Cells));
   }
+  // Vertices come before the cells of their block, which may use them; what the block declares
+  // final comes last, since its own cells may still use that.
   this->addVertices(block);
   this->addCells(block);
   if (block.finalized > this->Vertices)
@@ -35,6 +42,7 @@ void StreamCheck::add(const MeshBlock& block)
                 std::to_string(block.finalized) + " vertices final but only " +
                 std::to_string(this->Vertices) + " have come");
   }
+  // What was declared final stays final: windows have released it.
   if (block.finalized < this->Final)
   {
     throw Error("the mesh stream is not valid: a block declares " +
@@ -46,6 +54,7 @@ void StreamCheck::add(const MeshBlock& block)
 
 void StreamCheck::addVertices(const MeshBlock& block)
 {
+  // A single coordinate that is not finite would spread to all values of its component.
   const auto bad = std::find_if(block.positions.begin(), block.positions.end(),
     [](double coordinate) { return !std::isfinite(coordinate); });
   if (bad != block.positions.end())
@@ -57,6 +66,8 @@ void StreamCheck::addVertices(const MeshBlock& block)
   this->Vertices += block.vertices();
 }
 
+/** A cell may use vertices that have been read and are not final. It may repeat a corner: whether a
+ * cell is degenerate is not a question of the stream. */
 void StreamCheck::addCells(const MeshBlock& block)
 {
   const auto bad = std::find_if(block.corners.begin(), block.corners.end(),
@@ -72,6 +83,8 @@ void StreamCheck::addCells(const MeshBlock& block)
   this->Cells += static_cast<std::int64_t>(block.corners.size()) / corners;
 }
 
+/** A stream that ends early was cut off, and lacks vertices or cells of the mesh. Counts that are
+ * not known are 0 or less, and nothing is required of them. */
 void StreamCheck::finish(const StreamInfo& info) const
 {
   if (this->Vertices < info.vertices || this->Cells < info.cells)
@@ -87,7 +100,8 @@ std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cell
 {
   constexpr std::int64_t Few = 100;
   const bool isSurface = type == CellType::Triangle;
-  // With b bodies: vertices <= cells + 2 b (tetrahedra: 3 b).
+  // With b bodies, vertices <= cells + 2 b (tetrahedra: cells + 3 b), see the header: so there are
+  // at least as many bodies as this.
   const std::int64_t bodies = (vertices - cells) / (isSurface ? 2 : 3);
   if (cells < Few || bodies < cells / 2)
   {

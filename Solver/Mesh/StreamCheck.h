@@ -16,18 +16,16 @@ namespace smg
 class StreamCheck
 {
 public:
-  /** `firstCell`: that of the first block, of a part of a mesh. */
+  /** `firstCell`: the first cell of the first block, which is not 0 for a part of a mesh. */
   explicit StreamCheck(CellType cellType, std::int64_t firstCell = 0)
     : Type(cellType)
     , Cells(firstCell)
   {
   }
 
-  /**
-   * To be called with each block in order. Throws Error if it does not continue the stream, if a
-   * position is not finite, if a cell uses a vertex that has not been read yet or was declared
-   * final, or if `finalized` decreases.
-   */
+  /** To be called with each block in order. Throws Error if the block does not continue the stream,
+   * a position is not finite, a cell uses a vertex that has not been read or was declared final,
+   * or `finalized` decreases. */
   void add(const MeshBlock& block);
 
   /** To be called after the last block: throws Error if the stream ended before the counts that
@@ -46,23 +44,21 @@ private:
   CellType Type;
   std::int64_t Vertices = 0;
   std::int64_t Cells;
-  std::int64_t Final = 0; ///< no cell may use a vertex below
+  std::int64_t Final = 0; ///< no cell may use a vertex below this one
 };
 
-/**
- * A note on a mesh of so many vertices and cells, at least half of which must be bodies of their
- * own: a body of m triangles that share edges has at most m + 2 vertices, one of m tetrahedra that
- * share faces at most m + 3. Empty: it is not such a mesh, or has few cells.
- */
+/** A note on a mesh with these counts if at least half of its cells must be bodies of their own: a
+ * body of m triangles that share edges has at most m + 2 vertices, one of m tetrahedra that share
+ * faces at most m + 3. Empty if that is not so, or the mesh has few cells. */
 SMG_EXPORT std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cells);
 
 /** Adds that note to the report, if there is one. */
 SMG_EXPORT void noteUnwelded(
   CellType type, std::int64_t vertices, std::int64_t cells, Report& report);
 
-/** Calls `visit` with each block of the stream, which is checked before. `isPart`: of a part of a
- * mesh, which may begin with any cell. Returns the check of all blocks, whose finish() is left to
- * the caller. */
+/** Checks each block of the stream and then calls `visit` with it. `isPart`: the stream is a part
+ * of a mesh, which may begin with any cell. Returns the check of all blocks; the caller may call
+ * its finish(). */
 StreamCheck forCheckedBlocks(MeshSource& mesh, auto visit, bool isPart = false)
 {
   StreamCheck check(mesh.info().cellType);

@@ -9,8 +9,8 @@
 namespace smg
 {
 
-/** Calls visit(block) for each block of a mesh; the progress is from `begin` to `end`. Throws
- * Cancelled if it returns false. */
+/** Calls visit(block) for each block of a mesh and reports a progress from `begin` to `end`. Throws
+ * Cancelled if the progress function returns false. */
 template <class Visit>
 void visitBlocks(
   MeshSource& mesh, const ProgressFunction& progress, double begin, double end, const Visit& visit)

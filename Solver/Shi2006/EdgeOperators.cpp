@@ -5,13 +5,25 @@
 #include <functional>
 #include <vector>
 
+// The operators of the paper "Out-of-Core Multigrid Solver for Streaming Meshes" (after Shi et al.
+// 2006) between two levels: lifting, prolongation (4) and (5), the coarse operator (7) and (9),
+// relaxation (3), restriction (8) and (10). Names and signs follow the paper; Level.h has the
+// equation (2) that all of them concern, EdgeOperators.h the formulas.
+//
+// Every operator is linear in the edges of a level, except that the coarse operator and the
+// restriction visit the paths i - j - k over retained nodes j, whose number is the sum of the
+// squares of the numbers of edges. Sums are taken node by node in stream order, so results have the
+// same bits in every run.
+
 namespace smg::shi2006
 {
 namespace
 {
 
+/** Whether a neighbour before node i is lifted. Those behind it are not decided yet. */
 bool hasLiftedNeighbour(const Level& level, std::int64_t i)
 {
+  // Edges are in ascending order of their neighbours: the loop ends at the first one behind i.
   const Edge* edge = level.edges.row(i);
   for (std::int64_t e = 0; e < level.edges.size(i) && edge[e].neighbour < i; ++e)
   {
@@ -23,6 +35,8 @@ bool hasLiftedNeighbour(const Level& level, std::int64_t i)
   return false;
 }
 
+/** Z_i, the denominator of (5): what ties a retained node to lifted nodes and to constraints. Edges
+ * to other retained nodes are left out, as (5) leaves them out. */
 double pullOf(const Level& level, std::int64_t i)
 {
   double sum = level.node[i].alpha;
@@ -39,8 +53,12 @@ double pullOf(const Level& level, std::int64_t i)
 std::int64_t lift(Level& level)
 {
   std::int64_t lifted = 0;
+  // In two passes: Z_i needs to know of all neighbours whether they are lifted, also of those
+  // behind i.
   for (std::int64_t i = 0; i < level.nodes(); ++i)
   {
+    // A node without edges would be lifted on every level and keep the coarsest one from becoming
+    // small.
     const bool isLifted = level.edges.size(i) > 0 && !hasLiftedNeighbour(level, i);
     level.node[i].parent = isLifted ? lifted++ : -1;
   }
@@ -59,16 +77,19 @@ namespace
 {
 
 /**
- * With g_ij = d_ij - (v_i - v_j) and xi_i = xi0_i - alpha_i v_i, the value v_i + Delta_i of (5) is
+ * Equation (5) for a retained node. With g_ij = d_ij - (v_i - v_j) and xi_i = xi0_i - alpha_i v_i,
+ * the value v_i + Delta_i is
  *
  *   (sum over lifted j of w_ij (v_j + Delta_j + d_ij) + xi0_i) / Z_i:
  *
- * the previous value cancels.
+ * the previous value v_i cancels. This is why the result of a V-cycle does not depend on the values
+ * before it.
  */
 void interpolate(Level& level, std::int64_t i)
 {
   const int columns = level.columns();
   double* v = level.value.at(i);
+  // The numerator begins with xi0_i and is summed in the place of the value.
   std::copy_n(level.constraint.at(i), columns, v);
   const Edge* edge = level.edges.row(i);
   const double* target = level.target.at(level.edges.start(i));
@@ -97,6 +118,7 @@ void prolong(const Level& coarse, Level& fine)
   const int columns = fine.columns();
   for (std::int64_t i = 0; i < fine.nodes(); ++i)
   {
+    // (4): lifted nodes first, since (5) uses their corrected values.
     if (fine.node[i].lifted())
     {
       const double* correction = coarse.value.at(fine.node[i].parent);
@@ -106,6 +128,7 @@ void prolong(const Level& coarse, Level& fine)
   }
   for (std::int64_t i = 0; i < fine.nodes(); ++i)
   {
+    // Z_i = 0: nothing on the next level knows of this node, and relaxation alone changes it.
     if (!fine.node[i].lifted() && fine.node[i].pull > 0.0)
     {
       interpolate(fine, i);
@@ -120,7 +143,9 @@ namespace smg::shi2006
 namespace
 {
 
-/** Sums the weights of one coarse row, with constant-time lookup of entries. */
+/** Sums the weights of one row of the coarse operator. Many paths lead to the same neighbour; its
+ * entry is found in constant time by a table over all coarse nodes, which is not cleared between
+ * rows. */
 class RowSum
 {
 public:
@@ -135,7 +160,8 @@ public:
   void add(std::int64_t neighbour, double weight)
   {
     auto& place = this->Place[neighbour];
-    // An entry of an earlier row has another neighbour.
+    // The table may still hold the place of an earlier row. It is valid only if the entry there is
+    // of this neighbour.
     if (place >= this->Sums.size() || this->Sums[place].neighbour != neighbour)
     {
       place = this->Sums.size();
@@ -144,7 +170,8 @@ public:
     this->Sums[place].weight += weight;
   }
 
-  /** The edges by ascending neighbour, without those of zero weight: (8) divides by it. */
+  /** The edges of the row by ascending neighbour, without those of weight zero, since (8) divides
+   * by the weight. */
   const std::vector<Edge>& finish()
   {
     std::erase_if(this->Sums, [](const Edge& edge) { return !(edge.weight > 0.0); });
@@ -158,9 +185,9 @@ private:
   std::vector<Edge> Sums;
 };
 
-/**
- * Adds the contributions of the paths from i over its retained neighbours; returns the new alpha.
- */
+/** Adds the paths from lifted i over its retained neighbours j to `row`: the weights of (7).
+ * Returns the alpha of the coarse node by (9): what j is tied to beside lifted nodes is shared
+ * among these. */
 double addPaths(const Level& fine, std::int64_t i, RowSum& row)
 {
   double alpha = fine.node[i].alpha;
@@ -169,6 +196,7 @@ double addPaths(const Level& fine, std::int64_t i, RowSum& row)
   {
     const std::int64_t j = edge[e].neighbour;
     const Node& between = fine.node[j];
+    // Lifted neighbours, which lifting excludes, and nodes that nothing pulls end no path.
     if (!(between.pull > 0.0))
     {
       continue;
@@ -178,6 +206,7 @@ double addPaths(const Level& fine, std::int64_t i, RowSum& row)
     for (std::int64_t h = 0; h < fine.edges.size(j); ++h)
     {
       const std::int64_t k = onward[h].neighbour;
+      // The path back to i would be an edge of the coarse node to itself.
       if (k != i && fine.node[k].lifted())
       {
         row.add(fine.node[k].parent, onward[h].weight * edge[e].weight / between.pull);
@@ -191,11 +220,14 @@ double addPaths(const Level& fine, std::int64_t i, RowSum& row)
 
 void buildCoarseOperator(const Level& fine, Level& coarse, Pool& pool)
 {
+  // Coarse nodes are numbered in the order of their fine nodes, which is the order of the loop
+  // below.
   std::int64_t nodes = 0;
   for (std::int64_t i = 0; i < fine.nodes(); ++i)
   {
     nodes += fine.node[i].lifted() ? 1 : 0;
   }
+  // One table for all rows: of the size of the coarse level, and accounted for.
   RowSum row(pool, nodes);
   coarse.node.reserve(nodes);
   for (std::int64_t i = 0; i < fine.nodes(); ++i)
@@ -207,6 +239,7 @@ void buildCoarseOperator(const Level& fine, Level& coarse, Pool& pool)
     row.begin();
     const double alpha = addPaths(fine, i, row);
     const std::vector<Edge>& edges = row.finish();
+    // The diagonal is summed from what is stored, so that row sums are exactly alpha.
     double diagonal = alpha;
     for (const Edge& edge : edges)
     {
@@ -232,7 +265,8 @@ namespace smg::shi2006
 namespace
 {
 
-/** sum = b_i + sum_j w_ij v_j, the numerator of (3); `sum` may be v_i itself. */
+/** sum = b_i + sum_j w_ij v_j, the numerator of (3). `sum` may be v_i itself, since a node has no
+ * edge to itself. */
 void addNeighbours(const Level& level, std::int64_t i, double* sum)
 {
   const int columns = level.columns();
@@ -252,12 +286,15 @@ void addNeighbours(const Level& level, std::int64_t i, double* sum)
 
 } // namespace
 
+/** Gauss-Seidel: node i sees the values of this sweep before it, and the values of the last sweep
+ * behind it. */
 void relax(Level& level)
 {
   const int columns = level.columns();
   for (std::int64_t i = 0; i < level.nodes(); ++i)
   {
     const double diagonal = level.node[i].diagonal;
+    // Without edges and alpha the equation is 0 = 0.
     if (diagonal > 0.0)
     {
       double* v = level.value.at(i);
@@ -294,7 +331,8 @@ namespace smg::shi2006
 namespace
 {
 
-/** Restricts to the coarse nodes one by one. */
+/** Restriction to one coarse node after another: first the sums over paths, (8) and (10), which use
+ * g and xi of the current values, then the division of (8) by the weights of the coarse edges. */
 class Restriction
 {
 public:
@@ -309,11 +347,14 @@ public:
   void operator()(std::int64_t i)
   {
     const std::int64_t c = this->Fine.node[i].parent;
+    // The remainder of node i itself; its retained neighbours add their terms of (10) below.
     this->setXi(i, this->Coarse.constraint.at(c));
     const Edge* edge = this->Fine.edges.row(i);
     for (std::int64_t e = 0; e < this->Fine.edges.size(i); ++e)
     {
       const Node& between = this->Fine.node[edge[e].neighbour];
+      // The same paths as in buildCoarseOperator(): other ones would restrict to edges that do not
+      // exist.
       if (between.pull > 0.0)
       {
         this->setG(i, e);
@@ -321,6 +362,7 @@ public:
         this->passG(i, edge[e]);
       }
     }
+    // Sums of w g over the paths become g itself, an average with the weights w_kj w_ji / Z_j.
     const std::int64_t begin = this->Coarse.edges.start(c);
     const Edge* out = this->Coarse.edges.row(c);
     for (std::int64_t e = 0; e < this->Coarse.edges.size(c); ++e)
@@ -333,7 +375,8 @@ public:
   }
 
 private:
-  /** g of edge `e` of row i, column k. */
+  /** g of edge `e` of row i, in column k: how far the current values are from the target of the
+   * edge. */
   double g(std::int64_t i, std::int64_t e, int k) const
   {
     const std::int64_t j = this->Fine.edges.row(i)[e].neighbour;
@@ -363,7 +406,8 @@ private:
     }
   }
 
-  /** A term of (10): the contribution of retained j at the end of the edge. */
+  /** A term of (10): the remainder of retained j at the end of the edge, and what alpha_j makes of
+   * the g of the edge to it. */
   void passXi(const Edge& edge, double* xi) const
   {
     const std::int64_t j = edge.neighbour;
@@ -375,7 +419,8 @@ private:
     }
   }
 
-  /** The terms of (8) with a path from i over retained j at the end of the edge. */
+  /** The terms of (8) with the paths from i over retained j at the end of the edge. Along a path
+   * the g of both edges add up. */
   void passG(std::int64_t i, const Edge& edge)
   {
     const std::int64_t j = edge.neighbour;
@@ -394,7 +439,8 @@ private:
     }
   }
 
-  /** The accumulator for g of the coarse edge; null if its weight is zero. */
+  /** The place where the g of a coarse edge is summed; null if the edge was left out since its
+   * weight is zero. */
   double* sumOf(std::int64_t from, std::int64_t to) const
   {
     const Edge* begin = this->Coarse.edges.row(from);
@@ -416,6 +462,7 @@ private:
 
 void restrictRightSide(const Level& fine, Level& coarse)
 {
+  // The unknowns of the next level are corrections, so they start from zero.
   std::ranges::fill(coarse.target.range(0, coarse.target.end()), 0.0);
   std::ranges::fill(coarse.value.range(0, coarse.nodes()), 0.0);
   Restriction restrictTo(fine, coarse);
@@ -426,9 +473,11 @@ void restrictRightSide(const Level& fine, Level& coarse)
       restrictTo(i);
     }
   }
+  // What relaxation needs of the new targets and constraints.
   sumRightSide(coarse);
 }
 
+/** b is summed once before the sweeps of a level, instead of in each of them. */
 void sumRightSide(Level& level)
 {
   const int columns = level.columns();

@@ -7,9 +7,10 @@ namespace smg::shi2006
 {
 
 /**
- * The lifting rule: a greedy maximal independent set in stream order. Node i is lifted iff no lower
- * neighbour is. A node without edges is retained: relaxation solves it exactly. Sets `parent` and
- * `pull` of the nodes of the level; returns the number of lifted nodes.
+ * The lifting rule: a greedy maximal independent set in stream order. Node i is lifted (a C-point)
+ * if no neighbour before it is, otherwise retained (an F-point). A node without edges is retained:
+ * relaxation solves it exactly. Sets `parent` and `pull` of the nodes of the level; returns the
+ * number of lifted nodes.
  */
 std::int64_t lift(Level& level);
 
@@ -19,7 +20,7 @@ namespace smg::shi2006
 {
 
 /** Prolongation, equations (4) and (5): adds the correction of the next level to the values of the
- * lifted nodes, and its interpolation by (5) to those of the retained nodes. */
+ * lifted nodes, and interpolates the values of the retained nodes by (5). */
 void prolong(const Level& coarse, Level& fine);
 
 } // namespace smg::shi2006
@@ -28,14 +29,15 @@ namespace smg::shi2006
 {
 
 /**
- * The coarse operator, equations (7) and (9): weights and alpha of the next level of a level whose
- * nodes have been lifted or retained. For lifted i and k, over retained j,
+ * The coarse operator, equations (7) and (9): weights and alpha of the next level, given a level
+ * whose nodes have been lifted or retained. For lifted i and k, over retained j,
  *
  *   w_ki = sum_j w_kj w_ji / Z_j,   alpha_i += sum_j w_ji alpha_j / Z_j.
  *
  * This is the Schur complement of the matrix of the level without the edges between retained nodes:
  * it is exactly symmetric, an M-matrix, and its row sums are alpha. Nodes that share only
- * constrained vertices have no edge. `coarse` must be empty; its state becomes zero.
+ * constrained vertices have no edge. `coarse` must be empty; its values and right-hand sides become
+ * zero.
  */
 void buildCoarseOperator(const Level& fine, Level& coarse, Pool& pool);
 

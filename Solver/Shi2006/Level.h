@@ -15,7 +15,7 @@ struct Edge
   double weight;
 };
 
-/** The edges of all nodes of a level, node by node; other data of an edge are at the same index of
+/** The edges of all nodes of a level, node by node. Other data of an edge are at the same index of
  * separate arrays. */
 class EdgeRows
 {
@@ -57,13 +57,13 @@ private:
 namespace smg::shi2006
 {
 
-/** The data of the equation of a node, except for its edges and its values. */
+/** The data of the equation of a node except for its edges and its values. */
 struct Node
 {
   double alpha;             ///< alpha_i: the weights to constrained vertices, and the screening
   double diagonal;          ///< alpha_i + sum_j w_ij
   double pull = 0.0;        ///< Z_i of a retained node: alpha_i + sum of w_ij over lifted j
-  std::int64_t parent = -1; ///< its node on the next level; -1: retained
+  std::int64_t parent = -1; ///< number of its node on the next level; -1: retained
 
   bool lifted() const { return this->parent >= 0; }
 };

@@ -13,6 +13,11 @@
 #include <cmath>
 #include <string>
 
+// The solver with the equations as the paper prints them, in core. It assembles the finest level
+// from the rows that the streaming engine makes (FinestRows), builds all levels (VCycle) and
+// performs V-cycles. It exists to compare with the paper: Shi2006.h says why it does not converge
+// to the solution. Memory is proportional to the vertices and edges of all levels together.
+
 namespace smg
 {
 namespace
@@ -21,7 +26,7 @@ namespace
 constexpr PoolUse InCoreMemory{ "a solve by shi2006",
   "raise the memory limit, or use the operator set extended, which works out of core" };
 
-/** The finest level in the interface of FreeComponents. */
+/** The finest level in the interface that FreeComponents expects of a level. */
 struct FinestState
 {
   shi2006::Level& level;
@@ -31,7 +36,8 @@ struct FinestState
   {
     std::copy_n(this->level.value.at(first), count * this->level.columns(), values);
   }
-  /** b and xi0 differ by the contributions of the edges, which must not change. */
+  /** Changes xi0 instead of b, block by block: b also has the contributions of the edge targets,
+   * which must not change, and is summed again afterwards. */
   template <class F>
   void rewriteB(F&& f) const
   {
@@ -64,6 +70,7 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   const Timer wall;
   const double cpuAtStart = processSeconds();
   Report& r = this->Result;
+  // The progress is reported as by the streaming engine: by V-cycles to a tolerance.
   this->Progress.begin({ this->Options.tolerance, this->Options.maxCycles }, 0.0, 1.0, true);
   shi2006::Level finest(this->Memory, this->Columns);
   this->assemble(mesh, problem, finest);
@@ -73,8 +80,11 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   const Timer solving;
   this->iterate(cycle, finest);
   FinestState state{ finest };
+  // Components without constraint: their solution is determined up to a constant, which is chosen
+  // here.
   this->Free.fix(state, problem, r);
   r.seconds.solve = solving.seconds();
+  // The values outlive the levels, for read().
   this->Values = std::move(finest.value);
   addAssemblyNotes(r, this->Free.leavesUndetermined());
   r.pool_bytes_peak = this->Memory.peak();
@@ -84,23 +94,26 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   this->Progress.finish();
 }
 
-/** The memory of the finest level of a closed mesh, without the constrained vertices and the
- * coarser levels: a lower bound, so that no feasible solve is rejected. */
+/** The memory of the finest level of a closed mesh without constrained vertices. The coarser levels
+ * are not counted, so that no solve is rejected that might fit. */
 std::int64_t Shi2006::estimateMemory(const StreamInfo& info, int columns)
 {
   const auto value = static_cast<std::int64_t>(sizeof(double)) * columns;
   const std::int64_t node = static_cast<std::int64_t>(sizeof(shi2006::Node) + 8) + 3 * value;
   const std::int64_t edge = static_cast<std::int64_t>(sizeof(shi2006::Edge)) + value;
-  // Euler's formula: a surface has about twice as many triangles as vertices, a tetrahedral mesh
-  // about twice as many triangles as cells.
+  // By Euler's formula a surface has about twice as many triangles as vertices, hence 3/2 edges per
+  // triangle; a tetrahedral mesh has about twice as many triangles as cells, hence as many edges as
+  // vertices and cells together.
   const std::int64_t edges =
     info.cellType == CellType::Triangle ? info.cells * 3 / 2 : info.vertices + info.cells;
+  // An edge is stored with both of its nodes.
   return info.vertices * node + 2 * edges * edge;
 }
 
 void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& finest)
 {
   const StreamInfo& info = mesh.info();
+  // Refused at once, with the figure for the whole level, rather than somewhere while it grows.
   if (const std::int64_t need = estimateMemory(info, this->Columns); need > this->Memory.limit())
   {
     throw MemoryLimitError(need, this->Memory.limit(), InCoreMemory);
@@ -117,6 +130,8 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   {
     throw Error("the mesh has no vertices");
   }
+  // The order matters: components are complete only with all rows, their sums are needed to make
+  // the right-hand side compatible, and that goes into b.
   rows.finish();
   this->Labels.finish();
   this->Parts.settle();
@@ -131,14 +146,17 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
 void Shi2006::describe(const shi2006::VCycle& cycle)
 {
   Report& r = this->Result;
+  // All levels are in memory at once, so all their nodes count in the peak.
   for (std::size_t l = 0; l < cycle.levels(); ++l)
   {
     const shi2006::Level& level = cycle.level(l);
     r.levels.push_back({ level.nodes(), level.nonzeros() });
     r.peak_nodes += level.nodes();
   }
+  // Constrained vertices are nodes of the finest level without edges, but not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
+  // More parts without a constraint than the mesh has: lifting has cut them off.
   if (cycle.detachedParts() > r.free_components)
   {
     r.notes.push_back(
@@ -147,12 +165,14 @@ void Shi2006::describe(const shi2006::VCycle& cycle)
   }
 }
 
-/** Performs V-cycles until the tolerance is reached or the values do not change. */
+/** Performs V-cycles until the tolerance is reached or the residual hardly changes. The tolerance
+ * is relative to the initial residual or, if that is smaller, to the rounding of its terms. */
 void Shi2006::iterate(shi2006::VCycle& cycle, const shi2006::Level& finest)
 {
-  // The result of a V-cycle does not depend on its initial values: further ones do not help.
+  // The result of a V-cycle does not depend on its initial values, so further ones do not help: a
+  // residual above this share of the one before ends the loop.
   constexpr double Final = 0.9;
-  // The rounding of a V-cycle is a multiple of that of the terms of the residual.
+  // A V-cycle rounds several times as much as the terms of the residual.
   constexpr double NearRounding = 10.0;
   Report& r = this->Result;
   const auto norm = [&] { return std::sqrt(shi2006::residualSquares(finest)); };
@@ -195,6 +215,7 @@ void Shi2006::read(std::int64_t first, std::int64_t count, std::span<double> val
   checkVertexRange(
     first, count, values.size() / static_cast<std::size_t>(this->Columns), this->Result.vertices);
   std::copy_n(this->Values.at(first), count * this->Columns, values.data());
+  // Values of free components are completed as they are read.
   this->Free.complete(first, count, values);
 }
 
@@ -205,6 +226,7 @@ namespace smg::shi2006
 namespace
 {
 
+/** Appends one item of `lanes` values. */
 void append(Ring<double>& to, const double* values)
 {
   const std::int64_t end = to.end();
@@ -251,6 +273,8 @@ void FinestRows::take()
 {
   Level& level = this->Finest;
   const int columns = level.columns();
+  // Rows come in stream order, as soon as their vertices are final: the windows between assembly
+  // and level hold only rows that were not taken yet.
   this->Made.moveTo(this->Rows, this->State, columns);
   const std::int64_t begin = level.nodes();
   const std::int64_t end = this->Rows.end();
@@ -263,6 +287,8 @@ void FinestRows::take()
     Edge* edge = level.edges.open(static_cast<std::int64_t>(row.size()));
     for (const RowEntry& entry : row)
     {
+      // The window stores neighbours by their distance from the row; a level in memory stores their
+      // numbers.
       *edge++ = { i + entry.delta(), entry.weight() };
     }
     level.edges.close(static_cast<std::int64_t>(row.size()));

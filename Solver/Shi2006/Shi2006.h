@@ -46,7 +46,7 @@ public:
   /** Solves one problem. */
   void solve(MeshSource& mesh, Problem& problem);
 
-  /** The minimum bytes of the pool that a solve needs. */
+  /** The least bytes of the pool that a solve needs. */
   static std::int64_t estimateMemory(const StreamInfo& info, int columns);
 
   std::int64_t vertices() const override { return this->Result.vertices; }

@@ -4,11 +4,17 @@
 #include "Solver/Multigrid/Cycle/CoarsestFactor.h"
 #include "Solver/Shi2006/EdgeOperators.h"
 
+// The hierarchy of the paper and its V-cycle, level by level in memory. The coarsest level is
+// solved directly. A V-cycle costs the sweeps of all levels; each level has fewer nodes than the
+// one before, but more edges per node, since the coarse operator connects what is two edges apart.
+
 namespace smg::shi2006
 {
 namespace
 {
 
+/** The matrix of a level as CHOLMOD gets it: entries below the diagonal and the diagonal. A node
+ * with alpha anchors its part; parts without are pinned by CoarsestFactor. */
 CoarsestMatrix matrixOf(const Level& level)
 {
   CoarsestMatrix matrix;
@@ -51,10 +57,12 @@ std::int64_t CoarsestSolver::floatingParts() const
 
 void CoarsestSolver::solve(Level& level) const
 {
+  // All vertices may be constrained; there is no factor then.
   if (level.nodes() == 0)
   {
     return;
   }
+  // The columns of a node are contiguous, so a level is a matrix with a row for each node.
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto matrixAt = [&](Ring<double>& values)
   { return Eigen::Map<RowMajor>(values.at(0), level.nodes(), level.columns()); };
@@ -70,6 +78,8 @@ VCycle::VCycle(Pool& pool, Level& finest, int sweeps, std::int64_t coarsestNodes
   : Finest(finest)
   , Sweeps(sweeps)
 {
+  // A level that has lost hardly any nodes will not become smaller: most of its nodes have no edges
+  // between them. The direct solver then takes it as it is.
   constexpr double StalledShare = 0.8;
   double share = 0.0;
   do
@@ -83,6 +93,8 @@ VCycle::VCycle(Pool& pool, Level& finest, int sweeps, std::int64_t coarsestNodes
   this->Coarsest.factorize(*this->Coarse.back(), pool);
 }
 
+/** Parts without alpha on the coarsest level, and nodes without edges and alpha on the levels
+ * between, which are retained there and so have no node on the next level. */
 std::int64_t VCycle::detachedParts() const
 {
   std::int64_t parts = this->Coarsest.floatingParts();
@@ -100,12 +112,15 @@ std::int64_t VCycle::detachedParts() const
 void VCycle::run(std::size_t l, const StepDone& stepDone)
 {
   Level& fine = this->at(l);
+  // The recursion ends with the direct solve.
   if (l + 1 == this->levels())
   {
     this->Coarsest.solve(fine);
     return;
   }
   Level& coarse = this->at(l + 1);
+  // The equation of the next level is made from the remainders of this one, so it comes after the
+  // sweeps; the sweeps after the correction smooth what the interpolation has left.
   this->relaxLevel(l, stepDone, 0.0);
   restrictRightSide(fine, coarse);
   this->run(l + 1, stepDone);
@@ -113,7 +128,7 @@ void VCycle::run(std::size_t l, const StepDone& stepDone)
   this->relaxLevel(l, stepDone, 0.5);
 }
 
-/** The sweeps before or after the correction; those of the finest level report progress. */
+/** The sweeps before or after the correction. On the finest level they report progress. */
 void VCycle::relaxLevel(std::size_t l, const StepDone& stepDone, double begin)
 {
   for (int sweep = 1; sweep <= this->Sweeps; ++sweep)

@@ -6,11 +6,17 @@
 
 #include <algorithm>
 
+// Degenerate and duplicate cells of a stream, block by block, with the vertices that are not final
+// and the cells between these in memory. A duplicate has the corners of an earlier cell: they are
+// in the window, since it uses them, and the earlier cell is listed under one of them. So every
+// duplicate is found, however far apart both are.
+
 namespace smg
 {
 
 const std::vector<std::uint8_t>& CellFlagger::flags(const MeshBlock& block)
 {
+  // The window grows by the vertices of the block and shrinks by those that it declares final.
   for (std::size_t i = 0; i < block.positions.size(); i += 3)
   {
     this->Points.push_back({ block.positions[i], block.positions[i + 1], block.positions[i + 2] });
@@ -41,11 +47,14 @@ std::uint8_t CellFlagger::flag(const std::int64_t* corners)
   std::uint8_t flag = 0;
   if (isDegenerate({ corners, this->Corners }, { points.data(), this->Corners }))
   {
+    // Such a cell may be a duplicate as well.
     flag |= DegenerateCell;
     ++this->Degenerate;
   }
   std::sort(sorted.begin(), sorted.end());
-  // A cell is listed under the corner with the fewest cells, so that lists stay short at a hub.
+  // A cell is listed under one of its corners, the one with the fewest cells, so that the lists
+  // stay short around a vertex of very many cells. All corners are searched, as a duplicate may be
+  // listed under another one.
   bool duplicate = false;
   CellsOfVertex* shortest = nullptr;
   for (std::size_t k = 0; k < this->Corners && !duplicate; ++k)
@@ -83,9 +92,12 @@ bool isDegenerate(
     corners.size() == 3
       ? triangleWeights(points[0].data(), points[1].data(), points[2].data())
       : tetrahedronWeights(points[0].data(), points[1].data(), points[2].data(), points[3].data());
+  // The weights have a measure of 0 where area or volume are rounding only, which is what a solve
+  // goes by, too.
   return weights.measure == 0.0;
 }
 
+/** The determinant of the three edges from the first corner. */
 double orientedVolume(const std::array<std::array<double, 3>, 4>& p)
 {
   const auto edge = [&p](std::size_t k) { return difference(p[k].data(), p[0].data()); };

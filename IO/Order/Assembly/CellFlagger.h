@@ -12,8 +12,8 @@
 namespace smg
 {
 
-/** Finds the degenerate and the duplicate cells of a mesh stream block by block. Stores only the
- * vertices that are not final, and the cells between them. */
+/** Finds the degenerate and the duplicate cells of a mesh stream, block by block. Only the vertices
+ * that are not final, and the cells between them, are in memory. */
 class CellFlagger
 {
 public:
@@ -48,7 +48,7 @@ private:
 
 /**
  * Whether a triangle or tetrahedron is degenerate: a corner is repeated, or its area or volume is
- * zero but for rounding (1e-14 of what its longest edge allows).
+ * zero up to rounding (1e-14 of what its longest edge allows).
  * @param corners 3 or 4 indices
  * @param points the coordinates of these corners
  */

@@ -19,11 +19,9 @@
 namespace smg
 {
 
-/**
- * The vertices used by consecutive cells: they are read from the order as far as cells reach, get
- * their stream indices by first use, and are released after their last cell. Data that exceed the
- * memory are written to scratch files.
- */
+/** The vertices that consecutive cells use. They are read from the order as far as cells reach, get
+ * their stream indices by first use, and are released after their last cell. What exceeds the
+ * memory is in scratch files. */
 template <class Real>
 class CellWindow
 {
@@ -38,8 +36,8 @@ public:
   {
   }
 
-  /** Returns the stream index of the vertex at a position, the next one if it has none, and fills
-   * in its coordinates. */
+  /** Returns the stream index of the vertex at a position, which gets the next one if it has none,
+   * and sets `point` to its coordinates. */
   std::uint32_t use(std::uint32_t place, std::array<double, 3>& point)
   {
     while (place >= this->Loaded)
@@ -117,8 +115,8 @@ private:
   std::int64_t Passed = 0;    ///< by place
 };
 
-/** Writes the flags of consecutive cells to a layout, and counts these and inverted cells: on all
- * threads, in the order of the cells. */
+/** Determines the flags of consecutive cells on all threads, and writes them to the layout in the
+ * order of the cells. Counts flagged and inverted cells. */
 template <int Corners>
 class CellShapes
 {

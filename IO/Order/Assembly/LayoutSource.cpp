@@ -8,6 +8,12 @@
 #include <cstring>
 #include <span>
 
+// A layout as a mesh stream. Vertices and cells are read in their order; the columns of the file,
+// which are in the order of the file, are brought into the order of the stream by a join
+// (ColumnJoin): pairs of number in the file and row, sorted by number, meet the tuples as they are
+// read from the file, and the tuples go to a table by row. So each column is read once from first
+// to last and written once, in bounded memory.
+
 namespace smg
 {
 
@@ -28,12 +34,15 @@ void ColumnJoin::join()
   {
     rowBytes += column.spec.tupleBytes();
   }
+  // One table for all columns: a row has the tuples of all.
   this->Rows.emplace(this->Space, this->NextRow, rowBytes, this->Memory * 3 / 4);
   this->Numbers.sort();
   const Buffer row(this->Space.pool(), rowBytes);
   std::int64_t read = -1; // the number whose tuples are in `row`
   for (Pair pair; this->Numbers.next(pair);)
   {
+    // Tuples between the wanted ones are read and dropped. A number that occurs again finds its
+    // tuples still there.
     for (; read < pair.number; ++read)
     {
       std::size_t at = 0;
@@ -56,6 +65,7 @@ void ColumnJoin::fill(std::int64_t rows, std::vector<Column>& columns)
     columns[c].spec = this->Columns[c].spec;
     columns[c].resize(static_cast<std::size_t>(rows));
   }
+  // A read of the table ends with its bucket, so several may be needed.
   for (std::size_t done = 0; done < static_cast<std::size_t>(rows);)
   {
     const std::span<const std::byte> bytes =
@@ -80,7 +90,8 @@ void ColumnJoin::fill(std::int64_t rows, std::vector<Column>& columns)
 namespace
 {
 
-/** Adds the specs of the columns, and that of the original numbers if requested and missing. */
+/** Adds the specs of the columns, and the spec of the original numbers if these are wanted and the
+ * mesh does not have them. Returns whether it has added them. */
 bool addSpecs(const std::vector<RawColumn>& columns, const ColumnSpec& numbers, bool wanted,
   std::vector<ColumnSpec>& specs)
 {
@@ -119,8 +130,10 @@ LayoutSource::LayoutSource(
   if (layout.flags.size() > 0)
   {
     this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });
+    // Only cells with flags are listed, by ascending cell: the reader is one ahead.
     this->Flags.next(this->NextFlag);
   }
+  // Joined here, so that the stream is then read without a further sort.
   if (!mesh.vertexColumns.empty())
   {
     this->VertexJoin.emplace(workspace, mesh.vertexColumns, workspace.available() / 4);
@@ -155,6 +168,7 @@ bool LayoutSource::next(MeshBlock& block)
   this->fillVertices(block, endVertex);
   this->fillCells(
     block, std::min(this->NextCell + StreamLayout::BlockCells, this->Layout.cellCount));
+  // The blocks are those that the assembly has counted.
   this->BlockFinalized.next(block.finalized);
   return true;
 }
@@ -197,6 +211,7 @@ void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
   block.cellColumns.resize(this->Info.cellColumns.size());
   if (this->AddElements)
   {
+    // The columns of the mesh come first, then the numbers, then the flags.
     Column& column = block.cellColumns[this->Mesh.elementColumns.size()];
     column.spec = OriginalCellIdSpec;
     column.resize(static_cast<std::size_t>(rows));
@@ -220,6 +235,7 @@ void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
 
 void LayoutSource::fillFlags(Column& column, std::int64_t end)
 {
+  // NoIndex is beyond every cell and ends the list.
   while (this->NextFlag.cell < end)
   {
     column.bytes[static_cast<std::size_t>(this->NextFlag.cell - this->NextCell)] =

@@ -16,8 +16,9 @@
 namespace smg
 {
 
-/** Reorders the columns of a file for a stream: put() sets the number in the file of each row of
- * the stream, row by row; fill() delivers the tuples of the rows. Numbers may be repeated. */
+/** Brings the columns of a file into the order of a stream: put() sets the number in the file of
+ * each row of the stream, row by row; fill() delivers the tuples of the rows. Numbers may be
+ * repeated. */
 class ColumnJoin
 {
 public:
@@ -51,11 +52,9 @@ private:
   std::int64_t Memory;
 };
 
-/**
- * Delivers a layout as a mesh stream. The stream has the columns of the mesh, the indices of
- * vertices and cells in its file (OriginalId and OriginalCellId, unless the mesh already has them),
- * and CellFlags if any cell has a flag.
- */
+/** Delivers a layout as a mesh stream. It has the columns of the mesh, the indices of vertices and
+ * cells in the file (OriginalId and OriginalCellId, unless the mesh already has them), and
+ * CellFlags if any cell has a flag. */
 class LayoutSource : public MeshSource
 {
 public:

@@ -6,13 +6,24 @@
 #include <array>
 #include <span>
 
+// The stream in an order of the vertices: cells sorted by the positions of their corners, vertices
+// numbered by their first use in these, and for each block of cells how many vertices are final.
+//
+// Sorted by the largest position, a cell comes as soon as its last vertex is reached, and cells
+// with the same corners follow each other, so duplicates are found by comparing neighbours. When
+// the largest position moves on to p, no further cell has a largest position below p: vertices
+// whose farthest neighbour is below p are final.
+//
+// Cost: the corners are replaced by positions (Relabelling), sorted externally, and read once. The
+// bytes of the stream depend on the order alone, not on memory or threads.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Writes consecutive cells to the layout. */
+/** Writes cells to the layout, one after another. */
 template <int Corners, class Real>
 class Assembler
 {
@@ -24,13 +35,15 @@ public:
   {
   }
 
-  /** Appends the next cell; `duplicate`: whether an earlier one has the same corners. */
+  /** Appends the next cell. `duplicate`: an earlier cell has the same corners. */
   void take(const PlacedCell<Corners>& cell, bool duplicate)
   {
     std::array<std::uint32_t, Corners> corners;
     auto& shape = this->Shapes.add();
     shape.isDuplicate = duplicate;
     std::array<std::uint32_t, Corners> places;
+    // In the order of the file: the orientation of the cell must stay, and vertices are numbered in
+    // that order.
     cell.inFile(places);
     for (std::size_t k = 0; k < Corners; ++k)
     {
@@ -74,7 +87,8 @@ private:
   CellShapes<Corners> Shapes;
 };
 
-/** The cells, by their indices in the file, with the corners of an earlier one. */
+/** The cells that have the corners of an earlier cell, by their indices in the file. Cells that
+ * stay in the order of the file are sorted for this purpose only. */
 template <int Corners>
 RecordFile<std::uint32_t> duplicates(const RawMesh& mesh, Workspace& workspace)
 {
@@ -94,6 +108,8 @@ RecordFile<std::uint32_t> duplicates(const RawMesh& mesh, Workspace& workspace)
     {
       if (!first && cell.places == before.places)
       {
+        // Cells with the same corners come in the order of the file: all but the first are
+        // duplicates.
         found.put(cell.element);
       }
       before = cell;
@@ -113,6 +129,7 @@ template <int Corners, class Real>
 void assembleSorted(
   const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, StreamLayout& layout)
 {
+  // placeCells() takes half of what is left for its table; both are in use at the same time.
   CellSort<Corners> cells(workspace, workspace.available() * 2 / 5);
   placeCells(mesh, order, workspace,
     [&cells](std::span<const std::uint32_t> places, std::uint32_t element)
@@ -124,6 +141,7 @@ void assembleSorted(
   {
     if (!first && cell.places[0] != before.places[0])
     {
+      // All cells with a smaller largest position have been written.
       assembler.pass(cell.places[0] - 1);
     }
     assembler.take(cell, !first && cell.places == before.places);
@@ -140,7 +158,8 @@ void assembleAsFiled(
   RecordFile<std::uint32_t>::Reader duplicate(doubles);
   std::uint32_t nextDuplicate = NoIndex;
   duplicate.next(nextDuplicate);
-  // The positions of the cells come in chunks while their table is in memory.
+  // The positions of the cells come while the table that gives them is in memory. They are stored
+  // first, so that this memory is free for the window.
   RecordFile<std::uint32_t> placed(workspace);
   placeCells(mesh, order, workspace,
     [&placed](std::span<const std::uint32_t> places, std::uint32_t) { placed.put(places); });
@@ -156,6 +175,8 @@ void assembleAsFiled(
     {
       nextDuplicate = NoIndex;
     }
+    // Without pass(): in the order of a file any later cell may use any vertex, so none is declared
+    // final.
     assembler.take(placedCell<Corners>(places.data(), elements.next()), isDuplicate);
   }
   assembler.finish();

@@ -20,7 +20,7 @@ namespace smg
 enum class CellSequence
 {
   Sorted, ///< each as soon as its last vertex is reached
-  AsFiled ///< as in the file; the vertices must be in the order of their first use
+  AsFiled ///< as in the file; vertices must be in the order of their first use
 };
 
 /** A cell with flags. */
@@ -48,7 +48,7 @@ struct StreamLayout
 
   std::int64_t vertexCount = 0;
   std::int64_t cellCount = 0;
-  /** The vertices in stream order: OrderedVertex records, whose reach is not used. */
+  /** The vertices in stream order: OrderedVertex records. Their `reach` is not used. */
   BucketFile vertices;
   RecordFile<std::uint32_t> corners;       ///< stream indices, cornersOf(cellType) per cell
   RecordFile<std::uint32_t> elements;      ///< of the file, of each cell
@@ -61,13 +61,13 @@ struct StreamLayout
   std::int64_t invertedCells = 0; ///< tetrahedra of negative volume
 };
 
-/** Assembles the mesh as a stream in the order: cells by their positions, vertices by first use.
- * Vertices that no cell uses are omitted. Throws Error; Cancelled. */
+/** Assembles the mesh as a stream in an order: cells by their positions, vertices by first use.
+ * Vertices that no cell uses are left out. Throws Error; Cancelled. */
 StreamLayout assembleStream(
   const RawMesh& mesh, OrderedVertices order, CellSequence sequence, Workspace& workspace);
 
-/** A cell by the positions of its corners in an order of the vertices, the largest first. `turn`
- * stores the corner of the file for each of them, two bits each. */
+/** A cell by the positions of its corners in an order of the vertices, in descending order. `turn`
+ * has for each of them its corner in the file, two bits each. */
 template <int Corners>
 struct PlacedCell
 {
@@ -78,7 +78,8 @@ struct PlacedCell
   bool operator==(const PlacedCell&) const = default;
   auto operator<=>(const PlacedCell& other) const
   {
-    // Two numbers at once: cells are sorted, and most differ there.
+    // The two largest positions as one number: most cells differ there, and comparisons are what a
+    // sort costs.
     const std::uint64_t first = this->firstPlaces(), second = other.firstPlaces();
     if (first != second)
     {
@@ -169,7 +170,7 @@ template <class Take>
 void placeCells(
   const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, Take&& take)
 {
-  // Half of the free memory for the table; the other half for sorting.
+  // Half of the free memory for the table; the other half is for what `take` does with the cells.
   Relabelling places(workspace, mesh.vertices, workspace.available() / 2);
   {
     OrderedVertexReader vertices(order.records, order.doublePositions);

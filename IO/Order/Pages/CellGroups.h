@@ -16,8 +16,8 @@ struct RankRange
   std::int64_t size() const { return this->end - this->begin; }
 };
 
-/** The cells of a mesh in groups of equal numbers of consecutive vertices: a cell is in each group
- * of one of its corners. */
+/** The cells of a mesh, distributed to groups of consecutive vertices of equal size. A cell is in
+ * the group of each of its corners, so a group has all cells around its vertices. */
 class CellGroups
 {
 public:
@@ -32,7 +32,7 @@ public:
     return this->Cells.bytes(group) / std::int64_t(this->Corners * sizeof(std::uint32_t));
   }
 
-  /** Adds a cell by the ranks of its corners, some of which may be outside the range. */
+  /** Adds a cell, given the ranks of its corners, some of which may be outside the range. */
   void put(std::span<const std::uint32_t> cell)
   {
     std::uint32_t groups[4];

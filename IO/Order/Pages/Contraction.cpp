@@ -12,6 +12,18 @@
 #include <utility>
 #include <vector>
 
+// Neighbourhood of vertices from the graph alone: repeated contraction of stars ("hash stars").
+//
+// In each round a quarter (tetrahedra: an eighth) of the vertices become centres, by a hash of
+// their numbers; each other vertex joins the neighbouring centre with the smallest hash. Cells are
+// renumbered by clusters, and those that have collapsed to a point are dropped. Eight rounds make
+// clusters of some thousand vertices. Then the vertices are numbered by cluster, from the last
+// round back to the first, so that the members of a cluster of any round are consecutive.
+//
+// Each round is a few passes over its cells, with a table of labels for as many vertices at a time
+// as fit into the memory. Hashes, not random numbers, choose the centres: the result depends on the
+// mesh alone.
+
 namespace smg
 {
 
@@ -24,7 +36,8 @@ using Numbers = RecordFile<std::uint32_t>;
 constexpr int Rounds = 8;
 constexpr std::int64_t FewVertices = 64;
 
-/** Distinct for distinct vertices, and without pattern. */
+/** A hash without pattern. It is invertible, hence distinct for distinct vertices, so that minima
+ * are unique. */
 std::uint32_t hash(std::uint32_t vertex, int round)
 {
   std::uint32_t bits = vertex ^ static_cast<std::uint32_t>(round + 1) * 0x9e3779b9u;
@@ -64,6 +77,7 @@ void join(const Level& level, std::span<const std::uint32_t> cell, std::uint32_t
   std::size_t best = 0;
   for (std::size_t k = 0; k < cell.size(); ++k)
   {
+    // Every corner of the cell may join the corner with the smallest hash, if that is a centre.
     hashes[k] = hash(cell[k], level.round);
     best = hashes[k] < hashes[best] ? k : best;
   }
@@ -75,6 +89,7 @@ void join(const Level& level, std::span<const std::uint32_t> cell, std::uint32_t
       continue;
     }
     std::uint32_t& label = labels[place];
+    // The vertex is used, and on its own unless it joins another one.
     if (label == NoIndex)
     {
       label = cell[k];
@@ -88,10 +103,13 @@ void join(const Level& level, std::span<const std::uint32_t> cell, std::uint32_t
   }
 }
 
-/** The vertex that each vertex of the level joins, a centre or itself, by its number. */
+/** The vertex that each vertex of the level joins, a centre or itself. Those that join
+ * themselves are the vertices of the next level; `numbers` gets their numbers there, and
+ * `found` their count. */
 Numbers findLabels(const Level& level, Workspace& workspace, Relabelling& numbers,
   std::int64_t memory, std::int64_t& found)
 {
+  // Labels of as many vertices at a time as fit; all cells are read for each range.
   const std::int64_t range = std::min(memory / std::int64_t(sizeof(std::uint32_t)), level.vertices);
   Buffer table(workspace.pool(), static_cast<std::size_t>(range) * sizeof(std::uint32_t));
   Numbers result(workspace);
@@ -112,6 +130,8 @@ Numbers findLabels(const Level& level, Workspace& workspace, Relabelling& number
     auto vertex = static_cast<std::uint32_t>(first);
     for (std::uint32_t& label : labels)
     {
+      // A cluster whose cells have all collapsed stays; an isolated vertex of the mesh does not
+      // count.
       if (label == NoIndex && level.round > 0)
       {
         label = vertex;
@@ -128,9 +148,12 @@ Numbers findLabels(const Level& level, Workspace& workspace, Relabelling& number
   return result;
 }
 
+/** One round: the cluster of each vertex, and the cells of the clusters. */
 Contracted contract(const Level& level, Workspace& workspace, std::int64_t memory)
 {
   Contracted result(workspace);
+  // A label is the number of a vertex of this level. It is replaced by that vertex's number on the
+  // next level, and then serves to renumber the cells.
   Relabelling toParents(workspace, level.vertices, memory);
   {
     Relabelling toNumbers(workspace, level.vertices, memory);
@@ -160,7 +183,8 @@ Contracted contract(const Level& level, Workspace& workspace, std::int64_t memor
   return result;
 }
 
-/** Numbers the vertices of a level by the numbers of their clusters, in `numbers`. */
+/** Numbers the vertices of a level by the numbers of their clusters, and within a cluster by their
+ * own numbers: by sorting pairs of both. */
 void numberByCluster(
   const Numbers& clusters, Workspace& workspace, std::int64_t memory, Relabelling& numbers)
 {
@@ -204,7 +228,8 @@ RecordFile<std::uint32_t> clusterNumbers(const RawMesh& mesh, Workspace& workspa
     level.cells = &cells;
     level.vertices = next.vertices;
   }
-  // The clusters of the last round have numbers, from which those of earlier rounds follow.
+  // The clusters of the last round are numbered by the contraction. From these numbers follow those
+  // of each earlier round.
   cells = Numbers(workspace);
   while (parents.size() > 1)
   {

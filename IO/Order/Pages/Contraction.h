@@ -9,12 +9,13 @@ namespace smg
 {
 
 /**
- * Brings the vertices of a mesh into clusters by their edges alone: where coordinates say nothing
- * of neighbourhood. Some vertices, by their hash, become centres, the others join one next to them;
- * the mesh of the clusters is treated in the same way, round after round. Out of core.
+ * Groups the vertices of a mesh into clusters by their edges alone, where coordinates tell nothing
+ * about neighbourhood. Some vertices, chosen by a hash, become centres, the others join one next to
+ * them; the mesh of the clusters is treated in the same way, round after round. Out of core.
  *
- * @returns for each vertex of the mesh a number: close numbers are mostly close in the mesh, and a
- * cluster of any round has numbers of its own, which follow each other. NoIndex: in no cell
+ * @returns a number for each vertex of the mesh, by which vertices with close numbers are mostly
+ * close in the mesh, and each cluster of any round has consecutive numbers; NoIndex for a vertex of
+ * no cell
  */
 RecordFile<std::uint32_t> clusterNumbers(const RawMesh& mesh, Workspace& workspace);
 

@@ -13,13 +13,18 @@
 #include <random>
 #include <vector>
 
+// Keys of vertices along a Hilbert curve, in a metric in which edges are about equally long in all
+// directions. In the plain box of the coordinates, thin triangles, layers and a few distant points
+// would make the curve separate neighbours. The metric comes from a sample of some thousand cells;
+// a fixed seed and the positions in the file determine it, so the same file has the same keys.
+
 namespace smg
 {
 
 namespace
 {
 
-/** The numbers of the cells, ascending. */
+/** The numbers of the sampled cells, ascending: one from each of equal parts of the file. */
 std::vector<std::int64_t> chooseCells(std::int64_t cells)
 {
   const std::int64_t count = std::min(cells, CellSample::Most);
@@ -38,6 +43,8 @@ std::vector<std::int64_t> chooseCells(std::int64_t cells)
 template <class Real>
 void fillPositions(const RawMesh& mesh, CellSample& sample)
 {
+  // The corners by ascending vertex, so that one pass over the file of the vertices finds all
+  // positions.
   std::vector<std::uint32_t> places(sample.vertices.size());
   std::iota(places.begin(), places.end(), 0u);
   std::sort(places.begin(), places.end(),
@@ -64,6 +71,8 @@ std::vector<std::size_t> CellSample::differentVertices() const
   {
     places[cell] = cell * this->corners + cell % this->corners;
   }
+  // The corner changes from cell to cell, so that no place within cells is preferred. Then
+  // repetitions go.
   const auto vertexAt = [this](std::size_t place) { return this->vertices[place]; };
   std::ranges::sort(places, {}, vertexAt);
   const auto repeated = std::unique(places.begin(), places.end(),
@@ -77,6 +86,7 @@ CellSample sampleCells(const RawMesh& mesh)
   CellSample sample;
   sample.corners = static_cast<std::size_t>(cornersOf(mesh.cellType));
   const std::vector<std::int64_t> chosen = chooseCells(mesh.cells);
+  // One pass over the cells; the chosen ones ascend as well.
   const auto corners = static_cast<std::int64_t>(sample.corners);
   std::int64_t first = 0;
   auto next = chosen.begin();
@@ -112,10 +122,9 @@ struct Step
   unsigned state; ///< in the octant
 };
 
-/**
- * One level of the curve (C. Hamilton, Compact Hilbert Indices, 2006). A state is the direction of
- * the curve times eight and the corner that it enters at.
- */
+/** One level of the curve (C. Hamilton, Compact Hilbert Indices, 2006): where an octant is on the
+ * curve, and the state in it. A state is the direction of the curve times eight plus the corner at
+ * which it enters. */
 Step step(unsigned state, unsigned octant)
 {
   const int direction = static_cast<int>(state / 8);
@@ -134,6 +143,8 @@ Step step(unsigned state, unsigned octant)
 
 } // namespace
 
+/** Two levels of the curve for each state and pair of bits of the coordinates: halves the steps of
+ * a key. */
 HilbertCurve::HilbertCurve()
 {
   for (unsigned state = 0; state < States; ++state)
@@ -168,7 +179,8 @@ Vector3d vectorOf(const std::array<double, 3>& position)
   return { position[0], position[1], position[2] };
 }
 
-/** The edges of the cells without the longest ones, divided by the longest of the others. */
+/** The edges of the sampled cells without the longest ones, which may be errors, divided by the
+ * longest of the others, so that their squares neither overflow nor vanish. */
 std::vector<Vector3d> scaledEdges(const CellSample& sample)
 {
   std::vector<Vector3d> edges;
@@ -210,7 +222,8 @@ struct Range
   double low, extent;
 };
 
-/** The range of most of the sample along a direction. */
+/** The range of the sample along a direction, without the outermost vertices, and with a margin:
+ * what lies outside is put at the border of the curve's cube. */
 Range rangeAlong(
   const Vector3d& direction, const CellSample& sample, const std::vector<std::size_t>& places)
 {
@@ -236,6 +249,7 @@ EdgeMetric::EdgeMetric(const CellSample& sample)
   {
     return;
   }
+  // The principal directions of the edges, and the length of edges along each.
   Matrix3d covariance = Matrix3d::Zero();
   for (const Vector3d& edge : scaledEdges(sample))
   {
@@ -244,7 +258,7 @@ EdgeMetric::EdgeMetric(const CellSample& sample)
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
   const Vector3d deviation = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   const double largest = deviation.maxCoeff();
-  // Extents in units of about the length of edges.
+  // Extents of the mesh in units of about the length of its edges.
   std::array<Range, 3> ranges;
   std::array<double, 3> extents{};
   double most = 0;
@@ -257,6 +271,9 @@ EdgeMetric::EdgeMetric(const CellSample& sample)
       most = std::max(most, extents[std::size_t(k)]);
     }
   }
+  // One scale for all three axes, so that cells of the curve have edges of equal length in that
+  // unit. A flat direction gets the largest extent: whatever differs along it, as layers do, is
+  // kept apart.
   most = most > 0 ? most : 1;
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -283,6 +300,8 @@ bool numbersAreMoreLocal(
   {
     return false;
   }
+  // A rank is estimated by the place among the keys of the sample, each of which stands for as many
+  // vertices; the tolerance grows by the error of that.
   const double perKey = double(vertices) / double(keys.size());
   const double within = tolerance + 3 * perKey;
   const auto rank = [&](std::size_t place)

@@ -11,7 +11,8 @@
 namespace smg
 {
 
-/** Some cells of a mesh, distributed over its file, and the coordinates of their corners. */
+/** A sample of the cells of a mesh, distributed over its file, with the coordinates of their
+ * corners. */
 struct CellSample
 {
   /** The maximum number of cells of a sample. */
@@ -23,10 +24,8 @@ struct CellSample
 
   std::size_t cells() const { return this->vertices.size() / this->corners; }
 
-  /**
-   * Places in `vertices` of a sample of the mesh's vertices: a corner of each cell, so that a
-   * vertex of many cells is not everywhere, and none twice.
-   */
+  /** Places in `vertices` of a sample of the vertices of the mesh: one corner of each cell, so that
+   * a vertex of many cells does not dominate, and each vertex once. */
   std::vector<std::size_t> differentVertices() const;
 };
 
@@ -106,11 +105,9 @@ private:
   std::array<Axis, 3> Axes;
 };
 
-/**
- * Whether the numbers of the vertices represent neighbourhood clearly better than the positions
- * along the curve; `tolerance` is the allowed distance of the ranks of two neighbours, of
- * `vertices` ranks.
- */
+/** Whether the numbers of the vertices represent neighbourhood clearly better than the positions
+ * along the curve: for more of the sampled edges, the two ends are within `tolerance` of each
+ * other, of `vertices` numbers or ranks. */
 bool numbersAreMoreLocal(
   const CellSample& sample, const EdgeMetric& metric, std::int64_t vertices, double tolerance);
 

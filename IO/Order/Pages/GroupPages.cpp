@@ -10,6 +10,12 @@
 #include <optional>
 #include <string>
 
+// The pages of a mesh from its cells, group by group. A group consists of consecutive pages, as
+// many as have links that fit into a share of the memory. Several groups are treated on different
+// threads if they certainly fit; their pages are appended in order, so the file does not depend on
+// the number of threads. A group that does not fit, as around a vertex of very many cells, is split
+// into smaller ones.
+
 namespace smg
 {
 
@@ -42,10 +48,13 @@ float toFloat(double value)
 std::int64_t groupVertices(std::int64_t vertices, std::int64_t cells, std::size_t corners,
   int pageVertices, std::int64_t memory, std::int64_t collecting)
 {
+  // Each corner of a cell has the other corners in its link.
   const auto linkBytes = static_cast<std::int64_t>(corners * (corners - 1) * sizeof(std::uint32_t));
   const std::int64_t vertexBytes = 12 + cells * linkBytes / std::max<std::int64_t>(1, vertices);
   const std::int64_t most = std::min(memory / 5, CachedBytes) / vertexBytes;
   const std::int64_t groups = std::max<std::int64_t>(1, collecting / CollectedBytes);
+  // Enough vertices to keep the number of groups within what can be collected at once, in whole
+  // pages.
   return roundUp(std::max({ most, vertices / groups, std::int64_t(pageVertices) }), pageVertices);
 }
 
@@ -57,6 +66,7 @@ GroupPages<Real>::GroupPages(const RawMesh& mesh, Workspace& workspace,
   , Vertices(vertices)
   , Result{ VertexPages(workspace, pageVertices, mesh.doublePositions), {}, {}, 1, 0 }
 {
+  // Equally distant ranks make a sample that is spread over the mesh.
   this->Result.sampleStride = std::max<std::int64_t>(1, vertices.size() / SampledVertices);
   MeshCounts& counts = this->Result.counts;
   counts.isolatedVertices = mesh.vertices - vertices.size();
@@ -83,6 +93,8 @@ template <class Real>
 void GroupPages<Real>::append(const CellGroups& groups, int group)
 {
   const RankRange range = groups.range(group);
+  // Counted before anything is loaded: the sizes of the links follow from a first pass over the
+  // group.
   const std::int64_t allowed = this->Space.available() - Reserve;
   std::int64_t parts = 1;
   {
@@ -100,6 +112,8 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
       const int pageVertices = this->Result.pages.pageVertices();
       for (std::int64_t begin = range.begin; begin < range.end; begin += pageVertices)
       {
+        // The neighbours of the vertices of a page follow each other in this buffer, until the page
+        // is made.
         std::span<std::uint32_t> rest(
           reinterpret_cast<std::uint32_t*>(neighbours.data()), static_cast<std::size_t>(largest));
         this->appendPage({ begin, std::min(begin + pageVertices, range.end) },
@@ -117,6 +131,7 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
       }
       return;
     }
+    // A group of one page cannot be split.
     if (range.size() <= this->Result.pages.pageVertices())
     {
       throw Error("The mesh needs " + mebibytes(this->Space.pool().limit() - allowed + needed) +
@@ -124,6 +139,7 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
                   std::to_string(links.largest() / (this->Corners - 1)) + " cells, but only " +
                   mebibytes(this->Space.pool().limit()) + " are allowed: raise the memory limit.");
     }
+    // Outside of this block the links are released, so that the parts have all of the memory.
     parts = 2 + needed / std::max<std::int64_t>(allowed, 1);
   }
   this->split(groups, group, parts);
@@ -134,6 +150,8 @@ void GroupPages<Real>::split(const CellGroups& groups, int group, std::int64_t p
 {
   const RankRange range = groups.range(group);
   const std::int64_t collecting = this->Space.available() / 4;
+  // Not more parts than there is memory to collect at once; one that is still too large is split
+  // again.
   parts = std::min(parts, std::max<std::int64_t>(2, collecting / CollectedBytes));
   CellGroups smaller(this->Space, range,
     roundUp((range.size() + parts - 1) / parts, this->Result.pages.pageVertices()), this->Corners,
@@ -154,6 +172,7 @@ std::size_t GroupPages<Real>::groupsAtOnce(const CellGroups& groups) const
   std::int64_t largest = 0, page = 0;
   for (int group = 0; group < groups.groups(); ++group)
   {
+    // Upper bounds, from the numbers of cells alone: nothing has been read yet.
     const std::int64_t cells = groups.cells(group);
     largest =
       std::max(largest, GroupStars::maxBytes(groups.range(group).size(), cells, this->Corners));
@@ -184,6 +203,7 @@ void GroupPages<Real>::append(const CellGroups& groups)
     });
   for (int group = 0; group < groups.groups(); ++group)
   {
+    // In turn, with all of the memory for each: larger groups fit, and the largest can be split.
     if (atOnce == 1)
     {
       this->append(groups, group);
@@ -225,6 +245,7 @@ void GroupPages<Real>::appendPage(RankRange page, Around&& around)
     const std::span<const std::uint32_t> neighbours = around(vertex);
     for (const std::uint32_t other : neighbours)
     {
+      // Unsigned: one comparison finds ranks on either side of the page.
       this->Crossing += other - static_cast<std::uint32_t>(page.begin) >= page.size();
     }
     this->Edges += std::ssize(neighbours);

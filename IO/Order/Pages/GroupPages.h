@@ -12,11 +12,9 @@
 namespace smg
 {
 
-/**
- * The number of vertices of a group of cells, such that the links of a group fit into a share of
- * `memory`, and mostly into a processor's cache; as many groups as `collecting` bytes permit. Whole
- * pages.
- */
+/** The number of vertices of a group of cells, whole pages: such that the links of a group fit into
+ * a share of `memory`, and mostly into the cache of a processor, and at least so large that all
+ * groups can be collected in `collecting` bytes. */
 std::int64_t groupVertices(std::int64_t vertices, std::int64_t cells, std::size_t corners,
   int pageVertices, std::int64_t memory, std::int64_t collecting);
 
@@ -29,7 +27,7 @@ public:
   GroupPages(const RawMesh& mesh, Workspace& workspace,
     const RecordFile<RankedVertex<Real>>& vertices, int pageVertices);
 
-  /** Appends the pages of all groups: several at once if they certainly fit into the memory. */
+  /** Appends the pages of all groups, of several at once if they certainly fit into the memory. */
   void append(const CellGroups& groups);
 
   /** Appends the pages of the next group. A group that does not fit into the memory is split;

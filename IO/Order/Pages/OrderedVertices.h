@@ -18,7 +18,7 @@ struct OrderedVertex
   std::uint32_t reach;
 };
 
-/** The vertices of a raw mesh in an order: a record per vertex, by position 0, 1, 2 ... */
+/** The vertices of a raw mesh in an order: one record per vertex, at the positions 0, 1, 2 ... */
 struct OrderedVertices
 {
   explicit OrderedVertices(Workspace& workspace)

@@ -12,6 +12,20 @@
 #include <cmath>
 #include <utility>
 
+// Vertices in pages along a space-filling curve, each page with the adjacency of its vertices: the
+// form in which a graph search of the mesh reads little from disk.
+//
+// Steps, each a sequential pass or an external sort: a metric from a sample of edges; the vertices
+// sorted by their keys on a Hilbert curve, which gives them ranks; the cells renumbered by ranks;
+// the cells collected in groups of pages; the pages of one group after another. If too many edges
+// leave their pages, as where coordinates are arbitrary, ranks come from repeated contraction of
+// the graph instead (Contraction.h).
+//
+// Keys decide the order and ties go to the lower number, so the pages do not depend on threads;
+// they do depend on the memory, which chooses the size of pages. The workspace bounds the memory;
+// arrange() gives each step its share. The renumbering reads all cells once for each table of ranks
+// that fits.
+
 namespace smg
 {
 
@@ -39,6 +53,7 @@ public:
 
   void add(std::span<const std::uint32_t> cell)
   {
+    // Every Stride-th cell, so about a million at most.
     if (++this->Seen < this->Stride)
     {
       return;
@@ -67,11 +82,14 @@ private:
 template <class Real, class Key>
 Arrangement<Real> arrange(const RawMesh& mesh, Workspace& workspace, int pageVertices, Key&& key)
 {
+  // Shares of the memory: the sort of the vertices and the bits of used vertices are released
+  // before the cells are read; the table of ranks and the buckets of the cells are needed together.
   const std::int64_t memory = workspace.available();
   const auto corners = static_cast<std::size_t>(cornersOf(mesh.cellType));
   Relabelling ranks(workspace, mesh.vertices, memory / 2);
   RecordFile<RankedVertex<Real>> vertices = [&]
   {
+    // Isolated vertices get no rank.
     UsedVertices used(mesh, workspace, memory / 8);
     return rankVertices<Real>(mesh, workspace, used, memory * 2 / 5, key, ranks);
   }();
@@ -79,6 +97,7 @@ Arrangement<Real> arrange(const RawMesh& mesh, Workspace& workspace, int pageVer
   CellGroups groups(workspace, { 0, vertices.size() },
     groupVertices(vertices.size(), mesh.cells, corners, pageVertices, memory, collecting), corners,
     collecting);
+  // Filled in the same pass over the renumbered cells as the groups.
   CrossingEstimate crossing(mesh.cells, pageVertices);
   ranks.apply(mesh.corners, corners,
     [&](std::span<const std::uint32_t> cell)
@@ -90,7 +109,8 @@ Arrangement<Real> arrange(const RawMesh& mesh, Workspace& workspace, int pageVer
   return { std::move(vertices), std::move(groups), crossing.share() };
 }
 
-/** The arrangement by coordinates, or by the numbers of the vertices if these are better. */
+/** The arrangement by coordinates, or by the numbers of the vertices if these represent
+ * neighbourhood better, as in files whose numbers follow the mesh. */
 template <class Real>
 Arrangement<Real> arrangeByPlace(const RawMesh& mesh, Workspace& workspace, int pageVertices)
 {
@@ -115,7 +135,7 @@ Arrangement<Real> arrangeByGraph(const RawMesh& mesh, Workspace& workspace, int 
   return arrange<Real>(mesh, workspace, pageVertices,
     [&](std::uint32_t id, const Real*)
     {
-      // Isolated vertices are not queried.
+      // Keys are asked for in ascending order of the vertices, without the isolated ones.
       std::uint32_t number = NoIndex;
       for (; read <= std::int64_t(id); ++read)
       {
@@ -138,11 +158,13 @@ Arrangement<Real> arrange(
   {
     return byPlace;
   }
-  // No order is good around a vertex that is connected to nearly all others.
+  // The better of both: around a vertex that is connected to nearly all others no order is good,
+  // and the curve may still be the better one.
   Arrangement<Real> byGraph = arrangeByGraph<Real>(mesh, workspace, pageVertices);
   return byGraph.crossing < byPlace.crossing ? std::move(byGraph) : std::move(byPlace);
 }
 
+/** Chooses the size of the pages, arranges the vertices and makes the pages. */
 template <class Real>
 PagedMesh build(const RawMesh& mesh, Workspace& workspace, const PageOptions& options)
 {
@@ -171,7 +193,12 @@ namespace
 constexpr int MinVertices = 64;
 constexpr std::int64_t DirectoryBytes = 32; ///< of a page, always in memory
 
-/** Measured bytes of the pages at the front of a search, with some reserve. */
+/**
+ * Measured bytes of the pages at the front of a search, with a reserve. The front has about 5
+ * sqrt(n) vertices on surfaces and 2 n^(2/3) in solids; the pages of B vertices that a front of q
+ * vertices meets have about 1.35 q sqrt(B), or 2.1 q B^(1/3), vertices in all, each with 30 or 42
+ * bytes.
+ */
 double frontierBytes(
   bool triangles, bool doublePositions, std::int64_t vertices, double pageVertices)
 {
@@ -193,12 +220,16 @@ int choosePageVertices(
 {
   const bool triangles = cellType == CellType::Triangle;
   const double cache = double(memory) / 2;
+  // Larger pages are fewer and cost less to list; smaller ones contain fewer vertices beside the
+  // front of a search, so that all pages at the front fit into the cache. Below that each page
+  // would be loaded many times.
   int pageVertices = triangles ? 512 : 256;
   while (pageVertices > MinVertices &&
          frontierBytes(triangles, doublePositions, vertices, pageVertices) > cache)
   {
     pageVertices /= 2;
   }
+  // Very large meshes: the list of pages itself must stay small.
   while (vertices / pageVertices * DirectoryBytes > memory / 8 && pageVertices < (1 << 20))
   {
     pageVertices *= 2;
@@ -208,6 +239,8 @@ int choosePageVertices(
 
 double maxCrossing(CellType cellType, int pageVertices)
 {
+  // Edges leave a page through its border, whose share falls like one over the square root, or
+  // cubic root, of the vertices of a page.
   const double border =
     cellType == CellType::Triangle ? 8 / std::sqrt(pageVertices) : 3.2 / std::cbrt(pageVertices);
   return std::min(border, 0.8);

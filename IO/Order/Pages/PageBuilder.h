@@ -34,24 +34,22 @@ struct PagedMesh
 
 /**
  * Puts the vertices of a mesh into pages along a Hilbert curve, out of core: keys by a metric that
- * makes edges about equally long, an external sort, the cells renumbered, and the cells of a
- * stretch of pages collected at a time. Where coordinates say nothing of neighbourhood, the curve
- * gives way to repeated contraction of the mesh's graph.
+ * makes edges about equally long, an external sort, the cells renumbered, and the cells of a group
+ * of pages collected at a time. Where coordinates tell nothing about neighbourhood, repeated
+ * contraction of the graph of the mesh takes the place of the curve.
  *
  * Throws Error; Cancelled.
  */
 PagedMesh buildPages(const RawMesh& mesh, Workspace& workspace, const PageOptions& options = {});
 
-/**
- * The number of vertices of a page for which a breadth-first search loads each page about once:
- * such that the pages at its front fit into the memory and the list of all pages is small. A power
- * of two.
- */
+/** The number of vertices of a page, a power of two, with which a breadth-first search loads
+ * each page about once: the pages at its front fit into the memory, and the list of all pages
+ * is small. */
 int choosePageVertices(
   CellType cellType, bool doublePositions, std::int64_t vertices, std::int64_t memory);
 
-/** The share of directed edges that leave their page above which an order is bad: two to three
- * times that of meshes with useful coordinates. */
+/** The share of directed edges that may leave their page: an order with more is bad. It is two to
+ * three times that of meshes with useful coordinates. */
 double maxCrossing(CellType cellType, int pageVertices);
 
 } // namespace smg

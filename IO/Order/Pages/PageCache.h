@@ -13,13 +13,13 @@ namespace smg
 {
 
 /**
- * Pages in a fixed amount of memory, loaded when they are asked for: only their adjacency, which is
- * what a search reads, or the whole.
+ * A cache of pages in a fixed amount of memory. Pages are loaded when they are asked for: only
+ * their adjacency, which is what a search reads, or the whole.
  *
  * The memory is a ring of frames of any size. A hand goes around it and makes room: a page that was
- * asked for since the hand came by is spared and moved up to the one before, any other goes, so
- * that the room is in one piece (CLOCK, without gaps). Of a page that goes, the places are written
- * to the file if they were changed.
+ * asked for since the hand came by is spared and moved up to the frame before it, any other one is
+ * evicted, so that the room is in one piece (CLOCK without gaps). When a page is evicted, its
+ * places are written to the file if they were changed.
  */
 class PageCache
 {
@@ -27,9 +27,9 @@ public:
   /** The pages must be closed and outlive the cache. Throws Error below minBytes(). */
   PageCache(VertexPages& pages, Workspace& workspace, std::int64_t bytes);
 
-  /** The minimum bytes of a search, for any number of loads. */
+  /** The least bytes with which a search works, with any number of loads. */
   static std::int64_t minBytes(const VertexPages& pages);
-  /** The bytes of all pages. */
+  /** The bytes with which all pages fit, so that each is loaded once. */
   static std::int64_t maxBytes(const VertexPages& pages);
 
   /** A page whose adjacency can be read. The view is valid until another page is requested. Throws
@@ -39,8 +39,8 @@ public:
     const std::uint32_t at = this->table()[page];
     return this->view(at != None ? this->frame(at) : this->load(page, false));
   }
-  /** The same if the page is loaded, valid as long as only this function is used: any number of
-   * threads may call it at once. */
+  /** The same if the page is loaded. The view is valid as long as only this function is used; any
+   * number of threads may call it at once. */
   std::optional<PageView> loaded(std::uint32_t page) const
   {
     const std::uint32_t at = this->table()[page];

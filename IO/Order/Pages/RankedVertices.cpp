@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+// Which vertices of a mesh occur in a cell. The bits of all vertices may not fit into the memory;
+// then one range of vertices is treated at a time, with a pass over the cells for each.
+
 namespace smg
 {
 
@@ -20,6 +23,8 @@ void UsedVertices::load(std::uint32_t vertex)
 {
   this->First = vertex / this->Range * this->Range;
   std::uint64_t* words = this->words();
+  // Ranges begin at multiples of their size, so a range is loaded once if vertices are asked for in
+  // order.
   std::fill_n(words, this->Range / 64, 0);
   const auto first = static_cast<std::uint32_t>(this->First);
   forEachStretch(this->Mesh.corners, 1,
@@ -27,6 +32,7 @@ void UsedVertices::load(std::uint32_t vertex)
     {
       for (const std::uint32_t corner : corners)
       {
+        // Unsigned: a corner below the range becomes a large number, too.
         const std::uint32_t place = corner - first;
         if (place < this->Range)
         {

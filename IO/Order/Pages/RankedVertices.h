@@ -49,17 +49,16 @@ void forEachVertex(const RawMesh& mesh, Take&& take)
   }
 }
 
-/** Determines which vertices of a mesh are in a cell: a bit per vertex, for as many vertices at a
- * time as the memory permits, with a pass over the cells each time. */
+/** Determines which vertices of a mesh occur in a cell: a bit per vertex, for as many vertices at a
+ * time as the memory permits, with a pass over the cells for each range. */
 class UsedVertices
 {
 public:
   /** The bits use at most `memory` bytes. Mesh and workspace must outlive this object. */
   UsedVertices(const RawMesh& mesh, Workspace& workspace, std::int64_t memory);
 
-  /**
-   * Vertices should be queried in ascending order: a step back may require a pass over the cells.
-   */
+  /** Vertices should be asked for in ascending order, since a step back may require a pass over the
+   * cells. */
   bool contains(std::uint32_t vertex)
   {
     if (std::int64_t(vertex) - this->First >= this->Range || vertex < this->First)
@@ -89,7 +88,7 @@ struct RankedVertex
 };
 
 /**
- * Sorts the used vertices by their keys, and those of equal keys by their numbers, in `memory`
+ * Sorts the used vertices by their keys, and vertices with equal keys by their numbers, in `memory`
  * bytes. The position of each is its rank, which is stored in `ranks`.
  *
  * @param key returns the key of a vertex; called in ascending order of the numbers with the number

@@ -5,6 +5,11 @@
 
 #include <algorithm>
 
+// Smoothing of one value per vertex, page by page along the curve: Gauss-Seidel for the graph
+// Laplacian, forth and back. Values are in a paged array, and each sweep reads the adjacency of all
+// pages twice, so the cost is linear, and one page is in memory. Sweeps over groups of vertices
+// come first, since they smooth long waves, for which single vertices would need many sweeps.
+
 namespace smg
 {
 
@@ -17,7 +22,7 @@ VertexAveraging::VertexAveraging(
 {
 }
 
-/** Calls take(backwards) with each page loaded, from the first to the last and back. */
+/** Calls take(backwards) while each page is loaded, from the first to the last and back. */
 template <class Take>
 void VertexAveraging::forEachPageBothWays(Take&& take)
 {
@@ -42,6 +47,7 @@ void VertexAveraging::sweepVertices()
       for (std::uint32_t i = 0; i < count; ++i)
       {
         const std::uint32_t rank = this->Stretch.first() + (backwards ? count - 1 - i : i);
+        // Vertices of components within a run have their final values, which are the lowest ones.
         if (this->Values.get(rank) < this->Least)
         {
           continue;
@@ -89,6 +95,7 @@ void VertexAveraging::averageRun(
     {
       continue;
     }
+    // A run has few patches: a linear search suffices.
     auto group = std::ranges::find(this->Groups, patch, &Group::patch);
     if (group == this->Groups.end())
     {
@@ -98,6 +105,8 @@ void VertexAveraging::averageRun(
     this->Stretch.neighbours(rank,
       [&](std::uint32_t other)
       {
+        // The mean over the edges that leave the group: inside it all values are to become the
+        // same.
         if (other < begin || other >= end)
         {
           group->sum += this->Values.get(other);

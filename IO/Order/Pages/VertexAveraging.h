@@ -70,8 +70,8 @@ private:
   std::uint32_t First = 0, End = 0;
 };
 
-/** Smooths values of paged vertices: each is replaced by the mean of its neighbours' values, vertex
- * by vertex. Vertices with a value below `least` are not changed. */
+/** Smooths values of paged vertices: each is replaced by the mean of the values of its neighbours,
+ * vertex by vertex. Vertices with a value below `least` do not change. */
 class VertexAveraging
 {
 public:
@@ -81,8 +81,9 @@ public:
   /** Two sweeps over all vertices, from the first to the last and back. */
   void sweepVertices();
 
-  /** The same, but the vertices of a patch among `run` consecutive ranks get a common value, the
-   * mean outside: this smooths long waves, for which single vertices would need many sweeps. */
+  /** The same, but the vertices of a patch within `run` consecutive ranks get a common value, the
+   * mean of their neighbours outside: this smooths long waves, for which single vertices would
+   * need many sweeps. */
   void sweepRuns(std::int64_t run, PagedArray<std::uint32_t>& patches);
 
 private:

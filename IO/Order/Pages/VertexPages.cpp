@@ -10,6 +10,15 @@
 #include <cstring>
 #include <limits>
 
+// The file of pages. A page is written once, when its vertices and their neighbours are known;
+// later only its places change. Each of its three parts has a checksum in the directory, so that
+// the adjacency can be read and verified without the rest, and the places can be rewritten without
+// it.
+//
+// With coordinates in single precision a vertex takes about 30 bytes on surfaces (42 in solids), of
+// which about 10 (22) are its adjacency: neighbours are near on the curve, so the differences of
+// ranks are short numbers.
+
 namespace smg
 {
 
@@ -20,7 +29,8 @@ constexpr std::size_t MinCollectedBytes = std::size_t(256) << 10;
 constexpr std::size_t MaxVarintBytes = 5;
 constexpr std::size_t PolledBytes = std::size_t(256) << 10;
 
-/** Writes the lists of neighbours after their offsets, which become narrow if possible. */
+/** Writes the lists of neighbours behind their offsets, which are 32 bits at first and become 16
+ * bits where all lists together are short enough. Returns the bytes of both. */
 std::uint32_t putAdjacency(
   std::byte* to, std::uint32_t firstRank, std::span<const VertexPages::Vertex> vertices)
 {
@@ -37,6 +47,7 @@ std::uint32_t putAdjacency(
       end = varint::put(end, varint::zigzag(rank - (firstRank + i)));
     }
   }
+  // What follows are 32-bit numbers, which are read in place.
   while ((end - lists) % 4 != 0)
   {
     *end++ = std::byte(0);
@@ -48,12 +59,14 @@ std::uint32_t putAdjacency(
   }
   for (std::uint32_t i = 0; i < count; ++i)
   {
-    // In place: the narrow offset i is before the wide one i + 1.
+    // In place: the narrow offset i does not reach the wide offset i + 1, which is still to be
+    // read.
     std::uint32_t begin;
     std::memcpy(&begin, to + std::size_t(4) * i, 4);
     const auto narrow = static_cast<std::uint16_t>(begin);
     std::memcpy(to + std::size_t(2) * i, &narrow, 2);
   }
+  // Padding has a fixed value, so that the same mesh has the same bytes.
   const std::uint32_t offsets = PageView::narrowOffsetBytes(count);
   std::memset(to + std::size_t(2) * count, 0, offsets - 2 * count);
   std::memmove(to + offsets, lists, bytes);
@@ -98,12 +111,14 @@ VertexPages::VertexPages(Workspace& workspace, int pageVertices, bool doublePosi
 void VertexPages::append(std::span<const Vertex> vertices)
 {
   assert(!vertices.empty() && vertices.size() <= this->PageVertices);
+  // Only the last page may have fewer vertices: ranks would otherwise not tell the page.
   assert(this->Vertices % this->PageVertices == 0);
   std::size_t numbers = 2 * vertices.size();
   for (const Vertex& vertex : vertices)
   {
     numbers += vertex.neighbours.size();
   }
+  // An upper bound of the bytes, so that the page is encoded straight into the buffer.
   const std::size_t most =
     numbers * MaxVarintBytes + vertices.size() * (8 + this->positionBytes()) + 64;
   if (numbers > std::numeric_limits<std::uint32_t>::max() / MaxVarintBytes - 64)
@@ -135,6 +150,8 @@ void VertexPages::append(std::span<const Vertex> vertices)
 
 void VertexPages::makeRoom(std::size_t bytes)
 {
+  // Pages are collected and written together; one of a page that is larger than the buffer replaces
+  // it.
   if (this->Collected + bytes <= this->Collecting.size())
   {
     return;
@@ -153,6 +170,8 @@ void VertexPages::flush()
   {
     return;
   }
+  // Created with the first bytes. A small mesh is written only by close(), since reads go to the
+  // file.
   if (!this->File.isOpen())
   {
     this->File = FileDescriptor::createNameless(this->Space->folder());
@@ -172,6 +191,7 @@ void VertexPages::close()
 void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
 {
   const Page& where = this->Directory[std::size_t(page)];
+  // The size of the span says whether the page or only its adjacency is wanted.
   const bool isWhole = bytes.size() == this->bytes(page);
   assert((isWhole || bytes.size() == where.adjacency) && this->Collected == 0);
   this->File.read(where.offset, bytes);
@@ -192,6 +212,8 @@ void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
   }
 }
 
+/** Writes only the places. The checksum in the directory changes with them, so that the next read
+ * is compared with what was written last. */
 void VertexPages::writePlaces(std::int64_t page, std::span<const std::byte> bytes)
 {
   Page& where = this->Directory[std::size_t(page)];

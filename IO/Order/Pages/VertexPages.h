@@ -17,7 +17,7 @@
 namespace smg
 {
 
-/** An array that grows at its end, in memory accounted for by the workspace's pool. */
+/** An array that grows at its end, in memory that the pool of the workspace accounts for. */
 template <class T>
 class GrowingArray
 {
@@ -110,9 +110,8 @@ inline const std::byte* get(const std::byte* from, std::uint32_t& value)
   return from;
 }
 
-/**
- * A difference modulo 2^32 as a number that is small if the difference is small, for both signs.
- */
+/** A difference modulo 2^32 as a number that is small if the difference is small, whatever its
+ * sign. */
 inline std::uint32_t zigzag(std::uint32_t difference)
 {
   return (difference << 1) ^ (0u - (difference >> 31));
@@ -125,10 +124,10 @@ inline std::uint32_t unzigzag(std::uint32_t value)
 } // namespace varint
 
 /**
- * A view of a page of vertices in memory, or of its adjacency part. The format: the offset of the
- * adjacency of each vertex (16 bits each, or 32 if necessary), a degree and the differences of the
- * neighbours' ranks to that of the vertex, as varints; then the positions, the numbers in the raw
- * mesh, and the coordinates. Each part begins at a multiple of 4.
+ * A view of a page of vertices in memory, or of its adjacency part. The format: for each vertex the
+ * offset of its list (16 bits, or 32 if necessary); the lists, each a degree and the differences of
+ * the ranks of the neighbours to that of the vertex, as varints; then the places, the numbers in
+ * the raw mesh, and the coordinates. Each part begins at a multiple of 4.
  */
 class PageView
 {
@@ -203,12 +202,12 @@ private:
 };
 
 /**
- * The vertices of a mesh in pages of `pageVertices` along a space filling curve, in a scratch file
- * without a name, each page with the adjacency of its vertices. A vertex is known by its *rank*,
- * its number along the curve; page p has the ranks from p * pageVertices on.
+ * The vertices of a mesh in pages of `pageVertices` along a space-filling curve, in an unnamed
+ * scratch file, each page with the adjacency of its vertices. A vertex is known by its *rank*, its
+ * number along the curve; page p has the ranks from p * pageVertices on.
  *
- * A page has an adjacency part, which searches read, and after it the places (32 bits a vertex,
- * NoIndex at first), the numbers in the raw mesh (32 bits a vertex), and the coordinates: see
+ * A page has an adjacency part, which searches read, and behind it the places (32 bits a vertex,
+ * NoIndex at first), the numbers in the raw mesh (32 bits a vertex) and the coordinates: see
  * PageView.
  */
 class VertexPages
@@ -245,7 +244,7 @@ public:
     return static_cast<std::uint32_t>(page) * this->PageVertices;
   }
 
-  /** The number of vertices of the page without a position. */
+  /** The number of vertices of the page that have no place yet. */
   std::uint32_t& unplaced(std::int64_t page) { return this->Directory[std::size_t(page)].unplaced; }
   std::uint32_t verticesOf(std::int64_t page) const
   {
@@ -270,14 +269,14 @@ public:
 
   /** Reads a page, or its adjacency part, into a span of its size. Throws Error, Cancelled. */
   void read(std::int64_t page, std::span<std::byte> bytes);
-  /** Writes the positions of a page, given the bytes of the whole page. */
+  /** Writes the places of a page, given the bytes of the whole page. */
   void writePlaces(std::int64_t page, std::span<const std::byte> bytes);
   /** A view of the bytes of a page, aligned to 4, or of its adjacency part. */
   PageView view(std::int64_t page, std::byte* bytes) const
   {
     return this->view(page, bytes, this->Directory[std::size_t(page)].adjacency);
   }
-  /** The same for a caller who remembers adjacencyBytes(page). */
+  /** The same for a caller that knows adjacencyBytes(page). */
   PageView view(std::int64_t page, std::byte* bytes, std::uint32_t adjacencyBytes) const
   {
     return { bytes, this->firstRank(page), this->verticesOf(page), adjacencyBytes };

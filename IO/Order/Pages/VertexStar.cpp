@@ -5,6 +5,14 @@
 #include <cassert>
 #include <utility>
 
+// What is around the vertices of a range, from the cells of a group: neighbours, and for surfaces
+// the edges and vertices that are on the boundary or not manifold.
+//
+// The neighbours of a vertex are found in time linear in its link: those in the range by a table
+// that is not cleared between vertices (its entries are numbers that only grow), those outside of
+// it, which are few, by sorting. Triangles around a vertex that share an edge there are joined in a
+// forest; more than one tree means that the surface is not manifold at the vertex.
+
 namespace smg
 {
 
@@ -14,6 +22,7 @@ VertexStar::VertexStar(Workspace& workspace, RankRange range, std::size_t larges
   , Slots(workspace.pool(), std::size_t(this->Count) * sizeof(std::uint32_t))
   , Spokes(workspace.pool(), largestLink * sizeof(Spoke))
 {
+  // No entry is of the current vertex: all are far from Begin.
   std::fill_n(this->slots(), this->Count, ~std::uint32_t(0));
 }
 
@@ -23,14 +32,14 @@ std::int64_t VertexStar::bytes(std::int64_t rangeSize, std::size_t largestLink)
          static_cast<std::int64_t>(largestLink * sizeof(Spoke));
 }
 
-/** Starts the list of neighbours with those outside the range, in ascending order. */
+/** Begins the list of neighbours with those outside the range, in ascending order, each once. */
 void VertexStar::findOutside(
   std::uint32_t vertex, std::span<const std::uint32_t> link, std::span<std::uint32_t> neighbours)
 {
   std::size_t outside = 0;
   for (const std::uint32_t rank : link)
   {
-    // Written without a branch, since few are counted.
+    // Written without a branch, since few are outside and which ones is unpredictable.
     neighbours[outside] = rank;
     outside += rank - this->First >= this->Count && rank != vertex;
     if (outside == neighbours.size())
@@ -51,16 +60,18 @@ void VertexStar::findOutside(
   }
 }
 
-/** The number of the neighbour; a new one for a new neighbour. */
+/** The number of a neighbour in the list, to which it is added if it is new. */
 std::uint32_t VertexStar::spoke(std::uint32_t rank, std::span<std::uint32_t> neighbours)
 {
   const std::uint32_t place = rank - this->First;
+  // Neighbours outside of the range have been listed before.
   if (place >= this->Count)
   {
     const auto outside = neighbours.first(this->Outside);
     return static_cast<std::uint32_t>(std::ranges::lower_bound(outside, rank) - outside.begin());
   }
   std::uint32_t& slot = this->slots()[place];
+  // The entry is of an earlier vertex, hence below Begin, and wraps around to a large number.
   if (slot - this->Begin >= this->Found)
   {
     slot = this->Begin + this->Found;
@@ -81,6 +92,8 @@ std::uint32_t VertexStar::root(std::uint32_t spoke)
   return spoke;
 }
 
+/** Counts the triangles at each edge of the vertex, and joins the edges that a triangle
+ * connects. */
 void VertexStar::connectTriangles(
   std::uint32_t vertex, std::span<const std::uint32_t> link, std::span<std::uint32_t> neighbours)
 {
@@ -89,6 +102,8 @@ void VertexStar::connectTriangles(
   for (std::size_t i = 0; i < link.size(); i += 2)
   {
     const std::uint32_t ends[] = { link[i], link[i + 1] };
+    // A triangle with a repeated corner has no area: its corners are neighbours, but it is not
+    // counted.
     if (ends[0] == ends[1] || ends[0] == vertex || ends[1] == vertex)
     {
       for (const std::uint32_t end : ends)
@@ -102,7 +117,7 @@ void VertexStar::connectTriangles(
     }
     const std::uint32_t a = this->spoke(ends[0], neighbours);
     const std::uint32_t b = this->spoke(ends[1], neighbours);
-    // A spoke without triangles is not part of a fan yet.
+    // An edge with its first triangle begins a fan of its own; joining two fans leaves one fewer.
     this->Fans += (spokes[a].triangles++ == 0) + (spokes[b].triangles++ == 0);
     const std::uint32_t rootA = this->root(a), rootB = this->root(b);
     this->Fans -= rootA != rootB;
@@ -110,6 +125,7 @@ void VertexStar::connectTriangles(
   }
   for (std::uint32_t i = 0; i < this->Found; ++i)
   {
+    // Each edge is counted at its lower end, so once.
     const bool counted = neighbours[i] > vertex;
     this->Boundary += counted && spokes[i].triangles == 1;
     this->NonManifold += counted && spokes[i].triangles > 2;
@@ -120,6 +136,7 @@ std::size_t VertexStar::visit(std::uint32_t vertex, std::span<const std::uint32_
   std::size_t corners, std::span<std::uint32_t> neighbours)
 {
   assert(neighbours.size() >= link.size());
+  // Before the numbers overflow, the table is cleared and they begin again.
   if (std::uint64_t(this->Begin) + 2 * link.size() > ~std::uint32_t(0))
   {
     std::fill_n(this->slots(), this->Count, ~std::uint32_t(0));
@@ -153,6 +170,8 @@ VertexLinks::VertexLinks(
   const auto count = static_cast<std::size_t>(this->Range.size());
   const auto first = static_cast<std::uint32_t>(this->Range.begin);
   std::uint64_t* begins = this->begins();
+  // First the number of cells around each vertex, then the offset of each link: a counting sort in
+  // two passes over the group.
   std::fill_n(begins, count + 1, 0);
   groups.forEach(group,
     [&](std::span<const std::uint32_t> cell)
@@ -207,7 +226,7 @@ void VertexLinks::load(Workspace& workspace, const CellGroups& groups, int group
         }
       }
     });
-  // Each offset has moved to the position of the next one.
+  // Each offset has moved to that of the next link. Shifted by one place they are right again.
   std::copy_backward(begins, begins + count, begins + count + 1);
   begins[0] = 0;
 }
@@ -242,7 +261,8 @@ GroupStars::GroupStars(
 std::int64_t GroupStars::maxBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners)
 {
   const auto links = static_cast<std::int64_t>(corners * (corners - 1)) * cells;
-  // Both have ends, links and neighbours have ranks; a buffer is rounded up, a reader has a chunk.
+  // Links and neighbours have ends and ranks each; a buffer is rounded up, and a reader has a
+  // chunk.
   return 2 * (vertices + 1) * std::int64_t(sizeof(std::uint64_t)) +
          2 * links * std::int64_t(sizeof(std::uint32_t)) +
          VertexStar::bytes(vertices, static_cast<std::size_t>(links)) +

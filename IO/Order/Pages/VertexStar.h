@@ -14,16 +14,16 @@ namespace smg
 {
 
 /**
- * What is around a vertex, from its link (see VertexLinks): its neighbours and, of triangles,
- * whether the mesh is a manifold there. For one vertex of a range after the other.
+ * What is around a vertex, from its link (see VertexLinks): its neighbours and, for triangles,
+ * whether the mesh is a manifold there. It is used for one vertex of a range after another.
  *
- * Triangles that have a corner twice join neighbours, but are not counted as triangles; a triangle
- * that is there twice counts twice.
+ * Triangles that have a corner twice connect neighbours, but are not counted as triangles; a
+ * triangle that occurs twice counts twice.
  */
 class VertexStar
 {
 public:
-  /** Links have `largestLink` ranks or fewer. */
+  /** `largestLink`: the most ranks in a link. */
   VertexStar(Workspace& workspace, RankRange range, std::size_t largestLink);
   /** Its memory in bytes. */
   static std::int64_t bytes(std::int64_t rangeSize, std::size_t largestLink);
@@ -72,10 +72,8 @@ private:
   std::int64_t Boundary = 0, NonManifold = 0, Fans = 0;
 };
 
-/**
- * The links of a range of vertices: for each of the cells around a vertex the ranks of the cell's
- * other corners, that is, the edges opposite to it in triangles, or the faces in tetrahedra.
- */
+/** The links of a range of vertices. The link of a vertex is, for each cell around it, the ranks of
+ * the other corners of the cell: the edges opposite to it in triangles, the faces in tetrahedra. */
 class VertexLinks
 {
 public:
@@ -112,7 +110,7 @@ private:
   Buffer Ranks;
 };
 
-/** Adds what is around a vertex of triangles to the counts. */
+/** Adds what was found around a vertex of triangles to the counts. */
 inline void addCounts(const VertexStar& star, MeshCounts& counts)
 {
   counts.boundaryEdges += star.boundaryEdges();
@@ -126,8 +124,8 @@ class GroupStars
 public:
   GroupStars(Workspace& workspace, const CellGroups& groups, int group, std::size_t corners);
 
-  /** An upper bound of its memory in bytes while it is made, for a group of so many vertices and
-   * cells. */
+  /** An upper bound of the memory in bytes while it is made, for a group with these numbers of
+   * vertices and cells. */
   static std::int64_t maxBytes(std::int64_t vertices, std::int64_t cells, std::size_t corners);
 
   RankRange range() const { return this->Range; }
@@ -139,7 +137,8 @@ public:
     return { reinterpret_cast<const std::uint32_t*>(this->Ranks.data()) + ends[0],
       static_cast<std::size_t>(ends[1] - ends[0]) };
   }
-  /** Of triangles: boundary and non-manifold edges and vertices; 0 for others. */
+  /** The numbers of boundary edges and of non-manifold edges and vertices of triangles; 0 for
+   * tetrahedra. */
   const MeshCounts& counts() const { return this->Counts; }
 
 private:

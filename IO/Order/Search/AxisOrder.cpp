@@ -5,6 +5,10 @@
 #include <array>
 #include <limits>
 
+// The order `axis`: vertices sorted along the longest side of their bounds. Two passes over the
+// pages, one for the bounds and one into an external sort (scalarOrder()), which works in the
+// memory of the workspace.
+
 namespace smg
 {
 
@@ -38,6 +42,7 @@ std::size_t longestAxis(VertexPages& pages, Workspace& workspace)
         }
       }
     });
+  // Of equal sides the first one.
   std::size_t longest = 0;
   for (std::size_t axis = 1; axis < 3; ++axis)
   {

@@ -11,7 +11,8 @@
 namespace smg
 {
 
-/** The vertices along the longest side of their bounds; ties by their numbers in the file. */
+/** The vertices in the order along the longest side of their bounds; ties by their numbers in the
+ * file. */
 OrderedVertices axisOrder(VertexPages& pages, Workspace& workspace);
 
 /** Calls `take` with a view of each whole page of the file, in a buffer of the pool. */

@@ -8,15 +8,25 @@
 #include <algorithm>
 #include <cassert>
 
+// The order `bfs`: component by component, each by a breadth-first search from sources that a plan
+// has chosen (SearchPlan.h) if it is large, and otherwise from its end. One component after
+// another, so the window of the order is the largest of theirs and not their sum.
+//
+// Each component costs a probe, a plan of up to two dozen further probes if it is large, and the
+// placing search; pages that several components share are loaded for each of them. The result
+// depends on the mesh and, by the size of pages, on the memory, but not on the number of threads.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Components up to this size are searched from any vertex. */
+/** Components up to this size are searched from the end of their first search; a second sweep would
+ * hardly change them. */
 constexpr std::int64_t Tiny = 64;
-/** The maximum of vertices visited by all searches from landmarks, and the minimum of landmarks. */
+/** The most vertices that all searches from landmarks together may visit, and the least number of
+ * landmarks: large meshes profit less from more landmarks, and pay more for each. */
 constexpr std::int64_t Visits = 16'000'000;
 constexpr int MinLandmarks = 4;
 
@@ -26,11 +36,12 @@ int landmarksFor(std::int64_t vertices, const BreadthFirstOptions& options)
   return std::min(options.landmarks, std::max(MinLandmarks, static_cast<int>(affordable)));
 }
 
-/** A search and its cache, with the available memory. */
+/** A search and its cache, which share the memory that is available. */
 class Searching
 {
 public:
-  /** `kept`: bytes of memory for other purposes, those of a plan with so many helpers. */
+  /** kept(helpers): bytes that are left for other purposes, among them a plan with this number of
+   * helpers. */
   template <class Kept>
   Searching(VertexPages& pages, Workspace& workspace, Kept&& kept)
     : Helpers(helpersFor(pages, workspace, kept))
@@ -47,6 +58,8 @@ public:
 private:
   static std::size_t queueBytes(Workspace& workspace)
   {
+    // The queue has as many vertices as the window of the order: a small share of the memory
+    // suffices, and what exceeds it goes to disk.
     return std::clamp<std::size_t>(
       std::size_t(workspace.pool().limit()) / 32, std::size_t(64) << 10, std::size_t(4) << 20);
   }
@@ -58,7 +71,8 @@ private:
                               pages.pages() * std::int64_t(sizeof(std::uint32_t)) - 4096;
     return std::min(rest, PageCache::maxBytes(pages));
   }
-  /** As many as leave room for the adjacency of all pages. */
+  /** Helpers search at the same time only if the cache has all pages, so as many as leave room for
+   * these. */
   template <class Kept>
   static int helpersFor(const VertexPages& pages, Workspace& workspace, Kept&& kept)
   {
@@ -94,6 +108,7 @@ public:
   /** Orders the component of a vertex without a position. */
   void order(std::uint32_t rank, OrderedVertices& order)
   {
+    // Loads are counted apart for the placing search, which should load each page about once.
     const std::vector<SearchSource> sources = this->sources(rank);
     const std::int64_t before = this->Searches.Cache.loads();
     this->Searches.Search.place(sources, order);
@@ -121,6 +136,7 @@ private:
   std::vector<SearchSource> sources(std::uint32_t rank)
   {
     PagedSearch& search = this->Searches.Search;
+    // The size of the component is known only after a search.
     const std::vector<SearchSource> first = { { 0, rank } };
     SearchResult result = search.probe(first);
     if (this->Landmarks > 0 && result.vertices >= this->MinPlanned)
@@ -130,6 +146,8 @@ private:
     }
     if (result.vertices > Tiny)
     {
+      // A double sweep: the last vertex of a search from the last vertex of another one is about as
+      // far out as possible.
       const std::vector<SearchSource> second = { { 0, result.last } };
       result = search.probe(second);
     }
@@ -157,6 +175,7 @@ OrderedVertices breadthFirstOrder(
     ComponentOrder components(mesh, workspace, options);
     for (std::uint32_t page = 0; page < mesh.pages.pages(); ++page)
     {
+      // Components are taken in the order of their first vertices on the curve.
       for (std::uint32_t vertex = 0; mesh.pages.unplaced(page) > 0; ++vertex)
       {
         vertex = components.nextUnplaced(page, vertex);

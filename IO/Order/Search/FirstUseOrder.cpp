@@ -9,13 +9,19 @@
 #include <span>
 #include <vector>
 
+// The order `keep`: vertices numbered by the first cell of the file that uses them. The first uses
+// of all vertices are found with a bit per vertex (a pass over the cells for each range of vertices
+// whose bits fit), sorted by their place in the file, and the places joined with the coordinates
+// through two row tables.
+
 namespace smg
 {
 
 namespace
 {
 
-/** The first corner in the file that is a given vertex. */
+/** The place of the first corner in the file that is a given vertex; all corners count, cell by
+ * cell. */
 struct FirstUse
 {
   std::uint64_t corner;
@@ -23,7 +29,8 @@ struct FirstUse
   auto operator<=>(const FirstUse&) const = default;
 };
 
-/** Stores the first use of each used vertex, with a bit for each vertex of one range at a time. */
+/** Stores the first use of each vertex that a cell uses, with a bit per vertex for one range of
+ * vertices at a time. */
 void putFirstUses(const RawMesh& mesh, Workspace& workspace, ExternalSort<FirstUse>& uses)
 {
   const auto words = static_cast<std::size_t>(std::clamp<std::int64_t>(
@@ -38,6 +45,7 @@ void putFirstUses(const RawMesh& mesh, Workspace& workspace, ExternalSort<FirstU
     std::uint32_t id = 0;
     for (std::uint64_t corner = 0; corners.next(id); ++corner)
     {
+      // Vertices of other ranges are for other passes.
       if (id < first || id - first >= range)
       {
         continue;
@@ -62,6 +70,7 @@ std::int64_t putPlaces(const RawMesh& mesh, Workspace& workspace, RowTable& plac
   std::uint32_t count = 0;
   for (FirstUse use{}; uses.next(use); ++count)
   {
+    // Sorted by corner, the uses come in the order of the positions.
     places.put(use.id, std::as_bytes(std::span(&count, 1)));
   }
   places.close();
@@ -85,6 +94,7 @@ void order(const RawMesh& mesh, Workspace& workspace, OrderedVertices& result)
     std::uint32_t place = 0;
     std::memcpy(&place, bytes.data(), sizeof(place));
     bytes = bytes.subspan(sizeof(place));
+    // Isolated vertices have no place: their row has all bits set.
     if (place != NoIndex)
     {
       rows.put(place, std::as_bytes(std::span(&vertex, 1)));

@@ -7,7 +7,8 @@
 namespace smg
 {
 
-/** The vertices in the order in which the cells of the file first use them. */
+/** The vertices in the order in which the cells of the file first use them; isolated ones are left
+ * out. */
 OrderedVertices firstUseOrder(const RawMesh& mesh, Workspace& workspace);
 
 } // namespace smg

@@ -8,6 +8,18 @@
 #include <cstring>
 #include <utility>
 
+// Breadth-first search over vertices in pages, with a cache of pages, a bit per vertex and a queue
+// that spills to disk.
+//
+// A search without a trace ("probe") reads adjacencies only. A placing search also gives each
+// vertex its position when it is first seen; when a vertex is taken from the queue all its
+// neighbours therefore have positions, and its final record can be written at once: the order needs
+// no sort and no join afterwards.
+//
+// Vertices that are close in the search are close on the curve, so if the cache has room for the
+// pages at the front, each page is loaded about once. The length of the queue while a vertex is
+// taken is the window of the order there: its maximum is the span, its mean what a solver pays.
+
 namespace smg
 {
 
@@ -19,6 +31,7 @@ SearchQueue::SearchQueue(Workspace& workspace, std::size_t bytes)
 {
 }
 
+/** Nothing is in between: the back becomes the front. */
 void SearchQueue::turn()
 {
   std::swap(this->Front, this->Back);
@@ -26,6 +39,8 @@ void SearchQueue::turn()
   this->FrontEnd = std::exchange(this->BackEnd, 0);
 }
 
+/** Makes room at the back. If nothing waits before it, it becomes the front; otherwise it goes to
+ * the file. */
 void SearchQueue::spill()
 {
   if (this->FrontBegin == this->FrontEnd && this->FileBegin == this->File.size())
@@ -42,6 +57,8 @@ void SearchQueue::spill()
   this->BackEnd = 0;
 }
 
+/** Makes the next values the front: from the file, which comes before the back, as long as it has
+ * any. */
 void SearchQueue::refill()
 {
   if (this->FileBegin == this->File.size())
@@ -49,6 +66,7 @@ void SearchQueue::refill()
     this->turn();
     return;
   }
+  // spill() appends whole halves, so there is a full one to read.
   this->File.read(this->FileBegin, this->Front.bytes());
   this->FileBegin += std::int64_t(this->Front.size());
   this->Space.traffic().bytesRead += std::int64_t(this->Front.size());
@@ -56,6 +74,7 @@ void SearchQueue::refill()
   this->FrontEnd = this->Half;
   if (this->FileBegin == this->File.size())
   {
+    // All has been read: the file is written from its beginning again, so that it stays short.
     this->FileBegin = 0;
     this->File.restart();
   }
@@ -88,7 +107,7 @@ private:
   std::uint64_t Factor;
 };
 
-/** Assigns the next positions to vertices, page by page. */
+/** Assigns positions to vertices as they are first seen, in their pages. */
 class Placing
 {
 public:
@@ -100,7 +119,8 @@ public:
   {
   }
 
-  /** The position of a vertex, whose page must be loaded; assigns one if it has none. */
+  /** The position of a vertex whose page is loaded; it gets the next one, and goes to the queue, if
+   * it has none. */
   std::uint32_t placeOf(const PageView& view, std::uint32_t page, std::uint32_t rank)
   {
     std::uint32_t& place = view.places()[rank - view.firstRank()];
@@ -144,6 +164,9 @@ std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueB
   return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
 }
 
+/** The search itself, level by level. When a level begins, the sources that start with it are added
+ * to the queue; if the queue is empty before all sources have started, the level jumps to the
+ * start of the next one. */
 template <class Reach, class Take>
 SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& reach, Take&& take)
 {
@@ -165,7 +188,9 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
       {
         reach(sources[nextSource++].rank);
       }
+      // The queue has exactly the vertices of this level.
       leftOfLevel = this->Queue.size();
+      // All sources of the level were reached before.
       if (leftOfLevel == 0)
       {
         continue;
@@ -178,6 +203,7 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
     {
       this->Space.poll(); // pages in the cache are not read, which would poll
     }
+    // What is in the queue after the vertex was taken is the window of the order at this vertex.
     sumOfQueues += static_cast<double>(this->Queue.size());
     result.peakQueue = std::max(result.peakQueue, this->Queue.size());
     if (--leftOfLevel == 0)
@@ -199,7 +225,8 @@ SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Look&& lo
       this->Queue.push(rank);
     }
   };
-  // Vertices of a page come in sequences. Nothing else requests pages, so the view stays valid.
+  // Vertices of a page come in sequences, so the view of the last page is kept. Nothing else
+  // requests pages, so it stays valid.
   PageView view(nullptr, 0, 0, 0);
   return this->run(sources, reach,
     [&](std::uint32_t rank, std::uint32_t level)
@@ -213,6 +240,8 @@ SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Look&& lo
     });
 }
 
+/** A search without a trace, whose pages come from look(). Levels are recorded only at the
+ * samples. */
 template <class Look>
 SearchResult PagedSearch::probeBy(std::span<const SearchSource> sources,
   std::span<std::uint32_t> levels, std::int64_t stride, Look&& look)
@@ -245,6 +274,7 @@ SearchResult PagedSearch::probe(
 std::optional<SearchResult> PagedSearch::probeLoaded(
   std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
 {
+  // An exception ends the search from within, so that it needs no test for this at each vertex.
   struct IsNotLoaded
   {
   };
@@ -261,6 +291,7 @@ std::optional<SearchResult> PagedSearch::probeLoaded(
   }
   catch (const IsNotLoaded&)
   {
+    // The search was abandoned in the middle; the bits are cleared by the next one.
     this->Queue.clear();
     return std::nullopt;
   }
@@ -276,6 +307,7 @@ std::int64_t PagedSearch::components()
     this->visit(
       { &source, 1 }, [this](std::uint32_t page) { return this->Cache.adjacency(page); },
       [](std::uint32_t, std::uint32_t) {});
+    // The next component begins at the first vertex that no search has reached.
     rank = this->Visited.firstUnset(rank);
   }
   return count;
@@ -291,6 +323,7 @@ SearchResult PagedSearch::place(std::span<const SearchSource> sources, OrderedVe
 template <class Real>
 SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, OrderedVertices& order)
 {
+  // Positions continue behind the earlier components.
   Placing placing(this->Pages, this->Cache, this->Queue, order.count);
   const SearchResult result = this->run(
     sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
@@ -298,6 +331,7 @@ SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, Ordered
     {
       const std::uint32_t page = this->Pages.pageOf(rank);
       const PageView view = this->Cache.whole(page);
+      // The view of this page must stay valid while the pages of neighbours are loaded.
       this->Cache.pin(page);
       const std::uint32_t vertex = rank - view.firstRank();
       OrderedVertex<Real> record;
@@ -306,6 +340,7 @@ SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, Ordered
       view.neighbours(vertex,
         [&](std::uint32_t neighbour)
         {
+          // Most neighbours are in the same page, which needs no request to the cache.
           const bool isHere = neighbour - view.firstRank() < view.vertices();
           record.reach = std::max(record.reach,
             isHere ? placing.placeOf(view, page, neighbour) : placing.placeOf(neighbour));
@@ -313,6 +348,7 @@ SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, Ordered
       record.id = view.ids()[vertex];
       std::memcpy(
         record.position, view.position(vertex, sizeof record.position), sizeof record.position);
+      // `reach` is complete: all neighbours have positions.
       order.records.put(0, record);
       ++order.count;
     });

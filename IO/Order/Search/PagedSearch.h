@@ -20,7 +20,7 @@ namespace smg
 {
 
 /** A first-in first-out queue of any length in a fixed amount of memory: its front and its back are
- * in memory, the rest is in a scratch file. */
+ * in memory, what is between them in a scratch file. */
 class SearchQueue
 {
 public:
@@ -66,7 +66,8 @@ private:
   std::int64_t FileBegin = 0; ///< of the values in the file that were not read
 };
 
-/** A bit for each of a number of ranks. Clearing is cheap if few are set. */
+/** A bit for each rank. Clearing is cheap if few bits are set: the words that have some are
+ * remembered. */
 class VisitedBits
 {
 public:
@@ -149,7 +150,7 @@ private:
   GrowingArray<std::uint32_t> Changed;
 };
 
-/** A vertex from which a breadth-first search starts when it has reached a level. */
+/** A source of a breadth-first search: the vertex is added when the search begins this level. */
 struct SearchSource
 {
   std::uint32_t level;
@@ -166,11 +167,12 @@ struct SearchResult
   std::int64_t peakQueue = 0; ///< the span of the resulting order
 };
 
-/** Breadth-first searches over paged vertices, one at a time. They throw Error, and Cancelled. */
+/** Breadth-first searches over paged vertices, one after another. They throw Error, and
+ * Cancelled. */
 class PagedSearch
 {
 public:
-  /** The cache is for both kinds of search. All arguments must outlive the search. */
+  /** The cache serves both kinds of search. All arguments must outlive the search. */
   PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes);
 
   /** Bytes of memory of a search in addition to the cache. */
@@ -182,22 +184,22 @@ public:
   }
 
   /**
-   * Searches without leaving a trace, from sources in ascending order of levels.
-   * @param levels the level of each vertex whose rank is a multiple of `stride`; NoIndex: not
-   * reached. Left alone if empty.
+   * Searches without changing anything, from sources in ascending order of levels.
+   * @param levels set to the level of each vertex whose rank is a multiple of `stride`, or to
+   * NoIndex if it was not reached; nothing is recorded if the span is empty
    */
   SearchResult probe(std::span<const SearchSource> sources, std::span<std::uint32_t> levels = {},
     std::int64_t stride = 1);
-  /** The same while other searches call it on other threads, but nothing else uses the cache; no
-   * result if that lacks a page. */
+  /** The same, for several searches on different threads while nothing else uses the cache. No
+   * result if the cache lacks a page. */
   std::optional<SearchResult> probeLoaded(std::span<const SearchSource> sources,
     std::span<std::uint32_t> levels = {}, std::int64_t stride = 1);
 
-  /** Whether the last search without a trace reached a vertex. */
+  /** Whether the last probe reached a vertex. */
   bool reached(std::uint32_t rank) const { return this->Visited.isSet(rank); }
 
-  /** Searches the vertices without a position, assigns the next positions and appends them to an
-   * order with the precision of the pages. The sources must not have a position yet. */
+  /** Searches the vertices without a position, gives them the next positions and appends them to an
+   * order, in the precision of the pages. The sources must not have positions. */
   SearchResult place(std::span<const SearchSource> sources, OrderedVertices& order);
 
   /** The number of connected components; vertices may have positions or not. */
@@ -226,7 +228,7 @@ private:
   SearchQueue Queue;
   VisitedBits Visited;
   std::int64_t Probes = 0;
-  std::uint32_t Visits = 0; ///< of vertices, by all searches
+  std::uint32_t Visits = 0; ///< of vertices, by all searches of this object
 };
 
 } // namespace smg

@@ -5,15 +5,19 @@
 
 #include <algorithm>
 
+// The graph of patches: nodes are connected parts of runs of consecutive ranks, edges are weighted
+// by the numbers of edges of the mesh between them. Since patches are connected, the graph has the
+// components of the mesh. It is made in two passes over the adjacency, one to label the patches and
+// one for their edges; a run and the graph are in memory.
+
 namespace smg
 {
 
 namespace
 {
 
-/**
- * The most strongly connected neighbour of a node among those accepted by `may`; NoIndex if none.
- */
+/** The neighbour to which a node is tied most, by the weight of the edge over the mass of the
+ * neighbour, among those with may(neighbour); NoIndex if there is none. */
 template <class May>
 std::uint32_t strongest(const WeightedGraph& graph, std::uint32_t node, May&& may)
 {
@@ -32,6 +36,8 @@ std::uint32_t strongest(const WeightedGraph& graph, std::uint32_t node, May&& ma
   return best;
 }
 
+/** Groups the nodes for coarsen(), in their order: pairs of free neighbours first; a node whose
+ * neighbours are all taken joins the group of the one it is tied to most. */
 std::uint32_t makeGroups(const WeightedGraph& graph, std::vector<std::uint32_t>& groups)
 {
   groups.assign(graph.nodes(), NoIndex);
@@ -49,13 +55,14 @@ std::uint32_t makeGroups(const WeightedGraph& graph, std::vector<std::uint32_t>&
       groups[node] = groups[partner] = count++;
       continue;
     }
+    // All neighbours are in groups already, or there are none.
     const std::uint32_t host = strongest(graph, node, [](std::uint32_t) { return true; });
     groups[node] = host == NoIndex ? count++ : groups[host];
   }
   return count;
 }
 
-/** The nodes of each group, group by group: counting sort. */
+/** The nodes of each group, group by group, by a counting sort. */
 struct Members
 {
   Members(const std::vector<std::uint32_t>& groups, std::uint32_t count)
@@ -131,6 +138,7 @@ WeightedGraph coarsen(const WeightedGraph& graph, std::vector<std::uint32_t>& gr
           {
             return;
           }
+          // Entries below `first` are of earlier groups: the table is not cleared between groups.
           if (edge == NoIndex || edge < first)
           {
             edge = static_cast<std::uint32_t>(coarse.edges());
@@ -157,7 +165,7 @@ PatchGraph::PatchGraph(VertexPages& pages, Workspace& workspace, PagedArray<std:
 template <class Take>
 bool PatchGraph::forEachRun(std::int64_t run, Take&& take)
 {
-  // A run is a part of a page, or several pages.
+  // A run is a part of a page, or several whole pages.
   const std::int64_t pagesOfRun = std::max<std::int64_t>(1, run / this->Pages.pageVertices());
   for (std::int64_t page = 0; page < this->Pages.pages(); page += pagesOfRun)
   {
@@ -193,8 +201,9 @@ bool PatchGraph::build(std::int64_t run, const PatchLimits& limits)
                        });
 }
 
-/** Puts the part of a run that is connected to a vertex into the queue, breadth first; returns
- * whether no edge leaves the run. */
+/** Puts the vertices of a run that are connected to `start` within it into the queue, breadth
+ * first, and marks them. Returns whether no edge leaves the run: then they are a whole
+ * component. */
 bool PatchGraph::search(
   std::uint32_t start, std::uint32_t begin, std::uint32_t end, std::uint8_t mark)
 {
@@ -229,9 +238,10 @@ void PatchGraph::label(std::uint32_t begin, std::uint32_t end)
     {
       continue;
     }
+    // A component within the run needs no node of the graph: its vertices get their values here.
     if (this->search(rank, begin, end, 1))
     {
-      // Starts at the end of the component, so that its order is narrow.
+      // The second search starts at the last vertex of the first one, so that its order is narrow.
       this->search(this->Queue.back(), begin, end, 2);
       for (const std::uint32_t vertex : this->Queue)
       {
@@ -249,7 +259,7 @@ void PatchGraph::label(std::uint32_t begin, std::uint32_t end)
   }
 }
 
-/** Appends the edges of the patches of a run, which follow those of earlier runs. */
+/** Appends the edges of the patches of a run, whose numbers follow the numbers of earlier runs. */
 void PatchGraph::connect(std::uint32_t begin, std::uint32_t end)
 {
   this->Crossing.clear();
@@ -265,13 +275,14 @@ void PatchGraph::connect(std::uint32_t begin, std::uint32_t end)
     this->Stretch.neighbours(rank,
       [&](std::uint32_t other)
       {
-        // Parts of a run have no edges between each other.
+        // Patches of the same run have no edges between each other: they would be one patch.
         if (other < begin || other >= end)
         {
           this->Crossing.emplace_back(patch, this->Patches.get(other));
         }
       });
   }
+  // Equal pairs become neighbours, and their number the weight of the edge.
   std::sort(this->Crossing.begin(), this->Crossing.end());
   for (std::size_t i = 0; i < this->Crossing.size(); ++i)
   {
@@ -281,6 +292,7 @@ void PatchGraph::connect(std::uint32_t begin, std::uint32_t end)
       this->Graph.weights.back() += 1;
       continue;
     }
+    // The begins of patches up to this one, also of such without edges.
     while (this->Graph.begin.size() <= patch)
     {
       this->Graph.begin.push_back(static_cast<std::uint32_t>(this->Graph.edges()));

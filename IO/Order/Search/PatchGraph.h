@@ -34,16 +34,17 @@ struct WeightedGraph
   }
 };
 
-/** Sets `part` to the subgraph of these nodes, numbered in their order. `numbers` is scratch memory
- * with one number for each node of the graph. */
+/** Sets `part` to the subgraph of these nodes, which are numbered in their order. `numbers` is
+ * scratch memory with one element for each node of the graph. */
 void extract(const WeightedGraph& graph, const std::vector<std::uint32_t>& nodes,
   std::vector<std::uint32_t>& numbers, WeightedGraph& part);
 
 /**
- * A graph of at most half the nodes: each is merged with the neighbour that it is tied to most, by
- * the edge's weight over the neighbour's mass; one whose neighbours are all taken joins the
- * nearest group. Nodes without edges stay as they are.
- * @param groups set to the node of the result of each node
+ * A coarser graph, of at most half the nodes if all have edges: each node is merged with the
+ * neighbour to which it is tied most, by the weight of the edge over the mass of the neighbour; one
+ * whose neighbours are all taken joins the group of the one to which it is tied most. Nodes without
+ * edges stay as they are.
+ * @param groups set to the node of the result for each node
  */
 WeightedGraph coarsen(const WeightedGraph& graph, std::vector<std::uint32_t>& groups);
 
@@ -56,9 +57,9 @@ struct PatchLimits
 
 /**
  * Cuts paged vertices into *patches*, the connected parts of runs of consecutive ranks, and makes
- * the graph of the patches: masses are vertices, weights are edges of the mesh. So the components
- * of this graph are those of the mesh. A component that lies in one run is no node of the graph:
- * its vertices get their values at once.
+ * the graph of the patches: masses are numbers of vertices, weights are numbers of edges of the
+ * mesh. The graph has the components of the mesh. A component that lies within one run is not a
+ * node of the graph: its vertices get their values at once.
  */
 class PatchGraph
 {

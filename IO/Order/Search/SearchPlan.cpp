@@ -10,6 +10,18 @@
 #include <memory>
 #include <optional>
 
+// Planning the search of a component: landmarks, distances, plans, trials.
+//
+// Landmarks are the ends of a double sweep and then, each time, the sample that is farthest from
+// all of them; the ends of the two longest principal axes are candidates, too, as sets of sources.
+// A search from each measures the exact distances to a sample of the vertices, and its own cost.
+// Plans of several sources are made from the distances and tried out, since samples are incomplete;
+// the best of all that was measured is returned, so it is never worse than a single source.
+//
+// A search costs a pass over the adjacency of the component (about 10 bytes per vertex of a
+// surface). If the cache has all pages, helpers search at the same time on other threads; the
+// results that are used do not depend on that.
+
 namespace smg
 {
 
@@ -34,7 +46,8 @@ std::size_t sampleCount(const PagedMesh& mesh)
     (mesh.pages.vertices() + mesh.sampleStride - 1) / mesh.sampleStride);
 }
 
-/** A possible start of a search, a vertex or a set of vertices, and its cost alone. */
+/** A possible start of a search, a vertex or a set of vertices, with the cost of a search from
+ * there alone. */
 struct Candidate
 {
   std::vector<SearchSource> sources;
@@ -43,7 +56,7 @@ struct Candidate
   double cost() const { return searchCost(this->result.meanQueue, double(this->result.peakQueue)); }
 };
 
-/** A candidate that may be searched while others are, and the levels that it finds. */
+/** A candidate that a helper may search while others are searched, and the levels that it finds. */
 struct Trial
 {
   std::vector<SearchSource> sources;
@@ -75,6 +88,7 @@ public:
 
   std::vector<SearchSource> plan(std::uint32_t end)
   {
+    // The search that was made last has reached exactly the component.
     assert(this->Search.reached(end));
     this->First = end;
     this->beginSamples();
@@ -87,6 +101,8 @@ public:
     while (this->measureNext([this](auto&... probed) { return this->Search.probe(probed...); }))
     {
     }
+    // What helpers have not measured is searched here. The order of the candidates, which decides
+    // ties, is the same in both cases.
     for (Trial& end : ends)
     {
       end.result ? this->add(std::move(end.sources), *end.result, end.levels)
@@ -108,6 +124,7 @@ private:
 
   std::span<std::uint32_t> levelRow(std::size_t row) const
   {
+    // Row 0 is for this search, the others for helpers.
     const std::size_t count = sampleCount(this->Mesh);
     return { reinterpret_cast<std::uint32_t*>(this->LevelMemory.data()) + row * count, count };
   }
@@ -126,12 +143,14 @@ private:
     std::int32_t* distances = this->Distances->add();
     for (std::size_t i = 0; i < this->Samples.size(); ++i)
     {
+      // All samples are in the component, so each has been reached.
       distances[i] = static_cast<std::int32_t>(levels[this->Samples[i]]);
       this->Nearest[i] = std::min(this->Nearest[i], distances[i]);
     }
   }
 
-  /** The last search determines which samples are in the component. */
+  /** Finds the samples of the component: those that the last search has reached, at most about
+   * twice MaxSamples. */
   void beginSamples()
   {
     const auto count = static_cast<std::uint32_t>(this->Levels.size());
@@ -154,8 +173,9 @@ private:
     this->Distances.emplace(this->Space, this->Samples.size(), this->Landmarks + MaxAxisEnds);
   }
 
-  /** The first end; the other end of its search; then landmarks, each the sample farthest from the
-   * previous ones. Empty: there are enough. */
+  /** The sources of the next search: the first end; the last vertex of the search from there; then
+   * landmarks, each the sample farthest from all before. Empty: there are enough, or the rest lies
+   * near one of them. */
   std::vector<SearchSource> nextSources()
   {
     if (this->Candidates.empty())
@@ -177,7 +197,8 @@ private:
              : std::vector{ this->sample(std::size_t(farthest - nearest.begin())) };
   }
 
-  /** Measures from the next sources by `probe`; returns false if there are none, or no result. */
+  /** Measures the distances from the next sources by `probe`. Returns false if there are no more,
+   * or it had no result. */
   template <class Probe>
   bool measureNext(Probe&& probe)
   {
@@ -216,8 +237,9 @@ private:
     return trials;
   }
 
-  /** Helpers search from the axis ends while the landmarks, each of which depends on the previous
-   * ones, are searched. Without helpers, or if the cache lacks a page, something is left over. */
+  /** Helpers search from the ends of the axes while this thread searches from the landmarks, each
+   * of which depends on the ones before. Without helpers, or if the cache lacks a page, some
+   * searches are left to be made. */
   void searchTogether(std::vector<Trial>& ends)
   {
     const auto helpers = static_cast<int>(std::min(this->Helpers.size(), ends.size()));
@@ -246,7 +268,9 @@ private:
       });
   }
 
-  /** Tests the predicted cost of a plan, since samples are incomplete. */
+  /** Tries out the most promising plans by searches, since their cost was predicted from a sample.
+   * The plans are taken in the order of their predictions; one that is not expected to cost less
+   * than the best measured one is skipped. */
   void tryPlans(Candidate& best)
   {
     const std::vector<SourcePlan> plans =
@@ -260,6 +284,9 @@ private:
       {
         continue;
       }
+      // This plan and following ones that are promising are probed at the same time, one on each
+      // search. Results of plans that turn out not to be promising are not used: with any number of
+      // helpers the same plan wins.
       if (!trials[i].result)
       {
         std::vector<Trial*> next; // which are tested at the same time
@@ -278,7 +305,8 @@ private:
     }
   }
 
-  /** Probes from at most one set of sources for each search; the first one gets its result. */
+  /** Probes from at most as many sets of sources as there are searches; the first one certainly
+   * gets a result. */
   void probeTogether(const std::vector<Trial*>& trials)
   {
     if (trials.size() > 1)
@@ -318,7 +346,7 @@ private:
   std::uint32_t First = 0; ///< rank
   Buffer LevelMemory;
   const std::span<std::uint32_t> Levels; ///< of all samples of the mesh in the last search
-  GrowingArray<std::uint32_t> Samples;   ///< those of the component
+  GrowingArray<std::uint32_t> Samples;   ///< numbers of the samples in the component
   GrowingArray<std::int32_t> Nearest;    ///< distance of each to the nearest candidate
   std::vector<Candidate> Candidates;
   std::optional<SourceDistances> Distances;
@@ -329,7 +357,8 @@ private:
 
 std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads, int helpers)
 {
-  // Rows of numbers: levels, samples, nearest (which grow), distances.
+  // Rows of numbers: levels; samples and nearest, which grow and so may take three times their
+  // size; distances.
   const std::int64_t rows = std::int64_t(Planning::levelRows(helpers)) + 2 * 3 +
                             std::max(landmarks, SweepEnds) + MaxAxisEnds;
   return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) +

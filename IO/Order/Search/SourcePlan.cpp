@@ -9,6 +9,17 @@
 #include <array>
 #include <limits>
 
+// Choosing the sources of a multi-source breadth-first search and the levels at which they start.
+//
+// From the distances D_k of the candidates k to a sample of the vertices, the levels of the search
+// with sources (k, t_k) follow exactly at the samples: min over k of t_k + D_k. The number of
+// vertices of a level is the length of the queue, hence the window of the order there; so a
+// histogram of the levels of the samples gives the cost of a plan without a search. Sources are
+// added greedily to the best single candidates, their levels varied, and useless ones dropped.
+//
+// Time is proportional to samples, candidates and trials, and independent of the size of the mesh.
+// Everything is deterministic: ties go to the candidate that comes first.
+
 namespace smg
 {
 
@@ -18,20 +29,24 @@ namespace
 using Levels = std::span<std::int32_t>;
 
 constexpr std::int32_t MaxBins = 150;
-/** The number of single candidates with which plans start. */
+/** The number of single candidates from which plans are extended. */
 constexpr int Beginnings = 4;
 constexpr std::size_t MaxSources = 24;
-/** The shares of the levels by which a further source starts before the others reach it. Mostly
- * small: such a source straightens the arriving front, whereas an early one has its own front. */
+/** The head starts that are tried for a further source, as shares of all levels: how long it begins
+ * before the others reach it. Mostly small: such a source straightens the arriving front, whereas
+ * one that begins early has a front of its own. */
 constexpr double HeadStarts[] = { 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7,
   1.0 };
-/** The number of adjustments of the levels after each addition, and the shares of their range. */
+/** The number of rounds in which the levels are adjusted after each addition, and the changes that
+ * are tried, as shares of all levels. */
 constexpr int AdjustRounds = 2;
 constexpr double Adjustments[] = { -0.1, 0.1, -0.04, 0.04, -0.015, 0.015, -0.005, 0.005 };
-/** The minimum gain of a further source, and of a change of a level. */
+/** The factor of the cost that a further source, and a change of a level, must reach: smaller gains
+ * are noise of the sample. */
 constexpr double SourceGain = 0.998, LevelGain = 0.9997;
 
-/** Estimates the cost of a search from the levels of the samples. */
+/** Estimates the cost of a search from the levels of the samples, by a histogram with at most
+ * MaxBins bins. */
 class LevelCost
 {
 public:
@@ -41,13 +56,14 @@ public:
   {
   }
 
-  /** All levels are from `first` to `last`. */
+  /** The cost of a search whose levels are all from `first` to `last`. */
   double operator()(std::span<const std::int32_t> levels, std::int32_t first, std::int32_t last)
   {
     const std::int32_t width = std::max(1, (last - first + MaxBins) / MaxBins);
     const auto bins = static_cast<std::size_t>((last - first) / width) + 1;
     std::fill_n(this->Bins.begin(), bins, 0);
-    // In double precision, so that the last level of a long mesh is not rounded beyond the bins.
+    // In double precision, so that rounding does not put the last level of a long mesh beyond the
+    // bins.
     const double scale = 1.0 / width;
     for (const std::int32_t level : levels)
     {
@@ -63,8 +79,9 @@ private:
     for (std::size_t i = 0; i < bins; ++i)
     {
       const double count = this->Bins[i];
+      // The mean window over all vertices: each vertex of a level sees the whole level.
       squares += count * count;
-      // Smoothed, since a bin has few samples; the last one is not full.
+      // The peak is smoothed, since a bin has few samples; the last bin is not full.
       const bool isInside = bins > 4 && i > 0 && i + 1 < bins;
       const double smooth = isInside
                               ? 0.25 * this->Bins[i - 1] + 0.5 * count + 0.25 * this->Bins[i + 1]
@@ -79,6 +96,8 @@ private:
   std::array<std::int32_t, MaxBins> Bins;
 };
 
+/** Extends plans. Two rows of levels suffice: one for the plan, one for the change that is
+ * tried. */
 class Planner
 {
 public:
@@ -100,6 +119,8 @@ public:
   /** Adds sources to a plan while this reduces the cost. */
   void extend(SourcePlan& plan)
   {
+    // Current has the levels of the plan throughout: a trial adds a source to these by one pass
+    // over the samples.
     this->Last = this->evaluate(plan, this->Current);
     for (std::size_t added = 1; added < MaxSources && this->addSource(plan); ++added)
     {
@@ -113,7 +134,7 @@ public:
   }
 
 private:
-  /** Computes the levels of the samples in the search of a plan; returns the last of them. */
+  /** Computes the levels of the samples in the search of a plan; returns the largest of them. */
   std::int32_t evaluate(const SourcePlan& plan, Levels levels) const
   {
     std::ranges::fill(levels, std::numeric_limits<std::int32_t>::max());
@@ -150,6 +171,8 @@ private:
       }
       for (const double share : HeadStarts)
       {
+        // May be negative: the source then begins before the first one, and all levels are shifted
+        // afterwards.
         const std::int32_t level = reached - 1 - static_cast<std::int32_t>(share * this->Last);
         const std::int32_t last = join(this->Current, this->Tried, level, distances);
         const double cost = this->Cost(this->Tried, std::min(0, level), last);
@@ -160,6 +183,7 @@ private:
         }
       }
     }
+    // No candidate has reduced the cost by enough.
     if (added.candidate == this->Distances.candidates())
     {
       return false;
@@ -170,6 +194,7 @@ private:
     return true;
   }
 
+  /** Shifts the levels so that the earliest source begins at level 0. */
   static void beginAtZero(SourcePlan& plan)
   {
     const std::int32_t first =
@@ -197,6 +222,7 @@ private:
   /** Removes the sources that others have made useless. */
   void dropSources(SourcePlan& plan)
   {
+    // From the last to the first, so that the loop goes on where one was erased.
     for (std::size_t i = plan.sources.size(); i-- > 0 && plan.sources.size() > 1;)
     {
       SourcePlan changed = plan;
@@ -250,11 +276,14 @@ std::vector<SourcePlan> planSources(
   plans.resize(std::min(plans.size(), std::size_t(Beginnings)));
   Workers& workers = workspace.workers();
   const std::int64_t needed = sourcePlanMemory(distances.samples(), workers.threads());
+  // Where the memory does not suffice for several planners, they work one after another.
   Workers alone(1);
   runAll(workspace.available() >= needed ? workers : alone, static_cast<int>(plans.size()),
     [&](int i)
     {
       Planner planner(distances, vertices, workspace);
+      // Each plan has a planner of its own, so the result does not depend on the thread or the
+      // order.
       planner.extend(plans[static_cast<std::size_t>(i)]);
     });
   std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
@@ -294,6 +323,7 @@ std::vector<std::vector<std::uint32_t>> axisEnds(
   {
     return ends; // a coordinate exceeded the range of float
   }
+  // Eigenvalues ascend: columns 2 and 1 are the two longest axes.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
   for (const int axis : { 2, 1 })
   {
@@ -305,6 +335,7 @@ std::vector<std::vector<std::uint32_t>> axisEnds(
       low = std::min(low, x);
       high = std::max(high, x);
     }
+    // The extent along this axis is 0, or not a number.
     if (!(low < high))
     {
       break;

@@ -14,7 +14,7 @@ namespace smg
 {
 
 /** The cost of streaming a breadth-first order: mainly the mean of its windows, which all levels of
- * a solver hold, and to a small part the largest one. */
+ * a solver have in memory, and to a small part the largest one. */
 inline double searchCost(double meanQueue, double peakQueue)
 {
   return 0.9 * meanQueue + 0.1 * peakQueue;
@@ -69,23 +69,23 @@ struct SourcePlan
   double cost = 0;
 };
 
-/** The memory in bytes with which planSources() makes as many plans at once as there are threads;
- * a part of it is sufficient for one after the other. */
+/** The memory in bytes with which planSources() makes as many plans at once as there are threads; a
+ * part of it is enough to make them one after another. */
 std::int64_t sourcePlanMemory(std::size_t samples, int threads);
 
 /**
- * Chooses sources and the levels at which they begin, such that the levels of the search, which
- * are known at the samples, are small: each of the best single candidates is joined by others as
- * long as that helps. Deterministic.
+ * Chooses sources and the levels at which they begin so that the levels of the search, which are
+ * known at the samples, are small: each of the best single candidates is joined by others as long
+ * as that reduces the cost. Deterministic.
  * @param vertices of the component
- * @return plans of one or more sources, the one that promises most first
+ * @return plans of one or more sources, the one with the smallest expected cost first
  */
 std::vector<SourcePlan> planSources(
   const SourceDistances& distances, std::int64_t vertices, Workspace& workspace);
 
 /**
- * Which of a number of points are at the ends of their two longest principal axes: four sets, less
- * than that if an axis has no extent.
+ * The points at the ends of their two longest principal axes: four sets, or fewer if an axis has no
+ * extent.
  * @param points x, y, z each
  * @param chosen which of them count, at least one
  * @return sets of at least two of the chosen points

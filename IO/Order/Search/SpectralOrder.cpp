@@ -11,22 +11,34 @@
 #include <numeric>
 #include <optional>
 
+// The order `spectral`: along the Fiedler vector of the graph of the mesh, out of core.
+//
+// The vertices are cut into patches, connected parts of runs of the curve, and the Fiedler vector
+// of each component of the graph of patches is computed in memory. Patches are sorted by it; each
+// vertex gets the middle of its patch as a value, and the values are smoothed by averaging over
+// neighbours, first in groups and then vertex by vertex. Sorting the vertices by value gives the
+// order.
+//
+// Runs are as short as the memory for the graph permits, PatchBytes for each patch. Where no run
+// fits, because the pages do not represent neighbourhood, the caller takes another order. Cost: the
+// eigenvector of a graph of at most MaxPatches nodes, and some dozen passes over the adjacency.
+
 namespace smg
 {
 
 namespace
 {
 
-/** Vertices of a patch, if the memory permits: fewer hardly improve the order. */
+/** Vertices of a run, if the memory permits: shorter ones hardly improve the order. */
 constexpr std::int64_t MinRun = 32;
-/** Sweeps over vertices smooth the values of this many vertices well. */
+/** Patches with up to this number of vertices are smoothed well by sweeps over single vertices. */
 constexpr std::int64_t MaxSmoothed = 64;
 constexpr int VertexSweeps = 4;
-/** Bytes of a patch of the graph, with its edges, its share of the graphs of a component and the
+/** Bytes for a patch of the graph: its edges, its share of the graph of a component and of the
  * coarser ones, and the vectors. */
 constexpr std::int64_t PatchBytes = 600;
 constexpr std::size_t EdgesPerPatch = 16;
-/** The vector of more is slow and does not improve the order. */
+/** The vector of more patches is slow to compute and does not improve the order. */
 constexpr std::size_t MaxPatches = std::size_t(1) << 19;
 constexpr std::size_t PolledComponents = 256;
 
@@ -57,6 +69,7 @@ struct GraphComponents
             }
           });
       }
+      // Ascending, so that subgraphs keep the order of the nodes along the curve.
       std::sort(this->nodes.begin() + std::ptrdiff_t(this->begin.back()), this->nodes.end());
       this->begin.push_back(this->nodes.size());
     }
@@ -66,8 +79,8 @@ struct GraphComponents
   std::vector<std::uint32_t> nodes;
 };
 
-/** The middle of the positions of each node's vertices in an order of the mesh with the nodes
- * sorted by the Fiedler vector, component by component, the first at `first`. */
+/** For each node of the graph the middle of the positions of its vertices, if nodes are sorted by
+ * the Fiedler vector, component by component, and positions begin at `first`. */
 std::vector<float> expectedPlaces(const WeightedGraph& graph, double first, Workspace& workspace)
 {
   std::vector<float> places(graph.nodes());
@@ -86,6 +99,7 @@ std::vector<float> expectedPlaces(const WeightedGraph& graph, double first, Work
     const std::vector<double> vector = fiedlerVector(part, [&workspace] { workspace.poll(); });
     std::vector<std::uint32_t> sorted(part.nodes());
     std::iota(sorted.begin(), sorted.end(), 0u);
+    // Ties go to the node that comes first, so the order is unique.
     std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b)
       { return vector[a] != vector[b] ? vector[a] < vector[b] : a < b; });
     for (const std::uint32_t i : sorted)
@@ -97,7 +111,7 @@ std::vector<float> expectedPlaces(const WeightedGraph& graph, double first, Work
   return places;
 }
 
-/** The values of the vertices, and the data for them. */
+/** Computes a value for each vertex, by which the vertices are sorted. */
 class SpectralValues
 {
 public:
@@ -130,7 +144,8 @@ private:
 
 std::int64_t SpectralValues::longestRun() const
 {
-  // In addition to the adjacency, a search needs 5 bytes per vertex, and 8 per crossing edge.
+  // In addition to the adjacency, the labelling of a run needs 5 bytes per vertex, and 8 per
+  // crossing edge.
   const std::int64_t bytesOfVertex =
     this->Pages.allAdjacencyBytes() * 5 / 4 / std::max<std::int64_t>(1, this->Pages.vertices()) +
     16;
@@ -148,6 +163,7 @@ bool SpectralValues::compute()
   const auto maxNodes = static_cast<std::size_t>(graphBytes / PatchBytes);
   const PatchLimits limits{ maxNodes, maxNodes * EdgesPerPatch };
 
+  // The shortest run that may give few enough patches; a run usually has more than one.
   std::int64_t run = MinRun;
   while (this->Pages.vertices() / run > std::int64_t(maxNodes) / 2)
   {
@@ -155,6 +171,7 @@ bool SpectralValues::compute()
   }
   const std::int64_t longest = this->longestRun();
   std::optional<PatchGraph> graph(std::in_place, this->Pages, this->Space, patches, this->Values);
+  // If the graph exceeds its limits, longer runs may do.
   for (; run <= longest && !graph->build(run, limits); run *= 4)
   {
   }
@@ -165,6 +182,7 @@ bool SpectralValues::compute()
   const auto closed = static_cast<double>(graph->closed());
   {
     const std::vector<float> places = expectedPlaces(graph->graph(), closed, this->Space);
+    // Values and adjacency are needed from here on, not the graph: its memory is free for them.
     graph.reset();
     for (std::int64_t rank = 0; rank < this->Pages.vertices(); ++rank)
     {
@@ -177,6 +195,8 @@ bool SpectralValues::compute()
   reservedGraph.reset();
 
   VertexAveraging averaging(this->Pages, this->Space, this->Values, static_cast<float>(closed));
+  // All vertices of a patch have one value at first. Long runs are smoothed in ever smaller groups,
+  // down to single vertices.
   for (; run > MaxSmoothed; run /= 8)
   {
     averaging.sweepRuns(run / 8, patches);

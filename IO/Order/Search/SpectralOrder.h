@@ -11,11 +11,11 @@ namespace smg
 {
 
 /**
- * The vertices along the Fiedler vector of the mesh's graph, component by component: the order with
- * the smallest width. The vector is that of the graph of the pages, interpolated to the vertices.
- * If the pages represent neighbourhood so badly that this graph does not fit into the memory, the
- * order along the longest axis (AxisOrder.h) is used, with a note in `notes`, if given. Throws
- * Error, Cancelled.
+ * The vertices along the Fiedler vector of the graph of the mesh, component by component: the order
+ * with the smallest width. The vector is computed for a graph of patches of vertices, and
+ * interpolated to the vertices. If the pages represent neighbourhood so badly that this graph does
+ * not fit into the memory, the order along the longest axis (AxisOrder.h) is taken instead, with a
+ * note in `notes`, if given. Throws Error, Cancelled.
  */
 OrderedVertices spectralOrder(
   PagedMesh& mesh, Workspace& workspace, std::vector<std::string>* notes = nullptr);

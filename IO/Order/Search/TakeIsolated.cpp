@@ -10,6 +10,9 @@
 #include <span>
 #include <vector>
 
+// The vertices of no cell, which are not part of the stream: one pass over the vertices of the file
+// with their columns, in chunks, and a bit per vertex that tells which are used.
+
 namespace smg
 {
 
@@ -18,7 +21,7 @@ namespace
 
 constexpr std::size_t ChunkVertices = 4096;
 
-/** Reads the vertices of a mesh sequentially and collects the requested ones. */
+/** Reads the vertices of a mesh one by one and collects those that are wanted. */
 template <class Real>
 class VertexCollector
 {
@@ -47,6 +50,8 @@ public:
     this->Positions.get(position);
     for (std::size_t c = 0; c < this->Tuples.size(); ++c)
     {
+      // Read in any case, as the file is sequential: unwanted tuples are overwritten by the next
+      // ones.
       Column& column = this->Chunk.columns[c];
       const std::size_t bytes = column.spec.tupleBytes();
       this->Tuples[c].read(std::span(column.bytes).subspan(this->Count * bytes, bytes));
@@ -96,7 +101,8 @@ private:
     }
     const std::int64_t id = this->Chunk.columns[static_cast<std::size_t>(this->IdColumn)]
                               .template as<std::int64_t>()[this->Count];
-    // A negative one, which is not an index in a file, has none in the container either.
+    // A negative number is not an index in a file: the container gets the number in this file
+    // instead.
     return id < 0 ? this->Number : id;
   }
 
@@ -126,6 +132,7 @@ void takeUnused(const RawMesh& mesh, Workspace& workspace, const TakeVertices& t
 void takeIsolatedVertices(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take)
 {
+  // Otherwise there are none, and nothing needs to be read.
   if (layout.vertexCount < mesh.vertices)
   {
     mesh.doublePositions ? takeUnused<double>(mesh, workspace, take)

@@ -12,11 +12,9 @@ namespace smg
 
 using TakeVertices = std::function<void(const IsolatedVertices& vertices)>;
 
-/**
- * Passes the vertices of a mesh that are not in its layout to `take`, in chunks and in the order of
- * the file, with the vertex columns of a LayoutSource. They are numbered by OriginalId if the mesh
- * has that column, otherwise by their numbers in the file.
- */
+/** Passes the vertices of a mesh that are not in its layout to `take`, in chunks and in the order
+ * of the file, with the vertex columns that a LayoutSource has. They are numbered by OriginalId if
+ * the mesh has that column, otherwise by their numbers in the file. */
 void takeIsolatedVertices(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take);
 
