@@ -4,7 +4,10 @@
 #include "ProgressBar.h"
 
 #include "IO/Formats/MeshFile.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
+
+#include <cstdio>
 
 namespace
 {
@@ -40,6 +43,35 @@ void EngineCommand::addEngineTo(CLI::App& command)
     ->check(oneOf({ "streaming", "hypre" }))
     ->capture_default_str();
   this->MaxCycles = command.get_option("--max-cycles");
+  command.add_flag("--explain", this->Explain,
+    "Print the levels with their windows in memory, and the stages of the passes with their times");
+}
+
+void EngineCommand::print(const smg::Report& report) const
+{
+  this->SolvingCommand::print(report);
+  if (!this->Explain || report.stages.empty())
+  {
+    return;
+  }
+  std::printf("\n%5s %12s %12s\n", "level", "nodes", "in memory");
+  for (std::size_t l = 0; l < report.levels.size(); ++l)
+  {
+    const smg::Report::Level& level = report.levels[l];
+    std::printf("%5zu %12s %12s\n", l, smg::groupedDigits(level.nodes).c_str(),
+      level.window > 0 ? smg::groupedDigits(level.window).c_str() : "");
+  }
+  double total = 0.0;
+  for (const smg::Report::Stage& stage : report.stages)
+  {
+    total += stage.seconds;
+  }
+  std::printf("\n%-13s %5s  %-26s %9s %6s\n", "pass", "level", "stage", "seconds", "share");
+  for (const smg::Report::Stage& stage : report.stages)
+  {
+    std::printf("%-13s %5d  %-26s %9.3f %5.1f%%\n", stage.first ? "first" : "later ones",
+      stage.level, stage.name.c_str(), stage.seconds, 100.0 * stage.seconds / total);
+  }
 }
 
 std::unique_ptr<smg::Solution> EngineCommand::wholeSolution() const

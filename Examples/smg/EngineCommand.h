@@ -14,10 +14,12 @@ class EngineCommand : public SolvingCommand
 protected:
   using SolvingCommand::SolvingCommand;
 
-  /** Adds the option --engine; addSolverOptions() comes first. */
+  /** Adds the options --engine and --explain; addSolverOptions() comes first. */
   void addEngineTo(CLI::App& command);
   bool isForProcesses() const override { return this->Engine == "hypre"; }
   void compute() override;
+  /** With --explain, the table of the stages follows. */
+  void print(const smg::Report& report) const override;
 
   /** Does the job on all processes. */
   virtual void computeOn(const DistributedEngine& engine, const DistributedJob& job) = 0;
@@ -32,6 +34,7 @@ private:
   void checkDistributed();
 
   std::string Engine = "streaming";
+  bool Explain = false;
   CLI::Option* MaxCycles = nullptr;
   smg::Solution* Whole = nullptr;
 };

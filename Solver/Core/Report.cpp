@@ -101,7 +101,8 @@ std::string Report::json(int indent) const
   out["levels"] = nlohmann::ordered_json::array();
   for (const Level& level : this->levels)
   {
-    out["levels"].push_back({ { "nodes", level.nodes }, { "nonzeros", level.nonzeros } });
+    out["levels"].push_back(
+      { { "nodes", level.nodes }, { "nonzeros", level.nonzeros }, { "window", level.window } });
   }
   out["passes"] = this->passes;
   out["resumed_passes"] = this->resumed_passes;
@@ -112,6 +113,11 @@ std::string Report::json(int indent) const
   {
     out["by_pass"].push_back({ { "residual", pass.residual }, { "seconds", pass.seconds },
       { "read", pass.read }, { "written", pass.written }, { "pool_bytes", pass.pool_bytes } });
+  }
+  for (const Stage& stage : this->stages)
+  {
+    out["stages"].push_back({ { "name", stage.name }, { "level", stage.level },
+      { "first", stage.first }, { "seconds", stage.seconds } });
   }
   out["acceleration"] = this->acceleration;
   out["converged"] = this->converged;

@@ -218,6 +218,28 @@ def test_files_of_the_command_are_not_overwritten():
     assert not os.path.exists("o3.vsm") and os.path.islink("link.vsm")
 
 
+def test_stages_are_explained():
+    """All stages of both kinds of passes, and windows that are smaller than the levels."""
+    name = problem(dirichlet=[{"halfspace": [1, 0, 0, 2], "value": [1]}], source=[1])
+    for threads in (1, 4):
+        done = run("solve", "torus.vsm", "explained.vsm", "--problem", name, "--threads", threads,
+                   "--explain", "--report", "explained-report.json")
+        report = load("explained-report.json")
+        names = {(stage["first"], stage["name"]) for stage in report["stages"]}
+        first = {"assemble rows", "coarsen"} if threads == 1 else {
+            "weigh cells", "connect edges", "close rows", "choose C-points, P0", "relax P", "A P", "P^T A P",
+            "sparsify, finish rows", "pack rows"}
+        assert {(True, name) for name in first} <= names, names
+        assert {name for is_first, name in names if not is_first} == {
+            "prolong the correction", "relax after prolongation", "relax before restriction", "combine iterates",
+            "restrict the residual"}, names
+        assert all(stage["seconds"] >= 0 for stage in report["stages"])
+        finest = report["levels"][0]
+        assert 0 < finest["window"] <= finest["nodes"], finest
+        for name in ("P^T A P" if threads == 4 else "coarsen", "restrict the residual", "in memory"):
+            assert name in done.stdout, done.stdout
+
+
 def test_reports_go_where_they_are_wanted():
     assert json.loads(run("info", "torus.vsm", "--report", "/dev/stdout", "--quiet").stdout)
     link("there.json", "here.json")
@@ -316,7 +338,8 @@ def test_interrupt_cleans_up():
 
 for each in (test_convert_and_info, test_the_commands_are_listed, test_vtk_xml, test_solve,
              test_solutions_have_the_order_of_their_mesh, test_errors,
-             test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
+             test_files_of_the_command_are_not_overwritten, test_stages_are_explained,
+             test_reports_go_where_they_are_wanted,
              test_outputs_go_where_links_lead, test_devices_and_pipes_are_no_outputs, test_check,
              test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
     each()

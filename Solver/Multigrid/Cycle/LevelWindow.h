@@ -133,8 +133,8 @@ public:
    * renew() with `apart`. */
   State& up() { return this->Now; }
   State& down() { return this->Next ? *this->Next : this->Now; }
-  /** The number of nodes of the level; in the first pass, of those so far. */
   int index() const { return this->Index; }
+  /** The number of nodes of the level; in the first pass, of those so far. */
   std::int64_t nodes() const { return this->Nodes; }
   std::int64_t loaded() const { return this->Loaded; }
   /** The first node whose row is in memory; those before it have passed all stages. */

@@ -230,6 +230,7 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
     });
   finest.advanceDown();
   finest.settle();
+  this->Run.note(schedule, true);
   if (assembly.vertices() == 0)
   {
     throw Error("the mesh has no vertices");

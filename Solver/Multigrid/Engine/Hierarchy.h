@@ -66,6 +66,9 @@ public:
   /** In place of the first pass: restores the levels, and factorises the coarsest one. */
   void load(StateReader& state);
 
+  /** After a pass: notes the size of the windows in the report. */
+  void noteWindows();
+
   /** ||b - A x||, from the restriction of the last pass. */
   double residualNorm() const;
   /** The part of it that is due to the rounding of its terms. */

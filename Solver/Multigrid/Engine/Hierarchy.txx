@@ -228,6 +228,19 @@ void Hierarchy<Relaxation>::load(StateReader& state)
 }
 
 template <class Relaxation>
+void Hierarchy<Relaxation>::noteWindows()
+{
+  const auto windowOf = [](auto& window)
+  { return std::min(window.nodes(), window.x().capacity()); };
+  std::vector<Report::Level>& levels = this->Run.report.levels;
+  levels.front().window = windowOf(this->window());
+  for (std::size_t l = 1; l < levels.size(); ++l)
+  {
+    levels[l].window = windowOf(this->Built.coarse[l - 1]->window());
+  }
+}
+
+template <class Relaxation>
 double Hierarchy<Relaxation>::residualNorm() const
 {
   const auto squares = this->Built.finest->squares();

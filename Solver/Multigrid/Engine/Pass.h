@@ -127,7 +127,7 @@ void Pass<Relaxation>::stream(const Further& further)
 {
   auto& finest = this->Levels.finest();
   const Grain grain = this->grain(further);
-  const Schedule schedule = this->scheduleOf(further, grain.chains);
+  Schedule schedule = this->scheduleOf(further, grain.chains);
   const std::int64_t nodes = finest.window().nodes();
   std::int64_t end = 0;
   schedule.perform(
@@ -160,6 +160,8 @@ void Pass<Relaxation>::stream(const Further& further)
   finest.publish();
   schedule.advance();
   finest.settle();
+  this->Run.note(schedule, false);
+  this->Levels.noteWindows();
 }
 
 /** The stages of the pass, cut into chains, and what reads and writes beside them. A recorder

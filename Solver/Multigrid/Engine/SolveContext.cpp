@@ -63,6 +63,25 @@ void SolveContext::beginReport()
   this->CpuAtStart = processSeconds();
 }
 
+void SolveContext::note(const Schedule& schedule, bool isFirstPass)
+{
+  std::vector<Report::Stage>& all = this->report.stages;
+  for (std::size_t s = 0; s < schedule.stages().size(); ++s)
+  {
+    // The sweeps of a level are one entry.
+    const Stage& stage = schedule.stages()[s];
+    auto noted = std::ranges::find_if(all,
+      [&](const Report::Stage& other) {
+        return other.first == isFirstPass && other.level == stage.level && other.name == stage.name;
+      });
+    if (noted == all.end())
+    {
+      noted = all.insert(all.end(), { stage.name, stage.level, isFirstPass, 0.0 });
+    }
+    noted->seconds += schedule.seconds(s);
+  }
+}
+
 void SolveContext::finishReport()
 {
   Report& r = this->report;

@@ -12,6 +12,7 @@
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "Solver/Multigrid/Engine/SolveProgress.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Export.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
@@ -92,6 +93,8 @@ struct SMG_EXPORT SolveContext
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
 
+  /** Adds the times of a schedule's stages to the report. */
+  void note(const Schedule& schedule, bool isFirstPass);
   /** The order of the tasks of a schedule. */
   static LongestTaskFirst orderOf(int tasks) { return LongestTaskFirst(tasks); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
+#include "Solver/Core/Timer.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -16,6 +18,7 @@ namespace smg
 void Schedule::add(Stage stage)
 {
   this->Stages.push_back(std::move(stage));
+  this->Seconds.push_back(0.0);
   // Until cut() is called all stages are one chain.
   this->Ends.assign(1, this->Stages.size());
 }
@@ -62,7 +65,7 @@ void Schedule::cutAll()
   std::iota(this->Ends.begin(), this->Ends.end(), std::size_t(1));
 }
 
-void Schedule::run(int task) const
+void Schedule::run(int task)
 {
   if (task >= this->chains())
   {
@@ -73,16 +76,23 @@ void Schedule::run(int task) const
   for (std::size_t s = first; s < this->begin(task + 1); ++s)
   {
     // The first stage of a chain sees published cursors only.
-    this->Stages[s].advance(s > first);
+    this->advance(s, s > first);
   }
 }
 
-void Schedule::advance() const
+void Schedule::advance()
 {
-  for (const Stage& stage : this->Stages)
+  for (std::size_t s = 0; s < this->Stages.size(); ++s)
   {
-    stage.advance(true);
+    this->advance(s, true);
   }
+}
+
+void Schedule::advance(std::size_t stage, bool follows)
+{
+  const Timer timer;
+  this->Stages[stage].advance(follows);
+  this->Seconds[stage] += timer.seconds();
 }
 
 } // namespace smg

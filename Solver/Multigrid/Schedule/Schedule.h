@@ -107,10 +107,12 @@ public:
     return chain == 0 ? 0 : this->Ends[static_cast<std::size_t>(chain) - 1];
   }
 
-  /** Performs a task of a step. */
-  void run(int task) const;
+  /** Performs a task of a step. Different tasks may run at the same time. */
+  void run(int task);
   /** Advances all stages, each following the one before it. */
-  void advance() const;
+  void advance();
+  /** The seconds that a stage has taken so far. */
+  double seconds(std::size_t stage) const { return this->Seconds[stage]; }
 
   /**
    * Performs the steps of a pass: as long as prepare() returns true, it runs all tasks, and then
@@ -118,7 +120,7 @@ public:
    * `context` runs the tasks, see SolveContext::runConcurrently().
    */
   template <class Context, class Prepare, class Settle>
-  void perform(Context& context, Prepare&& prepare, Settle&& settle) const
+  void perform(Context& context, Prepare&& prepare, Settle&& settle)
   {
     auto order = context.orderOf(this->tasks());
     while (prepare())
@@ -129,7 +131,10 @@ public:
   }
 
 private:
+  void advance(std::size_t stage, bool follows);
+
   std::vector<Stage> Stages;
+  std::vector<double> Seconds;   // by stage
   std::vector<std::size_t> Ends; // of each chain, the end of its stages in Stages
   std::vector<std::function<void()>> Beside;
 };

@@ -23,6 +23,17 @@ struct SMG_EXPORT Report
   {
     std::int64_t nodes = 0;    ///< unknowns
     std::int64_t nonzeros = 0; ///< entries of the matrix, including the diagonal
+    /** The nodes whose unknowns had room in memory at once; all of a level in core. 0: not known.
+     */
+    std::int64_t window = 0;
+  };
+  /** An operation on the nodes of a level, in all passes of a kind: see docs/architecture.md. */
+  struct Stage
+  {
+    std::string name;
+    int level = 0;
+    bool first = false; ///< of the first pass, which builds the hierarchy
+    double seconds = 0; ///< of the threads that ran it, without waiting for others
   };
   /** Wall-clock times, seconds. */
   struct Seconds
@@ -179,6 +190,7 @@ struct SMG_EXPORT Report
   /** The passes in which V-cycles, or the marches of a distance, were done, one after the other;
    * with several processes: empty. */
   std::vector<Pass> by_pass;
+  std::vector<Stage> stages; ///< of the streaming engine, in the order of the stream
   /** The acceleration used: "none", "chebyshev" or "cg"; see AccelerationKind. */
   std::string acceleration = "none";
   std::vector<Step> steps;      ///< of a deformation or of smoothing; else empty
