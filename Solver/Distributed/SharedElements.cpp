@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace
 /** A cell of a part, in which several processes are compared by the vertices. */
 struct PartCell
 {
-  std::array<std::int64_t, 4> key; ///< stream indices, ascending; of a triangle the last one is 0
+  std::array<std::int64_t, 4> key; ///< stream indices, ascending; of a triangle the last one is the largest number
 };
 
 } // namespace
@@ -38,9 +39,10 @@ std::int64_t repeatedCells(const SharedVertices& vertices, const MeshPart& part)
       continue;
     }
     PartCell item{};
+    item.key.fill(std::numeric_limits<std::int64_t>::max());
     std::ranges::transform(cell, item.key.begin(), [&](std::int64_t v) { return vertices.id(v); });
     // In ascending order: the same vertices are the same cell, however it is turned.
-    std::sort(item.key.begin(), item.key.begin() + static_cast<std::ptrdiff_t>(each));
+    std::ranges::sort(item.key);
     items.push_back(item);
   }
   std::int64_t repeated = 0;
