@@ -20,7 +20,8 @@ namespace
 /** A cell of a part, in which several processes are compared by the vertices. */
 struct PartCell
 {
-  std::array<std::int64_t, 4> key; ///< stream indices, ascending; of a triangle the last one is the largest number
+  /// Stream indices, ascending; of a triangle the last one is the largest number.
+  std::array<std::int64_t, 4> key;
 };
 
 } // namespace
