@@ -122,7 +122,7 @@ struct SMG_EXPORT DeformationDescription
   std::optional<double> tolerance; ///< SolveOptions::tolerance, if given; not with `cycles`
 
   /** One handle, given by the vertex columns HandleMask, HandleTarget, HandleRotation and
-   * HandleLogScale (see deform() in Deform.h). */
+   * HandleLogScale (see VertexHandles, Deform.h). */
   static DeformationDescription byColumns();
 
   /** Sets the options that are given and leaves the others; a tolerance sets `cycles` to 0. */
