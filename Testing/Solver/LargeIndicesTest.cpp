@@ -215,7 +215,7 @@ private:
       const double* load = this->Cells.loads.load();
       made.loads.insert(made.loads.end(), load, load + this->Asked.columns());
       made.vertices.push_back(
-        { made.neighbours.size(), rowSum, mass, i, this->Cells.parts.close(i, mass) });
+        { made.neighbours.size(), rowSum, mass, i, 1.0F, this->Cells.parts.close(i, mass) });
       this->Assembled.close(made, made.vertices.size() - 1);
     }
     this->Cells.parts.flush();
