@@ -91,6 +91,21 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
   }
 }
 
+/** Without passes, as in a solve by several processes, there is no entry. */
+void addPasses(const Report& report, nlohmann::ordered_json& out)
+{
+  for (const Report::Pass& pass : report.by_pass)
+  {
+    out["by_pass"].push_back({ { "residual", pass.residual }, { "seconds", pass.seconds },
+      { "read", pass.read }, { "written", pass.written }, { "pool_bytes", pass.pool_bytes } });
+  }
+  for (const Report::Stage& stage : report.stages)
+  {
+    out["stages"].push_back({ { "name", stage.name }, { "level", stage.level },
+      { "first", stage.first }, { "seconds", stage.seconds } });
+  }
+}
+
 } // namespace
 
 std::string Report::json(int indent) const
@@ -108,17 +123,7 @@ std::string Report::json(int indent) const
   out["resumed_passes"] = this->resumed_passes;
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
-  // Without passes, as in a solve by several processes, there is no entry.
-  for (const Pass& pass : this->by_pass)
-  {
-    out["by_pass"].push_back({ { "residual", pass.residual }, { "seconds", pass.seconds },
-      { "read", pass.read }, { "written", pass.written }, { "pool_bytes", pass.pool_bytes } });
-  }
-  for (const Stage& stage : this->stages)
-  {
-    out["stages"].push_back({ { "name", stage.name }, { "level", stage.level },
-      { "first", stage.first }, { "seconds", stage.seconds } });
-  }
+  addPasses(*this, out);
   out["acceleration"] = this->acceleration;
   out["converged"] = this->converged;
   for (const Step& step : this->steps)

@@ -190,7 +190,7 @@ def measure(smg, name, points, triangles, smg_options):
     row("with noise", 0, 0, original.errors(points + noise))
     for options in smg_options:
         subprocess.run([smg, "smooth", "noisy.vsm", "smooth.vsm", "--quiet", "--report", "report.json",
-                        *options], check=True)
+                        "--tolerance", "1e-6", *options], check=True)
         subprocess.run([smg, "convert", "smooth.vsm", "smooth.ply", "--restore-order", "--quiet"],
                        check=True)
         report = json.loads(pathlib.Path("report.json").read_text(encoding="utf-8"))

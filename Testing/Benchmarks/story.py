@@ -63,7 +63,7 @@ class Story:
         self.steps.clear()
         self.smg("convert", noisy, stream)
         noisy.unlink()
-        self.smg("smooth", stream, smooth, "--size", self.options.size)
+        self.smg("smooth", stream, smooth, "--size", self.options.size, "--tolerance", "1e-6")
         self.smg("distance", smooth, distance, "--from", json.dumps(self.options.source))
         self.draw(distance)
 

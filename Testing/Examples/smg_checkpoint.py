@@ -89,7 +89,10 @@ def check_equal(arguments, bits, report):
     for key in ("passes", "cycles", "steps", "residuals", "levels", "acceleration", "converged",
                 "components", "free_components", "removed_source", "balance", "energy", "vertices",
                 "cells", "width", "isolated_vertices", "merged_points"):
-        assert told.get(key) == report.get(key), (arguments, key, told.get(key), report.get(key))
+        ours, theirs = told.get(key), report.get(key)
+        if key == "levels":  # a window that was loaded may have more room than one that grew
+            ours, theirs = ([{**level, "window": 0} for level in levels] for levels in (ours or (), theirs or ()))
+        assert ours == theirs, (arguments, key, ours, theirs)
     if told.get("resumed_passes", 0) > 0:
         assert any(note.startswith("continued after pass") for note in told["notes"])
 

@@ -230,13 +230,14 @@ void Hierarchy<Relaxation>::load(StateReader& state)
 template <class Relaxation>
 void Hierarchy<Relaxation>::noteWindows()
 {
-  const auto windowOf = [](auto& window)
-  { return std::min(window.nodes(), window.x().capacity()); };
+  // The window of the mesh has prescribed vertices, too, which the report does not count as nodes.
+  const auto note = [](Report::Level& level, auto& window)
+  { level.window = std::min(level.nodes, window.x().capacity()); };
   std::vector<Report::Level>& levels = this->Run.report.levels;
-  levels.front().window = windowOf(this->window());
+  note(levels.front(), this->window());
   for (std::size_t l = 1; l < levels.size(); ++l)
   {
-    levels[l].window = windowOf(this->Built.coarse[l - 1]->window());
+    note(levels[l], this->Built.coarse[l - 1]->window());
   }
 }
 
