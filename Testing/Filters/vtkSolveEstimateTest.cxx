@@ -96,7 +96,7 @@ TEST_F(VtkSolveEstimate, OfEveryFilter)
     const std::string text = filter->GetEstimate();
     EXPECT_TRUE(text.starts_with("About ")) << filter->GetClassName() << ": " << text;
     EXPECT_NE(text.find("scratch files (the limit is 77 MiB, "), std::string::npos) << text;
-    EXPECT_NE(text.find("over 40000 points"), std::string::npos) << text;
+    EXPECT_NE(text.find("over 40,000 points"), std::string::npos) << text;
   }
   EXPECT_EQ(this->Ends->Executions, 0);
   distance->SetFrom("nowhere");
@@ -132,7 +132,13 @@ std::int64_t numberBefore(const std::string& text, const std::string& word)
 {
   const std::size_t end = text.find(' ' + word);
   const std::size_t begin = end == std::string::npos ? end : text.rfind(' ', end - 1);
-  return begin == std::string::npos ? -1 : std::stoll(text.substr(begin + 1));
+  if (begin == std::string::npos)
+  {
+    return -1;
+  }
+  std::string digits = text.substr(begin + 1, end - begin - 1);
+  std::erase(digits, ',');
+  return std::stoll(digits);
 }
 
 TEST(VtkOrdinaryEstimate, HasTheCountsOfTheSolve)

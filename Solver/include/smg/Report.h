@@ -30,8 +30,8 @@ struct SMG_EXPORT Report
   /** An operation on the nodes of a level, in all passes of a kind: see docs/architecture.md. */
   struct Stage
   {
-    std::string name;
-    int level = 0;
+    std::string name;   ///< what it does
+    int level = 0;      ///< of the hierarchy; 0: the mesh
     bool first = false; ///< of the first pass, which builds the hierarchy
     double seconds = 0; ///< of the threads that ran it, without waiting for others
   };
