@@ -309,7 +309,7 @@ def test_interrupted():
     assert load("report.json")["resumed_passes"] >= 2
     program = [SMG, *map(str, HELD), "--checkpoint"]
     for folder, options, code, word in ((FOLDER + "/", ["--scratch-limit", "1"], 1, "their limit is"),
-                                        ("", [], 2, "no folder")):
+                                        ("", [], 2, "is not a folder")):
         done = subprocess.run([*program, folder, *options], capture_output=True, text=True, timeout=1200)
         assert done.returncode == code and word in done.stderr, done.stderr
     shutil.rmtree(FOLDER, ignore_errors=True)

@@ -236,8 +236,8 @@ def test_stages_are_explained():
         assert all(stage["seconds"] >= 0 for stage in report["stages"])
         finest = report["levels"][0]
         assert 0 < finest["window"] <= finest["nodes"], finest
-        for name in ("P^T A P" if threads == 4 else "coarsen", "restrict the residual", "in memory"):
-            assert name in done.stdout, done.stdout
+        for text in ("P^T A P" if threads == 4 else "coarsen", "restrict the residual", "in memory"):
+            assert text in done.stdout, done.stdout
 
 
 def test_reports_go_where_they_are_wanted():
