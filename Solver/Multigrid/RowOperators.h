@@ -43,8 +43,9 @@ public:
   double rowSum() const { return this->Data->fine.rowSum(this->Row); }
   /** The largest weight, 0 without neighbours. */
   float strongest() const { return this->Data->fine.strongest(this->Row); }
-  /** Whether the row belongs to slivers, see SliverRows: then it should be a C-point. */
-  bool isSliver() const { return this->Data->fine.stiff(this->Row); }
+  /** Whether the row is stiff (a large negative weight, of slivers): then it should be a C-point.
+   */
+  bool isStiff() const { return this->Data->fine.stiff(this->Row); }
   bool empty() const { return this->Data->fine.row(this->Row).empty(); }
 
   auto neighbours() const

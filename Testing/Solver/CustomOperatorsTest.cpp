@@ -70,7 +70,7 @@ struct DirectRows : RowOperators<Own>
   bool isCPoint(const FineRow& row) const
   {
     return !row.empty() &&
-           (row.isSliver() ||
+           (row.isStiff() ||
              std::ranges::none_of(row.neighbours(), [&](const FineRow::Neighbour& other)
                { return other.isCoarse && other.weight >= 0.25F * row.strongest(); }));
   }

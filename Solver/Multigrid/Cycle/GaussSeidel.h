@@ -96,8 +96,8 @@ concept RelaxesLevels = RelaxesBlocks<R, Real, 1, std::int16_t, Weight> &&
   RelaxesBlocks<R, Real, 4, WideIndex, Weight>;
 
 /**
- * A relaxation (smoother) of A x = b, applied on every level before and after the correction from
- * the coarser one. A type R with a static function template
+ * A relaxation (smoother) of A x = b, applied on every level but the coarsest, before and after the
+ * correction from the coarser one. A type R with a static function template
  *
  *   template <bool LowerOnly, class Vectors, ...>
  *   static void sweep(const auto& h, const auto& a, BlockRange nodes, std::int64_t stride,

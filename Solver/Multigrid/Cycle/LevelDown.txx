@@ -96,9 +96,9 @@ void Level<Real, Relaxation>::combine(bool follows)
   this->At.combined = end;
 }
 
-template <class Real, class Relaxation>
 /** Restricts as far as the last stage has passed all neighbours, and as far as the coarse level
  * can take it: its b must have been set to zero. */
+template <class Real, class Relaxation>
 void Level<Real, Relaxation>::restrictDown(bool follows)
 {
   const std::int64_t limit = this->Window.reachable(
@@ -117,13 +117,13 @@ void Level<Real, Relaxation>::restrictDown(bool follows)
   this->At.restricted = end;
 }
 
-template <class Real, class Relaxation>
 /**
  * x and b of a coarse node are used by two V-cycles in one pass: first as correction of the V-cycle
  * that ends, then as residual equation of the one that begins. One pair of vectors suffices, since
  * the second use begins only when the first one has ended for the node: when the last sweep has
  * passed its neighbours, which read x, and the finer level has prolongated to all its children.
  */
+template <class Real, class Relaxation>
 bool Level<Real, Relaxation>::prepare(std::int64_t node)
 {
   if (this->First || this->Core)

@@ -30,9 +30,9 @@ void Level<Real, Relaxation>::addUpward(Schedule& schedule)
   }
 }
 
-template <class Real, class Relaxation>
 /** Asks the last sweep for node `node`, and if that sweep relaxes patches, for the ends of the
  * patches around it. */
+template <class Real, class Relaxation>
 void Level<Real, Relaxation>::load(std::int64_t node)
 {
   const int last = static_cast<int>(this->At.postSweep.size());

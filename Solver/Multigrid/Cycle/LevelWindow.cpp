@@ -296,8 +296,8 @@ void LevelWindow<Real>::unpack(
   pad(packed, this->Columns, end - begin, state.at(begin));
 }
 
-template <class Real>
 /** Makes a streamed level a core level, if the hierarchy turns out to end with it. */
+template <class Real>
 void LevelWindow<Real>::moveToMemory()
 {
   if (!this->Rows)

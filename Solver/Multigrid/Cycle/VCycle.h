@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+// The V-cycle of the levels in memory. That of the streamed levels is a list of stages
+// (Cycle/LevelUp.txx, Cycle/LevelDown.txx), which Engine/Pass.h puts into the schedule of a pass.
+
 namespace smg
 {
 

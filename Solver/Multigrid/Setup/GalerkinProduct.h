@@ -31,7 +31,8 @@ public:
   /** Appends row i of A P. The rows of P up to reach(i) must exist. */
   void productAP(CoarseningData& data, std::int64_t i);
 
-  /** Appends row c of P^T A P to `gathered`. All children of c and their rows of A P must exist. */
+  /** Appends row c of P^T A P to `gathered`, as weights (minus its entries). All children of c and
+   * their rows of A P must exist. */
   void productPtAP(CoarseningData& data, std::int64_t c);
 
 private:
