@@ -2,6 +2,7 @@
 #include "smg/DescribedProblem.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Problem/PiecewiseCoefficient.h"
+#include "Solver/Problem/StartValues.h"
 #include "smg/Error.h"
 #include "smg/Problem.h"
 #include "smg/ProblemDescription.h"
@@ -78,7 +79,7 @@ private:
   MeshColumns OfMesh;
   std::size_t Columns;
   Weights EdgeWeights;
-  bool StartsAtPosition;
+  StartValues Start;
   DataPlace ScreeningPlace, SourcePlace;
   PiecewiseCoefficient Conductivity, Screening, Source, Field, Initial, Dirichlet, Flux;
   PiecewiseCoefficient Ambient;                   ///< of the Robin conditions
@@ -223,6 +224,7 @@ ProblemOnMesh::ProblemOnMesh(
   : OfMesh(mesh, name)
   , Columns(static_cast<std::size_t>(description.columns))
   , EdgeWeights(description.weights)
+  , Start(description)
   , ScreeningPlace(this->placeOf(description.screening))
   , SourcePlace(this->placeOf(description.source))
   , Conductivity(this->OfMesh, DataPlace::Cells, ConductivityRules)
@@ -262,9 +264,6 @@ ProblemOnMesh::ProblemOnMesh(
   }
   this->addRobin(description);
   this->addSoft(description);
-  this->StartsAtPosition = !this->Initial.isGiven() &&
-                           std::ranges::any_of(description.dirichlet,
-                             [](const PlacedValue& entry) { return entry.value.isPosition(); });
   if (ProblemOnMesh::hasCells() || ProblemOnMesh::hasFacets())
   {
     this->OfMesh.requireCellIds(); // for error messages of the solver
@@ -411,11 +410,7 @@ void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditi
 
 void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditions)
 {
-  // Values that are positions start at the undeformed mesh, not at 0.
-  if (this->StartsAtPosition)
-  {
-    conditions.value = block.positions;
-  }
+  this->Start.set(block, conditions.value);
   this->Dirichlet.entriesAtVertices(conditions.dirichlet);
   this->Entry.assign(conditions.dirichlet.size(), -1);
   this->Initial.entriesAtVertices(this->Entry);

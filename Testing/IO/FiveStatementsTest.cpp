@@ -50,6 +50,25 @@ protected:
 
 } // namespace
 
+/** The tolerance is a share of a residual: it must not be that of an offset of the values. */
+TEST_F(FiveStatements, SolveAsWellWithAnOffsetOfTheValues)
+{
+  const auto mesh = openMesh(this->Folder / "grid.vsm");
+  std::vector<double> expected;
+  for (const double offset : { 0.0, 293.15, -1000.0, 1e6 })
+  {
+    ProblemDescription field;
+    field.dirichlet = { { halfSpace({ 1, 0, 0 }, 20), offset + 1 },
+      { smg::sphere({ 0, 0, 0 }, 3), offset } };
+    const std::vector<double> values = valuesOf(*solve(*mesh, field));
+    expected = expected.empty() ? values : expected;
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      ASSERT_NEAR(values[i] - offset, expected[i], 1e-6) << offset;
+    }
+  }
+}
+
 TEST_F(FiveStatements, WriteTheFileOfTheParts)
 {
   ProblemDescription field;

@@ -264,6 +264,30 @@ TEST_F(Described, TheInitialGuessIsThePositionWhereAValueIs)
   EXPECT_EQ(this->ask(description).vertices.value[2], this->z(0) <= 0.5 ? 5.0 : 0.0);
 }
 
+TEST_F(Described, TheInitialGuessIsTheMiddleOfNumbersWithAnOffset)
+{
+  ProblemDescription description;
+  description.columns = 3;
+  const auto start = [&](std::size_t column)
+  { return this->ask(description).vertices.value[column]; }; // vertex 0 is not on the right
+  ASSERT_LT(this->x(0), 1.5);
+  description.dirichlet = { { Right, DataValue{ 293, 7, 1 } } };
+  EXPECT_EQ(start(0), 0.0) << "a single number";
+  description.robin = { { Bottom, 1.0, DataValue{ 303, 7, 0 } } };
+  EXPECT_EQ(start(0), 298.0);
+  EXPECT_EQ(start(1), 0.0) << "the same number twice";
+  EXPECT_EQ(start(2), 0.0) << "as far from each other as from 0";
+  description.robin.front().ambient = DataValue{ -303, -9, -0.9 };
+  EXPECT_EQ(start(0), 0.0);
+  description.dirichlet = { { Right, DataValue{ -293, -7, -1 } } };
+  EXPECT_EQ(start(0), -298.0);
+  description.initial = DataValue{ 1, 2, 3 };
+  EXPECT_EQ(start(0), 1.0);
+  description.initial = {};
+  description.dirichlet.push_back({ Right, "three" });
+  EXPECT_EQ(start(0), 0.0) << "not all are numbers";
+}
+
 TEST_F(Described, InitialValuesMayBeMissing)
 {
   ProblemDescription description;
