@@ -6,6 +6,7 @@
 #include "Solver/Multigrid/Setup/CoarsePoints.h"
 #include "Solver/Multigrid/Setup/GalerkinProduct.h"
 #include "Solver/Multigrid/Setup/Interpolation.h"
+#include "Solver/Multigrid/Setup/InterpolationRow.h"
 #include "Solver/Multigrid/Setup/Sparsification.h"
 #include "smg/MeshSource.h"
 
@@ -136,7 +137,7 @@ public:
   }
   void interpolate(CoarseningData& data, std::int64_t i) const
   {
-    this->Interpolation.append(data, i);
+    appendRounded(data, i, data.relaxed[i]);
   }
   void productAP(CoarseningData& data, std::int64_t i) { this->Product.productAP(data, i); }
   void productPtAP(CoarseningData& data, std::int64_t c) { this->Product.productPtAP(data, c); }

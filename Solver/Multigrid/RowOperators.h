@@ -85,9 +85,8 @@ public:
     }
   }
 
-  /** Appends the row to P: its weights become multiples of 1/Quanta from -1 to 1, of which the
-   * largest ones take what rounding leaves of the sum. */
-  void appendTo(CoarseningData& data, std::int64_t i) const
+  /** The row, scaled to the sum of all weights. */
+  RelaxedRow row() const
   {
     double kept = 0.0;
     for (int k = 0; k < this->Size; ++k)
@@ -95,22 +94,14 @@ public:
       kept += this->Entry[k].weight;
     }
     const double scale = kept != 0.0 ? this->Total / kept : 0.0;
-    int rounded[RelaxedRow::Most];
-    int rest = quantaOf(static_cast<float>(this->Total));
+    RelaxedRow row;
+    row.sum = static_cast<float>(this->Total);
+    row.size = static_cast<std::int8_t>(this->Size);
     for (int k = 0; k < this->Size; ++k)
     {
-      rounded[k] =
-        quantaOf(static_cast<float>(std::clamp(scale * this->Entry[k].weight, -1.0, 1.0)));
-      rest -= rounded[k];
+      row.entry[k] = { this->Entry[k].coarse, static_cast<float>(scale * this->Entry[k].weight) };
     }
-    InterpolationRow row(data, i, this->Size);
-    for (int k = 0; k < this->Size; ++k)
-    {
-      const int quanta = std::clamp(rounded[k] + rest, -Quanta, Quanta);
-      rest -= quanta - rounded[k];
-      row.append(this->Entry[k].coarse, quanta);
-    }
-    row.close();
+    return row;
   }
 
 private:
@@ -174,7 +165,7 @@ public:
     {
       this->own().weightsOf(FineRow(data, i, data.fine.reach(i) + 1), weights);
     }
-    weights.appendTo(data, i);
+    appendRounded(data, i, weights.row());
   }
   void productAP(CoarseningData& data, std::int64_t i) { this->Product.productAP(data, i); }
   void productPtAP(CoarseningData& data, std::int64_t c) { this->Product.productPtAP(data, c); }

@@ -237,36 +237,6 @@ TEST(CustomOperators, ParametersAreValues)
   }
 }
 
-TEST(CustomOperators, StreamingEqualsInCoreBitForBit)
-{
-  SolveOptions options;
-  options.tolerance = 1e-12;
-  options.maxCycles = 3;
-  for (auto& [mesh, problem] : tasks())
-  {
-    options.inCore = true;
-    const Solved expected = solveWithSet<Custom>(mesh, problem, options);
-    options.inCore = false;
-    for (const std::int64_t coreNodes : { 0, 300 })
-    {
-      for (const std::int64_t blockNodes : { 64, 1000, 1 << 20 })
-      {
-        for (const int threads : { 1, 2 })
-        {
-          options.coreNodes = coreNodes;
-          options.blockNodes = blockNodes;
-          options.threads = threads;
-          const Solved solved = solveWithSet<Custom>(mesh, problem, options);
-          EXPECT_TRUE(sameBits(solved.values, expected.values))
-            << coreNodes << " core nodes, blocks of " << blockNodes << ", " << threads
-            << " threads";
-          EXPECT_EQ(solved.report.residuals, expected.report.residuals);
-        }
-      }
-    }
-  }
-}
-
 TEST(CustomOperators, OptionsAndProblemsAreCheckedAsBySolve)
 {
   auto [mesh, problem] = tasks()[1];
@@ -284,13 +254,13 @@ TEST(CustomOperators, OptionsAndProblemsAreCheckedAsBySolve)
 }
 
 template <OperatorSet Operators>
-class OwnRows : public ::testing::Test
+class OwnSets : public ::testing::Test
 {
 };
-using AllOwnRows = ::testing::Types<Direct, AllOwn>;
-TYPED_TEST_SUITE(OwnRows, AllOwnRows);
+using AllOwnSets = ::testing::Types<Custom, Direct, AllOwn>;
+TYPED_TEST_SUITE(OwnSets, AllOwnSets);
 
-TYPED_TEST(OwnRows, ConvergeToTheDirectSolution)
+TYPED_TEST(OwnSets, ConvergeToTheDirectSolution)
 {
   for (auto& [mesh, problem] : tasks())
   {
@@ -302,7 +272,7 @@ TYPED_TEST(OwnRows, ConvergeToTheDirectSolution)
   }
 }
 
-TYPED_TEST(OwnRows, StreamAsInCoreBitForBit)
+TYPED_TEST(OwnSets, StreamingEqualsInCoreBitForBit)
 {
   SolveOptions options;
   options.tolerance = 1e-12;
@@ -312,15 +282,21 @@ TYPED_TEST(OwnRows, StreamAsInCoreBitForBit)
     options.inCore = true;
     const Solved expected = solveWithSet<TypeParam>(mesh, problem, options);
     options.inCore = false;
-    options.coreNodes = 0;
-    for (const std::int64_t blockNodes : { 64, 1 << 20 })
+    for (const std::int64_t coreNodes : { 0, 300 })
     {
-      for (const int threads : { 1, 4 })
+      for (const std::int64_t blockNodes : { 64, 1000, 1 << 20 })
       {
-        options.blockNodes = blockNodes;
-        options.threads = threads;
-        EXPECT_TRUE(
-          sameBits(solveWithSet<TypeParam>(mesh, problem, options).values, expected.values));
+        for (const int threads : { 1, 2, 4 })
+        {
+          options.coreNodes = coreNodes;
+          options.blockNodes = blockNodes;
+          options.threads = threads;
+          const Solved solved = solveWithSet<TypeParam>(mesh, problem, options);
+          EXPECT_TRUE(sameBits(solved.values, expected.values))
+            << coreNodes << " core nodes, blocks of " << blockNodes << ", " << threads
+            << " threads";
+          EXPECT_EQ(solved.report.residuals, expected.report.residuals);
+        }
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "Solver/Multigrid/Engine/Coarsening.h"
 #include "Solver/Multigrid/Setup/GalerkinProduct.h"
 #include "Solver/Multigrid/Setup/Interpolation.h"
+#include "Solver/Multigrid/Setup/InterpolationRow.h"
 #include "Solver/Multigrid/Setup/Sparsification.h"
 #include "Testing/Support/EdgeWeights.h"
 #include "Testing/Support/MemorySource.h"
@@ -251,7 +252,7 @@ public:
   }
   void interpolate(CoarseningData& data, std::int64_t i)
   {
-    this->Interpolation.append(data, i);
+    appendRounded(data, i, data.relaxed[i]);
     auto& parents = this->record->parents.emplace_back();
     const InterpolationEntry* entry = data.interpolation.row(i);
     for (std::int64_t e = 0; e < data.interpolation.size(i); ++e)

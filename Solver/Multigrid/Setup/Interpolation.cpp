@@ -127,38 +127,6 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
   }
 }
 
-void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
-{
-  const RelaxedRow& row = data.relaxed[i];
-  int rounded[RelaxedRow::Most];
-  // The wanted sum is rounded by itself, and the entries are adjusted to it: the sums of rows of P
-  // are exact, 127 quanta where no constraint reaches.
-  int rest = quantaOf(row.sum);
-  for (int k = 0; k < row.size; ++k)
-  {
-    rounded[k] = quantaOf(std::clamp(row.entry[k].value(), -1.0F, 1.0F));
-    rest -= rounded[k];
-  }
-  // The first entry, the largest, receives the remainder, which changes it least in proportion;
-  // only what would take it out of [-1, 1] goes to the next one.
-  for (int k = 0; k < row.size && rest != 0; ++k)
-  {
-    const int taken = std::clamp(rounded[k] + rest, -Quanta, Quanta) - rounded[k];
-    rounded[k] += taken;
-    rest -= taken;
-  }
-  InterpolationRow out(data, i, row.size);
-  for (int k = 0; k < row.size; ++k)
-  {
-    // Rounded away: less than half a quantum.
-    if (rounded[k] != 0)
-    {
-      out.appendAt(row.entry[k].offset(data.publishedCoarse), rounded[k]);
-    }
-  }
-  out.close();
-}
-
 namespace
 {
 

@@ -61,9 +61,6 @@ public:
   /** Relaxes row i in a sweep. */
   void relax(CoarseningData& data, std::int64_t i);
 
-  /** Appends row i of P, rounded from the relaxed row. */
-  void append(CoarseningData& data, std::int64_t i) const;
-
 private:
   /** A column and its weight; the coarse node is given by its distance from publishedCoarse. */
   struct Candidate

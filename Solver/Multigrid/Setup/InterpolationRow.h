@@ -38,19 +38,15 @@ public:
   {
   }
 
-  /** Appends an entry: a coarse node, as by CoarseningData::coarseIndexOf(), which the row does not
-   * have yet, and the weight in multiples of 1/Quanta, from -Quanta to Quanta. 0: no entry. */
-  void append(CoarseIndex coarse, int quanta)
+  /** Appends an entry: the distance of a coarse node, which the row does not have yet, from
+   * publishedCoarse, and the weight in multiples of 1/Quanta, from -Quanta to Quanta. 0: no entry.
+   */
+  void append(std::int32_t offset, int quanta)
   {
     if (quanta == 0)
     {
-      return;
+      return; // less than half a quantum, rounded away
     }
-    this->appendAt(coarseDistance(coarse << 8, this->Near), quanta);
-  }
-  /** The same for the coarse node at this distance from publishedCoarse. */
-  void appendAt(std::int32_t offset, int quanta)
-  {
     // The entry ends the chain of its column: rows are appended in stream order, so the chain of a
     // coarse node lists its children in this order.
     const ChildLink link(this->Row, this->Size);
@@ -81,5 +77,28 @@ private:
   int Size = 0, Sum = 0;
   std::int64_t Reach = -1;
 };
+
+/** Appends row i, with its weights rounded: the wanted sum is rounded by itself, and the entries
+ * are adjusted to it. The sums of rows of P are exact, Quanta where no constraint reaches. */
+inline void appendRounded(CoarseningData& data, std::int64_t i, const RelaxedRow& row)
+{
+  int rounded[RelaxedRow::Most];
+  int rest = quantaOf(row.sum);
+  for (int k = 0; k < row.size; ++k)
+  {
+    rounded[k] = quantaOf(std::clamp(row.entry[k].value(), -1.0F, 1.0F));
+    rest -= rounded[k];
+  }
+  InterpolationRow out(data, i, row.size);
+  for (int k = 0; k < row.size; ++k)
+  {
+    // The first entry, the largest, receives the remainder, which changes it least in proportion;
+    // only what would take it out of [-1, 1] goes to the next one.
+    const int quanta = std::clamp(rounded[k] + rest, -Quanta, Quanta);
+    rest -= quanta - rounded[k];
+    out.append(row.entry[k].offset(data.publishedCoarse), quanta);
+  }
+  out.close();
+}
 
 } // namespace smg
