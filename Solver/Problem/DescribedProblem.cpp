@@ -224,7 +224,6 @@ ProblemOnMesh::ProblemOnMesh(
   : OfMesh(mesh, name)
   , Columns(static_cast<std::size_t>(description.columns))
   , EdgeWeights(description.weights)
-  , Start(description)
   , ScreeningPlace(this->placeOf(description.screening))
   , SourcePlace(this->placeOf(description.source))
   , Conductivity(this->OfMesh, DataPlace::Cells, ConductivityRules)
@@ -264,6 +263,7 @@ ProblemOnMesh::ProblemOnMesh(
   }
   this->addRobin(description);
   this->addSoft(description);
+  this->Start = StartValues(description);
   if (ProblemOnMesh::hasCells() || ProblemOnMesh::hasFacets())
   {
     this->OfMesh.requireCellIds(); // for error messages of the solver
@@ -376,12 +376,7 @@ bool ProblemOnMesh::hasCells() const
          (this->Source.isGiven() && this->SourcePlace == DataPlace::Cells);
 }
 
-} // namespace smg
-
 // Evaluation of a described problem on a block of its mesh.
-
-namespace smg
-{
 
 void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditions)
 {

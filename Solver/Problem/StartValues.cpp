@@ -12,9 +12,7 @@ namespace smg
 {
 
 StartValues::StartValues(const ProblemDescription& description)
-  : Start(
-      static_cast<std::size_t>(std::clamp(description.columns, 1, ProblemDescription::MaxColumns)),
-      0.0)
+  : Start(static_cast<std::size_t>(description.columns), 0.0)
 {
   if (description.initial.isGiven())
   {
@@ -30,9 +28,8 @@ StartValues::StartValues(const ProblemDescription& description)
   {
     all.push_back(&robin.ambient);
   }
-  // What is wrong in a description has not been rejected yet.
-  const bool isKnown = std::ranges::all_of(all, [this](const DataValue* value)
-    { return value->numbers() && value->numbers()->size() == this->Start.size(); });
+  const bool isKnown =
+    std::ranges::all_of(all, [](const DataValue* value) { return value->numbers() != nullptr; });
   for (std::size_t k = 0; isKnown && !all.empty() && k < this->Start.size(); ++k)
   {
     const auto numberOf = [k](const DataValue* value) { return (*value->numbers())[k]; };

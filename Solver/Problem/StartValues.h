@@ -19,6 +19,8 @@ struct ProblemDescription;
 class StartValues
 {
 public:
+  StartValues() = default;
+  /** For a description whose numbers have been checked. */
   explicit StartValues(const ProblemDescription& description);
 
   /** Sets the values of the vertices of the block, which are 0. */
