@@ -13,6 +13,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkDataArraySelection;
 class vtkDataSetAttributes;
 class vtkPointSet;
 template <class T>
@@ -38,13 +39,6 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT void requireArrays(
 /** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void copyColumn(vtkDataSetAttributes& arrays,
   std::span<const std::int64_t> rows, const std::string& where, Column& column);
-
-} // namespace smg
-
-class vtkDataArraySelection;
-
-namespace smg
-{
 
 /**
  * Adds the columns to a selection as selected; existing entries do not change. The marks of

@@ -14,7 +14,9 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkDataObject;
+class vtkPointSet;
 
 namespace smg
 {
@@ -41,14 +43,6 @@ struct VTKSTREAMINGMULTIGRIDIO_EXPORT PieceCount
   /** The number for an input of which this is one of `pieces` pieces. */
   int enough(int pieces, vtkDataObject& piece) const;
 };
-
-} // namespace smg
-
-class vtkDataArray;
-class vtkPointSet;
-
-namespace smg
-{
 
 /** The point and cell arrays of the pieces that become columns of the mesh stream. */
 struct PieceColumns

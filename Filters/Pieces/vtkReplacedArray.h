@@ -22,13 +22,6 @@ namespace smg
 std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   const std::vector<double>& values, std::size_t first, std::size_t stride);
 
-} // namespace smg
-
-class vtkPointSet;
-
-namespace smg
-{
-
 /**
  * The number of components of the point or cell array of that name; `otherwise` if there is none.
  */

@@ -28,14 +28,6 @@ using MakePoissonTask = std::function<PoissonTask(vtkPointSet&)>;
 SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* controller,
   const MakePoissonTask& taskOf, const ProgressFunction& progress, std::vector<double>& values);
 
-} // namespace smg
-
-class vtkMultiProcessController;
-class vtkPointSet;
-
-namespace smg
-{
-
 /** Makes the task from a mesh with the arrays of the input; called on every process. */
 using MakeDeformationTask = std::function<DeformationTask(vtkPointSet&)>;
 

@@ -13,6 +13,7 @@
 
 class vtkDoubleArray;
 class vtkPointData;
+class vtkPointSet;
 class vtkUnsignedCharArray;
 
 namespace smg
@@ -46,13 +47,6 @@ private:
   vtkNew<vtkUnsignedCharArray> Mask;
   vtkNew<vtkDoubleArray> Target, Rotation, LogScale;
 };
-
-} // namespace smg
-
-class vtkPointSet;
-
-namespace smg
-{
 
 /** The targets of the points that a handle holds. */
 struct HandleTargets

@@ -16,6 +16,7 @@
 #include <vector>
 
 class vtkPointSet;
+class vtkSelection;
 
 namespace smg
 {
@@ -67,13 +68,6 @@ HeldPoints heldByIds(std::span<const std::int64_t> ids, const IdList& sought);
 HeldPoints heldByProjection(
   vtkPointSet& mesh, std::span<const std::int64_t> indices, const PointProjection& projection);
 
-} // namespace smg
-
-class vtkPointSet;
-
-namespace smg
-{
-
 /** Counts the held points of the requested pieces, as long as these are requested in order. */
 class HeldCount
 {
@@ -101,13 +95,6 @@ private:
   int Pieces = 0; ///< streamed in order; 0: none
   int NextPiece = 0;
 };
-
-} // namespace smg
-
-class vtkSelection;
-
-namespace smg
-{
 
 /** The data in which a region is searched. */
 struct RegionContext

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+class vtkDataArray;
 class vtkPointSet;
 
 namespace smg
@@ -48,14 +49,6 @@ private:
   KeptHeldPoints OnDisplay; ///< of a mesh that is shown
   std::optional<Found> OnMesh;
 };
-
-} // namespace smg
-
-class vtkDataArray;
-class vtkPointSet;
-
-namespace smg
-{
 
 /** All points of the piece. */
 HeldPoints heldEverywhere(vtkPointSet& piece);

@@ -41,13 +41,6 @@ private:
   KeptHeldPoints Last;
 };
 
-} // namespace smg
-
-class vtkPointSet;
-
-namespace smg
-{
-
 /** The held points of a streamed mesh, found in a pass over all of its pieces. */
 class StreamedRegion
 {
@@ -118,13 +111,6 @@ private:
   DisplayedRegion OnDisplay;
   StreamedRegion OnMesh;
 };
-
-} // namespace smg
-
-class vtkPointSet;
-
-namespace smg
-{
 
 /** Finds the positions of the points of a mesh with given ids. */
 class PlacesOfIds

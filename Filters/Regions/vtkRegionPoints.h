@@ -11,6 +11,7 @@
 #include <vector>
 
 class vtkPointSet;
+class vtkSelection;
 
 namespace smg
 {
@@ -34,14 +35,6 @@ void checkIds(const IdList& ids, const std::vector<char>& isFound);
 
 /** Warns of points whose distance from the mesh exceeds 1 % of its diagonal plus `slack`. */
 void warnOfDistant(const PointProjection& projection, double slack, const RegionContext& to);
-
-} // namespace smg
-
-class vtkPointSet;
-class vtkSelection;
-
-namespace smg
-{
 
 /**
  * The indices of the selected points of the mesh, or of the points of its selected cells, in

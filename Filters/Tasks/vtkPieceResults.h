@@ -25,13 +25,6 @@ void checkCellResults(const ProblemDescription& problem);
 void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
   std::span<const double> values, vtkPointSet& output);
 
-} // namespace smg
-
-class vtkPointSet;
-
-namespace smg
-{
-
 /**
  * The reason why a task cannot be solved on the preview of a mesh; empty if it can: the preview is
  * that of a surface, the problem has no boundary conditions, since open edges of a preview are

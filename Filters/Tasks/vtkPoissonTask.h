@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+class vtkAlgorithm;
+class vtkPointSet;
+
 namespace smg
 {
 
@@ -35,14 +38,6 @@ public:
 private:
   int columnsOn(const StreamInfo& info) const;
 };
-
-} // namespace smg
-
-class vtkAlgorithm;
-class vtkPointSet;
-
-namespace smg
-{
 
 /** The arrays chosen with SetInputArrayToProcess() of a filter; an empty name: none. */
 class ChosenArrays

@@ -14,6 +14,7 @@
 
 class vtkAlgorithm;
 class vtkPointSet;
+class vtkTable;
 
 namespace smg
 {
@@ -46,13 +47,6 @@ std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const Solv
 /** The processor time of that, in seconds; none if it is not known. */
 std::optional<double> solveSeconds(
   vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options);
-
-} // namespace smg
-
-class vtkTable;
-
-namespace smg
-{
 
 /** Fills a table with a row for each pass of a solve: what it left and what it cost, for charts.
  * `memoryLimit` in bytes. */

@@ -432,13 +432,8 @@ std::int64_t StreamSimplifier::remaining() const
     this->Window.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
 }
 
-} // namespace smg
-
 // The checkpoint of a StreamSimplifier: its state whenever the window was simplified, and each part
 // of the result.
-
-namespace smg
-{
 
 /** What is saved when the window has been simplified. Everything else follows from reading the
  * stream to the same place. */

@@ -427,14 +427,10 @@ void FileDescriptor::throwReadError(const std::filesystem::path& path, int error
     (errorNumber == EndOfFile ? "it is shorter than expected" : systemError(errorNumber)) + ".");
 }
 
-} // namespace smg
-
 // What makes files and their names durable: fsync() of the file before the renaming, since the
 // rename might otherwise reach the disk before the content, and fsync() of the folder after it,
 // since the name is content of the folder.
 
-namespace smg
-{
 namespace
 {
 

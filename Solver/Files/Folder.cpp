@@ -20,10 +20,9 @@
 
 // Folders without std::filesystem's exceptions, temporary files beside a result, and locks.
 //
-// Whether a program is still running is told by locks, never by process numbers, which are used
-// again, or by ages of files: the kernel drops a lock when its holder ends, however it ends. A
-// temporary file therefore counts as abandoned when nobody has its lock, and where the file system
-// has no locks nothing is ever removed.
+// A temporary file counts as abandoned when nobody holds its lock: the kernel releases a lock when
+// its holder ends, however it ends. Process numbers are reused, and the age of a file says nothing.
+// Where the file system has no locks nothing is ever removed.
 
 namespace smg
 {

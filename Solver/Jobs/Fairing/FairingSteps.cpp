@@ -20,8 +20,6 @@ namespace smg
  * describes the mesh is taken from the step. `name` is the name of the step in Report::steps. */
 void addStep(Report& total, const Report& step, const std::string& name);
 
-} // namespace smg
-
 // The steps of MeshFairing. In each, the boundary curves move first and become prescribed values of
 // the surface; then the surface is solved for; then it moves along its normals so that its volume
 // is kept. With edges to be kept, the surface is presmoothed first, to see its edges without noise,
@@ -30,9 +28,6 @@ void addStep(Report& total, const Report& step, const std::string& name);
 // Values are read from one vertex file and written to another one, which is then exchanged with the
 // first: Result->values has the current values, Next those after the solve. All sums run in the
 // order of the stream, so that blocks and threads do not change a bit.
-
-namespace smg
-{
 
 namespace
 {

@@ -32,8 +32,6 @@ struct VtkHdfLayout : VtkLayout
  */
 VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t maxBytes);
 
-class Hdf5File;
-
 /** A time step of a VTKHDF file: the offsets of its partitions, points and cells in the datasets,
  * which hold those of all time steps consecutively. A file without time steps has one. */
 class VtkHdfStep
@@ -69,8 +67,6 @@ inline constexpr std::int64_t VtkHdfMostRows = std::int64_t(1) << 48;
 
 /** The root group of all data in a file. */
 inline const std::string VtkHdfRoot = "/VTKHDF/";
-
-class Hdf5File;
 
 /** Opens a dataset for the readers of arrays of VTK's files. The file must outlive this object. */
 class DatasetOpener : public VtkArrayOpener
