@@ -27,7 +27,7 @@ std::int64_t PageFile::maxSlots() const
   constexpr std::int64_t Least = 4;
   // The tables grow with the array, and count in its memory: pages give way to them.
   const auto tables = static_cast<std::int64_t>(this->States.capacity() * sizeof(std::int32_t)) +
-                      this->Blocks * ScratchBlocks::TableBytes;
+                      this->Blocks * BlockStore::TableBytes;
   return std::max(Least, (this->Memory - tables) / std::int64_t(PageBytes));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Files/BlockStore.h"
 #include "Solver/Files/IoStatistics.h"
-#include "Solver/Files/ScratchBlocks.h"
 #include "Solver/Files/ScratchFolder.h"
 
 #include <bit>
@@ -79,7 +79,7 @@ private:
   std::filesystem::path Folder;
   IoStatistics Traffic;
   std::unique_ptr<ScratchFolder> Own; ///< if it had to be made
-  std::optional<ScratchBlocks> File;
+  std::optional<BlockStore> File;
   std::int64_t Memory;
   std::vector<Slot> Slots;
   std::vector<std::int32_t> Vacant;

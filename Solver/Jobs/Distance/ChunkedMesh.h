@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Files/BlockStore.h"
 #include "Solver/Files/IoStatistics.h"
-#include "Solver/Files/ScratchBlocks.h"
 #include "Solver/Jobs/Distance/DistanceSources.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
@@ -98,8 +98,8 @@ struct ChunkedMesh
   std::int64_t count() const { return static_cast<std::int64_t>(this->chunks.size()); }
 
   ChunkPlan plan;
-  ScratchBlocks mesh;  ///< block chunk * MeshParts + MeshPart
-  ScratchBlocks state; ///< block chunk * StateParts + StatePart
+  BlockStore mesh;  ///< block chunk * MeshParts + MeshPart
+  BlockStore state; ///< block chunk * StateParts + StatePart
   std::vector<Chunk> chunks;
   std::int64_t vertices = 0;
 };

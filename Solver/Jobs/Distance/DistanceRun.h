@@ -3,8 +3,8 @@
 
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Files/BlockStore.h"
 #include "Solver/Files/IoStatistics.h"
-#include "Solver/Files/ScratchBlocks.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Pool.h"
@@ -73,7 +73,7 @@ struct StoredColumn
     Int64
   };
 
-  ScratchBlocks* file = nullptr;
+  BlockStore* file = nullptr;
   std::int64_t stride = 1; ///< block `chunk * stride + offset` has the values of a chunk
   std::int64_t offset = 0;
   Type type = Type::Float64;

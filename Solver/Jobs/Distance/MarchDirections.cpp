@@ -173,7 +173,7 @@ void MarchDirections::addChunk(std::int64_t chunk)
 }
 
 /** Moves forward over the stream, with one chunk and the one before it in the window. */
-void MarchDirections::write(ScratchBlocks& to, Progress& progress)
+void MarchDirections::write(BlockStore& to, Progress& progress)
 {
   const ChunkedMesh& mesh = this->Window.mesh();
   for (std::int64_t chunk = 0; chunk < mesh.count(); ++chunk)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
-#include "Solver/Files/ScratchBlocks.h"
+#include "Solver/Files/BlockStore.h"
 #include "Solver/Jobs/Distance/Arrival.h"
 #include "Solver/Jobs/Distance/MarchWindow.h"
 
@@ -25,7 +25,7 @@ public:
     std::int64_t crossingCells);
 
   /** Writes three floats per vertex; block n has those of chunk n. */
-  void write(ScratchBlocks& to, Progress& progress);
+  void write(BlockStore& to, Progress& progress);
 
 private:
   /** Updates the directions at the corners of these cells. */

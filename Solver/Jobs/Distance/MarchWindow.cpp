@@ -211,7 +211,7 @@ void MarchWindow::buildStars(Slot& slot)
  * the march writes some. */
 void MarchWindow::loadState(std::int64_t chunk)
 {
-  ScratchBlocks& file = this->Mesh.state;
+  BlockStore& file = this->Mesh.state;
   const std::int64_t index = chunk * ChunkedMesh::StateParts;
   const std::span<std::uint8_t> flags = this->of(this->Flag, chunk);
   const std::span<double> distances = this->of(this->Distance, chunk);

@@ -39,7 +39,7 @@ struct DistanceFiles
   {
   }
   ChunkedMesh chunks;
-  ScratchBlocks directions;
+  BlockStore directions;
 };
 
 /** The span of a stream whose information does not have it: takes a reading of the mesh. Chunks
@@ -173,7 +173,7 @@ std::vector<StoredColumn> columnsOf(DistanceFiles& files, const DistanceDescript
 {
   // Blocks that were never written have a value of their own: infinity, and -1 for no source.
   using Type = StoredColumn::Type;
-  ScratchBlocks* state = &files.chunks.state;
+  BlockStore* state = &files.chunks.state;
   std::vector<StoredColumn> columns{ { state, ChunkedMesh::StateParts, ChunkedMesh::Distances,
     Type::Float64, 1, HUGE_VAL } };
   if (description.source)

@@ -38,7 +38,7 @@ struct WallFiles
     , values(run.scratch / "distances", run.traffic.add("distances"))
   {
   }
-  ScratchBlocks triangles, values;
+  BlockStore triangles, values;
 };
 
 /** The part of the wall that is in memory. */
@@ -62,7 +62,7 @@ public:
 
   /** Reads the triangles [first, first + size), where both are multiples of a block except at the
    * end of the file. */
-  void read(ScratchBlocks& file, std::int64_t first)
+  void read(BlockStore& file, std::int64_t first)
   {
     std::vector<WallTriangle> block;
     std::size_t done = 0;
@@ -89,7 +89,7 @@ private:
 
 /** Reads the mesh and collects the wall; returns the number of its triangles. */
 std::int64_t readWall(const StoredMesh& mesh, const DistanceDescription& description,
-  DistanceSources& sources, ScratchBlocks& to, DistanceRun& run, const std::string& name)
+  DistanceSources& sources, BlockStore& to, DistanceRun& run, const std::string& name)
 {
   const std::unique_ptr<MeshSource> source = sources.read(mesh);
   // Without a selection, all of the boundary is wall.
@@ -147,7 +147,7 @@ void lowerAll(const StoredMesh& mesh, WallPass& pass, DistanceRun& run, tbb::tas
 }
 
 /** The columns of the solution, in the order of distanceColumns(), and where they are stored. */
-std::vector<StoredColumn> columnsOf(ScratchBlocks& values, const DistanceDescription& description)
+std::vector<StoredColumn> columnsOf(BlockStore& values, const DistanceDescription& description)
 {
   using Type = StoredColumn::Type;
   // Every block is written, so there are no values to fall back to.

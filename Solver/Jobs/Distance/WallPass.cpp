@@ -20,7 +20,7 @@
 namespace smg
 {
 
-WallTriangles::WallTriangles(ScratchBlocks& to, DistanceSources& from, bool everywhere, Pool& pool)
+WallTriangles::WallTriangles(BlockStore& to, DistanceSources& from, bool everywhere, Pool& pool)
   : To(to)
   , From(from)
   , Everywhere(everywhere)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Assembly/Facets.h"
-#include "Solver/Files/ScratchBlocks.h"
+#include "Solver/Files/BlockStore.h"
 #include "Solver/Jobs/Distance/DistanceSources.h"
 #include "Solver/Jobs/Distance/TriangleTree.h"
 #include "Solver/Memory/Ring.h"
@@ -36,7 +36,7 @@ public:
 
   /** `numbers` selects the triangles and numbers their corners; `everywhere`: the whole boundary is
    * wall. */
-  WallTriangles(ScratchBlocks& to, DistanceSources& numbers, bool everywhere, Pool& pool);
+  WallTriangles(BlockStore& to, DistanceSources& numbers, bool everywhere, Pool& pool);
 
   /** Adds the next block, which has been checked: see StreamCheck. */
   void add(const MeshBlock& block);
@@ -52,7 +52,7 @@ private:
   void take(std::int64_t end);
   void writeBlock();
 
-  ScratchBlocks& To;
+  BlockStore& To;
   DistanceSources& From;
   bool Everywhere;
   OpenFacets Open;
@@ -76,7 +76,7 @@ struct WallValues
   /** Bytes of a vertex of a chunk during a pass: position, distance, source, direction. */
   static constexpr std::int64_t VertexBytes = 3 * 8 + 8 + 8 + 3 * 4;
 
-  ScratchBlocks& file; ///< block chunk * Parts + Part
+  BlockStore& file; ///< block chunk * Parts + Part
   bool sources = false, directions = false;
 };
 

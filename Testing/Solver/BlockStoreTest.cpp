@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Files/ScratchBlocks.h"
+#include "Solver/Files/BlockStore.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -17,7 +17,7 @@ std::vector<std::byte> filledBytes(std::size_t count, int value)
   return std::vector<std::byte>(count, static_cast<std::byte>(value));
 }
 
-std::vector<std::byte> readBlock(ScratchBlocks& blocks, std::int64_t index)
+std::vector<std::byte> readBlock(BlockStore& blocks, std::int64_t index)
 {
   std::vector<std::byte> bytes(blocks.bytes(index));
   blocks.read(index, bytes);
@@ -26,11 +26,11 @@ std::vector<std::byte> readBlock(ScratchBlocks& blocks, std::int64_t index)
 
 } // namespace
 
-TEST(ScratchBlocks, AreWrittenAndReadInAnyOrder)
+TEST(BlockStore, AreWrittenAndReadInAnyOrder)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
-  ScratchBlocks blocks(folder.path() / "blocks", statistics);
+  BlockStore blocks(folder.path() / "blocks", statistics);
   blocks.write(3, filledBytes(100, 3));
   blocks.write(0, filledBytes(50, 1));
   blocks.write(5, filledBytes(200, 5));
@@ -43,11 +43,11 @@ TEST(ScratchBlocks, AreWrittenAndReadInAnyOrder)
   EXPECT_EQ(folder.entries(), 0) << "the file has a name";
 }
 
-TEST(ScratchBlocks, AreRewritten)
+TEST(BlockStore, AreRewritten)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
-  ScratchBlocks blocks(folder.path() / "blocks", statistics);
+  BlockStore blocks(folder.path() / "blocks", statistics);
   blocks.write(0, filledBytes(100, 1));
   blocks.write(1, filledBytes(100, 2));
   blocks.write(0, filledBytes(60, 3));
@@ -57,11 +57,11 @@ TEST(ScratchBlocks, AreRewritten)
   EXPECT_EQ(readBlock(blocks, 1), filledBytes(100, 2));
 }
 
-TEST(ScratchBlocks, HaveNoBytesBeforeTheyAreWritten)
+TEST(BlockStore, HaveNoBytesBeforeTheyAreWritten)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
-  ScratchBlocks blocks(folder.path() / "blocks", statistics);
+  BlockStore blocks(folder.path() / "blocks", statistics);
   EXPECT_EQ(blocks.bytes(7), 0U);
   EXPECT_TRUE(readBlock(blocks, 7).empty());
   blocks.write(1, {});

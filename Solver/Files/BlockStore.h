@@ -22,14 +22,14 @@ namespace smg
  * The file is unnamed: it disappears with this object or the program. Checksums (XXH3) verify that
  * the bytes read are those written.
  */
-class SMG_EXPORT ScratchBlocks
+class SMG_EXPORT BlockStore
 {
 public:
   /** Memory for each block, with room for more. */
   static constexpr std::int64_t TableBytes = 64;
 
   /** An unnamed file in the folder of `path`, which is its name in messages. */
-  ScratchBlocks(std::filesystem::path path, IoStatistics& statistics)
+  BlockStore(std::filesystem::path path, IoStatistics& statistics)
     : Path(std::move(path))
     , Statistics(&statistics)
     , File(FileDescriptor::createNameless(this->Path.parent_path()))

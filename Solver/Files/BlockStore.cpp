@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Files/ScratchBlocks.h"
+#include "Solver/Files/BlockStore.h"
 
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/IoStatistics.h"
@@ -11,7 +11,7 @@
 namespace smg
 {
 
-void ScratchBlocks::write(std::int64_t index, std::span<const std::byte> bytes)
+void BlockStore::write(std::int64_t index, std::span<const std::byte> bytes)
 {
   const WaitClock clock;
   // Blocks between the old end and this one exist from here on, without bytes.
@@ -37,14 +37,14 @@ void ScratchBlocks::write(std::int64_t index, std::span<const std::byte> bytes)
   this->Statistics->waitNanoseconds += clock.nanoseconds();
 }
 
-std::size_t ScratchBlocks::bytes(std::int64_t index) const
+std::size_t BlockStore::bytes(std::int64_t index) const
 {
   return index < static_cast<std::int64_t>(this->Blocks.size())
            ? this->Blocks[static_cast<std::size_t>(index)].bytes
            : 0;
 }
 
-void ScratchBlocks::read(std::int64_t index, std::span<std::byte> bytes)
+void BlockStore::read(std::int64_t index, std::span<std::byte> bytes)
 {
   // A block that was not written reads as one without bytes.
   const Block block =
@@ -62,7 +62,7 @@ void ScratchBlocks::read(std::int64_t index, std::span<std::byte> bytes)
   this->Statistics->waitNanoseconds += waited;
 }
 
-void ScratchBlocks::willRead(std::int64_t index) const
+void BlockStore::willRead(std::int64_t index) const
 {
   if (const std::size_t size = this->bytes(index); size > 0)
   {
