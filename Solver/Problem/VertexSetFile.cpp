@@ -20,76 +20,52 @@ std::filesystem::path inFolder(const std::filesystem::path& folder)
 } // namespace
 
 VertexSetFile::VertexSetFile(const std::filesystem::path& folder)
-  : Stream(inFolder(folder), this->Statistics)
+  : File(inFolder(folder), this->Statistics)
   , Bits(BlockBytes)
 {
-  // Writing; rewind() begins reading passes.
-  this->Stream.startPass(true);
 }
 
-/** Bits are collected in the block in memory, which is written when the next vertex finds it
- * full. */
+/** Bits are collected in the block in memory, which is written when the next vertex is one of
+ * another block. */
 void VertexSetFile::append(std::span<const std::uint8_t> selected)
 {
   for (const std::uint8_t bit : selected)
   {
-    // The block is full.
-    if (this->Next == 8 * BlockBytes)
+    if (this->Next / BlockVertices != this->Block)
     {
-      this->Stream.append(this->Bits);
+      this->finish();
       this->Bits.assign(BlockBytes, std::byte(0));
-      this->Next = 0;
+      ++this->Block;
     }
-    this->Bits[this->Next / 8] |= std::byte(bit) << (this->Next % 8);
-    ++this->Next;
+    const auto place = static_cast<std::size_t>(this->Next++ % BlockVertices);
+    this->Bits[place / 8] |= std::byte(bit) << (place % 8);
   }
 }
 
 void VertexSetFile::finish()
 {
-  // The last block is written as a whole: bits beyond the last vertex are 0, and not read.
-  this->Stream.append(this->Bits);
-  this->Stream.endPass();
+  // The last block is written as a whole, too: bits beyond the last vertex are 0, and not read.
+  this->File.write(this->Block, this->Bits);
 }
 
-/** For the next reading of the mesh. */
-void VertexSetFile::rewind()
-{
-  this->Stream.startPass(false);
-  // As if a block had been read to its end: read() begins by loading the first one.
-  this->Next = 8 * BlockBytes;
-  this->Loaded = -1;
-}
-
-/** In the same steps as append(). */
 void VertexSetFile::read(std::span<std::uint8_t> selected)
 {
   for (std::uint8_t& bit : selected)
   {
-    // All bits of the block in memory have been read.
-    if (this->Next == 8 * BlockBytes)
-    {
-      this->Stream.read(this->Bits);
-      this->Next = 0;
-    }
-    bit =
-      std::to_integer<std::uint8_t>(this->Bits[this->Next / 8] >> (this->Next % 8) & std::byte(1));
-    ++this->Next;
+    bit = this->contains(this->Next++) ? 1 : 0;
   }
 }
 
-/** One read of a block per call at most; calls in stream order read each block once. */
+/** Calls in stream order read each block once. */
 bool VertexSetFile::contains(std::int64_t vertex)
 {
-  constexpr auto blockVertices = static_cast<std::int64_t>(8 * BlockBytes);
-  // Overwrites the block of sequential reading, hence rewind() before the next read().
-  if (const std::int64_t block = vertex / blockVertices; block != this->Loaded)
+  if (const std::int64_t block = vertex / BlockVertices; block != this->Block)
   {
-    this->Stream.read(block, this->Bits);
-    this->Loaded = block;
+    this->File.read(block, this->Bits);
+    this->Block = block;
   }
-  const auto bit = static_cast<std::size_t>(vertex % blockVertices);
-  return std::to_integer<bool>(this->Bits[bit / 8] >> (bit % 8) & std::byte(1));
+  const auto place = static_cast<std::size_t>(vertex % BlockVertices);
+  return std::to_integer<bool>(this->Bits[place / 8] >> (place % 8) & std::byte(1));
 }
 
 } // namespace smg

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Files/ScratchStream.h"
+#include "Solver/Files/BlockStore.h"
+#include "Solver/Files/IoStatistics.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,21 +26,21 @@ public:
   void finish();
 
   /** Restarts at the first vertex. */
-  void rewind();
+  void rewind() { this->Next = 0; }
   /** Reads the values passed to append() for the next vertices. */
   void read(std::span<std::uint8_t> selected);
-  /** Whether the set has this vertex; fast if it is close to the vertex of the last call. rewind()
-   * must precede the next read(). */
+  /** Whether the set has this vertex; fast if it is close to the vertex of the last call. */
   bool contains(std::int64_t vertex);
 
 private:
   static constexpr std::size_t BlockBytes = std::size_t(64) << 10;
+  static constexpr auto BlockVertices = static_cast<std::int64_t>(8 * BlockBytes);
 
   IoStatistics Statistics;
-  ScratchStream Stream;
+  BlockStore File;
   std::vector<std::byte> Bits; ///< of the current block
-  std::size_t Next = 0;        ///< index of the next vertex in the block
-  std::int64_t Loaded = -1;    ///< the block that contains() has read
+  std::int64_t Block = 0;      ///< its number
+  std::int64_t Next = 0;       ///< the next vertex of append() or read()
 };
 
 } // namespace smg

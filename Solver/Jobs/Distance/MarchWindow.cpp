@@ -124,14 +124,15 @@ void MarchWindow::readAhead(std::int64_t chunk) const
   {
     return;
   }
-  for (int part = 0; part < ChunkedMesh::MeshParts; ++part)
+  const auto announce = [chunk](const BlockStore& file, std::int64_t parts)
   {
-    this->Mesh.mesh.willRead(chunk * ChunkedMesh::MeshParts + part);
-  }
-  for (int part = 0; part < ChunkedMesh::StateParts; ++part)
-  {
-    this->Mesh.state.willRead(chunk * ChunkedMesh::StateParts + part);
-  }
+    for (std::int64_t block = chunk * parts; block < (chunk + 1) * parts;)
+    {
+      block = file.willRead(block, (chunk + 1) * parts);
+    }
+  };
+  announce(this->Mesh.mesh, ChunkedMesh::MeshParts);
+  announce(this->Mesh.state, ChunkedMesh::StateParts);
 }
 
 void MarchWindow::load(Slot& slot, std::int64_t chunk)
