@@ -51,6 +51,32 @@ int openNew(const std::filesystem::path& path)
   return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
+/** Transfers all bytes by pread() or pwrite(), also after interruptions and in several parts, and
+ * takes from the front of `bytes` what is done. Returns 0, the error number, or `stalled` if the
+ * system transfers nothing. */
+template <class Call, class Byte>
+int transfer(Call call, int file, std::int64_t offset, std::span<Byte>& bytes, int stalled) noexcept
+{
+  while (!bytes.empty())
+  {
+    const ssize_t n = call(file, bytes.data(), bytes.size(), offset);
+    if (n == 0)
+    {
+      return stalled;
+    }
+    if (n > 0)
+    {
+      bytes = bytes.subspan(n);
+      offset += n;
+    }
+    else if (errno != EINTR)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
 /** The share of a file in the account of `folder`; null if this is not a scratch folder. */
 std::shared_ptr<ScratchShare> shareIn(const std::filesystem::path& folder)
 {
@@ -219,49 +245,20 @@ std::int64_t FileDescriptor::size() const
 
 std::size_t FileDescriptor::readSome(std::int64_t offset, std::span<std::byte> bytes) const
 {
-  std::size_t done = 0;
   // A read may return fewer bytes than asked for without being at the end; only 0 means the end.
-  while (done < bytes.size())
+  std::span<std::byte> rest = bytes;
+  const int error = transfer(systemCalls().pread, this->Number, offset, rest, EndOfFile);
+  if (error != 0 && error != EndOfFile)
   {
-    const ssize_t n = systemCalls().pread(
-      this->Number, bytes.data() + done, bytes.size() - done, offset + std::int64_t(done));
-    if (n == 0)
-    {
-      break;
-    }
-    if (n > 0)
-    {
-      done += n;
-    }
-    else if (errno != EINTR)
-    {
-      throwReadError(this->Shown, errno);
-    }
+    throwReadError(this->Shown, error);
   }
-  return done;
+  return bytes.size() - rest.size();
 }
 
 int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept
 {
-  while (!bytes.empty())
-  {
-    const ssize_t n = systemCalls().pread(this->Number, bytes.data(), bytes.size(), offset);
-    // The callers know the size of what they read: an early end is an error of its own kind.
-    if (n == 0)
-    {
-      return EndOfFile;
-    }
-    if (n > 0)
-    {
-      bytes = bytes.subspan(n);
-      offset += n;
-    }
-    else if (errno != EINTR)
-    {
-      return errno;
-    }
-  }
-  return 0;
+  // The callers know the size of what they read: an early end is an error of its own kind.
+  return transfer(systemCalls().pread, this->Number, offset, bytes, EndOfFile);
 }
 
 /** With RWF_NOWAIT the system returns what it has in memory and does not touch the disk. */
@@ -298,25 +295,8 @@ int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> byt
   {
     return ScratchLimit;
   }
-  while (!bytes.empty())
-  {
-    const ssize_t n = systemCalls().pwrite(this->Number, bytes.data(), bytes.size(), offset);
-    if (n == 0)
-    {
-      // The system takes no byte and names no reason: to try again might never end.
-      return EIO;
-    }
-    if (n > 0)
-    {
-      bytes = bytes.subspan(n);
-      offset += n;
-    }
-    else if (errno != EINTR)
-    {
-      return errno;
-    }
-  }
-  return 0;
+  // EIO: the system takes no byte and names no reason; to try again might never end.
+  return transfer(systemCalls().pwrite, this->Number, offset, bytes, EIO);
 }
 
 void FileDescriptor::read(std::int64_t offset, std::span<std::byte> bytes) const
