@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
 
-#include "IO/External/Workers.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Mesh/Columns.h"
@@ -9,6 +8,7 @@
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
+#include "Solver/Core/Workers.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 

@@ -106,11 +106,8 @@ public:
   /** Reads a column of a block into `bytes`, which must have exactly columnBytes(...) bytes. */
   void read(int table, std::int64_t block, int column, std::span<std::byte> bytes);
 
-  /**
-   * Starts reading all columns of a block on a thread of the reader, so that a later read() does
-   * not wait. This is a hint: any block may be read without it. Eight such blocks are kept, each
-   * until all of it is read or it is the oldest.
-   */
+  /** Announces a read of the columns of a block, so that the system starts to load them from disk:
+   * a hint. */
   void prefetch(int table, std::int64_t block);
 
 private:

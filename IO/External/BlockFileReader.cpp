@@ -2,7 +2,6 @@
 #include "IO/External/BlockFile.h"
 
 #include "IO/External/Codec.h"
-#include "IO/External/ReadAhead.h"
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
@@ -29,7 +28,6 @@ struct BlockFileReader::Implementation
     : Name(path.string())
     , Statistics(statistics)
     , File(FileDescriptor::openForReading(path))
-    , Ahead(this->File)
   {
   }
 
@@ -147,19 +145,8 @@ struct BlockFileReader::Implementation
     }
   }
 
-  std::size_t storedBytes(int table, std::int64_t block) const
-  {
-    std::size_t bytes = 0;
-    for (std::size_t c = 0; c < this->Index.tables[table].columns.size(); c++)
-    {
-      bytes += this->Index.entry(table, block, static_cast<int>(c)).storedBytes;
-    }
-    return bytes;
-  }
-
-  /** The stored bytes of a column: prefetched, or read into `room`. */
-  std::span<const std::byte> fetch(
-    int table, std::int64_t block, int column, std::span<std::byte> room)
+  /** Reads the stored bytes of a column. */
+  void readStored(int table, std::int64_t block, int column, std::span<std::byte> bytes)
   {
     // The columns of a block follow each other in the file.
     std::int64_t offset = this->Index.blocks[table].offset[block];
@@ -168,23 +155,12 @@ struct BlockFileReader::Implementation
     {
       offset += this->Index.entry(table, block, c).storedBytes;
     }
-    // Only waiting counts: reading ahead itself goes on beside the work of the caller.
-    const std::int64_t waited = this->Ahead.waitNanoseconds();
-    const auto ahead = this->Ahead.find(offset, room.size());
-    this->count(0, this->Ahead.waitNanoseconds() - waited);
-    // If it was not requested ahead, or that failed, it is read here, and a failure becomes an
-    // Error.
-    if (ahead)
-    {
-      return *ahead;
-    }
-    std::int64_t wait = 0;
-    if (const int error = this->File.tryRead(offset, room, wait); error != 0)
+    std::int64_t waited = 0;
+    if (const int error = this->File.tryRead(offset, bytes, waited); error != 0)
     {
       FileDescriptor::throwReadError(this->Name, error);
     }
-    this->count(static_cast<std::int64_t>(room.size()), wait);
-    return room;
+    this->count(std::ssize(bytes), waited);
   }
 
   std::string Name;
@@ -195,7 +171,6 @@ struct BlockFileReader::Implementation
   std::uint64_t ContentChecksum = 0;
   std::unique_ptr<ColumnCodec> Coder;
   std::vector<std::byte> Stored;
-  ReadAhead Ahead;
 };
 
 BlockFileReader::BlockFileReader(std::filesystem::path path, IoStatistics* statistics)
@@ -295,9 +270,9 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   {
     self.Stored.resize(entry.storedBytes);
   }
-  const std::span<std::byte> room =
+  const std::span<std::byte> stored =
     compressed ? std::span(self.Stored).first(entry.storedBytes) : bytes;
-  const std::span<const std::byte> stored = self.fetch(table, block, column, room);
+  self.readStored(table, block, column, stored);
   // Compared before decompression, so that decoders see only what an encoder has made.
   if (checksum(stored) != entry.checksum)
   {
@@ -309,17 +284,6 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
     self.fail(self.place(table, block) + ": column '" + spec.name +
               "' cannot be decompressed: the file is damaged; create it again.");
   }
-  if (!compressed && !stored.empty() && stored.data() != bytes.data())
-  {
-    std::memcpy(bytes.data(), stored.data(), stored.size());
-  }
-  // Readers take the columns of a block in order: with the last one the range that was read ahead
-  // is free.
-  if (column + 1 == static_cast<int>(self.Index.tables[table].columns.size()))
-  {
-    self.Ahead.release(self.Index.blocks[table].offset[block] +
-                       static_cast<std::int64_t>(self.storedBytes(table, block)));
-  }
 }
 
 void BlockFileReader::prefetch(int table, std::int64_t block)
@@ -327,10 +291,14 @@ void BlockFileReader::prefetch(int table, std::int64_t block)
   Implementation& self = *this->Self;
   self.check(table, block);
   // All columns of a block in one request: they are contiguous.
-  const std::size_t bytes = self.storedBytes(table, block);
-  if (bytes > 0 && self.Ahead.request(self.Index.blocks[table].offset[block], bytes))
+  std::size_t bytes = 0;
+  for (std::size_t c = 0; c < self.Index.tables[table].columns.size(); c++)
   {
-    self.count(static_cast<std::int64_t>(bytes), 0);
+    bytes += self.Index.entry(table, block, static_cast<int>(c)).storedBytes;
+  }
+  if (bytes > 0)
+  {
+    self.File.willRead(self.Index.blocks[table].offset[block], bytes);
   }
 }
 

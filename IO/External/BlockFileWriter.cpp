@@ -2,8 +2,8 @@
 #include "IO/External/BlockFile.h"
 
 #include "IO/External/Codec.h"
-#include "IO/External/ReadAhead.h"
-#include "IO/External/Workers.h"
+#include "IO/External/WriteBehind.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"

@@ -51,25 +51,16 @@ class BucketFile::Output
 public:
   explicit Output(Workspace& workspace)
     : Space(workspace)
-    , Job([this] { this->File.append(this->Chunk.bytes()); })
+    , Writing(workspace.workers(), [this] { this->File.append(this->Chunk.bytes()); })
   {
   }
-  ~Output()
-  {
-    if (this->IsWriting)
-    {
-      this->Space.workers().cancel(this->Job);
-    }
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
 
   /** Appends the first bytes of a chunk, a full one on another thread if there is one: it is then
    * exchanged. Throws Error. */
   void write(Buffer& chunk, std::size_t bytes)
   {
     // One chunk at a time: the file grows in the order of the calls.
-    this->finish();
+    this->Writing.finish();
     if (!this->File.isOpen())
     {
       this->File.create(this->Space.folder());
@@ -86,18 +77,10 @@ public:
     }
     // The bucket goes on with the memory of the chunk that was written before.
     std::swap(this->Chunk, chunk);
-    this->Space.workers().submit(this->Job);
-    this->IsWriting = true;
+    this->Writing.submit();
   }
   /** Waits until all is written. Throws Error. */
-  void finish()
-  {
-    if (this->IsWriting)
-    {
-      this->IsWriting = false;
-      this->Space.workers().finish(this->Job);
-    }
-  }
+  void finish() { this->Writing.finish(); }
   void release()
   {
     this->finish();
@@ -109,8 +92,7 @@ public:
 
 private:
   Buffer Chunk;
-  Workers::Job Job;
-  bool IsWriting = false;
+  Workers::Job Writing;
 };
 
 BucketFile::BucketFile(Workspace& workspace, int buckets, std::int64_t memory)
@@ -259,23 +241,15 @@ public:
     : File(file)
     , From(from)
     , Bytes(file.Space->pool(), bytes)
-    , Job([this] { this->End = this->File.fill(this->From, this->Bytes.bytes()); })
+    , Fetching(file.Space->workers(),
+        [this] { this->End = this->File.fill(this->From, this->Bytes.bytes()); })
   {
   }
-  ~Ahead()
-  {
-    if (this->IsFetching)
-    {
-      this->File.Space->workers().cancel(this->Job);
-    }
-  }
-  Ahead(const Ahead&) = delete;
-  Ahead& operator=(const Ahead&) = delete;
 
   /** Takes bytes, as many as there are and have room; 0 at the end. Throws Error. */
   std::size_t take(std::span<std::byte> bytes)
   {
-    this->finish();
+    this->Fetching.finish();
     const std::size_t part = std::min(bytes.size(), this->End - this->At);
     std::memcpy(bytes.data(), this->Bytes.data() + this->At, part);
     this->At += part;
@@ -289,7 +263,7 @@ public:
   /** Takes all that was fetched, and sets `rest` to where the bytes after it begin. */
   std::size_t end(std::span<std::byte> bytes, Position& rest)
   {
-    this->finish();
+    this->Fetching.finish();
     std::memcpy(bytes.data(), this->Bytes.data() + this->At, this->End - this->At);
     rest = this->From;
     return this->End - this->At;
@@ -297,26 +271,15 @@ public:
   void start()
   {
     this->At = this->End = 0;
-    this->IsFetching = true;
-    this->File.Space->workers().submit(this->Job);
+    this->Fetching.submit();
   }
 
 private:
-  void finish()
-  {
-    if (this->IsFetching)
-    {
-      this->IsFetching = false;
-      this->File.Space->workers().finish(this->Job);
-    }
-  }
-
   const BucketFile& File;
   Position From;
   Buffer Bytes;
   std::size_t At = 0, End = 0;
-  Workers::Job Job;
-  bool IsFetching = false;
+  Workers::Job Fetching;
 };
 
 BucketFile::Reader::Reader(const BucketFile& file, int bucket, std::size_t bufferBytes)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/External/MergeSort.h"
-#include "IO/External/Workers.h"
+#include "Solver/Core/Workers.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/External/BucketFile.h"
-#include "IO/External/Workers.h"
 #include "IO/External/Workspace.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
@@ -38,19 +38,11 @@ public:
     : Space(workspace)
     , Taken(workspace.pool(), memory / 2)
     , Produced(workspace.pool(), memory / 2)
-    , Job([this, next = std::move(produce)] { this->ProducedRows = next(rows(this->Produced)); })
+    , Production(workspace.workers(),
+        [this, next = std::move(produce)] { this->ProducedRows = next(rows(this->Produced)); })
   {
-    this->start();
+    this->Production.submit();
   }
-  ~RowPrefetch()
-  {
-    if (this->IsProducing)
-    {
-      this->Space.workers().cancel(this->Job);
-    }
-  }
-  RowPrefetch(const RowPrefetch&) = delete;
-  RowPrefetch& operator=(const RowPrefetch&) = delete;
 
   /** The next row; returns false at the end. Rethrows an exception of the production; throws
    * Cancelled. */
@@ -81,28 +73,21 @@ private:
     return { reinterpret_cast<Row*>(buffer.data()), buffer.size() / sizeof(Row) };
   }
 
-  void start()
-  {
-    this->Space.workers().submit(this->Job);
-    this->IsProducing = true;
-  }
-
   /** Takes what was produced; returns whether there is any. */
   bool turn()
   {
-    if (!this->IsProducing)
+    if (!this->Production.isPending())
     {
       return false;
     }
-    this->IsProducing = false;
-    this->Space.workers().finish(this->Job);
+    this->Production.finish();
     this->Space.poll(); // which the production, on another thread, cannot
     std::swap(this->Taken, this->Produced);
     this->At = 0;
     this->Count = this->ProducedRows;
     if (this->Count == rows(this->Taken).size())
     {
-      this->start();
+      this->Production.submit();
     }
     return this->Count > 0;
   }
@@ -110,8 +95,7 @@ private:
   Workspace& Space;
   Buffer Taken, Produced;
   std::size_t At = 0, Count = 0, ProducedRows = 0;
-  Workers::Job Job;
-  bool IsProducing = false;
+  Workers::Job Production;
 };
 
 /**

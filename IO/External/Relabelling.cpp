@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/Relabelling.h"
 
-#include "IO/External/Workers.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Memory/Pool.h"
 
 #include <algorithm>

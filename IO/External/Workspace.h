@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/External/BlockFile.h"
-#include "IO/External/Workers.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"

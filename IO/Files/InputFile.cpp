@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
 
-#include "IO/External/Workers.h"
+#include "Solver/Core/Workers.h"
 #include "smg/Error.h"
 
 #include <algorithm>

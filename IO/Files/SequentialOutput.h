@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/ReadAhead.h"
+#include "IO/External/WriteBehind.h"
 #include "Solver/Files/FileDescriptor.h"
 
 #include <cstddef>

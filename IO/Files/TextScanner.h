@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/Workers.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/InputFile.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Memory/Pool.h"
 
 #include <fast_float/fast_float.h>

@@ -2,7 +2,6 @@
 #include "IO/Formats/WriteFiles.h"
 
 #include "IO/Export/RestoredMesh.h"
-#include "IO/External/Workers.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
@@ -16,6 +15,7 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Results/MovedVertices.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"

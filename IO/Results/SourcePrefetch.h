@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/Workers.h"
+#include "Solver/Core/Workers.h"
 #include "smg/MeshSource.h"
 
 #include <memory>
@@ -19,9 +19,7 @@ public:
   SourcePrefetch(std::unique_ptr<MeshSource> source, int threads)
     : Source(std::move(source))
     , Threads(threads != 1 && this->Source->readsOnAnyThread() ? 2 : 1)
-    , Reads(
-        this->Threads, 1, [this](Read& read) { read.isThere = this->Source->next(read.block); },
-        [this](Read& read) { std::swap(read, this->Taken); })
+    , Reading(this->Threads, [this] { this->IsThere = this->Source->next(this->Following); })
   {
   }
 
@@ -33,36 +31,26 @@ public:
     {
       return this->Source->next(block);
     }
-    if (this->Reads.size() == 0)
+    if (!this->Reading.isPending())
     {
-      this->read();
+      this->Reading.submit();
     }
-    this->Reads.takeOldest();
-    if (this->Taken.isThere)
+    this->Reading.finish();
+    const bool isThere = this->IsThere; // the next reading sets it anew
+    if (isThere)
     {
-      std::swap(block, this->Taken.block);
-      this->read();
+      std::swap(block, this->Following);
+      this->Reading.submit();
     }
-    return this->Taken.isThere;
+    return isThere;
   }
 
 private:
-  struct Read
-  {
-    MeshBlock block;
-    bool isThere = false;
-  };
-
-  void read()
-  {
-    this->Reads.next();
-    this->Reads.submit();
-  }
-
   std::unique_ptr<MeshSource> Source;
   Workers Threads;
-  Read Taken;
-  OrderedJobs<Read> Reads;
+  MeshBlock Following;
+  bool IsThere = false; ///< Following; else the stream has ended
+  Workers::Job Reading;
 };
 
 } // namespace smg

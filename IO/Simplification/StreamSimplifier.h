@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/Workers.h"
 #include "IO/Simplification/EdgeCollapse.h"
 #include "IO/Simplification/SurfaceParts.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"

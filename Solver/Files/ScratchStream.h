@@ -59,10 +59,7 @@ public:
 
 private:
   void readAhead();
-  std::int64_t& count(int generation)
-  {
-    return this->Counts[static_cast<std::size_t>(generation)];
-  }
+  std::int64_t& count(int generation) { return this->Counts[static_cast<std::size_t>(generation)]; }
 
   BlockStore Blocks;
   std::array<std::int64_t, 2> Counts{}; // of the blocks in use of each generation

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/RunAll.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include <vector>

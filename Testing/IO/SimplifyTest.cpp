@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Simplify.h"
 
-#include "IO/External/Workers.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "Solver/Core/Workers.h"
 
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemoryMesh.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/External/Workers.h"
 #include "IO/Results/SourcePrefetch.h"
+#include "Solver/Core/Workers.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Core/RunAll.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/WriteVsm.h"
 
-#include "IO/External/Workers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Workers.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Workspace
   {
     this->openBytes(workspace.pool());
   }
-  // Memory that another thread allocates would cost address space: see IoThread.
+  // Here, since each thread that allocates memory costs an arena of address space.
   file.at(array.begin);
   this->Ahead = std::make_unique<RowPrefetch<std::byte>>(
     workspace, [this](std::span<std::byte> bytes) { return this->decode(bytes); },

@@ -3,10 +3,10 @@
 
 #include "IO/External/PagedArray.h"
 #include "IO/External/Relabelling.h"
-#include "IO/External/Workers.h"
 #include "IO/Order/Assembly/CellFlagger.h"
 #include "IO/Order/Assembly/StreamAssembly.h"
 #include "IO/Order/Pages/OrderedVertices.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/MeshSource.h"
 

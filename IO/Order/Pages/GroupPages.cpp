@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Pages/GroupPages.h"
 
-#include "IO/External/Workers.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Core/Workers.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -6,8 +6,6 @@
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/Error.h"
 
-#include <tbb/info.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -132,7 +130,7 @@ std::int64_t partLength(std::int64_t triangles, const Pool& pool)
 }
 
 /** A pass over all vertices, with a part of the wall; progress goes from `begin` to `end`. */
-void lowerAll(const StoredMesh& mesh, WallPass& pass, DistanceRun& run, tbb::task_arena& threads,
+void lowerAll(const StoredMesh& mesh, WallPass& pass, DistanceRun& run, Workers& threads,
   double begin, double end)
 {
   const std::unique_ptr<MeshSource> source = mesh.source({}, {});
@@ -186,9 +184,8 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   sources.reset();
   report.distance->sources = triangles;
   report.seconds.build = building.seconds();
-  tbb::task_arena threads(
-    run->options.threads > 0 ? run->options.threads : tbb::info::default_concurrency());
-  report.threads = threads.max_concurrency();
+  Workers threads(run->options.threads);
+  report.threads = threads.threads();
   // Fixed for all parts, once the memory of the selections has been given back.
   const std::int64_t length = partLength(triangles, run->pool);
   const WallValues values{ files->values, description.source, description.direction };

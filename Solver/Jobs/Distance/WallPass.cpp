@@ -3,7 +3,6 @@
 
 #include "Solver/Assembly/Elements.h"
 #include "Solver/Assembly/Facets.h"
-#include "Solver/Core/RunAll.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,7 +149,7 @@ WallPass::WallPass(std::span<const TrianglePoints> points,
   part(this->Direction, 3);
 }
 
-void WallPass::add(std::span<const double> positions, tbb::task_arena& threads)
+void WallPass::add(std::span<const double> positions, Workers& threads)
 {
   while (!positions.empty())
   {
@@ -167,7 +166,7 @@ void WallPass::add(std::span<const double> positions, tbb::task_arena& threads)
   }
 }
 
-void WallPass::finish(tbb::task_arena& threads)
+void WallPass::finish(Workers& threads)
 {
   if (this->Count > 0)
   {
@@ -177,7 +176,7 @@ void WallPass::finish(tbb::task_arena& threads)
 
 /** Lowers the distances of a chunk on all threads. Each vertex has places of its own for its
  * results. */
-void WallPass::lowerChunk(tbb::task_arena& threads)
+void WallPass::lowerChunk(Workers& threads)
 {
   this->loadChunk();
   // Enough vertices in a row for the guesses to pay, enough parts for many threads.

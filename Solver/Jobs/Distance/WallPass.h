@@ -2,12 +2,11 @@
 #pragma once
 
 #include "Solver/Assembly/Facets.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Files/BlockStore.h"
 #include "Solver/Jobs/Distance/DistanceSources.h"
 #include "Solver/Jobs/Distance/TriangleTree.h"
 #include "Solver/Memory/Ring.h"
-
-#include <tbb/task_arena.h>
 
 #include <array>
 #include <cstdint>
@@ -92,12 +91,12 @@ public:
     Pool& pool);
 
   /** Adds the positions of the next vertices. */
-  void add(std::span<const double> positions, tbb::task_arena& threads);
+  void add(std::span<const double> positions, Workers& threads);
   /** To be called after the last vertices. */
-  void finish(tbb::task_arena& threads);
+  void finish(Workers& threads);
 
 private:
-  void lowerChunk(tbb::task_arena& threads);
+  void lowerChunk(Workers& threads);
   /** Lowers the values of the vertices [begin, end) of the chunk. */
   void lower(std::int64_t begin, std::int64_t end);
   void loadChunk();

@@ -2,9 +2,8 @@
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 
 #include "Solver/Core/SimdPack.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
-
-#include <tbb/info.h>
 
 #include <algorithm>
 
@@ -47,7 +46,7 @@ std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t leas
     return 0;
   }
   const std::int64_t few = std::min(least, BetweenTasks);
-  const int used = threads > 0 ? threads : tbb::info::default_concurrency();
+  const int used = threads > 0 ? threads : Workers::cores();
   const bool areLong = Schedule::stepFor(used, 1) > 1;
   return !areLong ? few : info.cellType == CellType::Triangle ? 3 * few : few + few / 4;
 }

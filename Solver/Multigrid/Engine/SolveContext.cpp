@@ -5,8 +5,6 @@
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 
-#include <tbb/info.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -30,12 +28,12 @@ int scheduledThreads(int wanted)
   // A pass has about this number of stages of similar length: more threads would find nothing to
   // do.
   constexpr int Most = 16;
-  return std::min(Most, wanted > 0 ? wanted : tbb::info::default_concurrency());
+  return std::min(Most, wanted > 0 ? wanted : Workers::cores());
 }
 
 } // namespace
 
-/** The arena has no more threads than the machine: a larger request only changes how passes are
+/** There are no more threads than the machine: a larger request only changes how passes are
  * cut into tasks. */
 SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   : options(solveOptions)
@@ -45,7 +43,7 @@ SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   , labels(this->components)
   , free(this->components, this->labels, columns)
   , scheduled(scheduledThreads(solveOptions.threads))
-  , threads(std::min(this->scheduled, tbb::info::default_concurrency()))
+  , threads(std::min(this->scheduled, Workers::cores()))
 {
   if (!solveOptions.checkpoint.folder.empty())
   {
@@ -102,7 +100,7 @@ void SolveContext::finishReport()
   r.seconds.io_wait = this->traffic.waitSeconds();
   r.seconds.total = this->seconds();
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
-  r.threads = this->threads.max_concurrency();
+  r.threads = this->threads.threads();
 }
 
 namespace

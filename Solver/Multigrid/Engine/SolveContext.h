@@ -3,8 +3,8 @@
 
 #include "Solver/Assembly/Components.h"
 #include "Solver/Checkpoint/Checkpoint.h"
-#include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
@@ -16,8 +16,6 @@
 #include "smg/Export.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
-
-#include <tbb/task_arena.h>
 
 #include <cstdint>
 #include <functional>
@@ -95,8 +93,6 @@ struct SMG_EXPORT SolveContext
 
   /** Adds the times of a schedule's stages to the report. */
   void note(const Schedule& schedule, bool isFirstPass);
-  /** The order of the tasks of a schedule. */
-  static LongestTaskFirst orderOf(int tasks) { return LongestTaskFirst(tasks); }
 
   /** Performs the tasks of a step on the threads, in this order; task(0) on the calling thread.
    * With a recorder, one after the other. */
@@ -171,7 +167,7 @@ struct SMG_EXPORT SolveContext
   std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
   /** The number of threads that a pass is scheduled for. The machine may have fewer. */
   int scheduled;
-  tbb::task_arena threads;
+  Workers threads;
   StepRecorder* recorder = nullptr; ///< takes the place of the threads, if there is one
   Report report;
 

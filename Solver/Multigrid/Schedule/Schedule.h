@@ -3,10 +3,12 @@
 
 #include "smg/Export.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,36 @@ struct Stage
   /** Advances its cursor as far as those of other stages permit. It `follows` the stage before it
    * on the same thread, or that one may be advancing on another thread at the same time. */
   std::function<void(bool follows)> advance;
+};
+
+/** The order in which threads begin the tasks of a step that is repeated many times: those that
+ * have taken the longest so far come first, so that the threads become idle at about the same time
+ * (Graham, 1969). Task 0 is always the first one. */
+class LongestTaskFirst
+{
+public:
+  explicit LongestTaskFirst(int tasks)
+    : Order(static_cast<std::size_t>(tasks))
+    , Seconds(static_cast<std::size_t>(tasks))
+  {
+    std::iota(this->Order.begin(), this->Order.end(), 0);
+  }
+
+  int tasks() const { return static_cast<int>(this->Order.size()); }
+  int operator[](int place) const { return this->Order[static_cast<std::size_t>(place)]; }
+
+  /** Adds the time of a task in a step. Threads may do so at the same time for different tasks. */
+  void add(int task, double seconds) { this->Seconds[static_cast<std::size_t>(task)] += seconds; }
+  /** To be called between steps. */
+  void sort()
+  {
+    std::ranges::stable_sort(this->Order.begin() + 1, this->Order.end(), std::greater(),
+      [this](int task) { return this->Seconds[static_cast<std::size_t>(task)]; });
+  }
+
+private:
+  std::vector<int> Order;
+  std::vector<double> Seconds;
 };
 
 /**
@@ -122,7 +154,7 @@ public:
   template <class Context, class Prepare, class Settle>
   void perform(Context& context, Prepare&& prepare, Settle&& settle)
   {
-    auto order = context.orderOf(this->tasks());
+    LongestTaskFirst order(this->tasks());
     while (prepare())
     {
       context.runConcurrently(order, [this](int task) { this->run(task); });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/ReadAhead.h"
 #include "smg/Export.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <condition_variable>
@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <pthread.h>
 #include <utility>
 #include <vector>
 
@@ -38,38 +39,68 @@ public:
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
+  /** The number of cores that this process may use. */
+  static int cores();
   /** The number of jobs that can run at once, with one of the owner. */
   int threads() const { return this->Threads; }
 
   /** Whether the caller is a thread of some workers, and not an owner. */
   static bool isCaller();
 
-  /** Work that may be submitted any number of times, but only once at a time. */
+  /** Work that the owner may submit any number of times, but only once at a time. The destructor
+   * waits until it is done, or removes it if it has not begun. */
   class Job
   {
   public:
-    explicit Job(std::function<void()> work)
-      : Work(std::move(work))
+    /** The workers must outlive it. */
+    Job(Workers& workers, std::function<void()> work)
+      : Team(workers)
+      , Work(std::move(work))
     {
+    }
+    ~Job()
+    {
+      if (this->IsPending)
+      {
+        this->Team.cancel(*this);
+      }
     }
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
 
+    void submit()
+    {
+      this->Team.submit(*this);
+      this->IsPending = true;
+    }
+    /** Whether it was submitted and not finished. */
+    bool isPending() const { return this->IsPending; }
+    /** If it is pending, waits until it is done, and rethrows its exception. */
+    void finish()
+    {
+      if (std::exchange(this->IsPending, false))
+      {
+        this->Team.wait(*this);
+        if (this->Failure)
+        {
+          std::rethrow_exception(std::exchange(this->Failure, nullptr));
+        }
+      }
+    }
+
   private:
     friend class Workers;
+    Workers& Team;
     std::function<void()> Work;
+    bool IsPending = false; ///< not accessed by the threads
     std::exception_ptr Failure;
     std::atomic<bool> IsDone{ false };
   };
 
-  void submit(Job& job);
-  /** Waits until a submitted job is done, and rethrows its exception. */
-  void finish(Job& job);
-  /** Waits until a submitted job is done, or removes it if it has not begun. */
-  void cancel(Job& job) noexcept;
-
 private:
   void start();
+  void submit(Job& job);
+  void cancel(Job& job) noexcept;
   void runThread();
   void run(Job& job);
   void wait(Job& job);
@@ -85,42 +116,51 @@ private:
   int Sleeping = 0; ///< threads
   bool OwnerSleeps = false;
   bool IsComplete = false; ///< no more threads can be started
-  std::vector<std::unique_ptr<IoThread>> Team;
+  std::vector<pthread_t> Team;
 };
 
-/** Runs task(0) .. task(count - 1), each once, on all threads, and waits for all. Rethrows the
- * exception of the task with the lowest number. */
+/** Runs task(0) .. task(count - 1), each once, and waits for all: task(0) on the calling thread,
+ * the others, in this order, on any thread that is free. Rethrows the exception of the task with
+ * the lowest number. */
 template <class Task>
 void runAll(Workers& workers, int count, Task&& task)
 {
-  std::vector<std::unique_ptr<Workers::Job>> jobs;
-  for (int k = 0; k < count; ++k)
-  {
-    jobs.push_back(std::make_unique<Workers::Job>([&task, k] { task(k); }));
-  }
+  std::mutex mutex;
+  int failed = count;
   std::exception_ptr failure;
-  std::size_t submitted = 0;
-  try
-  {
-    for (; submitted < jobs.size(); ++submitted)
-    {
-      workers.submit(*jobs[submitted]);
-    }
-  }
-  catch (...)
-  {
-    failure = std::current_exception();
-  }
-  for (std::size_t k = 0; k < submitted; ++k)
+  const auto run = [&](int k)
   {
     try
     {
-      workers.finish(*jobs[k]);
+      task(k);
     }
     catch (...)
     {
-      failure = failure ? failure : std::current_exception();
+      const std::lock_guard lock(mutex);
+      failure = k < failed ? std::current_exception() : failure;
+      failed = std::min(failed, k);
     }
+  };
+  std::atomic<int> next{ 1 };
+  const auto others = [&]
+  {
+    for (int k = next++; k < count; k = next++)
+    {
+      run(k);
+    }
+  };
+  {
+    std::deque<Workers::Job> helpers;
+    for (int k = 1; k < std::min(count, workers.threads()); ++k)
+    {
+      helpers.emplace_back(workers, others).submit();
+    }
+    if (count > 0)
+    {
+      run(0);
+    }
+    others();
+    // Here every task has begun; the helpers that have not are removed.
   }
   if (failure)
   {
@@ -151,14 +191,6 @@ public:
     , Slots(most)
   {
   }
-  ~OrderedJobs()
-  {
-    for (; this->Count > 0; --this->Count)
-    {
-      this->Threads.cancel(this->oldest().job);
-      ++this->Oldest;
-    }
-  }
   OrderedJobs(const OrderedJobs&) = delete;
   OrderedJobs& operator=(const OrderedJobs&) = delete;
 
@@ -185,7 +217,7 @@ public:
   /** Hands over the item of the last next(). */
   void submit()
   {
-    this->Threads.submit(this->slot(this->Oldest + this->Count).job);
+    this->slot(this->Oldest + this->Count).job.submit();
     ++this->Count;
   }
 
@@ -193,10 +225,10 @@ public:
   void takeOldest()
   {
     assert(this->Count > 0);
-    Slot& slot = this->oldest();
+    Slot& slot = this->slot(this->Oldest);
     ++this->Oldest;
     --this->Count;
-    this->Threads.finish(slot.job);
+    slot.job.finish();
     this->Take(slot.item);
   }
   void takeAll()
@@ -211,7 +243,7 @@ private:
   struct Slot
   {
     explicit Slot(OrderedJobs& owner)
-      : job([&owner, this] { owner.Work(this->item); })
+      : job(owner.Threads, [&owner, this] { owner.Work(this->item); })
     {
     }
     Item item;
@@ -219,7 +251,6 @@ private:
   };
 
   Slot& slot(std::size_t number) { return *this->Slots[number % this->Most]; }
-  Slot& oldest() { return this->slot(this->Oldest); }
 
   Workers& Threads;
   const std::size_t Most;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/Workers.h"
+#include "Solver/Core/Workers.h"
 #include "smg/Error.h"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/Workers.h"
-
-#include "smg/Error.h"
-
-#include <tbb/info.h>
+#include "Solver/Core/Workers.h"
 
 #include <algorithm>
+#include <csignal>
+#include <pthread.h>
+#include <sched.h>
+#include <thread>
 #include <utility>
 
 // A team of threads that run jobs for their owner. The owner runs jobs itself while it waits for
@@ -23,6 +23,9 @@ namespace
 constexpr int MaxSpins = 400;
 constexpr int MaxThreads = 64;
 
+/** The default takes 8 MiB of address space for each thread. */
+constexpr std::size_t StackBytes = std::size_t(1) << 20;
+
 thread_local bool isOfWorkers = false;
 
 void spinPause()
@@ -34,8 +37,20 @@ void spinPause()
 
 } // namespace
 
+int Workers::cores()
+{
+  static const int count = []
+  {
+    cpu_set_t set;
+    const bool isKnown = sched_getaffinity(0, sizeof(set), &set) == 0;
+    return std::max(
+      1, isKnown ? CPU_COUNT(&set) : static_cast<int>(std::thread::hardware_concurrency()));
+  }();
+  return count;
+}
+
 Workers::Workers(int threads)
-  : Threads(std::clamp(threads > 0 ? threads : tbb::info::default_concurrency(), 1, MaxThreads))
+  : Threads(std::clamp(threads > 0 ? threads : cores(), 1, MaxThreads))
 {
 }
 
@@ -46,9 +61,11 @@ Workers::~Workers()
     this->Stop = true;
     this->HasWork = true;
   }
-  // Team is declared last, so its destructor joins the threads while mutex and conditions still
-  // exist.
   this->Submitted.notify_all();
+  for (const pthread_t thread : this->Team)
+  {
+    pthread_join(thread, nullptr);
+  }
 }
 
 bool Workers::isCaller()
@@ -56,24 +73,39 @@ bool Workers::isCaller()
   return isOfWorkers;
 }
 
+/** Starts the threads, unless there are as many as wanted, or as the system permits. */
 void Workers::start()
 {
-  // Nothing may throw between the start of a thread and its entry in the list.
-  this->Team.reserve(static_cast<std::size_t>(this->Threads - 1)); // a started thread must be kept
-  while (!this->IsComplete && std::ssize(this->Team) < this->Threads - 1)
+  const auto wanted = static_cast<std::size_t>(this->Threads - 1);
+  if (this->IsComplete || this->Team.size() == wanted)
   {
-    auto thread = std::make_unique<IoThread>();
-    try
+    return;
+  }
+  this->Team.reserve(wanted); // a started thread must be kept
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, StackBytes);
+  // Signals are for the threads of the program; a new thread inherits the mask.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  while (!this->IsComplete && this->Team.size() < wanted)
+  {
+    pthread_t thread{};
+    const auto run = [](void* self) -> void*
     {
-      thread->start([this] { this->runThread(); });
-      this->Team.push_back(std::move(thread));
-    }
+      static_cast<Workers*>(self)->runThread();
+      return nullptr;
+    };
     // Fewer threads than wanted are no failure: the owner runs what they do not.
-    catch (const Error&)
+    this->IsComplete = pthread_create(&thread, &attributes, run, this) != 0;
+    if (!this->IsComplete)
     {
-      this->IsComplete = true; // as many as the system permits
+      this->Team.push_back(thread);
     }
   }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  pthread_attr_destroy(&attributes);
 }
 
 void Workers::submit(Job& job)
@@ -99,8 +131,7 @@ void Workers::submit(Job& job)
  */
 bool Workers::spinUntil(const std::atomic<bool>& flag)
 {
-  static const int cores = tbb::info::default_concurrency();
-  const int spins = this->Threads <= cores ? MaxSpins : 0;
+  const int spins = this->Threads <= cores() ? MaxSpins : 0;
   for (int i = 0; i < spins; ++i)
   {
     if (flag.load(std::memory_order_acquire))
@@ -120,7 +151,7 @@ void Workers::run(Job& job)
   }
   catch (...)
   {
-    // For finish(): an exception must not leave the thread.
+    // For Job::finish(): an exception must not leave the thread.
     job.Failure = std::current_exception();
   }
 }
@@ -192,15 +223,6 @@ void Workers::wait(Job& job)
       this->Finished.wait(lock, [&job] { return job.IsDone.load(std::memory_order_relaxed); });
       this->OwnerSleeps = false;
     }
-  }
-}
-
-void Workers::finish(Job& job)
-{
-  this->wait(job);
-  if (job.Failure)
-  {
-    std::rethrow_exception(std::exchange(job.Failure, nullptr));
   }
 }
 
