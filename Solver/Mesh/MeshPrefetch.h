@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Prefetch.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>
@@ -28,42 +29,23 @@ public:
   {
     if (this->Ahead)
     {
-      this->read();
-      std::swap(this->Current, this->Following);
-      this->Following.read = false;
+      this->Spare = std::move(this->Current.block);
+      this->Current = this->Blocks.take([this] { return this->next(); });
     }
   }
 
   /** Reads the block after the current one, if it has not been read: on any thread. */
   void read()
   {
-    if (!this->Ahead || this->Following.read || this->Ended)
-    {
-      return;
-    }
-    this->Following.read = true;
-    try
-    {
-      this->Following.ended = !this->Mesh.next(this->Following.block);
-    }
-    catch (...)
-    {
-      // block() rethrows it when the blocks before it have been processed, as without reading
-      // ahead.
-      this->Following.failure = std::current_exception();
-    }
-    this->Ended = this->Following.ended || this->Following.failure;
+    this->Blocks.fill(
+      [this] { return this->Ahead && !this->Ended; }, [this] { return this->next(); });
   }
 
   const StreamInfo& info() const { return this->Mesh.info(); }
   bool isAhead() const { return this->Ahead; }
   /** The number of vertices of the current block if it was read ahead; 0 at the end of the
    * stream. */
-  std::int64_t vertices() const
-  {
-    const bool is = this->Current.read && !this->Current.ended && !this->Current.failure;
-    return is ? this->Current.block.vertices() : 0;
-  }
+  std::int64_t vertices() const { return this->Current.ended ? 0 : this->Current.block.vertices(); }
 
   /** The current block, or null at the end of the stream. To be called once after each advance(),
    * on the thread of the caller. Rethrows what reading the block has thrown. */
@@ -84,15 +66,34 @@ private:
   struct Read
   {
     MeshBlock block;
-    bool read = false;
-    bool ended = false; ///< the stream: the block is not to be used
+    bool ended = true; ///< the stream, also by a failure: the block is not to be used
     std::exception_ptr failure;
   };
+
+  /** In the memory of the last block but one. */
+  Read next()
+  {
+    Read read{ std::move(this->Spare), true, nullptr };
+    try
+    {
+      read.ended = !this->Mesh.next(read.block);
+    }
+    catch (...)
+    {
+      // block() rethrows it when the blocks before it have been processed, as without reading
+      // ahead.
+      read.failure = std::current_exception();
+    }
+    this->Ended = read.ended;
+    return read;
+  }
 
   MeshSource& Mesh;
   bool Ahead;
   bool Ended = false;
-  Read Current, Following;
+  Read Current;
+  MeshBlock Spare;
+  Prefetch<Read> Blocks;
 };
 
 } // namespace smg

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Prefetch.h"
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
-#include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "smg/Export.h"
 
@@ -206,7 +206,7 @@ private:
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
   std::int64_t Read = 0; // nodes of the blocks read so far; Ahead has those not taken yet
-  BlockPrefetch<Buffer> Ahead;
+  Prefetch<Buffer> Ahead;
   std::vector<Buffer> Packages;        // loaded blocks that keep() has to unpack
   std::int64_t Kept = 0, Unpacked = 0; // ends of the nodes in Before and in Steps
   SpareBuffers Spare, Empty;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Prefetch.h"
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
-#include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
@@ -329,7 +329,7 @@ private:
   bool RowsAreKept = false;
   std::vector<Real> Packed;
   std::int64_t Read = 0; // nodes of the blocks read so far; Ahead has those not taken yet
-  BlockPrefetch<Incoming> Ahead;
+  Prefetch<Incoming> Ahead;
   /** The packed state of a loaded block with nodes `begin` to `end`. */
   struct Arrived
   {

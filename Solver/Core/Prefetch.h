@@ -9,11 +9,12 @@
 namespace smg
 {
 
-/** Blocks that were read ahead (prefetched) and are taken in order. fill() runs beside the
- * stages of a step, take() before the step. fill() prefetches as many blocks as the step before
- * took, so the memory follows the speed of the pass and does not depend on that of the disk. */
+/** Blocks of a file or a mesh that were read ahead (prefetched) and are taken in order. fill() runs
+ * beside the stages of a step, take() before the step. fill() prefetches as many blocks as the step
+ * before took, so the memory follows the speed of the pass and does not depend on that of the
+ * disk. */
 template <class Block>
-class BlockPrefetch
+class Prefetch
 {
 public:
   /** Calls `read` while there are `more`, until as many blocks are available as were taken since
