@@ -5,7 +5,6 @@ set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE) # 3.3 or newer; Eigen 5 rejects a request for 3
 find_package(CHOLMOD REQUIRED)
-find_package(TBB REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED)
 find_package(FastFloat REQUIRED CONFIG)
 find_package(meshoptimizer REQUIRED CONFIG)

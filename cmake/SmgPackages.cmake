@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME streaming-multigrid-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "streaming-multigrid ${version}, paraview-streaming-multigrid ${version}, "
-  "libtbb-dev, paraview-dev, libopenmpi-dev, libpython3-dev")
+  "paraview-dev, libopenmpi-dev, libpython3-dev")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME paraview-streaming-multigrid)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "streaming-multigrid ${version}, ${paraview}")
 set(CPACK_COMPONENT_LIBRARIES_DESCRIPTION "Libraries without VTK, and the program smg")
