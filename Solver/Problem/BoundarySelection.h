@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Solver/Assembly/Facets.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Problem/Selection.h"
-#include "Solver/Problem/VertexSetFile.h"
 
 #include <optional>
 

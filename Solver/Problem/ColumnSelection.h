@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "Solver/Problem/Selection.h"
-#include "Solver/Problem/VertexSetFile.h"
 #include "smg/Column.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/FixedVertices.h"
 
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Problem/Selection.h"
-#include "Solver/Problem/VertexSetFile.h"
 
 #include <string>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/CheckedFile.h"
+#include "Solver/Files/VertexFile.h"
 #include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"

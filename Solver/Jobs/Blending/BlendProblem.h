@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Vector.h"
-#include "Solver/Files/CheckedFile.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Blending/PatchLabels.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Problem/FixedVertices.h"

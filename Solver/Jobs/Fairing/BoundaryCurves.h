@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Files/CheckedFile.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Memory/Pool.h"
 
 #include <array>

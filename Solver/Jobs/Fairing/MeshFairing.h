@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Solver/Core/Timer.h"
-#include "Solver/Files/CheckedFile.h"
 #include "Solver/Files/ScratchFolder.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"

@@ -3,7 +3,7 @@
 
 #include "Solver/Assembly/Components.h"
 #include "Solver/Assembly/Elements.h"
-#include "Solver/Files/CheckedFile.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/MeshSource.h"
