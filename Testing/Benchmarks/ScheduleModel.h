@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/RunAll.h"
-#include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <vector>
 

@@ -229,6 +229,7 @@ def test_stages_are_explained():
         first = {"assemble rows", "coarsen"} if threads == 1 else {
             "weigh cells", "connect edges", "close rows", "choose C-points, P0", "relax P", "A P", "P^T A P",
             "sparsify, finish rows", "pack rows"}
+        first |= {"relax before restriction", "restrict the residual"}
         assert {(True, name) for name in first} <= names, names
         assert {name for is_first, name in names if not is_first} == {
             "prolong the correction", "relax after prolongation", "relax before restriction", "combine iterates",

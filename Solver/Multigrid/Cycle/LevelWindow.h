@@ -8,7 +8,6 @@
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
-#include "Solver/Multigrid/Cycle/Transfer.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Export.h"
 
@@ -223,21 +222,34 @@ public:
     std::ranges::fill(this->Now.b.range(begin, end), Real{});
   }
 
-  /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; `nodes`
-   * are indices in the block, and x and b, from `state`, point to node 0 of the block. */
-  template <class F>
-  void forRange(std::int64_t begin, std::int64_t end, State& state, F&& f)
+  /** Calls kernel(arrays, part) for the part of [begin, end) in each block, with the values of
+   * `state`. */
+  template <class Kernel>
+  void forRange(std::int64_t begin, std::int64_t end, State& state, Kernel&& kernel)
   {
-    while (begin < end)
+    for (; begin < end; begin = this->block(begin).end())
     {
       const RowBlock& block = this->block(begin);
-      const RowBlock::Header& h = block.header();
-      const std::int64_t stop = std::min(end, block.end());
-      const BlockRange nodes{ begin - h.first, stop - h.first };
-      Real* x = state.x.at(h.first);
-      Real* b = state.b.at(h.first);
-      block.visit<Real>([&](const auto& arrays) { f(h, arrays, nodes, x, b); });
-      begin = stop;
+      block.visit<Real>(kernel, this->partOf(block, begin, end, state, 0));
+    }
+  }
+  /** The same column by column, or four columns at a time: calls kernel(arrays, vectors, part),
+   * where `vectors` moves that many values (SimdPack). */
+  template <class Kernel>
+  void forColumns(std::int64_t begin, std::int64_t end, State& state, const Kernel& kernel)
+  {
+    for (; begin < end; begin = this->block(begin).end())
+    {
+      const RowBlock& block = this->block(begin);
+      if (this->Stride == 1)
+      {
+        block.visit<Real>(kernel, SimdPack<Real, 1>(), this->partOf(block, begin, end, state, 0));
+      }
+      for (int lane = 0; lane + 3 < this->Stride; lane += 4)
+      {
+        block.visit<Real>(
+          kernel, SimdPack<Real, 4>(), this->partOf(block, begin, end, state, lane));
+      }
     }
   }
 
@@ -278,6 +290,13 @@ private:
   const RowBlock& block(std::int64_t node) const
   {
     return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];
+  }
+  BlockPart<Real> partOf(
+    const RowBlock& block, std::int64_t begin, std::int64_t end, State& state, int lane)
+  {
+    const RowBlock::Header& h = block.header();
+    return { h, { begin - h.first, std::min(end, block.end()) - h.first }, this->Stride, lane,
+      state.x.at(h.first) + lane, state.b.at(h.first) + lane };
   }
   bool finest() const { return this->Index == 0; }
   /** A block from disk, with its x and b without padding. */

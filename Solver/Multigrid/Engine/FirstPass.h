@@ -126,13 +126,13 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows(this->Run.pool, problem.columns());
-  const bool apart = this->Run.isConcurrent() && this->Run.isAmple;
+  const bool apart = this->Run.threads.areConcurrent() && this->Run.isAmple;
   HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
     this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);
   Assembly assembly(
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);
-  MeshPrefetch blocks(mesh, this->Run.isConcurrent());
+  MeshPrefetch blocks(mesh, this->Run.threads.areConcurrent());
   // The stages of the assembly run as tasks of their own only if the next block is read ahead: they
   // need the number of its vertices to reserve room.
   this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
@@ -171,9 +171,9 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
   bool more = true, waits = false;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, blocks.info().vertices));
-  if (this->Run.recorder)
+  if (StepRecorder* recorder = this->Run.threads.recorder)
   {
-    this->Run.recorder->startPass({});
+    recorder->startPass({});
   }
   Schedule schedule;
   // Task 0, which asks the problem, runs on the thread of the caller.
@@ -185,12 +185,14 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
     schedule.add({ "close rows", 0, 0.0, [&](bool) { waits ? void() : assembly.closeRows(); } });
   }
   builder.addStages(schedule);
-  schedule.add({ "relax and restrict", 0, 0.0, [&finest](bool) { finest.advanceDown(); } });
   schedule.cutAll();
+  const std::size_t downward = schedule.stages().size();
+  schedule.startChain();
+  addDownward(finest, schedule);
   schedule.addBeside([&blocks] { blocks.read(); });
   finest.addWriters(schedule);
   schedule.perform(
-    this->Run,
+    this->Run.threads,
     [&]
     {
       if (builder.complete())
@@ -228,7 +230,7 @@ void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly
       open = assembly.openVertices();
       this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
     });
-  finest.advanceDown();
+  schedule.advance(downward);
   finest.settle();
   this->Run.note(schedule, true);
   if (assembly.vertices() == 0)

@@ -182,7 +182,7 @@ bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
   {
     return true; // the limit is far above the need: permitsTasks()
   }
-  return passBytes(this->Run, window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
+  return this->Run.passBytes(window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
          pool.limit();
 }
 

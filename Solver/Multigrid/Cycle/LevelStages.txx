@@ -3,33 +3,110 @@
 
 #include "Solver/Multigrid/Cycle/Level.h"
 
-// The stages of the downward part, which begins a V-cycle: pre-smoothing, acceleration, residual
-// and restriction. Each stage moves its cursor as far as the rule at Level allows. Stages of the
-// finest level come first; each level follows the one that restricts to it.
+#include <algorithm>
+
+// The stages of a level. Each moves its cursor as far as the rule at Level allows.
+//
+// The upward part, which finishes a V-cycle, works by demand: load() asks for nodes of the finest
+// level, and asks the stages before, and through prolongation the coarser levels, for what these
+// nodes need. Nothing is loaded before it is needed, which keeps the windows of the coarse levels
+// short. The downward part, which begins the next V-cycle, follows as soon as it can.
 
 namespace smg
 {
 
+/** Asks the last sweep for node `node`, and if that sweep relaxes patches, for the ends of the
+ * patches around it. */
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::addDownward(Schedule& schedule)
+void Level<Real, Relaxation>::load(std::int64_t node)
 {
-  if (this->Core)
+  const int last = static_cast<int>(this->At.postSweep.size());
+  this->load(last, node);
+  this->load(last, this->finalWith(node));
+  if (this->History)
+  {
+    this->History->load(this->Window.loaded());
+  }
+}
+
+/** The node that the last sweep of the upward part must reach for x of nodes 0 .. node to be
+ * final, given that these are loaded: if that sweep relaxes patches, the end of a patch still
+ * changes its other members. On the finest level this may wait for later steps, and it is
+ * `node` itself. */
+template <class Real, class Relaxation>
+std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
+{
+  if (!this->endPatched() || !this->Fine || this->Core || node < this->Window.first())
+  {
+    return node;
+  }
+  const RowBlock::Header& h = this->Window.header(node);
+  return h.reach(LevelWindow<Real>::groupIn(h, node), true);
+}
+
+/** Asks stage `stage` of the upward part (0: prolongation) to process node `node`, and loads all
+ * that it needs, backwards through the stages. */
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::load(int stage, std::int64_t node)
+{
+  std::int64_t& wanted = this->At.wanted[static_cast<std::size_t>(stage)];
+  // Already asked for: the recursion ends here, so its cost is one visit per group and stage.
+  if (this->Core || wanted > node)
   {
     return;
   }
-  const int level = this->Window.index();
-  const auto nodes = static_cast<double>(this->Window.nodes());
-  for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
+  this->Window.load(node);
+  const RowBlock::Header& h = this->Window.header(node);
+  const auto g = LevelWindow<Real>::groupIn(h, node);
+  wanted = LevelWindow<Real>::groupEnd(h, node);
+  if (stage == 0)
   {
-    schedule.add({ "relax before restriction", level, nodes,
-      [this, s](bool follows) { this->preSweep(s, follows); } });
+    this->Coarse->load(h.parentReach[g]);
   }
-  // Without a history the stage only passes the cursor on.
-  schedule.add({ "combine iterates", level, this->History ? CombineCost * nodes : 0.0,
-    [this](bool follows) { this->combine(follows); } });
-  schedule.add({ "restrict the residual", level, RestrictCost * nodes,
-    [this](bool follows) { this->restrictDown(follows); } });
-  this->Coarse->addDownward(schedule);
+  else
+  {
+    // Stage 1 is the first sweep, which relaxes patches: behind it, stage 2 needs the patches to be
+    // complete.
+    this->load(stage - 1, h.reach(g, stage == 2 && this->Patched));
+  }
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::prolong(bool follows)
+{
+  // The first stage of the level: makes the loaded state available to those behind it.
+  this->Window.unpack();
+  if (this->History)
+  {
+    this->History->keep(this->Window.x());
+  }
+  const std::int64_t begin = this->At.prolonged;
+  std::int64_t end = begin;
+  while (end < this->At.wanted.front())
+  {
+    const RowBlock::Header& h = this->Window.header(end);
+    // Groups have the largest parent of all rows so far, so a group is ready when that parent is.
+    if (!this->Coarse->isFinal(h.parentReach[LevelWindow<Real>::groupIn(h, end)], follows))
+    {
+      break;
+    }
+    end = LevelWindow<Real>::groupEnd(h, end);
+  }
+  this->Window.forColumns(begin, end, this->Window.up(), this->prolongation());
+  this->At.prolonged = end;
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::postSweep(std::size_t s, bool follows)
+{
+  Cursor& cursor = this->At.postSweep[s];
+  const std::int64_t ready =
+    s == 0 ? this->Window.reachable(cursor, this->At.prolonged.seen(follows), false)
+           : this->reachable(cursor, this->At.postSweep, s - 1, follows);
+  const std::int64_t end = std::min(ready, this->At.wanted[s + 1]);
+  auto& state = this->Window.up();
+  this->Window.forColumns(cursor, end, state, SweepOf<false>(this->Window, state, s == 0));
+  cursor = end;
 }
 
 template <class Real, class Relaxation>
@@ -40,13 +117,14 @@ void Level<Real, Relaxation>::preSweep(std::size_t s, bool follows)
                                   : this->reachable(cursor, this->At.preSweep, s - 1, follows);
   // On coarse levels x starts from zero: the first sweep reads the nodes below only, which it has
   // set itself.
+  auto& state = this->Window.down();
   if (s == 0 && this->Fine)
   {
-    this->sweep<true>(cursor, end, this->Window.down(), true);
+    this->Window.forColumns(cursor, end, state, SweepOf<true>(this->Window, state, true));
   }
   else
   {
-    this->sweep<false>(cursor, end, this->Window.down(), s == 0);
+    this->Window.forColumns(cursor, end, state, SweepOf<false>(this->Window, state, s == 0));
   }
   cursor = end;
 }
@@ -99,7 +177,7 @@ void Level<Real, Relaxation>::combine(bool follows)
 /** Restricts as far as the last stage has passed all neighbours, and as far as the coarse level
  * can take it: its b must have been set to zero. */
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::restrictDown(bool follows)
+void Level<Real, Relaxation>::restrict(bool follows)
 {
   const std::int64_t limit = this->Window.reachable(
     this->At.restricted, this->At.combined.seen(follows), this->endPatched());
@@ -113,7 +191,7 @@ void Level<Real, Relaxation>::restrictDown(bool follows)
     }
     end = LevelWindow<Real>::groupEnd(h, end);
   }
-  this->restrictTo(end);
+  this->Window.forColumns(this->At.restricted, end, this->Window.down(), this->restriction());
   this->At.restricted = end;
 }
 
