@@ -4,7 +4,6 @@
 #include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 #include "Solver/Jobs/Deformation/InteractiveEngine.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/ExtendedEngine.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "smg/DeformationDescription.h"
@@ -42,9 +41,9 @@ namespace
 
 /** The operators with the fastest V-cycles: a deformation makes few of them, often a given number.
  */
-Extended operatorsFor(CellType cells)
+CompiledOperators operatorsFor(CellType cells)
 {
-  return Extended::forFewCycles(cells);
+  return compiled(Extended::forFewCycles(cells));
 }
 
 } // namespace
@@ -54,7 +53,7 @@ std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const Defor
 {
   checkOptions(options);
   const CellType cells = mesh.info().cellType;
-  DeformationEngine<Extended> engine(operatorsFor(cells), options, cells);
+  DeformationEngine engine(operatorsFor(cells), options, cells);
   // The mesh is read here, in the first pass; the handles are asked block by block.
   engine.deform(mesh, handles);
   return engine.takeSolution();
@@ -75,7 +74,7 @@ std::unique_ptr<Solution> deform(const StoredMesh& mesh, const DeformationDescri
 /** Hides the templates of the engine from the header. */
 struct InteractiveDeformation::Implementation
 {
-  InteractiveEngine<Extended> engine;
+  InteractiveEngine engine;
 };
 
 namespace

@@ -2,7 +2,7 @@
 #include "smg/Solve.h"
 
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/ExtendedEngine.h"
+#include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 #include "Solver/Shi2006/Shi2006.h"
@@ -99,10 +99,19 @@ void checkProblem(const Problem& problem)
   require(problem.columns() >= 1, "a problem needs at least one column");
 }
 
+std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSource& mesh,
+  Problem& problem, const SolveOptions& options)
+{
+  checkOptions(options);
+  checkProblem(problem);
+  checkAutomaticTolerance(options, problem);
+  PoissonSolver solver(operators, problem.columns(), options);
+  return solver.solve(mesh, problem);
+}
+
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
 {
   checkOperators(options);
-  // The default: compiled for its operator set, see ExtendedEngine.h.
   if (options.operators != Shi2006::name)
   {
     return solveWith<Extended>(mesh, problem, options);

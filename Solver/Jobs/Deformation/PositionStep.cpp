@@ -124,7 +124,7 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
   this->Window.forRange(this->Done, end, this->Window.down(),
     [&](const auto& a, const BlockPart<double>& part)
     {
-      const RowBlock::Header& h = part.header;
+      const RowBlock::Header& h = part.header();
       const auto closeRows = [&](const auto& arrays, BlockRange rows)
       {
         for (std::int64_t k = rows.begin; k < rows.end; ++k)

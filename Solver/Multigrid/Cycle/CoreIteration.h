@@ -23,11 +23,10 @@ namespace smg
  * (Notay, SIAM Journal on Scientific Computing 22, 2000, 1444-1460). Each column has its own
  * coefficients. It takes four vectors of the level in single precision.
  */
-template <class Relaxation>
 class CoreIteration
 {
 public:
-  using CoreLevel = Level<float, Relaxation>;
+  using CoreLevel = Level<float>;
 
   /** When the iteration ends. */
   struct Ending

@@ -5,6 +5,7 @@
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Cycle/Sweep.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
+#include "Solver/Multigrid/Schedule/Cursor.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <algorithm>
@@ -34,15 +35,17 @@ namespace smg
  * no counters per node, and little more memory if the span of the stream order is close to its
  * width.
  */
-template <class Real, class Relaxation>
+template <class Real>
 class Level
 {
 public:
-  using CoarseLevel = Level<float, Relaxation>;
-  friend class Level<double, Relaxation>;
+  using CoarseLevel = Level<float>;
+  friend class Level<double>;
 
-  Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
-    : Window(pool, resident, index, columns)
+  Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps,
+    const CompiledRelaxation& relaxation)
+    : Relax(relaxation.table<Real>())
+    , Window(pool, resident, index, columns)
     , At(sweeps)
     , Squares(2 * static_cast<std::size_t>(strideOf(columns)))
   {
@@ -149,7 +152,7 @@ public:
    * 0 .. node. */
   void load(std::int64_t node);
 
-  // The stages (LevelStages.txx), in the order in which nodes pass them. VCycle.h declares them to
+  // The stages (LevelStages.cpp), in the order in which nodes pass them. VCycle.h declares them to
   // a schedule.
 
   /** The number of sweeps of each half of the V-cycle. */
@@ -253,19 +256,17 @@ public:
 
   void relaxDown()
   {
-    // The first sweep starts from x = 0, which need not be stored first.
-    this->forAll(this->Window.down(), SweepOf<true>(this->Window, this->Window.down(), true));
-    const SweepOf<false> sweep(this->Window, this->Window.down(), false);
-    for (std::size_t s = 1; s < this->sweeps(); ++s)
+    for (std::size_t s = 0; s < this->sweeps(); ++s)
     {
-      this->forAll(this->Window.down(), sweep);
+      // The first sweep starts from x = 0, which need not be stored first.
+      this->relax(0, this->Window.nodes(), this->Window.down(), s == 0, s == 0);
     }
   }
   void relaxUp()
   {
     for (std::size_t s = 0; s < this->sweeps(); ++s)
     {
-      this->forAll(this->Window.up(), SweepOf<false>(this->Window, this->Window.up(), s == 0));
+      this->relax(0, this->Window.nodes(), this->Window.up(), s == 0, false);
     }
   }
   /** Stores b - A x, with the stride of the window. */
@@ -314,8 +315,10 @@ private:
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
-  template <bool LowerOnly>
-  using SweepOf = Sweep<Relaxation, Real, LowerOnly>;
+  using State = typename LevelWindow<Real>::State;
+  /** One sweep over [begin, end). */
+  void relax(
+    std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, bool lowerOnly);
   Prolongation<Real> prolongation() { return { this->Coarse->window().x(), this->Unscale }; }
   Restriction<Real> restriction()
   {
@@ -324,7 +327,7 @@ private:
       this->History, this->Energy };
   }
   template <class Kernel>
-  void forAll(typename LevelWindow<Real>::State& state, const Kernel& kernel)
+  void forAll(State& state, const Kernel& kernel)
   {
     this->Window.forColumns(0, this->Window.nodes(), state, kernel);
   }
@@ -333,6 +336,7 @@ private:
   void load(int stage, std::int64_t node);
   std::int64_t firstPreSweepEnd(bool follows);
 
+  const SweepTable<Real>& Relax;
   LevelWindow<Real> Window;
   LevelCursors At;
   std::vector<Real> Squares; // squares of the residual, then of its terms, a lane each
@@ -347,6 +351,7 @@ private:
   bool Patched = false; // some nodes may be relaxed together with later ones
 };
 
-} // namespace smg
+extern template class Level<double>;
+extern template class Level<float>;
 
-#include "Solver/Multigrid/Cycle/LevelStages.txx"
+} // namespace smg

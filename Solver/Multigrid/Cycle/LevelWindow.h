@@ -8,7 +8,7 @@
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/BlockPrefetch.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
-#include "Solver/Multigrid/Schedule/Schedule.h"
+#include "Solver/Multigrid/Schedule/Cursor.h"
 #include "smg/Export.h"
 
 #include <algorithm>
@@ -222,33 +222,41 @@ public:
     std::ranges::fill(this->Now.b.range(begin, end), Real{});
   }
 
+  /** The part of [begin, end) in the block of `begin`, with the values of `state`. */
+  BlockPart<Real> partFrom(std::int64_t begin, std::int64_t end, State& state) const
+  {
+    const RowBlock& block = this->block(begin);
+    const std::int64_t first = block.first();
+    return { block, { begin - first, std::min(end, block.end()) - first }, this->Stride, 0,
+      state.x.at(first), state.b.at(first) };
+  }
   /** Calls kernel(arrays, part) for the part of [begin, end) in each block, with the values of
    * `state`. */
   template <class Kernel>
-  void forRange(std::int64_t begin, std::int64_t end, State& state, Kernel&& kernel)
+  void forRange(std::int64_t begin, std::int64_t end, State& state, const Kernel& kernel) const
   {
     for (; begin < end; begin = this->block(begin).end())
     {
-      const RowBlock& block = this->block(begin);
-      block.visit<Real>(kernel, this->partOf(block, begin, end, state, 0));
+      const BlockPart<Real> part = this->partFrom(begin, end, state);
+      part.block.template visit<Real>(kernel, part);
     }
   }
   /** The same column by column, or four columns at a time: calls kernel(arrays, vectors, part),
    * where `vectors` moves that many values (SimdPack). */
   template <class Kernel>
-  void forColumns(std::int64_t begin, std::int64_t end, State& state, const Kernel& kernel)
+  void forColumns(std::int64_t begin, std::int64_t end, State& state, const Kernel& kernel) const
   {
     for (; begin < end; begin = this->block(begin).end())
     {
-      const RowBlock& block = this->block(begin);
+      BlockPart<Real> part = this->partFrom(begin, end, state);
       if (this->Stride == 1)
       {
-        block.visit<Real>(kernel, SimdPack<Real, 1>(), this->partOf(block, begin, end, state, 0));
+        part.block.template visit<Real>(kernel, SimdPack<Real, 1>(), part);
+        continue;
       }
-      for (int lane = 0; lane + 3 < this->Stride; lane += 4)
+      for (; part.lane < part.stride; part.lane += 4, part.x += 4, part.b += 4)
       {
-        block.visit<Real>(
-          kernel, SimdPack<Real, 4>(), this->partOf(block, begin, end, state, lane));
+        part.block.template visit<Real>(kernel, SimdPack<Real, 4>(), part);
       }
     }
   }
@@ -290,13 +298,6 @@ private:
   const RowBlock& block(std::int64_t node) const
   {
     return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];
-  }
-  BlockPart<Real> partOf(
-    const RowBlock& block, std::int64_t begin, std::int64_t end, State& state, int lane)
-  {
-    const RowBlock::Header& h = block.header();
-    return { h, { begin - h.first, std::min(end, block.end()) - h.first }, this->Stride, lane,
-      state.x.at(h.first) + lane, state.b.at(h.first) + lane };
   }
   bool finest() const { return this->Index == 0; }
   /** A block from disk, with its x and b without padding. */

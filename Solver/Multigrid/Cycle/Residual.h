@@ -71,8 +71,8 @@ struct StoreResidual
     const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
     for (std::int64_t k = part.nodes.begin; k < part.nodes.end; ++k)
     {
-      Vectors::store(this->residual + (part.header.first + k) * stride + part.lane,
-        PlainResidual::of<Vectors>(part.header, a, k, stride, part.x, part.b));
+      Vectors::store(this->residual + (part.header().first + k) * stride + part.lane,
+        PlainResidual::of<Vectors>(part.header(), a, k, stride, part.x, part.b));
     }
   }
 };

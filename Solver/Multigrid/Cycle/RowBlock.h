@@ -329,11 +329,13 @@ inline BlockRange parentsOf(const RowBlock::Header& h, const Arrays& a, std::int
 template <class Real>
 struct BlockPart
 {
-  const RowBlock::Header& header;
+  const RowBlock& block;
   BlockRange nodes;
   std::int64_t stride; ///< values per node
-  int lane;
+  std::int64_t lane;
   Real *x, *b;
+
+  const RowBlock::Header& header() const { return this->block.header(); }
 };
 
 /** The special node with index `node` in the block, or else the next one after it. */

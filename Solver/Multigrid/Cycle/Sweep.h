@@ -1,102 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/GaussSeidel.h"
-#include "Solver/Multigrid/Cycle/LevelWindow.h"
-#include "Solver/Multigrid/Cycle/Residual.h"
-#include "Solver/Multigrid/Setup/Patches.h"
+#include "smg/Export.h"
 
+#include <array>
 #include <cstdint>
+#include <type_traits>
+
+// A sweep over a block of a level. A relaxation is a template; for the engine it becomes a table of
+// functions, one for each kind of block and of values, so that the engine is compiled once. A call
+// treats a block, and in it the compiler sees the types of all arrays.
 
 namespace smg
 {
 
-/** b_k + sum_j w_kj x_j of node k of a block, with x taken as zero for node k and for all nodes
- * from `limit` on. Members of the patch below `limit` are zero at that time. */
-template <class Vectors, class Real, class Arrays>
-typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
-  std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
-{
-  const BlockRange row = entriesOf(h, a, k);
-  auto sum = Vectors::load(b + k * stride);
-  for (std::int64_t e = row.begin; e < row.end && k + a.delta[e] < limit; ++e)
-  {
-    sum += static_cast<Real>(a.weight[e]) * Vectors::load(x + (k + a.delta[e]) * stride);
-  }
-  return sum;
-}
-
-/** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given their residuals and the inverse
- * of the matrix on the patch. x points to the last member; the others are at `distance`.
- * LowerOnly: x of the last member was zero and is not read. */
-template <bool LowerOnly, class Vectors, class Real>
-void correctPatch(int size, const double* distance, const double* inverse,
-  const typename Vectors::Vector* residual, std::int64_t stride, Real* x)
-{
-  for (int a = 0; a < size; ++a)
-  {
-    typename Vectors::Vector sum{};
-    for (int k = 0; k < size; ++k)
-    {
-      sum += static_cast<Real>(inverse[PatchMatrix::place(a, k)]) * residual[k];
-    }
-    Real* at = x + (a + 1 < size ? static_cast<std::int64_t>(distance[a]) : 0) * stride;
-    if (!LowerOnly || a + 1 < size)
-    {
-      sum += Vectors::load(at);
-    }
-    Vectors::store(at, sum);
-  }
-}
+template <class Real>
+class LevelWindow;
 
 /**
- * A sweep of a Relaxation over nodes of a level, a kernel for LevelWindow::forColumns(). Ordinary
- * nodes are relaxed one by one. With `patches` the nodes of a patch are relaxed together, at its
- * last member. Only the first sweep of each half of a V-cycle does so: behind a sweep that relaxes
- * node by node the next stage waits for neighbours only, not for the ends of patches, so the window
- * is shorter.
- *
- * LowerOnly: x is zero above each node, as in the first sweep on a coarse level, and is not read
- * there.
+ * Relaxes the nodes of a patch b together: x_b += A_bb^-1 (b - A x)_b. The members may lie in
+ * several blocks of the window. The same for each relaxation.
  */
-template <class Relaxation, class Real, bool LowerOnly>
-class Sweep
+template <class Real>
+class SMG_EXPORT PatchRelaxation
 {
 public:
-  using State = typename LevelWindow<Real>::State;
-
-  Sweep(const LevelWindow<Real>& window, State& state, bool patches)
-    : Window(window)
-    , Values(state)
-    , Patches(patches)
+  PatchRelaxation(const LevelWindow<Real>& window, const Ring<Real>& x, const Ring<Real>& b)
+    : Window(&window)
+    , X(&x)
+    , B(&b)
   {
   }
 
-  template <class Arrays, class Vectors>
-  void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
+  /** Relaxes the patch whose last member is `node`, in the block of the part: the columns that the
+   * part points to. `lowerOnly`: see Relaxation. */
+  void operator()(const BlockPart<Real>& part, const RowBlock::Special& node, bool lowerOnly) const;
+
+private:
+  template <bool LowerOnly, class Vectors>
+  void relax(const BlockPart<Real>& part, const RowBlock::Special& node) const;
+
+  const LevelWindow<Real>* Window;
+  const Ring<Real>*X, *B;
+};
+
+extern template class PatchRelaxation<double>;
+extern template class PatchRelaxation<float>;
+
+/**
+ * A sweep of a Relaxation over a part of a block. Ordinary nodes are relaxed one by one. With
+ * `patches` the nodes of a patch are relaxed together, at its last member. Only the first sweep of
+ * each half of a V-cycle does so: behind a sweep that relaxes node by node the next stage waits for
+ * neighbours only, not for the ends of patches, so the window is shorter.
+ */
+template <class Relaxation, class Real, bool LowerOnly, int Count, class Index, class Weight>
+void sweepBlock(BlockPart<Real> part, const PatchRelaxation<Real>* patches)
+{
+  using Vectors = SimdPack<Real, Count>;
+  const RowBlock::Header& h = part.header();
+  const auto a = part.block.template arrays<Index, Weight>();
+  const std::int64_t stride = Count == 1 ? 1 : part.stride; // a constant for one column
+  for (; part.lane < stride; part.lane += Count, part.x += Count, part.b += Count)
   {
-    const RowBlock::Header& h = part.header;
-    // A constant for one column.
-    const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
     for (NodeRuns runs(h, a, part.nodes); runs.next();)
     {
       const RowBlock::Special* special = runs.special();
       if (!special)
       {
-        Relaxation::template sweep<LowerOnly, Vectors>(h, a, runs.nodes(), stride, part.x, part.b);
+        Relaxation::template sweep<LowerOnly, Vectors>(
+          h, a, runs.nodes(), stride, part.x, static_cast<const Real*>(part.b));
       }
-      else if (special->size == 1 || !this->Patches)
+      else if (special->size == 1 || !patches)
       {
         // Alone, by its precise weights if it has some.
         visitSpecial<Real>(h, a, *special,
-          [&](const auto& row) {
+          [&](const auto& row)
+          {
             Relaxation::template sweep<LowerOnly, Vectors>(
-              h, row, runs.nodes(), stride, part.x, part.b);
+              h, row, runs.nodes(), stride, part.x, static_cast<const Real*>(part.b));
           });
       }
       else if (special->size > 1)
       {
-        this->relaxPatch<Vectors>(a, *special, part);
+        (*patches)(part, *special, LowerOnly);
       }
       else if (LowerOnly)
       {
@@ -107,53 +95,69 @@ public:
       }
     }
   }
+}
 
-private:
-  /** Relaxes the patch that ends at `node`. Its members may lie in earlier blocks of the window. */
-  template <class Vectors, class Arrays>
-  void relaxPatch(const Arrays& a, const RowBlock::Special& node, const BlockPart<Real>& part) const
+/** The sweeps of a relaxation over every kind of block. */
+template <class Real>
+struct SweepTable
+{
+  using Function = void (*)(BlockPart<Real> part, const PatchRelaxation<Real>* patches);
+  /** By the weights and indices of the block: floats, wide floats, rounded, wide and rounded. */
+  using Kinds = std::array<Function, 4>;
+
+  template <class Relaxation, bool LowerOnly, int Count>
+  static constexpr Kinds kindsOf()
   {
-    const std::int64_t last = part.header.first + node.node;
-    const double* distance = a.value + node.value;
-    typename Vectors::Vector residual[PatchMatrix::Most];
-    for (int k = 0; k + 1 < node.size; ++k)
-    {
-      this->Window.visitRow(last + static_cast<std::int64_t>(distance[k]),
-        [&](const auto& h, const auto& rows, std::int64_t own)
-        { residual[k] = this->residualOf<Vectors>(h, rows, own, last, part); });
-    }
-    residual[node.size - 1] = this->residualOf<Vectors>(part.header, a, node.node, last, part);
-    // The values of the patch are the distances of the other members, then the inverse.
-    correctPatch<LowerOnly, Vectors>(node.size, distance, distance + node.size - 1, residual,
-      part.stride, this->Values.x.at(last) + part.lane);
+    // There are no rounded weights on the finest level.
+    using Rounded = std::conditional_t<std::is_same_v<Real, double>, float, BFloat16>;
+    return { &sweepBlock<Relaxation, Real, LowerOnly, Count, std::int16_t, float>,
+      &sweepBlock<Relaxation, Real, LowerOnly, Count, WideIndex, float>,
+      &sweepBlock<Relaxation, Real, LowerOnly, Count, std::int16_t, Rounded>,
+      &sweepBlock<Relaxation, Real, LowerOnly, Count, WideIndex, Rounded> };
+  }
+  template <class Relaxation>
+  static constexpr SweepTable of()
+  {
+    return { { kindsOf<Relaxation, false, 1>(), kindsOf<Relaxation, false, 4>(),
+      kindsOf<Relaxation, true, 1>(), kindsOf<Relaxation, true, 4>() } };
   }
 
-  /** The residual of node k of a block, a member of the patch that ends at node `last`. */
-  template <class Vectors, class Arrays>
-  typename Vectors::Vector residualOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
-    std::int64_t last, const BlockPart<Real>& part) const
+  /** Relaxes the nodes of the part once; `lowerOnly`: see Relaxation. */
+  void operator()(
+    const BlockPart<Real>& part, const PatchRelaxation<Real>* patches, bool lowerOnly) const
   {
-    const Real* x = this->Values.x.at(h.first) + part.lane;
-    const Real* b = this->Values.b.at(h.first) + part.lane;
-    typename Vectors::Vector residual;
-    visitSpecial<Real>(h, a, *specialFrom(h, a, k),
-      [&](const auto& row)
-      {
-        if constexpr (LowerOnly)
-        {
-          residual = lowerResidual<Vectors>(h, row, k, last - h.first, part.stride, x, b);
-        }
-        else
-        {
-          residual = ResidualOfDifferences::of<Vectors>(h, row, k, part.stride, x, b);
-        }
-      });
-    return residual;
+    const RowBlock::Header& h = part.header();
+    const int kind = (h.weightBytes == sizeof(float) ? 0 : 2) + h.wide;
+    const int values = (lowerOnly ? 2 : 0) + (part.stride > 1 ? 1 : 0);
+    this->functions[static_cast<std::size_t>(values)][static_cast<std::size_t>(kind)](
+      part, patches);
   }
 
-  const LevelWindow<Real>& Window;
-  State& Values;
-  bool Patches;
+  std::array<Kinds, 4> functions;
 };
+
+/** A relaxation as the engine calls it. */
+struct CompiledRelaxation
+{
+  SweepTable<double> finest;
+  SweepTable<float> coarse;
+
+  template <class Real>
+  const SweepTable<Real>& table() const
+  {
+    if constexpr (std::is_same_v<Real, double>)
+    {
+      return this->finest;
+    }
+    else
+    {
+      return this->coarse;
+    }
+  }
+};
+
+template <Relaxation R>
+inline constexpr CompiledRelaxation compiledRelaxation{ SweepTable<double>::of<R>(),
+  SweepTable<float>::of<R>() };
 
 } // namespace smg

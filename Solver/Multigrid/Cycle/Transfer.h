@@ -29,10 +29,10 @@ struct Prolongation
   {
     using CoarseVectors = SimdPack<float, Vectors::count>;
     const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
-    const float* coarseX = this->coarse.at(part.header.parentBase) + part.lane;
+    const float* coarseX = this->coarse.at(part.header().parentBase) + part.lane;
     for (std::int64_t k = part.nodes.begin; k < part.nodes.end; ++k)
     {
-      const BlockRange row = parentsOf(part.header, a, k);
+      const BlockRange row = parentsOf(part.header(), a, k);
       auto sum = Vectors::load(part.x + k * stride);
       for (std::int64_t e = row.begin; e < row.end; ++e)
       {
@@ -69,17 +69,17 @@ struct Restriction
   template <class Arrays, class Vectors>
   void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
   {
-    ResidualKeeper<Vectors> keeper(this->history, part.header.first, part.lane);
+    ResidualKeeper<Vectors> keeper(this->history, part.header().first, part.lane);
     if constexpr (std::is_same_v<Real, double>)
     {
-      for (NodeRuns runs(part.header, a, part.nodes); runs.next();)
+      for (NodeRuns runs(part.header(), a, part.nodes); runs.next();)
       {
         if (!runs.special())
         {
           this->restrictNodes<PlainResidual, Vectors>(a, runs.nodes(), part, keeper);
           continue;
         }
-        visitSpecial<Real>(part.header, a, *runs.special(),
+        visitSpecial<Real>(part.header(), a, *runs.special(),
           [&](const auto& row) {
             this->restrictNodes<ResidualOfDifferences, Vectors>(row, runs.nodes(), part, keeper);
           });
@@ -97,7 +97,7 @@ private:
     ResidualKeeper<Vectors>& keeper) const
   {
     using CoarseVectors = SimdPack<float, Vectors::count>;
-    const RowBlock::Header& h = part.header;
+    const RowBlock::Header& h = part.header();
     const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
     float* coarseB = this->coarse.at(h.parentBase) + part.lane;
     auto total = Vectors::load(this->squares + part.lane);

@@ -21,7 +21,7 @@
 // one V-cycle and behind it the downward part of the next one.
 //
 // Where things are: relaxation in GaussSeidel.h and, with patches, Sweep.h; prolongation and
-// restriction in Transfer.h; how far a stage may go in LevelStages.txx.
+// restriction in Transfer.h; how far a stage may go in LevelStages.cpp.
 
 namespace smg
 {
@@ -31,10 +31,10 @@ namespace smg
 inline constexpr double ProlongCost = 0.8, CombineCost = 0.5, RestrictCost = 1.4;
 
 /** Adds the stages that begin a V-cycle, on this and the coarser streamed levels. */
-template <class Real, class Relaxation>
-void addDownward(Level<Real, Relaxation>& level, Schedule& schedule)
+template <class Real>
+void addDownward(Level<Real>& level, Schedule& schedule)
 {
-  using Stages = Level<Real, Relaxation>;
+  using Stages = Level<Real>;
   if (level.core())
   {
     return;
@@ -55,10 +55,10 @@ void addDownward(Level<Real, Relaxation>& level, Schedule& schedule)
 }
 
 /** Adds the stages that finish a V-cycle, on the coarser streamed levels and this one. */
-template <class Real, class Relaxation>
-void addUpward(Level<Real, Relaxation>& level, Schedule& schedule)
+template <class Real>
+void addUpward(Level<Real>& level, Schedule& schedule)
 {
-  using Stages = Level<Real, Relaxation>;
+  using Stages = Level<Real>;
   if (level.core())
   {
     return;
@@ -78,11 +78,10 @@ void addUpward(Level<Real, Relaxation>& level, Schedule& schedule)
 /** The part of a V-cycle on the levels in memory (core levels), performed between two passes.
  * The first of them that is much smaller than the finest level is solved by a CoreIteration,
  * unless it is the coarsest one, which is solved directly. */
-template <class Relaxation>
 class CoreVCycle
 {
 public:
-  using CoreLevel = Level<float, Relaxation>;
+  using CoreLevel = Level<float>;
 
   /** Sets the levels, from the finest core level to the coarsest one, and factorises that.
    * `finest`: the number of nodes of the finest level, to which sizes are compared; 0: none is
@@ -113,7 +112,7 @@ private:
     }
     else if (l == this->Iterated)
     {
-      CoreIteration<Relaxation> iteration(*this->Levels[l], {});
+      CoreIteration iteration(*this->Levels[l], {});
       iteration([this, l] { this->cycle(l); });
     }
     else

@@ -3,7 +3,7 @@
 
 #include "Solver/Multigrid/Cycle/Level.h"
 #include "Solver/Multigrid/Cycle/RowBlockPacker.h"
-#include "Solver/Multigrid/Engine/Coarsening.h"
+#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Engine/Levels.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Report.h"
@@ -27,11 +27,9 @@ namespace smg
  * with `apart` even the stages of the three finest ones, are tasks that need not wait for each
  * other.
  */
-template <OperatorSet Operators>
 class HierarchyBuilder
 {
 public:
-  using Relaxation = typename Operators::Relaxation;
   /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of
    * the nodes of the next finer level: such a level has few strong edges or many stiff rows,
    * and further ones would shrink as little. */
@@ -42,13 +40,13 @@ public:
 
   /** `stiff` finds the stiff rows of each coarse level. `apart`: for several threads, the stages
    * of each of the finest levels, where most of the work is, are tasks of their own. */
-  HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
+  HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels, int firstCore,
     SliverRows stiff, bool apart)
     : Owner(pool)
-    , Set(std::move(operators))
+    , Set(operators)
     , Built(levels)
     , FirstCore(firstCore)
-    , ApartLevels(canRunApart<Operators> && apart ? std::min(MaxApart, firstCore) : 0)
+    , ApartLevels(operators.canRunApart && apart ? std::min(MaxApart, firstCore) : 0)
     , Stiff(stiff)
   {
     this->addRows();
@@ -82,7 +80,7 @@ public:
    * levels is handed over after it. */
   void addStages(Schedule& schedule)
   {
-    using Step = Coarsening<Operators>;
+    using Step = LevelCoarsening;
     struct Part
     {
       const char* name;
@@ -117,7 +115,7 @@ public:
   {
     for (int l = 0; l < this->FirstCore; ++l)
     {
-      Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
+      LevelCoarsening& step = *this->Steps[static_cast<std::size_t>(l)];
       if (l < this->ApartLevels)
       {
         step.release();
@@ -247,8 +245,8 @@ private:
     this->Advanced.push_back(0);
     this->Packed.push_back(0);
     const std::size_t l = this->Steps.size();
-    this->Steps.push_back(std::make_unique<Coarsening<Operators>>(this->Owner, this->Set,
-      *this->Rows[l], *this->Rows[l + 1], this->Stiff, static_cast<int>(l) < this->ApartLevels));
+    this->Steps.push_back(this->Set.coarsening(this->Owner, *this->Rows[l], *this->Rows[l + 1],
+      this->Stiff, static_cast<int>(l) < this->ApartLevels));
   }
 
   /** Passes the packed blocks of level l to its window, and takes the buffers of released ones
@@ -282,7 +280,7 @@ private:
   {
     const auto k = static_cast<std::size_t>(l);
     const LevelRows& rows = *this->Rows[k];
-    Coarsening<Operators>& step = *this->Steps[k];
+    LevelCoarsening& step = *this->Steps[k];
     const std::int64_t final = step.multiplied();
     const bool ended = rows.Ended && final == rows.end();
     std::int64_t& begin = this->Packed[k];
@@ -301,13 +299,13 @@ private:
   }
 
   Pool& Owner;
-  Operators Set;
-  Levels<Relaxation>& Built;
+  const CompiledOperators& Set;
+  Levels& Built;
   int FirstCore;
   int ApartLevels; // number of levels whose stages are tasks
   SliverRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
-  std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
+  std::vector<std::unique_ptr<LevelCoarsening>> Steps;
   std::vector<std::int64_t> Advanced, Packed;
   std::vector<std::vector<RowBlock>> Ready; // packed, not yet in the windows
   std::vector<SpareBuffers> Buffers;

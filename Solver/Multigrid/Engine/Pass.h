@@ -2,17 +2,11 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
-#include <algorithm>
-#include <cfloat>
-#include <cmath>
-#include <cstdint>
 #include <functional>
-#include <optional>
 
 namespace smg
 {
@@ -26,7 +20,6 @@ namespace smg
  * that may run at the same time, and release() returns what all stages have passed. Chains see the
  * cursors that the others had at the beginning of the step.
  */
-template <class Relaxation>
 class Pass
 {
 public:
@@ -43,7 +36,7 @@ public:
     bool inOneChain = false;
   };
 
-  Pass(SolveContext& run, Hierarchy<Relaxation>& hierarchy)
+  Pass(SolveContext& run, Hierarchy& hierarchy)
     : Run(run)
     , Levels(hierarchy)
   {
@@ -51,7 +44,7 @@ public:
 
   /** Performs the part of the V-cycle on the core levels, then a pass; `scale` is the
    * approximate size of the residuals in it. */
-  void operator()(double scale, const Further& further = {});
+  void operator()(double scale, const Further& further);
 
   /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are
    * in the window of the finest level. */
@@ -62,114 +55,7 @@ private:
   Schedule scheduleOf(const Further& further, int chains);
 
   SolveContext& Run;
-  Hierarchy<Relaxation>& Levels;
+  Hierarchy& Levels;
 };
-
-template <class Relaxation>
-void Pass<Relaxation>::operator()(double scale, const Further& further)
-try
-{
-  this->Levels.runCore();
-  this->Levels.startPass(false);
-  auto& finest = this->Levels.finest();
-  const std::int64_t nodes = finest.window().nodes();
-  finest.setHistory(further.history);
-  this->setScale(scale / std::sqrt(static_cast<double>(nodes)));
-
-  const SolveContext::Steps steps =
-    further.inOneChain
-      ? SolveContext::Steps{ this->Run.options.blockNodes, 1 }
-      : this->Run.stepsOf(nodes, finest.window().stride(),
-          further.history ? std::optional(further.history->sparseness()) : std::nullopt);
-  Schedule schedule = this->scheduleOf(further, steps.chains);
-  std::int64_t end = 0;
-  const auto prepare = [&]
-  {
-    if (end == nodes)
-    {
-      return false;
-    }
-    end = std::min(nodes, end + steps.nodes);
-    // Rings grow here only, when no task runs.
-    finest.load(end - 1);
-    if (further.loaded)
-    {
-      further.loaded();
-    }
-    // The cursors at the beginning of the step: also the tasks that write nodes use them.
-    finest.publish();
-    return true;
-  };
-  const auto settle = [&]
-  {
-    finest.release();
-    this->Run.progress.update(static_cast<double>(end - 1) / static_cast<double>(nodes));
-  };
-  schedule.perform(this->Run.threads, prepare, settle);
-  // All is loaded now. The upward part runs to its end; the downward part, which relies on
-  // published cursors, follows in a second round.
-  schedule.advance();
-  finest.publish();
-  schedule.advance();
-  finest.settle();
-  this->Run.note(schedule, false);
-  this->Levels.noteWindows();
-  this->Levels.endPass();
-}
-catch (const MemoryLimitError& error)
-{
-  throw this->Run.explained(error);
-}
-
-/** Lets restriction scale numbers of this size to about 1: by a power of two, so that nothing is
- * rounded, and by 1 if the size is not a usable number. */
-template <class Relaxation>
-void Pass<Relaxation>::setScale(double typical)
-{
-  this->Levels.finest().setScale(
-    typical > DBL_MIN && typical < DBL_MAX ? std::exp2(-std::ilogb(typical)) : 1.0);
-}
-
-/** The stages of the pass, cut into chains, and what reads and writes beside them. A recorder
- * measures each stage, so it gets a chain of each. */
-template <class Relaxation>
-Schedule Pass<Relaxation>::scheduleOf(const Further& further, int chains)
-{
-  auto& finest = this->Levels.finest();
-  Schedule schedule;
-  addUpward(finest, schedule);
-  if (further.beforeDown)
-  {
-    schedule.add({ "begin the next problem", 0, static_cast<double>(this->Levels.window().nodes()),
-      further.beforeDown });
-  }
-  addDownward(finest, schedule);
-  if (StepRecorder* recorder = this->Run.threads.recorder)
-  {
-    recorder->startPass(schedule.costs());
-    schedule.cutAll();
-  }
-  else
-  {
-    schedule.cut(chains);
-  }
-  finest.addReaders(schedule);
-  finest.addWriters(schedule);
-  return schedule;
-}
-
-template <class Relaxation>
-void Pass<Relaxation>::begin()
-{
-  this->Levels.zeroCoarse();
-  this->Levels.startPass(true);
-  auto& finest = this->Levels.finest();
-  finest.setScale(1.0);
-  Schedule schedule;
-  addDownward(finest, schedule);
-  schedule.advance();
-  finest.settle();
-  this->Levels.endPass();
-}
 
 } // namespace smg

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
-
 #include "Solver/Multigrid/Cycle/Level.h"
 
 #include <algorithm>
@@ -15,10 +13,23 @@
 namespace smg
 {
 
+template <class Real>
+void Level<Real>::relax(
+  std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, bool lowerOnly)
+{
+  const PatchRelaxation<Real> patches(this->Window, state.x, state.b);
+  while (begin < end)
+  {
+    const BlockPart<Real> part = this->Window.partFrom(begin, end, state);
+    this->Relax(part, relaxesPatches ? &patches : nullptr, lowerOnly);
+    begin = part.block.end();
+  }
+}
+
 /** Asks the last sweep for node `node`, and if that sweep relaxes patches, for the ends of the
  * patches around it. */
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::load(std::int64_t node)
+template <class Real>
+void Level<Real>::load(std::int64_t node)
 {
   const int last = static_cast<int>(this->At.postSweep.size());
   this->load(last, node);
@@ -33,8 +44,8 @@ void Level<Real, Relaxation>::load(std::int64_t node)
  * final, given that these are loaded: if that sweep relaxes patches, the end of a patch still
  * changes its other members. On the finest level this may wait for later steps, and it is
  * `node` itself. */
-template <class Real, class Relaxation>
-std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
+template <class Real>
+std::int64_t Level<Real>::finalWith(std::int64_t node) const
 {
   if (!this->endPatched() || !this->Fine || this->Core || node < this->Window.first())
   {
@@ -46,8 +57,8 @@ std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
 
 /** Asks stage `stage` of the upward part (0: prolongation) to process node `node`, and loads all
  * that it needs, backwards through the stages. */
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::load(int stage, std::int64_t node)
+template <class Real>
+void Level<Real>::load(int stage, std::int64_t node)
 {
   std::int64_t& wanted = this->At.wanted[static_cast<std::size_t>(stage)];
   // Already asked for: the recursion ends here, so its cost is one visit per group and stage.
@@ -71,8 +82,8 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
   }
 }
 
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::prolong(bool follows)
+template <class Real>
+void Level<Real>::prolong(bool follows)
 {
   // The first stage of the level: makes the loaded state available to those behind it.
   this->Window.unpack();
@@ -96,42 +107,33 @@ void Level<Real, Relaxation>::prolong(bool follows)
   this->At.prolonged = end;
 }
 
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::postSweep(std::size_t s, bool follows)
+template <class Real>
+void Level<Real>::postSweep(std::size_t s, bool follows)
 {
   Cursor& cursor = this->At.postSweep[s];
   const std::int64_t ready =
     s == 0 ? this->Window.reachable(cursor, this->At.prolonged.seen(follows), false)
            : this->reachable(cursor, this->At.postSweep, s - 1, follows);
   const std::int64_t end = std::min(ready, this->At.wanted[s + 1]);
-  auto& state = this->Window.up();
-  this->Window.forColumns(cursor, end, state, SweepOf<false>(this->Window, state, s == 0));
+  this->relax(cursor, end, this->Window.up(), s == 0, false);
   cursor = end;
 }
 
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::preSweep(std::size_t s, bool follows)
+template <class Real>
+void Level<Real>::preSweep(std::size_t s, bool follows)
 {
   Cursor& cursor = this->At.preSweep[s];
   const std::int64_t end = s == 0 ? this->firstPreSweepEnd(follows)
                                   : this->reachable(cursor, this->At.preSweep, s - 1, follows);
   // On coarse levels x starts from zero: the first sweep reads the nodes below only, which it has
   // set itself.
-  auto& state = this->Window.down();
-  if (s == 0 && this->Fine)
-  {
-    this->Window.forColumns(cursor, end, state, SweepOf<true>(this->Window, state, true));
-  }
-  else
-  {
-    this->Window.forColumns(cursor, end, state, SweepOf<false>(this->Window, state, s == 0));
-  }
+  this->relax(cursor, end, this->Window.down(), s == 0, s == 0 && this->Fine);
   cursor = end;
 }
 
 /** The end of the nodes that the first sweep of the downward part may process. */
-template <class Real, class Relaxation>
-std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
+template <class Real>
+std::int64_t Level<Real>::firstPreSweepEnd(bool follows)
 {
   std::int64_t end = this->At.preSweep.front();
   if (!this->Fine)
@@ -161,8 +163,8 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
 
 /** Acceleration may modify a node once no sweep reads it any more. Restriction then takes the
  * residual of the accelerated iterate. */
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::combine(bool follows)
+template <class Real>
+void Level<Real>::combine(bool follows)
 {
   std::int64_t end = this->At.preSweep.back().seen(follows);
   if (this->History)
@@ -176,8 +178,8 @@ void Level<Real, Relaxation>::combine(bool follows)
 
 /** Restricts as far as the last stage has passed all neighbours, and as far as the coarse level
  * can take it: its b must have been set to zero. */
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::restrict(bool follows)
+template <class Real>
+void Level<Real>::restrict(bool follows)
 {
   const std::int64_t limit = this->Window.reachable(
     this->At.restricted, this->At.combined.seen(follows), this->endPatched());
@@ -201,8 +203,8 @@ void Level<Real, Relaxation>::restrict(bool follows)
  * the second use begins only when the first one has ended for the node: when the last sweep has
  * passed its neighbours, which read x, and the finer level has prolongated to all its children.
  */
-template <class Real, class Relaxation>
-bool Level<Real, Relaxation>::prepare(std::int64_t node)
+template <class Real>
+bool Level<Real>::prepare(std::int64_t node)
 {
   if (this->First || this->Core)
   {
@@ -224,5 +226,8 @@ bool Level<Real, Relaxation>::prepare(std::int64_t node)
   }
   return true;
 }
+
+template class Level<double>;
+template class Level<float>;
 
 } // namespace smg
