@@ -13,71 +13,6 @@
 namespace smg
 {
 
-/** Parameters of the operator set Extended; the defaults are those for triangles. */
-struct ExtendedParameters
-{
-  /** IndependentSetCoarsening::strength, sliverStrength and cancelling. */
-  float strength = 0.2F;
-  float sliverStrength = 0.5F;
-  float cancelling = 1.2F;
-  /** ExtendedInterpolation::finestEntries, entries and sweeps. */
-  int finestEntries = 3;
-  int entries = 4;
-  int sweeps = 1;
-  /** Patches::setRings(). */
-  int patchRings = 1;
-  /** GalerkinProduct::cancelling. */
-  double coarseCancelling = 1.1;
-  /** Sparsification::dropsNegative. */
-  bool dropsNegative = false;
-
-  /**
-   * The parameters that measured best for each type of cell. docs/architecture.md ("The hierarchy")
-   * lists the alternatives that were tried.
-   *
-   * Surfaces: a strength of 0.2 instead of 0.1 costs 5 to 10 % of memory and time per V-cycle and
-   * saves up to a third of the V-cycles on real scans. For sliver rows alone, 0.5 costs nothing and
-   * saves a sixth to a half of the V-cycles on lattices of obtuse triangles.
-   * Tetrahedra: a strength of 0 would count the small weights of slivers as strong, and values
-   * above 0.1 cost more memory than the V-cycles that they save are worth. Keeping all entries of
-   * rows that cancel only a little, and negative weights without a common neighbour, pays off only
-   * on surfaces.
-   *
-   * Most of the set-up is the Galerkin product from the finest level to the next one. Fewer entries
-   * per row of P there (finestEntries) save part of it where no sliver needs more. A second sweep
-   * of the interpolation saves at most an eighth of the V-cycles on slivers, and adds a ring to
-   * every window.
-   */
-  static ExtendedParameters forCells(CellType type)
-  {
-    ExtendedParameters parameters;
-    if (type == CellType::Tetrahedron)
-    {
-      parameters.strength = parameters.sliverStrength = 0.08F;
-      parameters.entries = 5;
-      parameters.patchRings = 2;
-      parameters.cancelling = 1.5F;
-      parameters.coarseCancelling = 1.5;
-      parameters.dropsNegative = true;
-    }
-    return parameters;
-  }
-
-  /** For a small, fixed number of V-cycles: each V-cycle is up to twice as effective, and the
-   * set-up takes longer. */
-  static ExtendedParameters forFewCycles(CellType type)
-  {
-    ExtendedParameters parameters = forCells(type);
-    parameters.finestEntries = parameters.entries;
-    if (type == CellType::Tetrahedron)
-    {
-      parameters.strength = parameters.sliverStrength = 0.05F;
-      parameters.sweeps = 2;
-    }
-    return parameters;
-  }
-};
-
 /**
  * The default operator set. The C-points are those of the paper (Shi, Bao, Zhou 2009), a greedy
  * maximal independent set in stream order, but only strong edges count; the interpolation is
@@ -100,24 +35,53 @@ public:
   /** The steps may run on different threads: see canRunApart. */
   using Apart = Extended;
 
-  Extended() = default;
-  explicit Extended(const ExtendedParameters& parameters)
+  /**
+   * The parameters that measured best for each type of cell. docs/architecture.md ("The hierarchy")
+   * lists the alternatives that were tried.
+   *
+   * Surfaces: a strength of 0.2 instead of 0.1 costs 5 to 10 % of memory and time per V-cycle and
+   * saves up to a third of the V-cycles on real scans. For rows that cancel, 0.5 costs nothing and
+   * saves a sixth to a half of the V-cycles on lattices of obtuse triangles.
+   * Tetrahedra: a strength of 0 would count the small weights of slivers as strong, and values
+   * above 0.1 cost more memory than the V-cycles that they save are worth. Keeping all entries of
+   * rows that cancel only a little, and negative weights without a common neighbour, pays off only
+   * on surfaces.
+   *
+   * Most of the set-up is the Galerkin product from the finest level to the next one. Fewer entries
+   * per row of P there (finestEntries) save part of it where no sliver needs more. A second sweep
+   * of the interpolation saves at most an eighth of the V-cycles on slivers, and adds a ring to
+   * every window.
+   */
+  static Extended forCells(CellType type)
   {
-    this->Interpolation.coarsePoints.strength = parameters.strength;
-    this->Interpolation.coarsePoints.sliverStrength = parameters.sliverStrength;
-    this->Interpolation.coarsePoints.cancelling = parameters.cancelling;
-    this->Interpolation.finestEntries = parameters.finestEntries;
-    this->Interpolation.entries = parameters.entries;
-    this->Interpolation.sweeps = parameters.sweeps;
-    this->Product.cancelling = parameters.coarseCancelling;
-    this->Sparsify.dropsNegative = parameters.dropsNegative;
-    this->PatchRings = parameters.patchRings;
+    Extended set;
+    // The defaults of the parts are those for triangles, except for the product, which other sets
+    // have, too.
+    set.Product.cancelling = 1.1;
+    if (type == CellType::Tetrahedron)
+    {
+      set.Interpolation.coarsePoints = { 0.08F, 0.08F, 1.5F };
+      set.Interpolation.entries = 5;
+      set.Product.cancelling = 1.5;
+      set.Sparsify.dropsNegative = true;
+      set.PatchRings = 2;
+    }
+    return set;
   }
 
-  static Extended forCells(CellType type) { return Extended(ExtendedParameters::forCells(type)); }
+  /** For a small, fixed number of V-cycles: each V-cycle is up to twice as effective, and the
+   * set-up takes longer. */
   static Extended forFewCycles(CellType type)
   {
-    return Extended(ExtendedParameters::forFewCycles(type));
+    Extended set = forCells(type);
+    set.Interpolation.finestEntries = set.Interpolation.entries;
+    if (type == CellType::Tetrahedron)
+    {
+      set.Interpolation.coarsePoints.strength = 0.05F;
+      set.Interpolation.coarsePoints.cancellingStrength = 0.05F;
+      set.Interpolation.sweeps = 2;
+    }
+    return set;
   }
 
   /** See Patches::setRings(). */
