@@ -5,7 +5,6 @@
 #include "Solver/Jobs/Deformation/InteractiveEngine.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Extended.h"
-#include "Solver/Shi2006/Shi2006.h"
 #include "smg/DeformationDescription.h"
 #include "smg/DescribedHandles.h"
 #include "smg/Error.h"
@@ -20,12 +19,6 @@ namespace smg
 /** Checks what can be checked without the mesh. */
 void checkOptions(const DeformOptions& options)
 {
-  // The equations as printed in the paper do not converge to the solution.
-  if (options.operators == Shi2006::name)
-  {
-    throw Error("a deformation needs solutions, which the operator set " + options.operators +
-                " does not give: use " + Extended::name);
-  }
   checkOptions(static_cast<const SolveOptions&>(options));
   // There is no estimate of the discretisation error of the two steps.
   refuseAutomaticTolerance(options, "a deformation");

@@ -5,7 +5,6 @@
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Problem/ComposeDescriptions.h"
-#include "Solver/Shi2006/Shi2006.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
 #include "smg/SolveWith.h"
@@ -83,15 +82,12 @@ void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem
 
 void checkOperators(const SolveOptions& options)
 {
-  require(options.operators == Extended::name || options.operators == Shi2006::name,
-    "there is no operator set '" + options.operators + "': use " + Extended::name + " or " +
-      Shi2006::name);
-  // The equations as printed in the paper: for comparison only.
-  require(options.operators != Shi2006::name || options.inCore,
-    std::string("the operator set ") + Shi2006::name +
-      " keeps vectors on the edges of every level and works in core only: solve in core "
-      "(--in-core), or use " +
-      Extended::name);
+  require(options.operators != "shi2006",
+    "the operator set shi2006, the equations as the paper prints them, gives no solutions and is "
+    "not "
+    "in the library: use extended, or the program solve_shi2006, which is built with the tests");
+  require(options.operators == Extended::name,
+    "there is no operator set '" + options.operators + "': use " + Extended::name);
 }
 
 void checkProblem(const Problem& problem)
@@ -112,18 +108,7 @@ std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSour
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
 {
   checkOperators(options);
-  if (options.operators != Shi2006::name)
-  {
-    return solveWith<Extended>(mesh, problem, options);
-  }
-  // solveWith() has the same checks; this method is not an operator set, and its iteration has no
-  // error to balance.
-  checkOptions(options);
-  refuseAutomaticTolerance(options, std::string("the operator set ") + Shi2006::name);
-  checkProblem(problem);
-  auto solver = std::make_unique<Shi2006>(problem.columns(), options);
-  solver->solve(mesh, problem);
-  return solver;
+  return solveWith<Extended>(mesh, problem, options);
 }
 
 void identify(SolveOptions& options, const StoredMesh& mesh, const std::string& text)

@@ -16,13 +16,11 @@ std::string SolvingCommand::checkTolerance(const std::string& text)
            : '\'' + text + "' is not a number between 0 and 1, both excluded";
 }
 
-void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result,
-  smg::SolveOptions& options, std::vector<std::string> operators)
+void SolvingCommand::addSolverOptions(
+  CLI::App& command, const std::string& result, smg::SolveOptions& options)
 {
   this->addFiles(command, result);
-  command.add_option("--operators", options.operators, "Operator set")
-    ->check(oneOf(std::move(operators)))
-    ->capture_default_str();
+  command.add_option("--operators", options.operators, "Operator set")->capture_default_str();
   command
     .add_option(
       "--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a coarse-grid correction")
