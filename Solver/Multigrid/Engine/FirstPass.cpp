@@ -126,11 +126,12 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
     [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } });
   if (apart)
   {
+    schedule.startChain();
     schedule.add({ "connect edges", 0, 0.0, [&](bool) { waits ? void() : assembly.connect(); } });
+    schedule.startChain();
     schedule.add({ "close rows", 0, 0.0, [&](bool) { waits ? void() : assembly.closeRows(); } });
   }
   builder.addStages(schedule);
-  schedule.cutAll();
   const std::size_t downward = schedule.stages().size();
   schedule.startChain();
   addDownward(finest, schedule);
