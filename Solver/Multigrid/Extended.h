@@ -23,9 +23,9 @@ namespace smg
  * Every step works in stream order on data that the window of a pass contains, so the hierarchy is
  * the same, bit for bit, for any window, block size and number of threads.
  *
- * Unlike the equations printed in the paper (Solver/Shi2006) it converges to the solution. The rate
- * hardly depends on the size of the mesh where cells are well shaped, or noisy but not refined;
- * lattices of slivers, which refinement makes of bad cells, slow it down (docs/performance.md).
+ * Unlike the equations as the paper prints them it converges to the solution. The rate hardly
+ * depends on the size of the mesh where cells are well shaped, or noisy but not refined; lattices
+ * of slivers, which refinement makes of bad cells, slow it down (docs/performance.md).
  */
 class Extended
 {

@@ -101,14 +101,13 @@ public:
       this->PatchLists.push_back(l + 1 < levels ? patchesOf(level) : PatchList{});
       if (l > 0)
       {
-        this->Coarse.push_back(
-          std::make_unique<CoarserLevel>(this->Memory, this->Resident, l, columns,
-          sweeps, compiledRelaxation<GaussSeidel>));
+        this->Coarse.push_back(std::make_unique<CoarserLevel>(
+          this->Memory, this->Resident, l, columns, sweeps, compiledRelaxation<GaussSeidel>));
         this->Coarse.back()->setCore();
       }
     }
-    this->Finest = std::make_unique<TestedLevel>(this->Memory, this->Resident, 0, columns,
-      sweeps, compiledRelaxation<GaussSeidel>);
+    this->Finest = std::make_unique<TestedLevel>(
+      this->Memory, this->Resident, 0, columns, sweeps, compiledRelaxation<GaussSeidel>);
     this->Finest->setCore();
     SpareBuffers buffers(this->Memory);
     const auto fill = [&](auto& level, int l)
