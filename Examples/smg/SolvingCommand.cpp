@@ -20,7 +20,11 @@ void SolvingCommand::addSolverOptions(
   CLI::App& command, const std::string& result, smg::SolveOptions& options)
 {
   this->addFiles(command, result);
-  command.add_option("--operators", options.operators, "Operator set")->capture_default_str();
+  // checkOperators() says where shi2006, which there was, is found.
+  command.add_option("--operators", options.operators, "Operator set")
+    ->check([](const std::string& name)
+      { return name == "shi2006" ? std::string() : oneOf({ "extended" })(name); })
+    ->capture_default_str();
   command
     .add_option(
       "--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a coarse-grid correction")

@@ -82,8 +82,6 @@ def test_solve():
     assert "not converged" in done.stderr and not load("solve.json")["converged"]
     done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "shi2006", code=1)
     assert "solve_shi2006" in done.stderr, done.stderr
-    done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "none", code=1)
-    assert "use extended" in done.stderr, done.stderr
 
 
 def test_solutions_have_the_order_of_their_mesh():
