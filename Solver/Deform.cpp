@@ -4,9 +4,7 @@
 #include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 #include "Solver/Jobs/Deformation/InteractiveEngine.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/ExtendedEngine.h"
 #include "Solver/Multigrid/Extended.h"
-#include "Solver/Shi2006/Shi2006.h"
 #include "smg/DeformationDescription.h"
 #include "smg/DescribedHandles.h"
 #include "smg/Error.h"
@@ -21,12 +19,6 @@ namespace smg
 /** Checks what can be checked without the mesh. */
 void checkOptions(const DeformOptions& options)
 {
-  // The equations as printed in the paper do not converge to the solution.
-  if (options.operators == Shi2006::name)
-  {
-    throw Error("a deformation needs solutions, which the operator set " + options.operators +
-                " does not give: use " + Extended::name);
-  }
   checkOptions(static_cast<const SolveOptions&>(options));
   // There is no estimate of the discretisation error of the two steps.
   refuseAutomaticTolerance(options, "a deformation");
@@ -42,9 +34,9 @@ namespace
 
 /** The operators with the fastest V-cycles: a deformation makes few of them, often a given number.
  */
-Extended operatorsFor(CellType cells)
+CompiledOperators operatorsFor(CellType cells)
 {
-  return Extended::forFewCycles(cells);
+  return compiled(Extended::forFewCycles(cells));
 }
 
 } // namespace
@@ -54,7 +46,7 @@ std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const Defor
 {
   checkOptions(options);
   const CellType cells = mesh.info().cellType;
-  DeformationEngine<Extended> engine(operatorsFor(cells), options, cells);
+  DeformationEngine engine(operatorsFor(cells), options, cells);
   // The mesh is read here, in the first pass; the handles are asked block by block.
   engine.deform(mesh, handles);
   return engine.takeSolution();
@@ -75,7 +67,7 @@ std::unique_ptr<Solution> deform(const StoredMesh& mesh, const DeformationDescri
 /** Hides the templates of the engine from the header. */
 struct InteractiveDeformation::Implementation
 {
-  InteractiveEngine<Extended> engine;
+  InteractiveEngine engine;
 };
 
 namespace

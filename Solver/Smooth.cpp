@@ -29,7 +29,6 @@ void requireThat(bool holds, const std::string& sentence)
 
 void checkOptions(const Smoothing& options)
 {
-  // The equations of Shi2006 do not converge to the solution.
   requireThat(options.operators == Extended::name,
     "smoothing needs solutions, which the operator set " + options.operators +
       " does not give: use " + Extended::name);

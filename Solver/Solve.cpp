@@ -2,10 +2,9 @@
 #include "smg/Solve.h"
 
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/ExtendedEngine.h"
+#include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Problem/ComposeDescriptions.h"
-#include "Solver/Shi2006/Shi2006.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
 #include "smg/SolveWith.h"
@@ -83,15 +82,12 @@ void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem
 
 void checkOperators(const SolveOptions& options)
 {
-  require(options.operators == Extended::name || options.operators == Shi2006::name,
-    "there is no operator set '" + options.operators + "': use " + Extended::name + " or " +
-      Shi2006::name);
-  // The equations as printed in the paper: for comparison only.
-  require(options.operators != Shi2006::name || options.inCore,
-    std::string("the operator set ") + Shi2006::name +
-      " keeps vectors on the edges of every level and works in core only: solve in core "
-      "(--in-core), or use " +
-      Extended::name);
+  require(options.operators != "shi2006",
+    "the operator set shi2006, the equations as the paper prints them, gives no solutions and is "
+    "not "
+    "in the library: use extended, or the program solve_shi2006, which is built with the tests");
+  require(options.operators == Extended::name,
+    "there is no operator set '" + options.operators + "': use " + Extended::name);
 }
 
 void checkProblem(const Problem& problem)
@@ -99,22 +95,20 @@ void checkProblem(const Problem& problem)
   require(problem.columns() >= 1, "a problem needs at least one column");
 }
 
+std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSource& mesh,
+  Problem& problem, const SolveOptions& options)
+{
+  checkOptions(options);
+  checkProblem(problem);
+  checkAutomaticTolerance(options, problem);
+  PoissonSolver solver(operators, problem.columns(), options);
+  return solver.solve(mesh, problem);
+}
+
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
 {
   checkOperators(options);
-  // The default: compiled for its operator set, see ExtendedEngine.h.
-  if (options.operators != Shi2006::name)
-  {
-    return solveWith<Extended>(mesh, problem, options);
-  }
-  // solveWith() has the same checks; this method is not an operator set, and its iteration has no
-  // error to balance.
-  checkOptions(options);
-  refuseAutomaticTolerance(options, std::string("the operator set ") + Shi2006::name);
-  checkProblem(problem);
-  auto solver = std::make_unique<Shi2006>(problem.columns(), options);
-  solver->solve(mesh, problem);
-  return solver;
+  return solveWith<Extended>(mesh, problem, options);
 }
 
 void identify(SolveOptions& options, const StoredMesh& mesh, const std::string& text)

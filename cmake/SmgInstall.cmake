@@ -9,12 +9,25 @@ if (TARGET smgDistributed)
   install(DIRECTORY Solver/Distributed/include/smg
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development)
 endif ()
-# What smg/SolveWith.h compiles: on the path of StreamingMultigrid::Engine alone.
-foreach (folder Assembly Checkpoint Core Files Jobs/Results Memory Mesh Multigrid)
-  install(DIRECTORY Solver/${folder}/
+# What smg/SolveWith.h includes besides: what operators work on, and how they are compiled. On the
+# path of StreamingMultigrid::Engine alone.
+foreach (header
+    Core/SimdPack.h Core/SystemCalls.h
+    Memory/Buffer.h Memory/Pool.h Memory/RaggedRing.h Memory/Ring.h
+    Multigrid/Extended.h Multigrid/OperatorSet.h Multigrid/RowOperators.h
+    Multigrid/Cycle/GaussSeidel.h Multigrid/Cycle/RowBlock.h Multigrid/Cycle/Sweep.h
+    Multigrid/Engine/Coarsening.h Multigrid/Engine/CompiledOperators.h
+    Multigrid/Engine/InterpolationSweeps.h Multigrid/Engine/LevelCoarsening.h
+    Multigrid/Schedule/Cursor.h
+    Multigrid/Setup/CoarsePoints.h Multigrid/Setup/CoarseningData.h
+    Multigrid/Setup/GalerkinProduct.h Multigrid/Setup/GatheredRows.h
+    Multigrid/Setup/Interpolation.h Multigrid/Setup/InterpolationRow.h
+    Multigrid/Setup/LevelRows.h Multigrid/Setup/Patches.h Multigrid/Setup/RowBatch.h
+    Multigrid/Setup/SliverRows.h Multigrid/Setup/Sparsification.h)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES "Solver/${header}"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid/engine/Solver/${folder}"
-    COMPONENT development
-    FILES_MATCHING PATTERN "*.h" PATTERN "*.txx")
+    COMPONENT development)
 endforeach ()
 
 install(FILES docs/problem.schema.json

@@ -49,9 +49,7 @@ public:
         " in stream order; of a mesh file IN, " +
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded",
-      this->Solve, { "extended", "shi2006" });
-    command.get_option("--operators")
-      ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
+      this->Solve);
     command
       .add_option_function<std::string>(
         "--tolerance",

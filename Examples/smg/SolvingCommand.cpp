@@ -16,12 +16,14 @@ std::string SolvingCommand::checkTolerance(const std::string& text)
            : '\'' + text + "' is not a number between 0 and 1, both excluded";
 }
 
-void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result,
-  smg::SolveOptions& options, std::vector<std::string> operators)
+void SolvingCommand::addSolverOptions(
+  CLI::App& command, const std::string& result, smg::SolveOptions& options)
 {
   this->addFiles(command, result);
+  // checkOperators() says where shi2006, which there was, is found.
   command.add_option("--operators", options.operators, "Operator set")
-    ->check(oneOf(std::move(operators)))
+    ->check([](const std::string& name)
+      { return name == "shi2006" ? std::string() : oneOf({ "extended" })(name); })
     ->capture_default_str();
   command
     .add_option(

@@ -15,10 +15,9 @@ class SolvingCommand : public MeshCommand
 protected:
   using MeshCommand::MeshCommand;
 
-  /** Adds IN, OUT and the options of the solver, except the tolerance. `result` describes OUT,
-   * `operators` are the available operator sets. */
-  void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options,
-    std::vector<std::string> operators = { "extended" });
+  /** Adds IN, OUT and the options of the solver, except the tolerance. `result` describes
+   * OUT. */
+  void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options);
   /** Whether a tolerance is one: "", or what is wrong. CLI::Range includes its ends and accepts
    * nan.
    */

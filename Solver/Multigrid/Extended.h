@@ -13,30 +13,34 @@
 namespace smg
 {
 
-/** Parameters of the operator set Extended; the defaults are those for triangles. */
-struct ExtendedParameters
+/**
+ * The default operator set. The C-points are those of the paper (Shi, Bao, Zhou 2009), a greedy
+ * maximal independent set in stream order, but only strong edges count; the interpolation is
+ * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row; the coarse operator
+ * is a sparsified Galerkin product; the smoother is Gauss-Seidel in stream order. A node with a
+ * stiff row (see SliverRows) always gets a coarse node of its own.
+ *
+ * Every step works in stream order on data that the window of a pass contains, so the hierarchy is
+ * the same, bit for bit, for any window, block size and number of threads.
+ *
+ * Unlike the equations as the paper prints them it converges to the solution. The rate hardly
+ * depends on the size of the mesh where cells are well shaped, or noisy but not refined; lattices
+ * of slivers, which refinement makes of bad cells, slow it down (docs/performance.md).
+ */
+class Extended
 {
-  /** IndependentSetCoarsening::strength, sliverStrength and cancelling. */
-  float strength = 0.2F;
-  float sliverStrength = 0.5F;
-  float cancelling = 1.2F;
-  /** ExtendedInterpolation::finestEntries, entries and sweeps. */
-  int finestEntries = 3;
-  int entries = 4;
-  int sweeps = 1;
-  /** Patches::setRings(). */
-  int patchRings = 1;
-  /** GalerkinProduct::cancelling. */
-  double coarseCancelling = 1.1;
-  /** Sparsification::dropsNegative. */
-  bool dropsNegative = false;
+public:
+  static constexpr const char* name = "extended";
+  using Relaxation = GaussSeidel;
+  /** The steps may run on different threads: see canRunApart. */
+  using Apart = Extended;
 
   /**
    * The parameters that measured best for each type of cell. docs/architecture.md ("The hierarchy")
    * lists the alternatives that were tried.
    *
    * Surfaces: a strength of 0.2 instead of 0.1 costs 5 to 10 % of memory and time per V-cycle and
-   * saves up to a third of the V-cycles on real scans. For sliver rows alone, 0.5 costs nothing and
+   * saves up to a third of the V-cycles on real scans. For rows that cancel, 0.5 costs nothing and
    * saves a sixth to a half of the V-cycles on lattices of obtuse triangles.
    * Tetrahedra: a strength of 0 would count the small weights of slivers as strong, and values
    * above 0.1 cost more memory than the V-cycles that they save are worth. Keeping all entries of
@@ -48,76 +52,36 @@ struct ExtendedParameters
    * of the interpolation saves at most an eighth of the V-cycles on slivers, and adds a ring to
    * every window.
    */
-  static ExtendedParameters forCells(CellType type)
+  static Extended forCells(CellType type)
   {
-    ExtendedParameters parameters;
+    Extended set;
+    // The defaults of the parts are those for triangles, except for the product, which other sets
+    // have, too.
+    set.Product.cancelling = 1.1;
     if (type == CellType::Tetrahedron)
     {
-      parameters.strength = parameters.sliverStrength = 0.08F;
-      parameters.entries = 5;
-      parameters.patchRings = 2;
-      parameters.cancelling = 1.5F;
-      parameters.coarseCancelling = 1.5;
-      parameters.dropsNegative = true;
+      set.Interpolation.coarsePoints = { 0.08F, 0.08F, 1.5F };
+      set.Interpolation.entries = 5;
+      set.Product.cancelling = 1.5;
+      set.Sparsify.dropsNegative = true;
+      set.PatchRings = 2;
     }
-    return parameters;
+    return set;
   }
 
   /** For a small, fixed number of V-cycles: each V-cycle is up to twice as effective, and the
    * set-up takes longer. */
-  static ExtendedParameters forFewCycles(CellType type)
-  {
-    ExtendedParameters parameters = forCells(type);
-    parameters.finestEntries = parameters.entries;
-    if (type == CellType::Tetrahedron)
-    {
-      parameters.strength = parameters.sliverStrength = 0.05F;
-      parameters.sweeps = 2;
-    }
-    return parameters;
-  }
-};
-
-/**
- * The default operator set. The C-points are those of the paper (Shi, Bao, Zhou 2009), a greedy
- * maximal independent set in stream order, but only strong edges count; the interpolation is
- * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row; the coarse operator
- * is a sparsified Galerkin product; the smoother is Gauss-Seidel in stream order. A node with a
- * stiff row (see SliverRows) always gets a coarse node of its own.
- *
- * Every step works in stream order on data that the window of a pass contains, so the hierarchy is
- * the same, bit for bit, for any window, block size and number of threads.
- *
- * Unlike the equations printed in the paper (Solver/Shi2006) it converges to the solution. The rate
- * hardly depends on the size of the mesh where cells are well shaped, or noisy but not refined;
- * lattices of slivers, which refinement makes of bad cells, slow it down (docs/performance.md).
- */
-class Extended
-{
-public:
-  static constexpr const char* name = "extended";
-  using Relaxation = GaussSeidel;
-  /** The steps may run on different threads: see canRunApart. */
-  using Apart = Extended;
-
-  Extended() = default;
-  explicit Extended(const ExtendedParameters& parameters)
-  {
-    this->Interpolation.coarsePoints.strength = parameters.strength;
-    this->Interpolation.coarsePoints.sliverStrength = parameters.sliverStrength;
-    this->Interpolation.coarsePoints.cancelling = parameters.cancelling;
-    this->Interpolation.finestEntries = parameters.finestEntries;
-    this->Interpolation.entries = parameters.entries;
-    this->Interpolation.sweeps = parameters.sweeps;
-    this->Product.cancelling = parameters.coarseCancelling;
-    this->Sparsify.dropsNegative = parameters.dropsNegative;
-    this->PatchRings = parameters.patchRings;
-  }
-
-  static Extended forCells(CellType type) { return Extended(ExtendedParameters::forCells(type)); }
   static Extended forFewCycles(CellType type)
   {
-    return Extended(ExtendedParameters::forFewCycles(type));
+    Extended set = forCells(type);
+    set.Interpolation.finestEntries = set.Interpolation.entries;
+    if (type == CellType::Tetrahedron)
+    {
+      set.Interpolation.coarsePoints.strength = 0.05F;
+      set.Interpolation.coarsePoints.cancellingStrength = 0.05F;
+      set.Interpolation.sweeps = 2;
+    }
+    return set;
   }
 
   /** See Patches::setRings(). */

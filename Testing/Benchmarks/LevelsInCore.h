@@ -19,11 +19,11 @@ public:
 
   LevelsInCore(const testing::StreamMesh& mesh, int sweeps)
     : Run(Columns, options(sweeps))
-    , Levels(this->Run, Columns)
+    , Levels(this->Run, Columns, compiledRelaxation<GaussSeidel>)
   {
     testing::MemorySource source(mesh);
     FixedEndsProblem problem(source.info());
-    const Extended operators = Extended::forCells(mesh.cellType);
+    const CompiledOperators operators = compiled(Extended::forCells(mesh.cellType));
     FirstPass(this->Run, this->Levels, operators)(source, problem);
     this->Levels.startPass(false);
   }
@@ -33,9 +33,9 @@ public:
   {
     return this->Levels.levels().sizes[static_cast<std::size_t>(l)];
   }
-  Level<double, GaussSeidel>& finest() { return this->Levels.finest(); }
+  Level<double>& finest() { return this->Levels.finest(); }
   /** Level l, from 1 on. */
-  Level<float, GaussSeidel>& coarse(int l)
+  Level<float>& coarse(int l)
   {
     return *this->Levels.levels().coarse[static_cast<std::size_t>(l - 1)];
   }
@@ -60,7 +60,7 @@ private:
   }
 
   SolveContext Run;
-  Hierarchy<GaussSeidel> Levels;
+  Hierarchy Levels;
 };
 
 } // namespace smg::benchmark

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Engine/SolveContext.h"
+#include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <vector>
 

@@ -32,7 +32,7 @@ public:
   /** The factor of the energy norm in the last of `iterations` V-cycles from level l. */
   double factor(int l, bool isTwoGrid, int iterations)
   {
-    std::vector<Level<float, GaussSeidel>*> below;
+    std::vector<Level<float>*> below;
     for (int k = l + 1; k < this->Levels.count(); ++k)
     {
       below.push_back(&this->Levels.coarse(k));
@@ -53,10 +53,10 @@ public:
 
 private:
   /** As good as a direct solve for factors of two digits. */
-  static constexpr CoreIteration<GaussSeidel>::Ending Exact{ 200, 1e-9 };
+  static constexpr CoreIteration::Ending Exact{ 200, 1e-9 };
 
   template <class Real>
-  double iterate(Level<Real, GaussSeidel>& level, int l, bool isTwoGrid, int iterations)
+  double iterate(Level<Real>& level, int l, bool isTwoGrid, int iterations)
   {
     LevelWindow<Real>& window = level.window();
     const auto stride = static_cast<std::size_t>(window.stride());
@@ -146,9 +146,9 @@ private:
 
   /** A V-cycle from level l, or one of two grids. */
   template <class Real>
-  void cycle(Level<Real, GaussSeidel>& level, int l, bool isTwoGrid)
+  void cycle(Level<Real>& level, int l, bool isTwoGrid)
   {
-    Level<float, GaussSeidel>& coarse = this->Levels.coarse(l + 1);
+    Level<float>& coarse = this->Levels.coarse(l + 1);
     level.setScale(1);
     level.setScale(1); // the scale of the last restriction, too
     level.relaxDown();
@@ -156,7 +156,7 @@ private:
     level.restrictAll();
     if (isTwoGrid && l + 2 < this->Levels.count())
     {
-      CoreIteration<GaussSeidel> exact(coarse, Exact);
+      CoreIteration exact(coarse, Exact);
       exact([this] { this->Below.run(); });
     }
     else
@@ -169,7 +169,7 @@ private:
 
   LevelsInCore& Levels;
   double Quotient = 0.0;
-  CoreVCycle<GaussSeidel> Below; ///< the V-cycle of the levels below
+  CoreVCycle Below; ///< the V-cycle of the levels below
   std::vector<double> Squares;
 };
 

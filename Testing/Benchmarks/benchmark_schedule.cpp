@@ -60,9 +60,9 @@ std::vector<smg::StepRecorder::Pass> record(const Options& options)
   smg::SolveOptions solve = solveOptions(options, 1);
   solve.blockNodes = smg::RowBlock::Nodes;
   smg::PoissonSolver solver(
-    smg::Extended::forCells(reader.info().cellType), problem.columns(), solve);
+    compiled(smg::Extended::forCells(reader.info().cellType)), problem.columns(), solve);
   smg::StepRecorder recorder;
-  solver.run().recorder = &recorder;
+  solver.run().threads.recorder = &recorder;
   // The recorder lives longer than the solution.
   const auto solution = solver.solve(*source, problem);
   return recorder.passes();

@@ -30,9 +30,9 @@ struct CoarseningCase
     {
       terms += std::fabs(entry.weight());
     }
-    const bool isOfSlivers =
+    const bool cancels =
       terms > IndependentSetCoarsening().cancelling * static_cast<float>(this->level.diagonal(i));
-    const float share = isOfSlivers ? this->operators.sliverStrength : this->operators.strength;
+    const float share = cancels ? this->operators.cancellingStrength : this->operators.strength;
     return std::max(share * this->level.strongest(i), FLT_MIN);
   }
 };
@@ -43,8 +43,8 @@ inline std::vector<CoarseningCase> coarseningCases()
   RecordingOperators surface, solid;
   surface.sweeps = 1;
   surface.cancelling = 1.1;
-  surface.sliverStrength = 0.5F;
-  solid.strength = solid.sliverStrength = 0.0F;
+  surface.cancellingStrength = 0.5F;
+  solid.strength = solid.cancellingStrength = 0.0F;
   solid.finestEntries = solid.entries = 5;
   solid.dropsNegative = true;
   const auto uniform = Weights::Uniform;
@@ -61,7 +61,7 @@ inline std::vector<CoarseningCase> coarseningCases()
     { "box, constrained", finestLevel(box, clamped, 13), solid, false, true },
   };
   const std::vector<TestLevel> levels = levelsWithPatches();
-  solid.strength = solid.sliverStrength = 0.05F;
+  solid.strength = solid.cancellingStrength = 0.05F;
   surface.sweeps = 2;
   cases.push_back({ "flat tetrahedra, constrained", levels[0], solid, false, false });
   cases.push_back({ "flat tetrahedra", levels[1], solid, true, false });

@@ -10,9 +10,9 @@ namespace smg::testing
 namespace
 {
 
-std::vector<Level<float, GaussSeidel>*> levelsOf(DenseHierarchy<>& h, int levels)
+std::vector<Level<float>*> levelsOf(DenseHierarchy<>& h, int levels)
 {
-  std::vector<Level<float, GaussSeidel>*> list{ &h.finest() };
+  std::vector<Level<float>*> list{ &h.finest() };
   for (int l = 1; l < levels; ++l)
   {
     list.push_back(&h.coarse(l));
@@ -64,7 +64,7 @@ TEST(CoreVCycle, IsTheVCycle)
         DenseHierarchy<> h(level, levels, columns, 2);
         const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 8);
         setState(h.finest().window().b(), b);
-        CoreVCycle<GaussSeidel> cycle;
+        CoreVCycle cycle;
         cycle.setLevels(levelsOf(h, levels), level.nodes());
         const Eigen::MatrixXd expected = denseCycle(h, levels, 0, b);
         // Twice: a cycle leaves no state that affects the next one.
@@ -83,7 +83,7 @@ TEST(CoreVCycle, ContractsTheErrorOnManyLevels)
 {
   const TestLevel level = finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
   DenseHierarchy<> h(level, 5, 1, 2);
-  CoreVCycle<GaussSeidel> cycle;
+  CoreVCycle cycle;
   cycle.setLevels(levelsOf(h, 5), level.nodes());
   Eigen::MatrixXd b = randomMatrix(level.nodes(), 1, 9);
   const double before = b.norm();
@@ -114,7 +114,7 @@ TEST(CoreVCycle, SolvesALevelMuchSmallerThanTheFinest)
     }
     const auto error = [&](std::int64_t finest)
     {
-      CoreVCycle<GaussSeidel> cycle;
+      CoreVCycle cycle;
       cycle.setLevels(levelsOf(h, Levels), finest);
       setState(h.finest().window().b(), a * exact);
       cycle.run();

@@ -227,9 +227,8 @@ TEST(CustomOperators, ParametersAreValues)
   for (auto& [mesh, problem] : tasks())
   {
     MemorySource source(mesh);
-    PoissonSolver<Extended> solver(
-      Extended::forFewCycles(mesh.cellType), problem.columns(), accurate());
-    const std::unique_ptr<Solution> solution = solver.solve(source, problem);
+    const std::unique_ptr<Solution> solution =
+      solveWith(compiled(Extended::forFewCycles(mesh.cellType)), source, problem, accurate());
     EXPECT_LT(relativeError(valuesOf(*solution), solveDirectly(mesh, problem)), 1e-7);
     const Solved usual = solveWithSet<Extended>(mesh, problem, accurate());
     EXPECT_LE(solution->report().cycles, usual.report.cycles);

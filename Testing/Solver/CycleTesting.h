@@ -72,8 +72,8 @@ template <class Real = float>
 class DenseHierarchy
 {
 public:
-  using TestedLevel = Level<Real, GaussSeidel>;
-  using CoarserLevel = Level<float, GaussSeidel>;
+  using TestedLevel = Level<Real>;
+  using CoarserLevel = Level<float>;
 
   DenseHierarchy(const TestLevel& finest, int levels, int columns, int sweeps, bool wide = false)
     : Memory(std::int64_t(1) << 32)
@@ -101,12 +101,13 @@ public:
       this->PatchLists.push_back(l + 1 < levels ? patchesOf(level) : PatchList{});
       if (l > 0)
       {
-        this->Coarse.push_back(
-          std::make_unique<CoarserLevel>(this->Memory, this->Resident, l, columns, sweeps));
+        this->Coarse.push_back(std::make_unique<CoarserLevel>(
+          this->Memory, this->Resident, l, columns, sweeps, compiledRelaxation<GaussSeidel>));
         this->Coarse.back()->setCore();
       }
     }
-    this->Finest = std::make_unique<TestedLevel>(this->Memory, this->Resident, 0, columns, sweeps);
+    this->Finest = std::make_unique<TestedLevel>(
+      this->Memory, this->Resident, 0, columns, sweeps, compiledRelaxation<GaussSeidel>);
     this->Finest->setCore();
     SpareBuffers buffers(this->Memory);
     const auto fill = [&](auto& level, int l)

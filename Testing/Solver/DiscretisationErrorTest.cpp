@@ -377,11 +377,6 @@ TEST(AutomaticTolerance, IsRefusedWhereItHasNoMeaning)
   EXPECT_NE(messageOf([&] { solved(problem, options); }).find("uniform weights have no"),
     std::string::npos);
   problem.EdgeWeights = Weights::Cotangent;
-  SolveOptions paper = options;
-  paper.operators = "shi2006";
-  paper.inCore = true;
-  EXPECT_NE(
-    messageOf([&] { solved(problem, paper); }).find("no automatic tolerance"), std::string::npos);
   DeformOptions deformation;
   deformation.tolerance = SolveOptions::AutomaticTolerance;
   EXPECT_NE(

@@ -208,7 +208,7 @@ public:
   static RecordingOperators forCells(CellType) { return {}; }
 
   float strength = 0.1F;
-  float sliverStrength = 0.1F;
+  float cancellingStrength = 0.1F;
   int finestEntries = 4;
   int entries = 4;
   int sweeps = 2;
@@ -220,7 +220,7 @@ public:
   bool isCoarse(const CoarseningData& data, std::int64_t i)
   {
     this->Interpolation.coarsePoints.strength = this->strength;
-    this->Interpolation.coarsePoints.sliverStrength = this->sliverStrength;
+    this->Interpolation.coarsePoints.cancellingStrength = this->cancellingStrength;
     this->Interpolation.finestEntries = this->finestEntries;
     this->Interpolation.entries = this->entries;
     this->Product.cancelling = this->cancelling;

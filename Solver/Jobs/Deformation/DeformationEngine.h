@@ -28,11 +28,10 @@ namespace smg
 
 /** The two problems of a deformation on one hierarchy: the rotations, then the positions. A shared
  * pass finishes the last V-cycle of the rotations and begins the first one of the positions. */
-template <class Relaxation>
 class DeformationSteps
 {
 public:
-  DeformationSteps(SolveContext& run, Hierarchy<Relaxation>& hierarchy, RestShape& rest,
+  DeformationSteps(SolveContext& run, Hierarchy& hierarchy, RestShape& rest,
     const DeformOptions& options, CellType cells)
     : Run(run)
     , Levels(hierarchy)
@@ -73,7 +72,7 @@ private:
     }
 
     Convergence convergence;
-    Iteration<Relaxation> iteration;
+    Iteration iteration;
   };
 
   bool resume(Step& rotations, Step& positions, bool& rotated);
@@ -83,15 +82,14 @@ private:
   double positionScale() const;
 
   SolveContext& Run;
-  Hierarchy<Relaxation>& Levels;
+  Hierarchy& Levels;
   RestShape& Rest;
   Weights EdgeWeights;
   int Cycles; // per step; 0: by the tolerance
   CellType Cells;
 };
 
-template <class Relaxation>
-void DeformationSteps<Relaxation>::solve(const std::function<FirstResidual()>& build)
+inline void DeformationSteps::solve(const std::function<FirstResidual()>& build)
 {
   Step rotations(*this, "rotation step: "), positions(*this, "position step: ");
   bool rotated = false;
@@ -120,8 +118,7 @@ void DeformationSteps<Relaxation>::solve(const std::function<FirstResidual()>& b
 /** Continues from a checkpoint, if there is one, and provides for further ones, between passes. A
  * checkpoint has the state of one of the steps: that of the positions if `rotated`, which is true
  * from the shared pass on. */
-template <class Relaxation>
-bool DeformationSteps<Relaxation>::resume(Step& rotations, Step& positions, bool& rotated)
+inline bool DeformationSteps::resume(Step& rotations, Step& positions, bool& rotated)
 {
   const auto save = [&](StateWriter& state)
   {
@@ -145,8 +142,7 @@ bool DeformationSteps<Relaxation>::resume(Step& rotations, Step& positions, bool
 
 /** The pass that finishes the last V-cycle of the rotations and begins the first one of the
  * positions. */
-template <class Relaxation>
-void DeformationSteps<Relaxation>::beginPositions(Step& rotations, Step& positions)
+inline void DeformationSteps::beginPositions(Step& rotations, Step& positions)
 {
   PositionStep step(this->Run.pool, this->Rest, this->Levels.window());
   const double norm = this->sharedPass(step);
@@ -160,8 +156,7 @@ void DeformationSteps<Relaxation>::beginPositions(Step& rotations, Step& positio
 }
 
 /** Returns the norm of the residual of the positions after their first sweeps. */
-template <class Relaxation>
-double DeformationSteps<Relaxation>::sharedPass(PositionStep& step)
+inline double DeformationSteps::sharedPass(PositionStep& step)
 {
   auto& finest = this->Levels.finest();
   this->Levels.renew(PositionStep::Columns);
@@ -179,8 +174,7 @@ double DeformationSteps<Relaxation>::sharedPass(PositionStep& step)
 
 /** An estimate of the largest residual of the positions: weights of triangles are of order 1, those
  * of tetrahedra of the order of lengths. */
-template <class Relaxation>
-double DeformationSteps<Relaxation>::positionScale() const
+inline double DeformationSteps::positionScale() const
 {
   const double extent = this->Rest.extent();
   const bool lengths =
@@ -188,8 +182,7 @@ double DeformationSteps<Relaxation>::positionScale() const
   return lengths ? extent * extent : extent;
 }
 
-template <class Relaxation>
-void DeformationSteps<Relaxation>::addStep(const char* name, const Convergence& convergence)
+inline void DeformationSteps::addStep(const char* name, const Convergence& convergence)
 {
   Report& r = this->Run.report;
   r.cycles += convergence.cycles();
@@ -230,17 +223,14 @@ private:
 
 /** Deforms a mesh: the first pass builds the hierarchy and begins the first V-cycle of the
  * rotations; DeformationSteps does the rest. */
-template <OperatorSet Operators>
 class DeformationEngine
 {
 public:
-  using Relaxation = typename Operators::Relaxation;
-
-  DeformationEngine(Operators operators, const DeformOptions& options, CellType cells)
+  DeformationEngine(CompiledOperators operators, const DeformOptions& options, CellType cells)
     : Set(std::move(operators))
     , EdgeWeights(options.weights)
     , Run(std::make_unique<SolveContext>(RotationProblem::Columns, options))
-    , Levels(*this->Run, RotationProblem::Columns)
+    , Levels(*this->Run, RotationProblem::Columns, this->Set.relaxation)
     , Rest(this->Run->pool)
     , Steps(*this->Run, this->Levels, this->Rest, options, cells)
   {
@@ -261,23 +251,22 @@ public:
   // The parts, for further deformations.
 
   SolveContext& run() { return *this->Run; }
-  Hierarchy<Relaxation>& levels() { return this->Levels; }
+  Hierarchy& levels() { return this->Levels; }
   RestShape& rest() { return this->Rest; }
-  DeformationSteps<Relaxation>& steps() { return this->Steps; }
+  DeformationSteps& steps() { return this->Steps; }
 
 private:
   static void ask(MeshSource& mesh, Handles& handles);
 
-  Operators Set;
+  CompiledOperators Set;
   Weights EdgeWeights;
   std::unique_ptr<SolveContext> Run;
-  Hierarchy<Relaxation> Levels;
+  Hierarchy Levels;
   RestShape Rest;
-  DeformationSteps<Relaxation> Steps;
+  DeformationSteps Steps;
 };
 
-template <OperatorSet Operators>
-void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
+inline void DeformationEngine::deform(MeshSource& mesh, Handles& handles)
 {
   SolveContext& run = *this->Run;
   run.beginReport();
@@ -302,8 +291,7 @@ void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
 
 /** Asks the handles for each block, as the first pass does. A run that continues from a checkpoint
  * does not make that pass, but the notes of the handles need it (DescribedHandles::notes()). */
-template <OperatorSet Operators>
-void DeformationEngine<Operators>::ask(MeshSource& mesh, Handles& handles)
+inline void DeformationEngine::ask(MeshSource& mesh, Handles& handles)
 {
   MeshBlock block;
   VertexHandles given;
@@ -314,8 +302,7 @@ void DeformationEngine<Operators>::ask(MeshSource& mesh, Handles& handles)
   }
 }
 
-template <OperatorSet Operators>
-std::unique_ptr<Solution> DeformationEngine<Operators>::takeSolution()
+inline std::unique_ptr<Solution> DeformationEngine::takeSolution()
 {
   SolveContext& run = *this->Run;
   auto displacements =

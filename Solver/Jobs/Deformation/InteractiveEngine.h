@@ -18,12 +18,11 @@ namespace smg
 /** A deformation in core that can be repeated with other motions of the same held vertices: only
  * the right-hand sides change, so that hierarchy and factorisation are kept. All values start anew.
  */
-template <OperatorSet Operators>
 class InteractiveEngine
 {
 public:
   /** `options` must be those of a deformation in core. */
-  InteractiveEngine(Operators operators, const DeformOptions& options, CellType cells)
+  InteractiveEngine(CompiledOperators operators, const DeformOptions& options, CellType cells)
     : First(std::move(operators), options, cells)
   {
   }
@@ -45,13 +44,12 @@ private:
   FirstResidual findRightSide();
   void addLinks(const RestBlock& block, double& squares);
 
-  DeformationEngine<Operators> First;
+  DeformationEngine First;
   /** Whether an update ended with an exception. */
   bool Broken = false;
 };
 
-template <OperatorSet Operators>
-bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
+inline bool InteractiveEngine::deformAgain(const VertexHandles& handles)
 {
   SolveContext& run = this->First.run();
   Report& r = run.report;
@@ -84,8 +82,7 @@ bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
   return true;
 }
 
-template <OperatorSet Operators>
-void InteractiveEngine<Operators>::read(
+inline void InteractiveEngine::read(
   std::int64_t first, std::int64_t count, std::span<double> values)
 {
   if (this->Broken)
@@ -98,9 +95,8 @@ void InteractiveEngine<Operators>::read(
 }
 
 /** Calls f(held, index) for each held vertex. */
-template <OperatorSet Operators>
 template <class F>
-void InteractiveEngine<Operators>::forHeld(F&& f)
+void InteractiveEngine::forHeld(F&& f)
 {
   for (const RestBlock& block : this->First.rest().blocks())
   {
@@ -111,8 +107,7 @@ void InteractiveEngine<Operators>::forHeld(F&& f)
   }
 }
 
-template <OperatorSet Operators>
-bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
+inline bool InteractiveEngine::holdsTheSame(const VertexHandles& handles)
 {
   const auto isHeld = [](std::uint8_t mask) { return mask != 0; };
   bool same =
@@ -124,8 +119,7 @@ bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
 
 /** Sets the targets of the held vertices, and their rotations and scales; all others begin with 0.
  */
-template <OperatorSet Operators>
-void InteractiveEngine<Operators>::take(const VertexHandles& handles)
+inline void InteractiveEngine::take(const VertexHandles& handles)
 {
   LevelWindow<double>& window = this->First.levels().window();
   window.abandon();
@@ -146,8 +140,7 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
 
 /** Computes the right-hand side of the rotations as Assembly does. With initial values of 0, b - A
  * x is b at free vertices. */
-template <OperatorSet Operators>
-FirstResidual InteractiveEngine<Operators>::findRightSide()
+inline FirstResidual InteractiveEngine::findRightSide()
 {
   LevelWindow<double>& window = this->First.levels().window();
   std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
@@ -161,8 +154,7 @@ FirstResidual InteractiveEngine<Operators>::findRightSide()
 
 /** Adds the contributions of the held neighbours to the vertices of a block, and the squares of the
  * result to `squares`. */
-template <OperatorSet Operators>
-void InteractiveEngine<Operators>::addLinks(const RestBlock& block, double& squares)
+inline void InteractiveEngine::addLinks(const RestBlock& block, double& squares)
 {
   const Ring<double>& x = this->First.levels().window().x();
   const Ring<double>& b = this->First.levels().window().b();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Deformation/PositionStep.h"
 
-#include "Solver/Multigrid/Cycle/PatchRelaxation.h"
+#include "Solver/Multigrid/Cycle/LevelWindow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,8 +122,9 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
     this->NextLink = 0;
   }
   this->Window.forRange(this->Done, end, this->Window.down(),
-    [&](const auto& h, const auto& a, BlockRange nodes, double*, double*)
+    [&](const auto& a, const BlockPart<double>& part)
     {
+      const RowBlock::Header& h = part.header();
       const auto closeRows = [&](const auto& arrays, BlockRange rows)
       {
         for (std::int64_t k = rows.begin; k < rows.end; ++k)
@@ -131,15 +132,16 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
           this->closeRow(block, h, arrays, k);
         }
       };
-      visitNodes(
-        h, a, nodes, [&](BlockRange rows) { closeRows(a, rows); },
-        [&](const RowBlock::Special& node)
+      for (NodeRuns runs(h, a, part.nodes); runs.next();)
+      {
+        if (!runs.special())
         {
-          visitSpecial<double>(h, a, node,
-            [&](const auto& rows) {
-              closeRows(rows, { node.node, node.node + 1 });
-            });
-        });
+          closeRows(a, runs.nodes());
+          continue;
+        }
+        visitSpecial<double>(
+          h, a, *runs.special(), [&](const auto& row) { closeRows(row, runs.nodes()); });
+      }
     });
   this->Done = end;
 }

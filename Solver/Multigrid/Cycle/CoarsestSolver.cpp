@@ -24,16 +24,16 @@ CoarsestMatrix matrixOf(LevelWindow<float>& level)
   // nodes (see packRows()).
   matrix.rounding = 2.0 * FLT_EPSILON;
   level.forRange(0, level.nodes(), level.up(),
-    [&](const auto& h, const auto& a, BlockRange range, float*, float*)
+    [&](const auto& a, const BlockPart<float>& part)
     {
-      for (std::int64_t k = range.begin; k < range.end; ++k)
+      for (std::int64_t k = part.nodes.begin; k < part.nodes.end; ++k)
       {
-        const std::int64_t i = h.first + k;
+        const std::int64_t i = part.header().first + k;
         // The row sum, recomputed from the diagonal: zero up to the rounding of this sum where no
         // constraint reaches, since the diagonal is the row sum plus the weights.
         double sum = a.diagonal[k];
         double terms = a.diagonal[k];
-        const BlockRange row = entriesOf(h, a, k);
+        const BlockRange row = entriesOf(part.header(), a, k);
         for (std::int64_t e = row.begin; e < row.end; ++e)
         {
           const double weight = a.weight[e];

@@ -10,28 +10,6 @@
 namespace smg
 {
 
-/** The nodes [begin, end) of a block, by their indices in the block. */
-struct BlockRange
-{
-  std::int64_t begin, end;
-};
-
-/** The entries of row k of a block. */
-template <class Arrays>
-inline BlockRange entriesOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
-{
-  const std::int32_t start = h.entryStart[static_cast<std::size_t>(k / RowBlock::Group)];
-  return { start + (k % RowBlock::Group ? a.entryEnd[k - 1] : 0), start + a.entryEnd[k] };
-}
-
-/** The parents of row k of a block. */
-template <class Arrays>
-inline BlockRange parentsOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
-{
-  const std::int32_t start = h.parentStart[static_cast<std::size_t>(k / RowBlock::Group)];
-  return { start + (k % RowBlock::Group ? a.parentEnd[k - 1] : 0), start + a.parentEnd[k] };
-}
-
 /** Forward Gauss-Seidel in stream order: x_i = (b_i + sum_j w_ij x_j) / A_ii, in place. x and b
  * point to node 0 of the block and have `stride` values per node. A node reads only its
  * neighbours, so any division of a level into ranges, in whichever windows, gives the same
@@ -109,7 +87,7 @@ concept RelaxesLevels = RelaxesBlocks<R, Real, 1, std::int16_t, Weight> &&
  * others. Weights are double, float or BFloat16, and are converted by static_cast<Real>.
  * Vectors::load and ::store move 1 or 4 right-hand sides at a time. GaussSeidel is the model.
  *
- * The engine itself relaxes patches of strongly coupled nodes (see PatchRelaxation.h).
+ * The engine itself relaxes patches of strongly coupled nodes (see Sweep.h).
  *
  * What the streaming engine requires:
  *

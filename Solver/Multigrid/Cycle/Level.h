@@ -3,14 +3,18 @@
 
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
-#include "Solver/Multigrid/Cycle/PatchRelaxation.h"
+#include "Solver/Multigrid/Cycle/Sweep.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
+#include "Solver/Multigrid/Schedule/Cursor.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -31,15 +35,17 @@ namespace smg
  * no counters per node, and little more memory if the span of the stream order is close to its
  * width.
  */
-template <class Real, class Relaxation>
+template <class Real>
 class Level
 {
 public:
-  using CoarseLevel = Level<float, Relaxation>;
-  friend class Level<double, Relaxation>;
+  using CoarseLevel = Level<float>;
+  friend class Level<double>;
 
-  Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
-    : Window(pool, resident, index, columns)
+  Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps,
+    const CompiledRelaxation& relaxation)
+    : Relax(relaxation.table<Real>())
+    , Window(pool, resident, index, columns)
     , At(sweeps)
     , Squares(2 * static_cast<std::size_t>(strideOf(columns)))
   {
@@ -146,27 +152,19 @@ public:
    * 0 .. node. */
   void load(std::int64_t node);
 
-  /** Adds the stages of the upward part, those of coarser levels first. They finish the V-cycle
-   * as far as load() was asked for. */
-  void addUpward(Schedule& schedule);
-  /** Adds the stages of the downward part, those of coarser levels last. */
-  void addDownward(Schedule& schedule);
+  // The stages (LevelStages.cpp), in the order in which nodes pass them. VCycle.h declares them to
+  // a schedule.
 
-  /** Advances every stage of the downward part, on this and the coarser levels, as far as
-   * possible. */
-  void advanceDown()
-  {
-    for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
-    {
-      this->preSweep(s, true);
-    }
-    this->combine(true);
-    this->restrictDown(true);
-    if (!this->Coarse->core())
-    {
-      this->Coarse->advanceDown();
-    }
-  }
+  /** The number of sweeps of each half of the V-cycle. */
+  std::size_t sweeps() const { return this->At.preSweep.size(); }
+  CoarseLevel& coarse() { return *this->Coarse; }
+  bool isAccelerated() const { return this->History != nullptr; }
+
+  void prolong(bool follows);
+  void postSweep(std::size_t s, bool follows);
+  void preSweep(std::size_t s, bool follows);
+  void combine(bool follows);
+  void restrict(bool follows);
 
   /** Publishes the cursors of this and the coarser levels for stages on other threads; between
    * two steps. */
@@ -258,25 +256,26 @@ public:
 
   void relaxDown()
   {
-    const std::int64_t nodes = this->Window.nodes();
-    // The first sweep starts from x = 0, which need not be stored first.
-    this->sweep<true>(0, nodes, this->Window.down(), true);
-    for (std::size_t s = 1; s < this->At.preSweep.size(); ++s)
+    for (std::size_t s = 0; s < this->sweeps(); ++s)
     {
-      this->sweep<false>(0, nodes, this->Window.down(), false);
+      // The first sweep starts from x = 0, which need not be stored first.
+      this->relax(0, this->Window.nodes(), this->Window.down(), s == 0, s == 0);
     }
   }
   void relaxUp()
   {
-    for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
+    for (std::size_t s = 0; s < this->sweeps(); ++s)
     {
-      this->sweep<false>(0, this->Window.nodes(), this->Window.up(), s == 0);
+      this->relax(0, this->Window.nodes(), this->Window.up(), s == 0, false);
     }
   }
   /** Stores b - A x, with the stride of the window. */
-  void residualAll(Real* residual);
-  void restrictAll() { this->restrictTo(this->Window.nodes()); }
-  void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
+  void residualAll(Real* residual)
+  {
+    this->forAll(this->Window.down(), StoreResidual<Real>{ residual });
+  }
+  void restrictAll() { this->forAll(this->Window.down(), this->restriction()); }
+  void prolongAll() { this->forAll(this->Window.up(), this->prolongation()); }
 
 private:
   void write()
@@ -302,9 +301,6 @@ private:
     }
   }
 
-  /** The time that a stage takes per node, relative to a sweep; only used to cut the pipeline. */
-  static constexpr double ProlongCost = 0.8, CombineCost = 0.5, RestrictCost = 1.4;
-
   /** The end of the nodes from `cursor` on whose neighbours sweep s of `sweeps` has passed, and
    * does not touch any more: the first sweep relaxes patches, whose nodes change at the end of
    * the patch. */
@@ -319,48 +315,28 @@ private:
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
-  using One = SimdPack<Real, 1>;
-  using Four = SimdPack<Real, 4>;
-
-  // The upward part (LevelUp.txx).
+  using State = typename LevelWindow<Real>::State;
+  /** One sweep over [begin, end). */
+  void relax(
+    std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, bool lowerOnly);
+  Prolongation<Real> prolongation() { return { this->Coarse->window().x(), this->Unscale }; }
+  Restriction<Real> restriction()
+  {
+    Real* squares = this->Squares.data();
+    return { this->Coarse->window().b(), this->Scale, squares, squares + this->lanes(),
+      this->History, this->Energy };
+  }
+  template <class Kernel>
+  void forAll(State& state, const Kernel& kernel)
+  {
+    this->Window.forColumns(0, this->Window.nodes(), state, kernel);
+  }
 
   std::int64_t finalWith(std::int64_t node) const;
   void load(int stage, std::int64_t node);
-  void prolongUp(bool follows);
-  void postSweep(std::size_t s, bool follows);
-
-  // The downward part (LevelDown.txx).
-
-  void preSweep(std::size_t s, bool follows);
   std::int64_t firstPreSweepEnd(bool follows);
-  void combine(bool follows);
-  void restrictDown(bool follows);
 
-  // The kernels (LevelSweeps.txx).
-
-  using State = typename LevelWindow<Real>::State;
-
-  /**
-   * One sweep over nodes [begin, end); with `patches` it relaxes the nodes of a patch together.
-   * Only the first sweep of each half of a V-cycle does: behind a sweep that relaxes node by node
-   * the next stage waits for neighbours only, not for the ends of patches, so the window is
-   * shorter.
-   */
-  template <bool LowerOnly>
-  void sweep(std::int64_t begin, std::int64_t end, State& state, bool patches);
-  /** Relaxes a special node in a sweep. */
-  template <bool LowerOnly, class Arrays>
-  void relaxSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
-    State& state, bool patches);
-  template <bool LowerOnly, class Vectors, class Arrays>
-  void relaxPatch(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
-    State& state, int lane);
-  void prolongTo(std::int64_t begin, std::int64_t end);
-  void restrictTo(std::int64_t end);
-  template <class Vectors, class Arrays>
-  void addEnergy(const RowBlock::Header& h, const Arrays& a, std::int64_t k, const Real* x,
-    const Real* b, const typename Vectors::Vector& r, int lane);
-
+  const SweepTable<Real>& Relax;
   LevelWindow<Real> Window;
   LevelCursors At;
   std::vector<Real> Squares; // squares of the residual, then of its terms, a lane each
@@ -375,8 +351,7 @@ private:
   bool Patched = false; // some nodes may be relaxed together with later ones
 };
 
-} // namespace smg
+extern template class Level<double>;
+extern template class Level<float>;
 
-#include "Solver/Multigrid/Cycle/LevelDown.txx"
-#include "Solver/Multigrid/Cycle/LevelSweeps.txx"
-#include "Solver/Multigrid/Cycle/LevelUp.txx"
+} // namespace smg

@@ -8,8 +8,7 @@
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
-#include "Solver/Multigrid/Cycle/Transfer.h"
-#include "Solver/Multigrid/Schedule/Schedule.h"
+#include "Solver/Multigrid/Schedule/Cursor.h"
 #include "smg/Export.h"
 
 #include <algorithm>
@@ -223,21 +222,42 @@ public:
     std::ranges::fill(this->Now.b.range(begin, end), Real{});
   }
 
-  /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; `nodes`
-   * are indices in the block, and x and b, from `state`, point to node 0 of the block. */
-  template <class F>
-  void forRange(std::int64_t begin, std::int64_t end, State& state, F&& f)
+  /** The part of [begin, end) in the block of `begin`, with the values of `state`. */
+  BlockPart<Real> partFrom(std::int64_t begin, std::int64_t end, State& state) const
   {
-    while (begin < end)
+    const RowBlock& block = this->block(begin);
+    const std::int64_t first = block.first();
+    return { block, { begin - first, std::min(end, block.end()) - first }, this->Stride, 0,
+      state.x.at(first), state.b.at(first) };
+  }
+  /** Calls kernel(arrays, part) for the part of [begin, end) in each block, with the values of
+   * `state`. */
+  template <class Kernel>
+  void forRange(std::int64_t begin, std::int64_t end, State& state, const Kernel& kernel) const
+  {
+    for (; begin < end; begin = this->block(begin).end())
     {
-      const RowBlock& block = this->block(begin);
-      const RowBlock::Header& h = block.header();
-      const std::int64_t stop = std::min(end, block.end());
-      const BlockRange nodes{ begin - h.first, stop - h.first };
-      Real* x = state.x.at(h.first);
-      Real* b = state.b.at(h.first);
-      block.visit<Real>([&](const auto& arrays) { f(h, arrays, nodes, x, b); });
-      begin = stop;
+      const BlockPart<Real> part = this->partFrom(begin, end, state);
+      part.block.template visit<Real>(kernel, part);
+    }
+  }
+  /** The same column by column, or four columns at a time: calls kernel(arrays, vectors, part),
+   * where `vectors` moves that many values (SimdPack). */
+  template <class Kernel>
+  void forColumns(std::int64_t begin, std::int64_t end, State& state, const Kernel& kernel) const
+  {
+    for (; begin < end; begin = this->block(begin).end())
+    {
+      BlockPart<Real> part = this->partFrom(begin, end, state);
+      if (this->Stride == 1)
+      {
+        part.block.template visit<Real>(kernel, SimdPack<Real, 1>(), part);
+        continue;
+      }
+      for (; part.lane < part.stride; part.lane += 4, part.x += 4, part.b += 4)
+      {
+        part.block.template visit<Real>(kernel, SimdPack<Real, 4>(), part);
+      }
     }
   }
 

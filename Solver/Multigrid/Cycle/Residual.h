@@ -58,4 +58,23 @@ struct ResidualOfDifferences
   }
 };
 
+/** Stores the plain residual of each node, with the stride of the level: a kernel for
+ * LevelWindow::forColumns(). */
+template <class Real>
+struct StoreResidual
+{
+  Real* residual; ///< of node 0 of the level
+
+  template <class Arrays, class Vectors>
+  void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
+  {
+    const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
+    for (std::int64_t k = part.nodes.begin; k < part.nodes.end; ++k)
+    {
+      Vectors::store(this->residual + (part.header().first + k) * stride + part.lane,
+        PlainResidual::of<Vectors>(part.header(), a, k, stride, part.x, part.b));
+    }
+  }
+};
+
 } // namespace smg

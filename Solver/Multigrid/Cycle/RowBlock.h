@@ -198,18 +198,23 @@ public:
     return a;
   }
 
-  /** Calls f(arrays) with the arrays of this block, for a level whose unknowns have type Real. */
-  template <class Real, class F>
-  void visit(F&& f) const
+  /** Calls f(arrays, args...) with the arrays of this block, for a level whose unknowns have type
+   * Real: the one place where kernels are chosen by the types of a block. */
+  template <class Real, class F, class... Args>
+  void visit(F&& f, const Args&... args) const
   {
-    if (this->header().wide)
+    const bool wide = this->header().wide != 0;
+    if constexpr (!std::is_same_v<Real, double>)
     {
-      this->visitWeights<Real, WideIndex>(f);
+      if (this->header().weightBytes == sizeof(BFloat16))
+      {
+        wide ? f(this->arrays<WideIndex, BFloat16>(), args...)
+             : f(this->arrays<std::int16_t, BFloat16>(), args...);
+        return;
+      }
     }
-    else
-    {
-      this->visitWeights<Real, std::int16_t>(f);
-    }
+    wide ? f(this->arrays<WideIndex, float>(), args...)
+         : f(this->arrays<std::int16_t, float>(), args...);
   }
 
   /** The row sum of node k. */
@@ -282,20 +287,6 @@ public:
   Buffer takeBuffer() { return std::move(this->Bytes); }
 
 private:
-  template <class Real, class Index, class F>
-  void visitWeights(F&& f) const
-  {
-    if constexpr (!std::is_same_v<Real, double>)
-    {
-      if (this->header().weightBytes == sizeof(BFloat16))
-      {
-        f(this->arrays<Index, BFloat16>());
-        return;
-      }
-    }
-    f(this->arrays<Index, float>());
-  }
-
   template <class Index, class Weight>
   void sumDiagonals(const Arrays<Index, Weight>& a);
 
@@ -309,6 +300,115 @@ private:
   }
 
   Buffer Bytes;
+};
+
+/** The nodes [begin, end) of a block, by their indices in the block. */
+struct BlockRange
+{
+  std::int64_t begin, end;
+};
+
+/** The entries of row k of a block. */
+template <class Arrays>
+inline BlockRange entriesOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
+{
+  const std::int32_t start = h.entryStart[static_cast<std::size_t>(k / RowBlock::Group)];
+  return { start + (k % RowBlock::Group ? a.entryEnd[k - 1] : 0), start + a.entryEnd[k] };
+}
+
+/** The parents of row k of a block. */
+template <class Arrays>
+inline BlockRange parentsOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
+{
+  const std::int32_t start = h.parentStart[static_cast<std::size_t>(k / RowBlock::Group)];
+  return { start + (k % RowBlock::Group ? a.parentEnd[k - 1] : 0), start + a.parentEnd[k] };
+}
+
+/** The nodes of a range that lie in one block, with their unknowns x and right-hand sides b: those
+ * of the columns from `lane` on, of node 0 of the block. */
+template <class Real>
+struct BlockPart
+{
+  const RowBlock& block;
+  BlockRange nodes;
+  std::int64_t stride; ///< values per node
+  std::int64_t lane;
+  Real *x, *b;
+
+  const RowBlock::Header& header() const { return this->block.header(); }
+};
+
+/** The special node with index `node` in the block, or else the next one after it. */
+template <class Arrays>
+const RowBlock::Special* specialFrom(const RowBlock::Header& h, const Arrays& a, std::int64_t node)
+{
+  return std::lower_bound(a.special, a.special + h.specials, node,
+    [](const RowBlock::Special& s, std::int64_t n) { return s.node < n; });
+}
+
+/** Calls f(arrays) with the arrays for the row of a special node: on the finest level (Real is
+ * double), its weights may be the additional ones in double precision. */
+template <class Real, class Arrays, class F>
+void visitSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, F&& f)
+{
+  if constexpr (std::is_same_v<Real, double>)
+  {
+    if (node.precise >= 0)
+    {
+      f(a.ofPreciseRow(node, entriesOf(h, a, node.node).begin));
+      return;
+    }
+  }
+  f(a);
+}
+
+/** Divides nodes of a block, in order, into runs of ordinary nodes and single special ones:
+ * `for (NodeRuns runs(h, a, nodes); runs.next();)`. */
+class NodeRuns
+{
+public:
+  template <class Arrays>
+  NodeRuns(const RowBlock::Header& h, const Arrays& a, BlockRange nodes)
+    : Special(specialFrom(h, a, nodes.begin))
+    , Last(a.special + h.specials)
+    , At(nodes.begin)
+    , End(nodes.end)
+  {
+  }
+
+  /** Moves to the next run; returns whether there is one. */
+  bool next()
+  {
+    const std::int64_t stop = this->Special != this->Last
+                                ? std::min<std::int64_t>(this->Special->node, this->End)
+                                : this->End;
+    if (this->At < stop)
+    {
+      this->Run = { this->At, stop };
+      this->Found = nullptr;
+    }
+    else if (this->At < this->End)
+    {
+      this->Run = { this->At, this->At + 1 };
+      this->Found = this->Special++;
+    }
+    else
+    {
+      return false;
+    }
+    this->At = this->Run.end;
+    return true;
+  }
+
+  BlockRange nodes() const { return this->Run; }
+  /** The special node that is the run; null: the nodes of the run are ordinary. */
+  const RowBlock::Special* special() const { return this->Found; }
+
+private:
+  const RowBlock::Special *Special, *Last;
+  const RowBlock::Special* Found = nullptr;
+  std::int64_t At, End;
+  BlockRange Run{};
 };
 
 template <class Index, class Weight>

@@ -1,76 +1,141 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Memory/Ring.h"
+#include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/Residual.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
 
+#include <cstdint>
 #include <type_traits>
+
+// The transfer between a level and the next coarser one, by the rows of P that blocks contain:
+// kernels for LevelWindow::forColumns(). Parents of a block are relative to one of them,
+// parentBase. A ring is contiguous around any item in memory, so a pointer to that one reaches all
+// of them.
 
 namespace smg
 {
 
-/** Prolongation to the nodes of a block: x += scale P x_coarse. coarseX points to coarse node
- * parentBase, to which the parents of the block are relative. */
-template <class Vectors, class CoarseVectors, class Real, class Arrays>
-void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::int64_t stride,
-  Real* x, const float* coarseX, Real scale)
+/** Prolongation: x += scale P x_coarse. */
+template <class Real>
+struct Prolongation
 {
-  for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+  const Ring<float>& coarse;
+  Real scale;
+
+  template <class Arrays, class Vectors>
+  void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
   {
-    const BlockRange row = parentsOf(h, a, k);
-    auto sum = Vectors::load(x + k * stride);
-    for (std::int64_t e = row.begin; e < row.end; ++e)
+    using CoarseVectors = SimdPack<float, Vectors::count>;
+    const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
+    const float* coarseX = this->coarse.at(part.header().parentBase) + part.lane;
+    for (std::int64_t k = part.nodes.begin; k < part.nodes.end; ++k)
     {
-      const auto value = CoarseVectors::load(coarseX + a.parent[e] * stride);
-      const float weight = static_cast<float>(a.parentQuanta[e]) * Quantum;
-      // On the finest level the product is formed in double precision: the coarse correction is a
-      // float, the sum is not.
-      sum += (static_cast<Real>(weight) * scale) *
-             __builtin_convertvector(value, typename Vectors::Vector);
+      const BlockRange row = parentsOf(part.header(), a, k);
+      auto sum = Vectors::load(part.x + k * stride);
+      for (std::int64_t e = row.begin; e < row.end; ++e)
+      {
+        const auto value = CoarseVectors::load(coarseX + a.parent[e] * stride);
+        const float weight = static_cast<float>(a.parentQuanta[e]) * Quantum;
+        // On the finest level the product is formed in double precision: the coarse correction is a
+        // float, the sum is not.
+        sum += (static_cast<Real>(weight) * this->scale) *
+               __builtin_convertvector(value, typename Vectors::Vector);
+      }
+      Vectors::store(part.x + k * stride, sum);
     }
-    Vectors::store(x + k * stride, sum);
   }
-}
+};
 
 /**
- * Residual and restriction for the nodes of a block: r = b - A x, computed by `Residual`, and
- * b_coarse += scale P^T r. coarseB points to coarse node parentBase.
+ * Residual and restriction: r = b - A x, and b_coarse += scale P^T r. On the finest level special
+ * nodes get the residual by differences, all others the plain one.
  *
- * Adds the squares of r to `squares` (`stride` values) and, on the finest level, the squares of the
- * terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed. Both are
- * summed in node order, so the norm of the residual does not depend on windows or threads. Calls
- * keep(k, r) for each node k.
+ * Adds the squares of r to `squares` (a value per column) and, on the finest level, the squares of
+ * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed. Both
+ * are summed in node order, so the norm of the residual does not depend on windows or threads. The
+ * history and the energy of the iterates, if there are some, get each residual, too.
  */
-template <class Residual, class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
-void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
-  std::int64_t stride, const Real* x, const Real* b, float* coarseB, Real scale, Real* squares,
-  Real* terms, Keep&& keep)
+template <class Real>
+struct Restriction
 {
-  auto total = Vectors::load(squares);
-  auto termTotal = Vectors::load(terms);
-  for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+  Ring<float>& coarse;
+  Real scale;
+  Real *squares, *terms;
+  IterateHistory* history;
+  IterateEnergy* energy;
+
+  template <class Arrays, class Vectors>
+  void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
   {
-    const auto residual = Residual::template of<Vectors>(h, a, k, stride, x, b);
-    total += residual * residual;
-    const BlockRange row = entriesOf(h, a, k);
-    if (std::is_same_v<Real, double> && row.begin < row.end)
+    ResidualKeeper<Vectors> keeper(this->history, part.header().first, part.lane);
+    if constexpr (std::is_same_v<Real, double>)
     {
-      const auto term = static_cast<Real>(a.diagonal[k]) * Vectors::load(x + k * stride);
-      termTotal += term * term;
+      for (NodeRuns runs(part.header(), a, part.nodes); runs.next();)
+      {
+        if (!runs.special())
+        {
+          this->restrictNodes<PlainResidual, Vectors>(a, runs.nodes(), part, keeper);
+          continue;
+        }
+        visitSpecial<Real>(part.header(), a, *runs.special(),
+          [&](const auto& row) {
+            this->restrictNodes<ResidualOfDifferences, Vectors>(row, runs.nodes(), part, keeper);
+          });
+      }
     }
-    keep(k, residual);
-    // Scaled before it is rounded to single precision: the scale keeps it near 1.
-    const auto coarse = __builtin_convertvector(residual * scale, typename CoarseVectors::Vector);
-    const BlockRange parents = parentsOf(h, a, k);
-    for (std::int64_t p = parents.begin; p < parents.end; ++p)
+    else
     {
-      float* target = coarseB + a.parent[p] * stride;
-      const float weight = static_cast<float>(a.parentQuanta[p]) * Quantum;
-      CoarseVectors::store(target, CoarseVectors::load(target) + weight * coarse);
+      this->restrictNodes<PlainResidual, Vectors>(a, part.nodes, part, keeper);
     }
   }
-  Vectors::store(squares, total);
-  Vectors::store(terms, termTotal);
-}
+
+private:
+  template <class Residual, class Vectors, class Arrays>
+  void restrictNodes(const Arrays& a, BlockRange nodes, const BlockPart<Real>& part,
+    ResidualKeeper<Vectors>& keeper) const
+  {
+    using CoarseVectors = SimdPack<float, Vectors::count>;
+    const RowBlock::Header& h = part.header();
+    const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
+    float* coarseB = this->coarse.at(h.parentBase) + part.lane;
+    auto total = Vectors::load(this->squares + part.lane);
+    auto termTotal = Vectors::load(this->terms + part.lane);
+    for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+    {
+      const auto residual = Residual::template of<Vectors>(h, a, k, stride, part.x, part.b);
+      total += residual * residual;
+      keeper(k, residual);
+      if constexpr (std::is_same_v<Real, double>)
+      {
+        const BlockRange row = entriesOf(h, a, k);
+        if (row.begin < row.end)
+        {
+          const Real* x = part.x + k * stride;
+          const auto term = static_cast<Real>(a.diagonal[k]) * Vectors::load(x);
+          termTotal += term * term;
+          if (this->energy)
+          {
+            this->energy->template add<Vectors>(
+              x, part.b + k * stride, residual, RowBlock::alphaOf(h, a, k), part.lane);
+          }
+        }
+      }
+      // Scaled before it is rounded to single precision: the scale keeps it near 1.
+      const auto coarse =
+        __builtin_convertvector(residual * this->scale, typename CoarseVectors::Vector);
+      const BlockRange parents = parentsOf(h, a, k);
+      for (std::int64_t p = parents.begin; p < parents.end; ++p)
+      {
+        float* target = coarseB + a.parent[p] * stride;
+        const float weight = static_cast<float>(a.parentQuanta[p]) * Quantum;
+        CoarseVectors::store(target, CoarseVectors::load(target) + weight * coarse);
+      }
+    }
+    Vectors::store(this->squares + part.lane, total);
+    Vectors::store(this->terms + part.lane, termTotal);
+  }
+};
 
 } // namespace smg

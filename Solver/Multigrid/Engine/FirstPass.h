@@ -2,23 +2,14 @@
 #pragma once
 
 #include "Solver/Assembly/Assembly.h"
-#include "Solver/Core/Timer.h"
-#include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/MeshPrefetch.h"
-#include "Solver/Multigrid/Engine/AssemblyReport.h"
+#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/HierarchyBuilder.h"
-#include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
-#include "Solver/Multigrid/Schedule/Schedule.h"
-#include "smg/Error.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <utility>
 
 namespace smg
 {
@@ -33,13 +24,11 @@ namespace smg
  * steps. With several threads the steps are the same for any number of them, and the result is the
  * same for one thread as well.
  */
-template <OperatorSet Operators>
 class FirstPass
 {
 public:
   /** Every level gets a copy of the operators. The hierarchy must have no levels yet. */
-  FirstPass(SolveContext& run, Hierarchy<typename Operators::Relaxation>& hierarchy,
-    const Operators& operators)
+  FirstPass(SolveContext& run, Hierarchy& hierarchy, const CompiledOperators& operators)
     : Run(run)
     , Built(hierarchy)
     , Set(operators)
@@ -58,208 +47,12 @@ private:
   FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
   static bool assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly);
   void readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
-    HierarchyBuilder<Operators>& builder);
+    HierarchyBuilder& builder);
   FirstResidual note(const Assembly& assembly);
 
   SolveContext& Run;
-  Hierarchy<typename Operators::Relaxation>& Built;
-  const Operators& Set;
+  Hierarchy& Built;
+  const CompiledOperators& Set;
 };
-
-template <OperatorSet Operators>
-FirstResidual FirstPass<Operators>::operator()(
-  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
-{
-  // What one thread is expected to need: more threads take more memory only where the limit leaves
-  // room.
-  SolveOptions alone = this->Run.options;
-  alone.threads = 1;
-  this->Run.expectedBytes =
-    mesh.info().span < 0 && !alone.inCore
-      ? 0
-      : expectedMemory(mesh.info(), problem.columns(), problem.weights(), alone);
-  this->Run.isAmple = permitsTasks(mesh.info(), problem, this->Run.options);
-  try
-  {
-    const FirstResidual residual = this->run(mesh, problem, listener, furtherCoreBytes);
-    this->Run.firstPassPeak = this->Run.pool.peak();
-    this->Run.valueNodes = this->Built.window().x().capacity();
-    return residual;
-  }
-  catch (const MemoryLimitError& error)
-  {
-    throw this->Run.explained(error);
-  }
-}
-
-template <OperatorSet Operators>
-FirstResidual FirstPass<Operators>::run(
-  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
-{
-  const Timer building;
-  const SolveOptions& options = this->Run.options;
-  // Before the mesh is read: a limit that is certainly too low fails at once.
-  const std::int64_t need = estimateMemory(mesh.info(), problem, options, furtherCoreBytes);
-  if (need > options.memoryLimit)
-  {
-    throw MemoryLimitError(need, options.memoryLimit);
-  }
-  if (this->Run.scratch)
-  {
-    this->Run.labels.useScratch(*this->Run.scratch, this->Run.traffic.add("labels"));
-  }
-  this->Built.open(mesh.info().vertices);
-  const FirstResidual residual = this->build(mesh, problem, listener);
-  if (this->Run.free.projectRightSide(this->Built.window(), this->Run.report))
-  {
-    // The coarse levels were given the right-hand side before the projection, of a problem without
-    // a solution: their correction is left out.
-    this->Built.finest().leaveOutCorrection();
-  }
-  this->Run.report.seconds.build = building.seconds();
-  this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
-  return residual;
-}
-
-template <OperatorSet Operators>
-FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, RowListener* listener)
-{
-  const CellType type = mesh.info().cellType;
-  AssembledRows rows(this->Run.pool, problem.columns());
-  const bool apart = this->Run.isConcurrent() && this->Run.isAmple;
-  HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
-    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);
-  Assembly assembly(
-    this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
-  this->Built.startPass(true);
-  MeshPrefetch blocks(mesh, this->Run.isConcurrent());
-  // The stages of the assembly run as tasks of their own only if the next block is read ahead: they
-  // need the number of its vertices to reserve room.
-  this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
-  const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
-  this->Built.endPass();
-  this->Built.close(coarsest);
-  return this->note(assembly);
-}
-
-/** Assembles the current block of the mesh, or at its end what is left; returns whether there was a
- * block. `apart`: only weighs its cells, of which the other stages make rows. */
-template <OperatorSet Operators>
-bool FirstPass<Operators>::assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly)
-{
-  const MeshBlock* block = blocks.block();
-  if (apart)
-  {
-    block ? assembly.weigh(*block) : assembly.weighRest();
-  }
-  else
-  {
-    block ? assembly.add(*block) : assembly.finish();
-  }
-  return block != nullptr;
-}
-
-/** In each step the next block of the mesh is assembled, every streamed level is coarsened, and
- * the downward part of the V-cycle advances, all as tasks that may run at the same time, each
- * on the data of earlier steps. With `apart`, the stages of the assembly are tasks of their own
- * as well. */
-template <OperatorSet Operators>
-void FirstPass<Operators>::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
-  AssembledRows& rows, HierarchyBuilder<Operators>& builder)
-{
-  auto& finest = this->Built.finest();
-  bool more = true, waits = false;
-  std::int64_t open = 0;
-  const auto expected = static_cast<double>(std::max<std::int64_t>(1, blocks.info().vertices));
-  if (this->Run.recorder)
-  {
-    this->Run.recorder->startPass({});
-  }
-  Schedule schedule;
-  // Task 0, which asks the problem, runs on the thread of the caller.
-  schedule.add({ apart ? "weigh cells" : "assemble rows", 0, 0.0,
-    [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } });
-  if (apart)
-  {
-    schedule.add({ "connect edges", 0, 0.0, [&](bool) { waits ? void() : assembly.connect(); } });
-    schedule.add({ "close rows", 0, 0.0, [&](bool) { waits ? void() : assembly.closeRows(); } });
-  }
-  builder.addStages(schedule);
-  schedule.add({ "relax and restrict", 0, 0.0, [&finest](bool) { finest.advanceDown(); } });
-  schedule.cutAll();
-  schedule.addBeside([&blocks] { blocks.read(); });
-  finest.addWriters(schedule);
-  schedule.perform(
-    this->Run,
-    [&]
-    {
-      if (builder.complete())
-      {
-        return false;
-      }
-      builder.begin();
-      // A block of the mesh may have many more rows than a step: no further block is read while
-      // rows wait, since these take memory.
-      waits = builder.isBusy();
-      if (!waits)
-      {
-        blocks.advance();
-      }
-      if (apart && !waits)
-      {
-        assembly.beginApart(blocks.vertices());
-      }
-      finest.publish();
-      return true;
-    },
-    [&]
-    {
-      finest.release();
-      if (apart)
-      {
-        assembly.release();
-      }
-      // Between two steps: what moves may be memory that tasks read.
-      rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
-      builder.finestRows().Ended = !more && assembly.isClosed();
-      builder.handOver();
-      // Vertices that wait for cells are in memory like nodes.
-      this->Run.resident.add(assembly.openVertices() - open);
-      open = assembly.openVertices();
-      this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
-    });
-  finest.advanceDown();
-  finest.settle();
-  this->Run.note(schedule, true);
-  if (assembly.vertices() == 0)
-  {
-    throw Error("the mesh has no vertices");
-  }
-  this->Run.labels.finish();
-}
-
-/** Adds the data of the assembly and of the levels to the report, and what later passes need to
- * the hierarchy. Returns the residual of the initial values. */
-template <OperatorSet Operators>
-FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
-{
-  // With more stiff rows than this share, the slowest errors may be local to them; see Iteration.
-  constexpr std::int64_t StiffShare = 512;
-  this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
-  Report& r = this->Run.report;
-  this->Run.components.settle();
-  reportAssembly(assembly, this->Run.components, r);
-  r.levels = this->Built.levels().sizes;
-  // Vertices with given values have an empty row, but are not unknowns.
-  r.levels.front().nodes -= r.prescribed + r.held;
-  r.levels.front().nonzeros -= r.prescribed + r.held;
-  const double whole = assembly.residual().squares();
-  const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
-  // If the sources equal their mean, only the rounding of this difference of squares remains, which
-  // does not measure the residual: then the sources themselves do.
-  constexpr double MinShare = 1e-14;
-  return { std::sqrt(shifted < MinShare * whole ? whole : shifted),
-    roundingOf(assembly.residual().termSquares()) };
-}
 
 } // namespace smg

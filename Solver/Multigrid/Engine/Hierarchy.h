@@ -12,17 +12,17 @@ namespace smg
 
 /** The levels of a solve: streamed ones, which take part in the passes, and core levels, which
  * are in memory as a whole and which the core cycle processes between two passes. */
-template <class Relaxation>
 class Hierarchy
 {
 public:
-  using FineLevel = Level<double, Relaxation>;
-  using CoarseLevel = Level<float, Relaxation>;
+  using FineLevel = Level<double>;
+  using CoarseLevel = Level<float>;
 
   /** For a problem of `columns` columns; there are no levels yet. */
-  Hierarchy(SolveContext& run, int columns)
+  Hierarchy(SolveContext& run, int columns, const CompiledRelaxation& relaxation)
     : Run(run)
     , Columns(columns)
+    , Relaxation(relaxation)
   {
   }
 
@@ -33,7 +33,7 @@ public:
    * it follows from the usual sizes of levels. */
   void open(std::int64_t vertices);
   /** The levels, for adding rows. */
-  Levels<Relaxation>& levels() { return this->Built; }
+  Levels& levels() { return this->Built; }
   /** Adds core level l. */
   void addCoreLevel(int l) { this->addCoarseLevel(l, true); }
   /** Completes the hierarchy after the last row: level `coarsest`, the coarsest one, is
@@ -86,12 +86,11 @@ private:
 
   SolveContext& Run;
   int Columns;
-  Levels<Relaxation> Built;
+  const CompiledRelaxation& Relaxation;
+  Levels Built;
   int FirstCore = 0;
-  CoreVCycle<Relaxation> Core;
+  CoreVCycle Core;
   bool SlowestAtSlivers = false;
 };
 
 } // namespace smg
-
-#include "Solver/Multigrid/Engine/Hierarchy.txx"

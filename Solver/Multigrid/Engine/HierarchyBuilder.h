@@ -2,14 +2,13 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/Level.h"
-#include "Solver/Multigrid/Cycle/RowBlockPacker.h"
-#include "Solver/Multigrid/Engine/Coarsening.h"
+#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Engine/Levels.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Report.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,11 +26,9 @@ namespace smg
  * with `apart` even the stages of the three finest ones, are tasks that need not wait for each
  * other.
  */
-template <OperatorSet Operators>
 class HierarchyBuilder
 {
 public:
-  using Relaxation = typename Operators::Relaxation;
   /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of
    * the nodes of the next finer level: such a level has few strong edges or many stiff rows,
    * and further ones would shrink as little. */
@@ -42,21 +39,8 @@ public:
 
   /** `stiff` finds the stiff rows of each coarse level. `apart`: for several threads, the stages
    * of each of the finest levels, where most of the work is, are tasks of their own. */
-  HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
-    SliverRows stiff, bool apart)
-    : Owner(pool)
-    , Set(std::move(operators))
-    , Built(levels)
-    , FirstCore(firstCore)
-    , ApartLevels(canRunApart<Operators> && apart ? std::min(MaxApart, firstCore) : 0)
-    , Stiff(stiff)
-  {
-    this->addRows();
-    for (int l = 0; l < firstCore; ++l)
-    {
-      this->addStep();
-    }
-  }
+  HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels, int firstCore,
+    SliverRows stiff, bool apart);
 
   /** The rows of the finest level, to which the assembly appends between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
@@ -68,78 +52,19 @@ public:
   }
 
   /** Begins a step of all streamed levels. */
-  void begin()
-  {
-    std::int64_t nodes = StepNodes;
-    for (int l = 0; l < this->ApartLevels; ++l)
-    {
-      nodes = this->Steps[static_cast<std::size_t>(l)]->beginApart(nodes);
-    }
-  }
+  void begin();
 
   /** Adds the stages of a step: those of each of the finest levels, or a whole level as one stage.
    * Each works on what the others have published before the step, and what they make for other
    * levels is handed over after it. */
-  void addStages(Schedule& schedule)
-  {
-    using Step = Coarsening<Operators>;
-    struct Part
-    {
-      const char* name;
-      void (Step::*advance)();
-    };
-    // The longest ones of a level come first, so that no thread begins one when the others have
-    // finished. Their costs are measured while they run.
-    for (const Part part : { Part{ "relax P", &Step::advanceInterpolation },
-           Part{ "sparsify, finish rows", &Step::advanceCoarseRows },
-           Part{ "P^T A P", &Step::advanceGathering }, Part{ "A P", &Step::advanceProducts },
-           Part{ "choose C-points, P0", &Step::advanceChoice } })
-    {
-      for (int l = 0; l < this->ApartLevels; ++l)
-      {
-        Step* step = this->Steps[static_cast<std::size_t>(l)].get();
-        schedule.add({ part.name, l, 0.0, [step, part](bool) { (step->*part.advance)(); } });
-      }
-    }
-    for (int l = 0; l < this->ApartLevels; ++l)
-    {
-      schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } });
-    }
-    for (int l = this->ApartLevels; l < this->FirstCore; ++l)
-    {
-      schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
-    }
-  }
+  void addStages(Schedule& schedule);
 
   /** Ends a step of all streamed levels: hands over rows to the next level and blocks to the
    * windows. */
-  void handOver()
-  {
-    for (int l = 0; l < this->FirstCore; ++l)
-    {
-      Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
-      if (l < this->ApartLevels)
-      {
-        step.release();
-      }
-      step.handOver();
-      this->append(l);
-    }
-  }
+  void handOver();
 
   /** Whether all rows of the streamed levels are in their windows. */
-  bool complete() const
-  {
-    for (int l = 0; l < this->FirstCore; ++l)
-    {
-      const auto k = static_cast<std::size_t>(l);
-      if (!this->Rows[k + 1]->Ended || this->Packed[k] < this->Rows[k]->end())
-      {
-        return false;
-      }
-    }
-    return true;
-  }
+  bool complete() const;
 
   /**
    * Builds the core levels when the streamed ones are complete. It calls `addLevel(l)` for each
@@ -147,167 +72,38 @@ public:
    * be a streamed one, if it is small enough; the coarser ones that exist already are then not
    * used.
    */
-  template <class AddLevel>
-  int finish(AddLevel&& addLevel)
-  {
-    for (int k = 0; k < this->FirstCore; ++k)
-    {
-      this->close(k);
-    }
-    int l = 1;
-    for (;; ++l)
-    {
-      if (l >= this->FirstCore)
-      {
-        this->build(l);
-      }
-      if (this->nodes(l) <= CoarsestNodes || this->stalled(l))
-      {
-        break;
-      }
-      if (l >= this->FirstCore)
-      {
-        addLevel(l + 1);
-      }
-    }
-    this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
-    return l;
-  }
+  int finish(const std::function<void(int)>& addLevel);
 
 private:
-  static constexpr int MaxApart = 3; // levels
-
-  void advanceLevel(int l)
-  {
-    const auto k = static_cast<std::size_t>(l);
-    const std::int64_t end = this->Rows[k]->end();
-    std::int64_t& rows = this->Advanced[k];
-    // A few rows at a time, whose intermediate data are released before the next ones.
-    do
-    {
-      rows = std::min(end, rows + RowBlock::Nodes);
-      this->Steps[k]->advance(rows);
-      this->pack(l);
-    } while (rows < end);
-  }
-
+  void advanceLevel(int l);
   /** Packs core level l, whose rows are complete, and builds the rows of the next one, even if
    * that is not used: the interpolation and the patches of the blocks must not depend on
    * whether the coarsest level was streamed. */
-  void build(int l)
-  {
-    this->addStep();
-    for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l);
-         end += RowBlock::Nodes)
-    {
-      this->Steps.back()->advance(end);
-      this->pack(l);
-      this->Steps.back()->handOver();
-      this->append(l);
-    }
-    this->close(l);
-  }
-
+  void build(int l);
   /** The number of nodes of a level whose rows are complete. */
-  std::int64_t nodes(int l) const
-  {
-    const auto k = static_cast<std::size_t>(l);
-    return k < this->Built.sizes.size() ? this->Built.sizes[k].nodes : this->Rows[k]->end();
-  }
-
-  bool stalled(int l) const
-  {
-    return static_cast<double>(this->nodes(l)) >
-           StalledShare * static_cast<double>(this->nodes(l - 1));
-  }
-
+  std::int64_t nodes(int l) const;
+  bool stalled(int l) const;
   /** Notes the size of level l and releases its rows, all of which have been packed. */
-  void close(int l)
-  {
-    const auto k = static_cast<std::size_t>(l);
-    this->Built.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
-    if (k < this->Steps.size())
-    {
-      this->Steps[k].reset();
-    }
-    this->Rows[k].reset();
-    this->Buffers[k].clear();
-  }
-
-  void addRows()
-  {
-    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
-    this->Buffers.emplace_back(this->Owner);
-    this->Ready.emplace_back();
-  }
-
-  void addStep()
-  {
-    this->addRows();
-    this->Advanced.push_back(0);
-    this->Packed.push_back(0);
-    const std::size_t l = this->Steps.size();
-    this->Steps.push_back(std::make_unique<Coarsening<Operators>>(this->Owner, this->Set,
-      *this->Rows[l], *this->Rows[l + 1], this->Stiff, static_cast<int>(l) < this->ApartLevels));
-  }
-
+  void close(int l);
+  void addRows();
+  void addStep();
   /** Passes the packed blocks of level l to its window, and takes the buffers of released ones
    * for reuse. */
-  void append(int l)
-  {
-    if (l == 0)
-    {
-      this->append(l, *this->Built.finest);
-    }
-    else
-    {
-      this->append(l, *this->Built.coarse[static_cast<std::size_t>(l - 1)]);
-    }
-  }
+  void append(int l);
   template <class Level>
-  void append(int l, Level& level)
-  {
-    std::vector<RowBlock>& ready = this->Ready[static_cast<std::size_t>(l)];
-    for (RowBlock& block : ready)
-    {
-      level.append(std::move(block));
-    }
-    ready.clear();
-    level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
-  }
-
+  void append(int l, Level& level);
   /** Packs the blocks of level l whose nodes are all final: interpolation, and the patches of
    * neighbours. The last block may be shorter. */
-  void pack(int l)
-  {
-    const auto k = static_cast<std::size_t>(l);
-    const LevelRows& rows = *this->Rows[k];
-    Coarsening<Operators>& step = *this->Steps[k];
-    const std::int64_t final = step.multiplied();
-    const bool ended = rows.Ended && final == rows.end();
-    std::int64_t& begin = this->Packed[k];
-    while (begin + RowBlock::Nodes <= final || (ended && begin < final))
-    {
-      const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
-      this->Ready[k].push_back(
-        packRows(this->Buffers[k], rows, &step.data(), begin, nodes, l > 0 && !this->Stiff.any()));
-      begin += nodes;
-      step.packed(begin);
-      if (l >= this->ApartLevels)
-      {
-        step.release();
-      }
-    }
-  }
+  void pack(int l);
 
   Pool& Owner;
-  Operators Set;
-  Levels<Relaxation>& Built;
+  const CompiledOperators& Set;
+  Levels& Built;
   int FirstCore;
   int ApartLevels; // number of levels whose stages are tasks
   SliverRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
-  std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
+  std::vector<std::unique_ptr<LevelCoarsening>> Steps;
   std::vector<std::int64_t> Advanced, Packed;
   std::vector<std::vector<RowBlock>> Ready; // packed, not yet in the windows
   std::vector<SpareBuffers> Buffers;

@@ -16,11 +16,10 @@ inline constexpr std::int64_t CoarsestNodes = 1000;
 
 /** The levels of a multigrid hierarchy: the finest one in double, the others in single
  * precision, since they only precondition. */
-template <class Relaxation>
 struct Levels
 {
-  std::unique_ptr<Level<double, Relaxation>> finest;
-  std::vector<std::unique_ptr<Level<float, Relaxation>>> coarse; ///< level 1, 2, ...
+  std::unique_ptr<Level<double>> finest;
+  std::vector<std::unique_ptr<Level<float>>> coarse; ///< level 1, 2, ...
   std::vector<Report::Level> sizes;
 };
 

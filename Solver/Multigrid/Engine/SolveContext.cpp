@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -18,23 +19,6 @@
 
 namespace smg
 {
-namespace
-{
-
-/** The number of threads that a pass is scheduled for, from the requested number; 0: one per
- * core. */
-int scheduledThreads(int wanted)
-{
-  // A pass has about this number of stages of similar length: more threads would find nothing to
-  // do.
-  constexpr int Most = 16;
-  return std::min(Most, wanted > 0 ? wanted : Workers::cores());
-}
-
-} // namespace
-
-/** There are no more threads than the machine: a larger request only changes how passes are
- * cut into tasks. */
 SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   : options(solveOptions)
   , progress(solveOptions.progress)
@@ -42,8 +26,7 @@ SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   , components(columns, &this->pool)
   , labels(this->components)
   , free(this->components, this->labels, columns)
-  , scheduled(scheduledThreads(solveOptions.threads))
-  , threads(std::min(this->scheduled, Workers::cores()))
+  , threads(solveOptions.threads)
 {
   if (!solveOptions.checkpoint.folder.empty())
   {
@@ -80,6 +63,44 @@ void SolveContext::note(const Schedule& schedule, bool isFirstPass)
   }
 }
 
+std::int64_t SolveContext::passBytes(int stride, std::optional<std::int64_t> sparseness) const
+{
+  std::int64_t bytes = this->plainPassPeak > 0 ? this->plainPassPeak + this->plainPassPeak / 10
+                                               : this->firstPassPeak + this->firstPassPeak / 8;
+  if (sparseness)
+  {
+    // In the window, and in blocks that are prefetched or wait to be written.
+    const std::int64_t kept = this->valueNodes + 6 * RowBlock::Nodes;
+    const std::int64_t values = kept * stride * std::int64_t(sizeof(double));
+    bytes += values * 5 / 4 + (*sparseness > 0 ? values * 7 / 4 / *sparseness : 0);
+  }
+  return bytes;
+}
+
+auto SolveContext::stepsOf(
+  std::int64_t nodes, int stride, std::optional<std::int64_t> sparseness) const -> Steps
+{
+  constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
+  // Each chain keeps the nodes of a step in memory; in core all nodes are there anyway.
+  const auto chainsFor = [&](std::int64_t step)
+  {
+    if (!this->scratch)
+    {
+      return std::numeric_limits<std::int64_t>::max();
+    }
+    // At least a bit more than the first pass needed, since a pass that two problems share has the
+    // values of both.
+    const std::int64_t first = this->firstPassPeak;
+    const std::int64_t need = std::max(first + first / 16, this->passBytes(stride, sparseness));
+    return (this->pool.limit() - need) / (NodeBytes * std::min(step, nodes));
+  };
+  const std::int64_t usual = this->options.blockNodes;
+  const std::int64_t wanted = Schedule::chainsFor(this->threads.scheduled);
+  const std::int64_t longer = Schedule::stepFor(this->threads.scheduled, usual);
+  const std::int64_t step = chainsFor(longer) < wanted ? usual : longer;
+  return { step, static_cast<int>(std::clamp(chainsFor(step), std::int64_t(1), wanted)) };
+}
+
 void SolveContext::finishReport()
 {
   Report& r = this->report;
@@ -100,7 +121,7 @@ void SolveContext::finishReport()
   r.seconds.io_wait = this->traffic.waitSeconds();
   r.seconds.total = this->seconds();
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
-  r.threads = this->threads.threads();
+  r.threads = this->threads.workers.threads();
 }
 
 namespace

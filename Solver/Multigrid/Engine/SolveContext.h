@@ -4,7 +4,6 @@
 #include "Solver/Assembly/Components.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Timer.h"
-#include "Solver/Core/Workers.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
@@ -20,61 +19,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace smg
 {
-
-/** Performs the tasks of each step of a solve one after the other and keeps their processor
- * times. From these a model computes how long the steps take on any number of threads
- * (Testing/Benchmarks/ScheduleModel.h). */
-class StepRecorder
-{
-public:
-  struct Step
-  {
-    double before = 0.0;       ///< seconds since the step before this one, or the start of the pass
-    std::vector<double> tasks; ///< seconds of each task
-  };
-  struct Pass
-  {
-    std::vector<double> costs; ///< of the stages, which come first among the tasks; see Schedule
-    std::vector<Step> steps;
-  };
-
-  /** Starts a pass with stages of these costs; there are none in the first pass. */
-  void startPass(std::vector<double> costs)
-  {
-    this->Passes.push_back({ std::move(costs), {} });
-    this->Since = processSeconds();
-  }
-
-  /** Performs a step: task(0) .. task(count - 1). */
-  template <class Task>
-  void run(int count, Task&& task)
-  {
-    Step step{ this->lap(), {} };
-    for (int k = 0; k < count; ++k)
-    {
-      task(k);
-      step.tasks.push_back(this->lap());
-    }
-    this->Passes.back().steps.push_back(std::move(step));
-  }
-
-  const std::vector<Pass>& passes() const { return this->Passes; }
-
-private:
-  double lap()
-  {
-    const double now = processSeconds();
-    return now - std::exchange(this->Since, now);
-  }
-
-  std::vector<Pass> Passes;
-  double Since = 0.0;
-};
 
 /** What all parts of a solve, and its solution, share: options, memory, scratch files, threads,
  * the components of the mesh, progress and report. */
@@ -93,35 +41,6 @@ struct SMG_EXPORT SolveContext
 
   /** Adds the times of a schedule's stages to the report. */
   void note(const Schedule& schedule, bool isFirstPass);
-
-  /** Performs the tasks of a step on the threads, in this order; task(0) on the calling thread.
-   * With a recorder, one after the other. */
-  template <class Task>
-  void runConcurrently(LongestTaskFirst& order, Task&& task)
-  {
-    if (this->recorder)
-    {
-      this->recorder->run(order.tasks(), task);
-      return;
-    }
-    runAll(this->threads, order.tasks(),
-      [&](int place)
-      {
-        const int number = order[place];
-        const Timer timer;
-        task(number);
-        order.add(number, timer.seconds());
-      });
-    if (this->scheduled > 1)
-    {
-      order.sort(); // on one thread the order does not matter
-    }
-  }
-
-  /** Whether the tasks of a step may run at the same time: then it is worth while to have more
-   * of them. */
-  bool isConcurrent() const { return this->scheduled > 1 || this->recorder; }
-
   /** How the parts of a solve save and restore what later passes need. */
   struct Parts
   {
@@ -135,6 +54,24 @@ struct SMG_EXPORT SolveContext
   /** To be called after a pass that left this relative residual: reports it and, with a
    * checkpoint, saves the state. */
   void endPass(double residual);
+
+  /**
+   * The bytes of the pool that a pass out of core needs in one chain, with a history of this
+   * sparseness (0: steps alone) or without one, for `stride` values per node: bounds of what
+   * surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need less
+   * than the first one, down to a third of it; on slivers they need up to 1.1 times as much.
+   */
+  std::int64_t passBytes(int stride, std::optional<std::int64_t> sparseness) const;
+  /** The steps of a pass: nodes of the finest level in a step, and chains of stages. */
+  struct Steps
+  {
+    std::int64_t nodes;
+    int chains;
+  };
+  /** The steps for the threads, as far as the memory suffices, of a pass over a finest level of
+   * this many nodes; `stride` and `sparseness` as above. Shorter steps are preferred to fewer
+   * chains. */
+  Steps stepsOf(std::int64_t nodes, int stride, std::optional<std::int64_t> sparseness) const;
 
   /** The error of a part that exceeded the limit, completed by the memory that usually suffices. */
   MemoryLimitError explained(const MemoryLimitError& error) const
@@ -165,10 +102,7 @@ struct SMG_EXPORT SolveContext
   ComponentLabels labels;
   FreeComponents free;
   std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
-  /** The number of threads that a pass is scheduled for. The machine may have fewer. */
-  int scheduled;
-  Workers threads;
-  StepRecorder* recorder = nullptr; ///< takes the place of the threads, if there is one
+  StepThreads threads;
   Report report;
 
 private:

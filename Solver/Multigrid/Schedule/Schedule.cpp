@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
-#include "Solver/Core/Timer.h"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -14,13 +12,43 @@
 
 namespace smg
 {
+namespace
+{
+
+int scheduledThreads(int wanted)
+{
+  // A pass has about this number of stages of similar length: more threads would find nothing to
+  // do.
+  constexpr int Most = 16;
+  return std::min(Most, wanted > 0 ? wanted : Workers::cores());
+}
+
+} // namespace
+
+StepThreads::StepThreads(int wanted)
+  : scheduled(scheduledThreads(wanted))
+  , workers(std::min(this->scheduled, Workers::cores()))
+{
+}
 
 void Schedule::add(Stage stage)
 {
   this->Stages.push_back(std::move(stage));
   this->Seconds.push_back(0.0);
-  // Until cut() is called all stages are one chain.
-  this->Ends.assign(1, this->Stages.size());
+  if (this->Ends.empty())
+  {
+    this->Ends.emplace_back();
+  }
+  this->Ends.back() = this->Stages.size();
+}
+
+void Schedule::startChain()
+{
+  // The last chain has no stages if it was started before.
+  if (!this->Ends.empty() && this->begin(this->chains() - 1) < this->Ends.back())
+  {
+    this->Ends.push_back(this->Ends.back());
+  }
 }
 
 std::vector<double> Schedule::costs() const
@@ -75,24 +103,59 @@ void Schedule::run(int task)
   const std::size_t first = this->begin(task);
   for (std::size_t s = first; s < this->begin(task + 1); ++s)
   {
+    const Timer timer;
     // The first stage of a chain sees published cursors only.
-    this->advance(s, s > first);
+    this->Stages[s].advance(s > first);
+    this->Seconds[s] += timer.seconds();
   }
 }
 
-void Schedule::advance()
+void Schedule::advance(std::size_t first)
 {
-  for (std::size_t s = 0; s < this->Stages.size(); ++s)
+  for (std::size_t s = first; s < this->Stages.size(); ++s)
   {
-    this->advance(s, true);
+    const Timer timer;
+    this->Stages[s].advance(true);
+    this->Seconds[s] += timer.seconds();
   }
 }
 
-void Schedule::advance(std::size_t stage, bool follows)
+void Schedule::perform(
+  StepThreads& threads, const std::function<bool()>& prepare, const std::function<void()>& settle)
 {
-  const Timer timer;
-  this->Stages[stage].advance(follows);
-  this->Seconds[stage] += timer.seconds();
+  LongestTaskFirst order(this->tasks());
+  const auto runAt = [&](int place)
+  {
+    const int task = order[place];
+    const Timer timer;
+    this->run(task);
+    order.add(task, timer.seconds());
+  };
+  while (prepare())
+  {
+    if (threads.recorder)
+    {
+      threads.recorder->startStep();
+    }
+    if (threads.recorder || threads.scheduled == 1)
+    {
+      // One after the other: the order does not matter.
+      for (int task = 0; task < this->tasks(); ++task)
+      {
+        this->run(task);
+        if (threads.recorder)
+        {
+          threads.recorder->endTask();
+        }
+      }
+    }
+    else
+    {
+      runAll(threads.workers, this->tasks(), runAt);
+      order.sort();
+    }
+    settle();
+  }
 }
 
 } // namespace smg

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Timer.h"
+#include "Solver/Core/Workers.h"
 #include "smg/Export.h"
 
 #include <algorithm>
@@ -10,46 +12,11 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg
 {
-
-/**
- * The next node that a stage will process: it has finished all nodes below. There are two values.
- * The stage itself, and stages that follow it on the same thread, use the present one. Stages on
- * other threads see the one that was published between two steps. What they may process in a step,
- * and with it the memory of the pass, is therefore independent of how far the thread of this stage
- * happens to have come.
- */
-class Cursor
-{
-public:
-  Cursor() = default;
-  /** Present and published. */
-  explicit Cursor(std::int64_t node)
-    : Node(node)
-    , Published(node)
-  {
-  }
-  Cursor& operator=(std::int64_t node)
-  {
-    this->Node = node;
-    return *this;
-  }
-  /** The present node, for the stage itself. */
-  operator std::int64_t() const { return this->Node; }
-  /** The node that a stage may rely on which `follows` this one on the same thread, or does not. */
-  std::int64_t seen(bool follows) const { return follows ? this->Node : this->Published; }
-  /** The published node, for stages on other threads. */
-  std::int64_t published() const { return this->Published; }
-  /** Publishes the present node. */
-  void publish() { this->Published = this->Node; }
-
-private:
-  std::int64_t Node = 0;
-  std::int64_t Published = 0;
-};
 
 /** One operation on the nodes of one level, in stream order. */
 struct Stage
@@ -93,6 +60,63 @@ private:
   std::vector<double> Seconds;
 };
 
+/** Keeps the processor times of the tasks of each step of a solve. From these a model computes how
+ * long the steps take on any number of threads (Testing/Benchmarks/ScheduleModel.h). */
+class StepRecorder
+{
+public:
+  struct Step
+  {
+    double before = 0.0;       ///< seconds since the step before this one, or the start of the pass
+    std::vector<double> tasks; ///< seconds of each task
+  };
+  struct Pass
+  {
+    std::vector<double> costs; ///< of the stages, which come first among the tasks; see Schedule
+    std::vector<Step> steps;
+  };
+
+  /** Starts a pass with stages of these costs; there are none in the first pass. */
+  void startPass(std::vector<double> costs)
+  {
+    this->Passes.push_back({ std::move(costs), {} });
+    this->Since = processSeconds();
+  }
+  void startStep() { this->Passes.back().steps.push_back({ this->lap(), {} }); }
+  /** The next task of the step has been performed. */
+  void endTask() { this->Passes.back().steps.back().tasks.push_back(this->lap()); }
+
+  const std::vector<Pass>& passes() const { return this->Passes; }
+
+private:
+  double lap()
+  {
+    const double now = processSeconds();
+    return now - std::exchange(this->Since, now);
+  }
+
+  std::vector<Pass> Passes;
+  double Since = 0.0;
+};
+
+/** The threads that perform the steps of a solve. */
+struct SMG_EXPORT StepThreads
+{
+  /** The requested number; 0: one per core. */
+  explicit StepThreads(int wanted);
+
+  /** Whether the tasks of a step may run at the same time: then it is worth while to have more of
+   * them. */
+  bool areConcurrent() const { return this->scheduled > 1 || this->recorder; }
+
+  /** The number that a pass is scheduled for. The machine may have fewer: then it only changes how
+   * passes are cut into tasks. */
+  int scheduled;
+  Workers workers;
+  /** If there is one, it records the tasks, which are performed one after the other. */
+  StepRecorder* recorder = nullptr;
+};
+
 /**
  * The stages of a pass and the steps in which they advance: the one place where order and threads
  * are decided. A step is bulk-synchronous. Between two steps cursors are published; in a step the
@@ -106,8 +130,10 @@ private:
 class SMG_EXPORT Schedule
 {
 public:
-  /** Appends a stage, which nodes pass after those before it. Until cut() all are one chain. */
+  /** Appends a stage, which nodes pass after those before it, to the last chain. */
   void add(Stage stage);
+  /** The next stage begins another chain. */
+  void startChain();
   /** Adds a task that may run beside all stages. */
   void addBeside(std::function<void()> task) { this->Beside.push_back(std::move(task)); }
 
@@ -141,30 +167,19 @@ public:
 
   /** Performs a task of a step. Different tasks may run at the same time. */
   void run(int task);
-  /** Advances all stages, each following the one before it. */
-  void advance();
+  /** Advances all stages, or those from this one on, each following the one before it. */
+  void advance(std::size_t first = 0);
   /** The seconds that a stage has taken so far. */
   double seconds(std::size_t stage) const { return this->Seconds[stage]; }
 
   /**
    * Performs the steps of a pass: as long as prepare() returns true, it runs all tasks, and then
    * settle(). prepare() makes data available and publishes the cursors; settle() releases data.
-   * `context` runs the tasks, see SolveContext::runConcurrently().
    */
-  template <class Context, class Prepare, class Settle>
-  void perform(Context& context, Prepare&& prepare, Settle&& settle)
-  {
-    LongestTaskFirst order(this->tasks());
-    while (prepare())
-    {
-      context.runConcurrently(order, [this](int task) { this->run(task); });
-      settle();
-    }
-  }
+  void perform(StepThreads& threads, const std::function<bool()>& prepare,
+    const std::function<void()>& settle);
 
 private:
-  void advance(std::size_t stage, bool follows);
-
   std::vector<Stage> Stages;
   std::vector<double> Seconds;   // by stage
   std::vector<std::size_t> Ends; // of each chain, the end of its stages in Stages

@@ -22,15 +22,15 @@ namespace smg
 struct IndependentSetCoarsening
 {
   /** Edge (i, j) is strong for row i if w_ij >= strength * max_k w_ik; in [0, 1). */
-  float strength = 0.1F;
-  /** The same for sliver rows. In a lattice of obtuse triangles the strongest couplings form
+  float strength = 0.2F;
+  /** The same for rows that cancel. In a lattice of obtuse triangles the strongest couplings form
    * lines; a smaller strength leaves whole lines without a C-point. */
-  float sliverStrength = 0.1F;
-  /** A row is a sliver row if the magnitudes of its weights sum to more than this multiple of
-   * its diagonal; at least 1. If no weight is negative, the sum is at most the diagonal. */
+  float cancellingStrength = 0.5F;
+  /** A row cancels if the magnitudes of its weights sum to more than this multiple of its
+   * diagonal; at least 1. If no weight is negative, the sum is at most the diagonal. */
   float cancelling = 1.2F;
 
-  bool isOfSlivers(const CoarseningData& data, std::int64_t i) const
+  bool cancels(const CoarseningData& data, std::int64_t i) const
   {
     return data.fine.magnitudes(i) > this->cancelling * data.patches.diagonal(i);
   }
@@ -39,9 +39,9 @@ struct IndependentSetCoarsening
    * weights are never strong, even where the largest weight of the row is 0. */
   float threshold(const CoarseningData& data, std::int64_t i) const
   {
-    const bool isAlike = this->strength == this->sliverStrength;
+    const bool isAlike = this->strength == this->cancellingStrength;
     const float share =
-      !isAlike && this->isOfSlivers(data, i) ? this->sliverStrength : this->strength;
+      !isAlike && this->cancels(data, i) ? this->cancellingStrength : this->strength;
     return std::max(share * data.fine.strongest(i), FLT_MIN);
   }
 

@@ -23,9 +23,8 @@ namespace smg
 class SMG_EXPORT GalerkinProduct
 {
 public:
-  /** No entry is removed from a row whose weights have magnitudes that sum to more than this
-   * multiple of the diagonal, above 1: the small entries of such a row determine its soft
-   * modes. */
+  /** As IndependentSetCoarsening::cancelling, of coarse rows. No entry is removed from a row that
+   * cancels: its small entries determine its soft modes. */
   double cancelling = 1.5;
 
   /** Appends row i of A P. The rows of P up to reach(i) must exist. */

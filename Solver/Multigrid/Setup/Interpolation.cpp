@@ -77,7 +77,7 @@ int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i)
   }
   // childReach() is -1 on the finest level only.
   return this->entries == this->finestEntries || data.fine.childReach(i) >= 0 ||
-             this->coarsePoints.isOfSlivers(data, i)
+             this->coarsePoints.cancels(data, i)
            ? this->entries
            : this->finestEntries;
 }

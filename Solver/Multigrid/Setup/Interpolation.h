@@ -48,12 +48,12 @@ class SMG_EXPORT ExtendedInterpolation
 {
 public:
   IndependentSetCoarsening coarsePoints;
-  /** The most entries of a row of the finest level that is not a sliver row (see
+  /** The most entries of a row of the finest level that does not cancel (see
    * IndependentSetCoarsening), and of all other rows, 2 to RelaxedRow::Most. */
-  int finestEntries = 4;
+  int finestEntries = 3;
   int entries = 4;
   /** Number of sweeps, at least 1. */
-  int sweeps = 2;
+  int sweeps = 1;
 
   /** Appends row i of P0. The C-points among the nodes up to reach(i) must have been chosen. */
   void initial(CoarseningData& data, std::int64_t i) const;

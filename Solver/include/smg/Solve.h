@@ -63,9 +63,9 @@ struct CheckpointOptions
 struct SolveOptions
 {
   /**
-   * Name of an operator set of the library: "extended", or "shi2006", which has the equations of
-   * the paper for comparison: they do not converge to the solution, and need `inCore`. For
-   * operators of a program's own see SolveWith.h.
+   * Name of an operator set of the library: "extended" is the only one. The equations of the
+   * paper, for comparison, have a program of their own: solve_shi2006. For operators of a program's
+   * own see SolveWith.h.
    */
   std::string operators = "extended";
   /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Multigrid/Engine/PoissonSolver.h"
+#include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Multigrid/OperatorSet.h"
 #include "Solver/Multigrid/RowOperators.h"
@@ -21,7 +20,7 @@ namespace smg
  * computes the same bits.
  *
  * @tparam Operators a type that satisfies the concept OperatorSet (Solver/Multigrid/OperatorSet.h);
- * the multigrid is compiled for it
+ * its steps and its sweep are compiled in the program, the rest of the multigrid is the library's
  * @param mesh the stream, read once
  * @param problem the problem
  * @param options how to solve; `operators` is ignored
@@ -33,12 +32,7 @@ template <OperatorSet Operators>
 std::unique_ptr<Solution> solveWith(
   MeshSource& mesh, Problem& problem, const SolveOptions& options = {})
 {
-  checkOptions(options);
-  checkProblem(problem);
-  checkAutomaticTolerance(options, problem);
-  PoissonSolver<Operators> solver(
-    Operators::forCells(mesh.info().cellType), problem.columns(), options);
-  return solver.solve(mesh, problem);
+  return solveWith(compiled(Operators::forCells(mesh.info().cellType)), mesh, problem, options);
 }
 
 } // namespace smg

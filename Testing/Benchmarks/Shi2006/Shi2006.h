@@ -4,8 +4,8 @@
 #include "Solver/Assembly/Assembly.h"
 #include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "Solver/Multigrid/Engine/SolveProgress.h"
-#include "Solver/Shi2006/Level.h"
-#include "Solver/Shi2006/VCycle.h"
+#include "Testing/Benchmarks/Shi2006/Level.h"
+#include "Testing/Benchmarks/Shi2006/VCycle.h"
 #include "smg/Problem.h"
 #include "smg/Solve.h"
 
@@ -15,9 +15,8 @@ namespace smg
 /**
  * The equations (3) to (10) as printed in "Out-of-Core Multigrid Solver for Streaming Meshes",
  * after Shi et al. 2006: for comparison with the paper, never for results, since they do not
- * converge to the solution. They are selected like an operator set, by the name `shi2006`, but are
- * not an OperatorSet: their V-cycle works on other vectors, and they share with the engine only the
- * assembly of rows and the treatment of free components.
+ * converge to the solution. They are not an OperatorSet: their V-cycle works on other vectors, and
+ * they share with the engine only the assembly of rows and the treatment of free components.
  *
  * Its unknowns are corrections, and the error of the current solution is represented on the edges:
  * every level has a vector g for each of its edges and columns. Both the coarse operator and the
@@ -33,17 +32,16 @@ namespace smg
  * edge targets, d_ij = x*_i - x*_j for the solution x* on every edge: the case in which the
  * equations are right. Use `extended` for all solutions.
  *
- * Works in core only. The edge targets must be antisymmetric, as stated at Problem.
+ * Works in core only. The edge targets must be antisymmetric, as stated at Problem. The program
+ * solve_shi2006 solves a problem with it.
  */
 class Shi2006 : public Solution
 {
 public:
-  static constexpr const char* name = "shi2006";
-
   /** Prepares for problems of `columns` columns, without reading. */
   Shi2006(int columns, const SolveOptions& options);
 
-  /** Solves one problem. */
+  /** Solves one problem, in core. */
   void solve(MeshSource& mesh, Problem& problem);
 
   /** The least bytes of the pool that a solve needs. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Shi2006/EdgeOperators.h"
-#include "Solver/Shi2006/Shi2006.h"
+#include "Testing/Benchmarks/Shi2006/EdgeOperators.h"
+#include "Testing/Benchmarks/Shi2006/Shi2006.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <Eigen/Dense>
@@ -12,6 +12,16 @@
 
 namespace smg::testing
 {
+
+/** As solveMesh(), with the equations of the paper. */
+inline Solved solveByPaper(
+  const StreamMesh& mesh, Problem& problem, const SolveOptions& options, std::int64_t block = 1000)
+{
+  MemorySource source(mesh, block);
+  Shi2006 solution(problem.columns(), options);
+  solution.solve(source, problem);
+  return { valuesOf(solution), solution.report() };
+}
 
 /** A value at a point of the mesh, `column` by column. */
 using PointFunction = double (*)(const double* p, int column);

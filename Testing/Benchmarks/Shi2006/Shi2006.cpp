@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Shi2006/Shi2006.h"
+#include "Testing/Benchmarks/Shi2006/Shi2006.h"
 
 #include "Solver/Core/Timer.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Shi2006/EdgeOperators.h"
-#include "Solver/Shi2006/VCycle.h"
+#include "Testing/Benchmarks/Shi2006/EdgeOperators.h"
+#include "Testing/Benchmarks/Shi2006/VCycle.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace
 {
 
 constexpr PoolUse InCoreMemory{ "a solve by shi2006",
-  "raise the memory limit, or use the operator set extended, which works out of core" };
+  "raise the memory limit, or use smg solve, which works out of core" };
 
 /** The finest level in the interface that FreeComponents expects of a level. */
 struct FinestState
@@ -67,6 +67,10 @@ Shi2006::Shi2006(int columns, const SolveOptions& options)
 
 void Shi2006::solve(MeshSource& mesh, Problem& problem)
 {
+  checkOptions(this->Options);
+  // The iteration has no error to balance.
+  refuseAutomaticTolerance(this->Options, "a solve by shi2006");
+  checkProblem(problem);
   const Timer wall;
   const double cpuAtStart = processSeconds();
   Report& r = this->Result;

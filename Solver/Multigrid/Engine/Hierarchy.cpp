@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
+#include "Solver/Multigrid/Engine/Hierarchy.h"
 
 #include "Solver/Core/Timer.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
-#include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -22,8 +21,7 @@
 namespace smg
 {
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::open(std::int64_t vertices)
+void Hierarchy::open(std::int64_t vertices)
 {
   this->FirstCore = this->firstCoreLevel(vertices);
   this->addFinestLevel();
@@ -34,8 +32,7 @@ void Hierarchy<Relaxation>::open(std::int64_t vertices)
 }
 
 /** The number of the finest core level, from the usual sizes of levels. */
-template <class Relaxation>
-int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
+int Hierarchy::firstCoreLevel(std::int64_t vertices) const
 {
   // Upper bounds of the share of C-points: 0.24 to 0.43 were measured on the finest level, 0.14 to
   // 0.31 on coarser ones.
@@ -61,11 +58,10 @@ int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
   return l;
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::addFinestLevel()
+void Hierarchy::addFinestLevel()
 {
-  this->Built.finest = std::make_unique<FineLevel>(
-    this->Run.pool, this->Run.resident, 0, this->Columns, this->Run.options.sweeps);
+  this->Built.finest = std::make_unique<FineLevel>(this->Run.pool, this->Run.resident, 0,
+    this->Columns, this->Run.options.sweeps, this->Relaxation);
   this->finest().setEnergy(this->Run.energy ? &*this->Run.energy : nullptr);
   if (this->Run.scratch)
   {
@@ -73,11 +69,10 @@ void Hierarchy<Relaxation>::addFinestLevel()
   }
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::addCoarseLevel(int l, bool core)
+void Hierarchy::addCoarseLevel(int l, bool core)
 {
-  auto level = std::make_unique<CoarseLevel>(
-    this->Run.pool, this->Run.resident, l, this->Columns, this->Run.options.sweeps);
+  auto level = std::make_unique<CoarseLevel>(this->Run.pool, this->Run.resident, l, this->Columns,
+    this->Run.options.sweeps, this->Relaxation);
   if (core)
   {
     this->setCore(*level);
@@ -100,8 +95,7 @@ void Hierarchy<Relaxation>::addCoarseLevel(int l, bool core)
   this->Built.coarse.push_back(std::move(level));
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::setCore(CoarseLevel& level)
+void Hierarchy::setCore(CoarseLevel& level)
 {
   level.setCore();
   if (this->Run.checkpoint)
@@ -110,8 +104,7 @@ void Hierarchy<Relaxation>::setCore(CoarseLevel& level)
   }
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::close(int coarsest)
+void Hierarchy::close(int coarsest)
 {
   // The hierarchy is shorter than expected: its coarsest level was streamed.
   if (coarsest < this->FirstCore)
@@ -124,8 +117,7 @@ void Hierarchy<Relaxation>::close(int coarsest)
   this->factorize();
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::factorize()
+void Hierarchy::factorize()
 {
   const Timer factorizing;
   std::vector<CoarseLevel*> core;
@@ -138,8 +130,7 @@ void Hierarchy<Relaxation>::factorize()
   this->Run.report.seconds.coarse += factorizing.seconds();
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::startPass(bool first)
+void Hierarchy::startPass(bool first)
 {
   this->finest().startPass(first);
   for (auto& level : this->Built.coarse)
@@ -148,8 +139,7 @@ void Hierarchy<Relaxation>::startPass(bool first)
   }
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::endPass()
+void Hierarchy::endPass()
 {
   if (!this->finest().finished())
   {
@@ -163,8 +153,7 @@ void Hierarchy<Relaxation>::endPass()
   ++this->Run.report.passes;
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::runCore()
+void Hierarchy::runCore()
 {
   const Timer coarse;
   this->Core.run();
@@ -172,8 +161,7 @@ void Hierarchy<Relaxation>::runCore()
 }
 
 /** For the first V-cycle of a further problem in core, which restricts onto them. */
-template <class Relaxation>
-void Hierarchy<Relaxation>::zeroCoarse()
+void Hierarchy::zeroCoarse()
 {
   for (auto& level : this->Built.coarse)
   {
@@ -181,8 +169,7 @@ void Hierarchy<Relaxation>::zeroCoarse()
   }
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::renew(int columns)
+void Hierarchy::renew(int columns)
 {
   // Only the finest level has two states in that pass: on coarse levels the downward part starts
   // from zero in any case.
@@ -193,8 +180,7 @@ void Hierarchy<Relaxation>::renew(int columns)
   }
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::save(StateWriter& state)
+void Hierarchy::save(StateWriter& state)
 {
   state.part("hierarchy");
   const auto levels = static_cast<std::int32_t>(this->Built.coarse.size());
@@ -205,8 +191,7 @@ void Hierarchy<Relaxation>::save(StateWriter& state)
   }
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::load(StateReader& state)
+void Hierarchy::load(StateReader& state)
 {
   // A check of the file, far beyond any hierarchy.
   constexpr std::int32_t MaxLevels = 64;
@@ -227,8 +212,7 @@ void Hierarchy<Relaxation>::load(StateReader& state)
   this->factorize();
 }
 
-template <class Relaxation>
-void Hierarchy<Relaxation>::noteWindows()
+void Hierarchy::noteWindows()
 {
   // The window of the mesh has prescribed vertices, too, which the report does not count as nodes.
   const auto note = [](Report::Level& level, auto& window)
@@ -241,22 +225,19 @@ void Hierarchy<Relaxation>::noteWindows()
   }
 }
 
-template <class Relaxation>
-double Hierarchy<Relaxation>::residualNorm() const
+double Hierarchy::residualNorm() const
 {
   const auto squares = this->Built.finest->squares();
   return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
-template <class Relaxation>
-double Hierarchy<Relaxation>::roundingNorm() const
+double Hierarchy::roundingNorm() const
 {
   const auto squares = this->Built.finest->termSquares();
   return roundingOf(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
-template <class Relaxation>
-LevelWindow<double> Hierarchy<Relaxation>::takeWindow()
+LevelWindow<double> Hierarchy::takeWindow()
 {
   this->Core = {};
   this->Built.coarse.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Shi2006/Level.h"
+#include "Testing/Benchmarks/Shi2006/Level.h"
 
 namespace smg::shi2006
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Shi2006/EdgeOperators.h"
+#include "Testing/Benchmarks/Shi2006/EdgeOperators.h"
 
 #include <algorithm>
 #include <functional>

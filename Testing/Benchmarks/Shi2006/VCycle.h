@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Shi2006/Level.h"
-#include "smg/Export.h"
+#include "Testing/Benchmarks/Shi2006/Level.h"
 
 #include <functional>
 #include <memory>
@@ -17,7 +16,7 @@ namespace smg::shi2006
  * the range of the matrix, is omitted. Such parts occur even if every component of the mesh is
  * constrained, since lifting may disconnect a component.
  */
-class SMG_EXPORT CoarsestSolver
+class CoarsestSolver
 {
 public:
   CoarsestSolver();

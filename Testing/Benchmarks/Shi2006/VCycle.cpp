@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Shi2006/VCycle.h"
+#include "Testing/Benchmarks/Shi2006/VCycle.h"
 
 #include "Solver/Multigrid/Cycle/CoarsestFactor.h"
-#include "Solver/Shi2006/EdgeOperators.h"
+#include "Testing/Benchmarks/Shi2006/EdgeOperators.h"
 
 // The hierarchy of the paper and its V-cycle, level by level in memory. The coarsest level is
 // solved directly. A V-cycle costs the sweeps of all levels; each level has fewer nodes than the

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Shi2006/Shi2006.h"
+#include "Testing/Benchmarks/Shi2006/Shi2006.h"
+#include "Testing/Benchmarks/Shi2006/Shi2006Testing.h"
 #include "Testing/Solver/MemoryLimits.h"
-#include "Testing/Solver/Shi2006Testing.h"
-#include "Testing/Support/ArrayHandles.h"
-#include "smg/Deform.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-// A solve with the operator set shi2006: its report and its errors.
+// A solve with the equations of the paper: its report and its errors.
 
 namespace smg::testing
 {
@@ -20,7 +17,6 @@ namespace
 SolveOptions literal(double tolerance = 1e-6)
 {
   SolveOptions options;
-  options.operators = "shi2006";
   options.inCore = true;
   options.tolerance = tolerance;
   return options;
@@ -39,7 +35,7 @@ TEST(Shi2006Solve, SaysThatItDoesNotConverge)
 {
   const StreamMesh mesh = toStream(torus(90, 45, 0.3));
   ArrayProblem problem = deformed(mesh);
-  const Solved solved = solveMesh(mesh, problem, literal());
+  const Solved solved = solveByPaper(mesh, problem, literal());
   const Report& report = solved.report;
   EXPECT_FALSE(report.converged);
   EXPECT_TRUE(hasNote(report, "not converged"));
@@ -54,9 +50,7 @@ TEST(Shi2006Solve, SaysThatItDoesNotConverge)
   EXPECT_NEAR(assembleDirect(source, problem).relativeResidual(solved.values), report.residual(),
     1e-9 * report.residual());
   // The default operator set has no such bias.
-  SolveOptions extended = literal();
-  extended.operators = "extended";
-  EXPECT_TRUE(solveMesh(mesh, problem, extended).report.converged);
+  EXPECT_TRUE(solveMesh(mesh, problem, literal()).report.converged);
 }
 
 TEST(Shi2006Solve, ConvergesWhereTheTargetsAreDifferences)
@@ -66,7 +60,7 @@ TEST(Shi2006Solve, ConvergesWhereTheTargetsAreDifferences)
   {
     ArrayProblem problem = heldEndsOf(mesh, wavy, 2, Weights::Clamped);
     problem.Target = differencesOf(wavy, 2);
-    const Solved solved = solveMesh(mesh, problem, literal(1e-15));
+    const Solved solved = solveByPaper(mesh, problem, literal(1e-15));
     EXPECT_TRUE(solved.report.converged);
     EXPECT_EQ(solved.report.cycles, 1);
     EXPECT_FALSE(hasNote(solved.report, "not converged"));
@@ -84,7 +78,7 @@ TEST(Shi2006Solve, ScreeningTowardsAConstantIsSolvedAtOnce)
   ArrayProblem problem;
   problem.Screening = 3.0;
   problem.Source.assign(mesh.vertices(), 3.0 * 7.0);
-  const Solved solved = solveMesh(mesh, problem, literal(1e-12));
+  const Solved solved = solveByPaper(mesh, problem, literal(1e-12));
   EXPECT_TRUE(solved.report.converged);
   EXPECT_EQ(solved.report.cycles, 1);
   EXPECT_LT((solved.values.array() - 7.0).abs().maxCoeff(), 1e-11);
@@ -96,14 +90,14 @@ TEST(Shi2006Solve, InitialValuesThatAreTheSolutionAreLeftAlone)
   ArrayProblem problem = deformed(mesh, 1);
   const Eigen::MatrixXd solution = solveDirectly(mesh, problem);
   problem.Value.assign(solution.data(), solution.data() + solution.size());
-  const Solved solved = solveMesh(mesh, problem, literal());
+  const Solved solved = solveByPaper(mesh, problem, literal());
   EXPECT_TRUE(solved.report.converged);
   EXPECT_EQ(solved.report.cycles, 0);
   EXPECT_TRUE(sameBits(solved.values, solution));
   // Nearly the solution: the V-cycle increases the residual, as the report states.
   problem.Value[7] += problem.Prescribed[7] ? 0.0 : 1e-9;
   problem.Value[300] += problem.Prescribed[300] ? 0.0 : 1e-9;
-  const Report report = solveMesh(mesh, problem, literal()).report;
+  const Report report = solveByPaper(mesh, problem, literal()).report;
   EXPECT_FALSE(report.converged);
   EXPECT_GT(report.residual(), 100.0);
 }
@@ -113,12 +107,12 @@ TEST(Shi2006Solve, BlocksThreadsAndPiecesDoNotMatter)
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = deformed(mesh);
   SolveOptions options = literal();
-  const Solved whole = solveMesh(mesh, problem, options);
+  const Solved whole = solveByPaper(mesh, problem, options);
   options.threads = 2;
   options.blockNodes = 7;
   options.coreNodes = 0;
-  EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, 1).values, whole.values));
-  EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, 37).values, whole.values));
+  EXPECT_TRUE(sameBits(solveByPaper(mesh, problem, options, 1).values, whole.values));
+  EXPECT_TRUE(sameBits(solveByPaper(mesh, problem, options, 37).values, whole.values));
 }
 
 TEST(Shi2006Solve, ComponentsWithoutConstraintKeepTheirMean)
@@ -141,7 +135,7 @@ TEST(Shi2006Solve, ComponentsWithoutConstraintKeepTheirMean)
     {
       problem.Source[v] = mesh.positions[3 * v] > 5.0 ? 1e-3 : 0.0;
     }
-    const Solved solved = solveMesh(mesh, problem, literal(1e-10));
+    const Solved solved = solveByPaper(mesh, problem, literal(1e-10));
     EXPECT_EQ(solved.report.free_components, 1);
     EXPECT_TRUE(hasNote(solved.report, "keep the mean"));
     EXPECT_EQ(hasNote(solved.report, "do not sum to zero"), incompatible);
@@ -176,7 +170,7 @@ TEST(Shi2006Solve, VerticesThatArePrescribedOrHeldKeepTheirValue)
     {
       std::fill(problem.Prescribed.begin(), problem.Prescribed.end(), 1);
     }
-    const Solved solved = solveMesh(mesh, problem, literal());
+    const Solved solved = solveByPaper(mesh, problem, literal());
     const Report& report = solved.report;
     EXPECT_EQ(report.held, all ? 0 : 3);
     EXPECT_EQ(report.levels[0].nodes, mesh.vertices() - report.held - report.prescribed);
@@ -196,7 +190,7 @@ TEST(Shi2006Solve, ATornHierarchyIsTold)
   {
     const StreamMesh mesh = scattered ? toStream(shuffled(ring), TestOrder::Keep) : toStream(ring);
     ArrayProblem problem = deformed(mesh);
-    EXPECT_EQ(hasNote(solveMesh(mesh, problem, literal()).report, "torn"), scattered);
+    EXPECT_EQ(hasNote(solveByPaper(mesh, problem, literal()).report, "torn"), scattered);
   }
 }
 
@@ -205,38 +199,30 @@ TEST(Shi2006Solve, RangesOfVerticesAreThoseOfTheWhole)
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = deformed(mesh);
   MemorySource source(mesh);
-  const auto solution = solve(source, problem, literal());
-  const Eigen::MatrixXd all = valuesOf(*solution);
+  Shi2006 solution(problem.columns(), literal());
+  solution.solve(source, problem);
+  const Eigen::MatrixXd all = valuesOf(solution);
   std::vector<double> part(3 * 100);
-  solution->read(517, 100, part);
+  solution.read(517, 100, part);
   for (int i = 0; i < 100; ++i)
   {
     EXPECT_EQ(part[3 * i + 2], all(517 + i, 2));
   }
-  expectError([&] { solution->read(mesh.vertices() - 99, 100, part); }, "1800");
-  expectError([&] { solution->read(0, 101, part); }, "room");
+  expectError([&] { solution.read(mesh.vertices() - 99, 100, part); }, "1800");
+  expectError([&] { solution.read(0, 101, part); }, "room");
 }
 
-TEST(Shi2006Solve, IsRefusedOutOfCore)
+TEST(Shi2006Solve, IsNoOperatorSetOfTheLibrary)
 {
   const StreamMesh mesh = toStream(torus(10, 10));
   ArrayProblem problem = deformed(mesh);
   SolveOptions options = literal();
-  options.inCore = false;
-  expectError([&] { solveMesh(mesh, problem, options); }, "in core only");
+  options.operators = "shi2006";
+  expectError([&] { solveMesh(mesh, problem, options); }, "solve_shi2006");
   options.operators = "none";
-  expectError([&] { solveMesh(mesh, problem, options); }, "use extended or shi2006");
-}
-
-TEST(Shi2006Solve, IsRefusedForADeformation)
-{
-  for (const bool inCore : { false, true })
-  {
-    DeformOptions options;
-    options.operators = "shi2006";
-    options.inCore = inCore;
-    expectError([&] { checkOptions(options); }, "deformation");
-  }
+  expectError([&] { solveMesh(mesh, problem, options); }, "use extended");
+  options.tolerance = SolveOptions::AutomaticTolerance;
+  expectError([&] { solveByPaper(mesh, problem, options); }, "no automatic tolerance");
 }
 
 TEST(Shi2006Solve, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
@@ -244,10 +230,11 @@ TEST(Shi2006Solve, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
   ArrayProblem problem = deformed(mesh);
   SolveOptions options = literal();
-  const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
+  const std::int64_t need = solveByPaper(mesh, problem, options).report.pool_bytes_peak;
   options.memoryLimit = need / 2;
   expectLimitRefused(mesh, options,
-    [&](MeshSource& source, const SolveOptions& limited) { solve(source, problem, limited); });
+    [&](MeshSource& source, const SolveOptions& limited)
+    { Shi2006(problem.columns(), limited).solve(source, problem); });
   MemorySource source(mesh);
   const std::int64_t estimate = Shi2006::estimateMemory(source.info(), 3);
   EXPECT_LT(estimate, need);
@@ -259,7 +246,7 @@ TEST(Shi2006Solve, TheMemoryLimitIsKept)
   const StreamMesh mesh = toStream(tetBox(16, 16, 16, 0.15));
   ArrayProblem problem = deformed(mesh, 1);
   expectLimitsKept(literal(), 1 << 26,
-    [&](const SolveOptions& limited) { return solveMesh(mesh, problem, limited).report; });
+    [&](const SolveOptions& limited) { return solveByPaper(mesh, problem, limited).report; });
 }
 
 TEST(Shi2006Solve, CanBeCancelledAtAnyTime)
@@ -273,13 +260,13 @@ TEST(Shi2006Solve, CanBeCancelledAtAnyTime)
     seen.push_back(done);
     return true;
   };
-  solveMesh(mesh, problem, options);
+  solveByPaper(mesh, problem, options);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1.0);
   for (const double at : { 0.1, 0.41, 0.9 })
   {
     options.progress = [at](double done) { return done < at; };
-    EXPECT_THROW(solveMesh(mesh, problem, options), Cancelled);
+    EXPECT_THROW(solveByPaper(mesh, problem, options), Cancelled);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Shi2006/EdgeOperators.h"
-#include "Testing/Solver/Shi2006Testing.h"
+#include "Testing/Benchmarks/Shi2006/EdgeOperators.h"
+#include "Testing/Benchmarks/Shi2006/Shi2006Testing.h"
 #include "Testing/Support/AllIndices.h"
 #include "Testing/Support/EdgeWeights.h"
 

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/HierarchyBuilder.h"
+
+#include "Solver/Multigrid/Cycle/RowBlockPacker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The number of levels whose stages may be tasks of their own. */
+constexpr int MaxApart = 3;
+
+} // namespace
+
+HierarchyBuilder::HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels,
+  int firstCore, SliverRows stiff, bool apart)
+  : Owner(pool)
+  , Set(operators)
+  , Built(levels)
+  , FirstCore(firstCore)
+  , ApartLevels(operators.canRunApart && apart ? std::min(MaxApart, firstCore) : 0)
+  , Stiff(stiff)
+{
+  this->addRows();
+  for (int l = 0; l < firstCore; ++l)
+  {
+    this->addStep();
+  }
+}
+
+void HierarchyBuilder::begin()
+{
+  std::int64_t nodes = StepNodes;
+  for (int l = 0; l < this->ApartLevels; ++l)
+  {
+    nodes = this->Steps[static_cast<std::size_t>(l)]->beginApart(nodes);
+  }
+}
+
+void HierarchyBuilder::addStages(Schedule& schedule)
+{
+  using Step = LevelCoarsening;
+  struct Part
+  {
+    const char* name;
+    void (Step::*advance)();
+  };
+  for (int l = 0; l < this->ApartLevels; ++l)
+  {
+    Step* step = this->Steps[static_cast<std::size_t>(l)].get();
+    for (const Part part : { Part{ "choose C-points, P0", &Step::advanceChoice },
+           Part{ "relax P", &Step::advanceInterpolation }, Part{ "A P", &Step::advanceProducts },
+           Part{ "P^T A P", &Step::advanceGathering },
+           Part{ "sparsify, finish rows", &Step::advanceCoarseRows } })
+    {
+      schedule.startChain();
+      schedule.add({ part.name, l, 0.0, [step, part](bool) { (step->*part.advance)(); } });
+    }
+    schedule.startChain();
+    schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } });
+  }
+  for (int l = this->ApartLevels; l < this->FirstCore; ++l)
+  {
+    schedule.startChain();
+    schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
+  }
+}
+
+void HierarchyBuilder::handOver()
+{
+  for (int l = 0; l < this->FirstCore; ++l)
+  {
+    LevelCoarsening& step = *this->Steps[static_cast<std::size_t>(l)];
+    if (l < this->ApartLevels)
+    {
+      step.release();
+    }
+    step.handOver();
+    this->append(l);
+  }
+}
+
+bool HierarchyBuilder::complete() const
+{
+  for (int l = 0; l < this->FirstCore; ++l)
+  {
+    const auto k = static_cast<std::size_t>(l);
+    if (!this->Rows[k + 1]->Ended || this->Packed[k] < this->Rows[k]->end())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+int HierarchyBuilder::finish(const std::function<void(int)>& addLevel)
+{
+  for (int k = 0; k < this->FirstCore; ++k)
+  {
+    this->close(k);
+  }
+  int l = 1;
+  for (;; ++l)
+  {
+    if (l >= this->FirstCore)
+    {
+      this->build(l);
+    }
+    if (this->nodes(l) <= CoarsestNodes || this->stalled(l))
+    {
+      break;
+    }
+    if (l >= this->FirstCore)
+    {
+      addLevel(l + 1);
+    }
+  }
+  this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
+  return l;
+}
+
+void HierarchyBuilder::advanceLevel(int l)
+{
+  const auto k = static_cast<std::size_t>(l);
+  const std::int64_t end = this->Rows[k]->end();
+  std::int64_t& rows = this->Advanced[k];
+  // A few rows at a time, whose intermediate data are released before the next ones.
+  do
+  {
+    rows = std::min(end, rows + RowBlock::Nodes);
+    this->Steps[k]->advance(rows);
+    this->pack(l);
+  } while (rows < end);
+}
+
+void HierarchyBuilder::build(int l)
+{
+  this->addStep();
+  for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l);
+       end += RowBlock::Nodes)
+  {
+    this->Steps.back()->advance(end);
+    this->pack(l);
+    this->Steps.back()->handOver();
+    this->append(l);
+  }
+  this->close(l);
+}
+
+std::int64_t HierarchyBuilder::nodes(int l) const
+{
+  const auto k = static_cast<std::size_t>(l);
+  return k < this->Built.sizes.size() ? this->Built.sizes[k].nodes : this->Rows[k]->end();
+}
+
+bool HierarchyBuilder::stalled(int l) const
+{
+  return static_cast<double>(this->nodes(l)) >
+         StalledShare * static_cast<double>(this->nodes(l - 1));
+}
+
+void HierarchyBuilder::close(int l)
+{
+  const auto k = static_cast<std::size_t>(l);
+  this->Built.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
+  if (k < this->Steps.size())
+  {
+    this->Steps[k].reset();
+  }
+  this->Rows[k].reset();
+  this->Buffers[k].clear();
+}
+
+void HierarchyBuilder::addRows()
+{
+  this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
+  this->Buffers.emplace_back(this->Owner);
+  this->Ready.emplace_back();
+}
+
+void HierarchyBuilder::addStep()
+{
+  this->addRows();
+  this->Advanced.push_back(0);
+  this->Packed.push_back(0);
+  const std::size_t l = this->Steps.size();
+  this->Steps.push_back(this->Set.coarsening(this->Owner, *this->Rows[l], *this->Rows[l + 1],
+    this->Stiff, static_cast<int>(l) < this->ApartLevels));
+}
+
+void HierarchyBuilder::append(int l)
+{
+  if (l == 0)
+  {
+    this->append(l, *this->Built.finest);
+  }
+  else
+  {
+    this->append(l, *this->Built.coarse[static_cast<std::size_t>(l - 1)]);
+  }
+}
+
+template <class Level>
+void HierarchyBuilder::append(int l, Level& level)
+{
+  std::vector<RowBlock>& ready = this->Ready[static_cast<std::size_t>(l)];
+  for (RowBlock& block : ready)
+  {
+    level.append(std::move(block));
+  }
+  ready.clear();
+  level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
+}
+
+void HierarchyBuilder::pack(int l)
+{
+  const auto k = static_cast<std::size_t>(l);
+  const LevelRows& rows = *this->Rows[k];
+  LevelCoarsening& step = *this->Steps[k];
+  const std::int64_t final = step.multiplied();
+  const bool ended = rows.Ended && final == rows.end();
+  std::int64_t& begin = this->Packed[k];
+  while (begin + RowBlock::Nodes <= final || (ended && begin < final))
+  {
+    const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
+    this->Ready[k].push_back(
+      packRows(this->Buffers[k], rows, &step.data(), begin, nodes, l > 0 && !this->Stiff.any()));
+    begin += nodes;
+    step.packed(begin);
+    if (l >= this->ApartLevels)
+    {
+      step.release();
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/Iteration.h"
+
+#include "Solver/Multigrid/Engine/Pass.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+void Iteration::operator()(bool spareLast)
+{
+  Pass pass(this->Run, this->Levels);
+  while (!this->Watched.done() && !(spareLast && this->Watched.isLast()))
+  {
+    const bool measures = this->measuresMemory();
+    if (!measures)
+    {
+      this->Faster.decide();
+      this->addHistory();
+    }
+    if (this->History)
+    {
+      this->History->startPass(this->Faster.next(this->History->products()));
+    }
+    // The peak of this pass alone, should it be the one that measures.
+    this->Run.pool.restartPeak();
+    pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
+    if (measures)
+    {
+      this->Run.plainPassPeak = this->Run.pool.recentPeak();
+      this->Run.valueNodes = this->Levels.window().x().capacity();
+    }
+    this->Watched.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
+    if (this->Balance && this->Balance->add(this->Run.energy->value(),
+                           this->Watched.residuals().back(), this->Watched.factor()))
+    {
+      this->Watched.end();
+    }
+    this->Run.progress.endCycle(this->Watched.cycles(), this->Watched.residuals().back());
+    this->Run.endPass(this->Watched.residuals().back());
+  }
+  if (this->Faster.used() != std::string("none"))
+  {
+    this->Run.report.acceleration = this->Faster.used();
+  }
+  this->Faster.addNotes(this->Run.report.notes, this->What);
+  // Its memory is free for the results, or for the next problem.
+  this->History.reset();
+}
+
+/**
+ * Whether the next pass measures what later passes need, usually less than the first pass needed;
+ * that decides whether acceleration fits. Only the first of the later passes does, since windows
+ * grow with several chains; none does with a checkpoint, since a solve that continues has less
+ * memory left over.
+ */
+bool Iteration::measuresMemory() const
+{
+  if (!this->Run.scratch || this->Run.checkpoint || this->Run.report.passes != 1)
+  {
+    return false;
+  }
+  return this->Faster.isWanted() && !this->hasRoom(KeptResiduals::All);
+}
+
+/** Creates the history that the next V-cycle needs, or releases one that it does not need. */
+void Iteration::addHistory()
+{
+  if (this->Faster.kind() != AccelerationKind::None && !this->History)
+  {
+    this->emplaceHistoryWithRoom();
+  }
+  if (this->Faster.kind() == AccelerationKind::None)
+  {
+    this->History.reset();
+  }
+}
+
+/** Takes the best history that fits: residuals of all vertices or of a sample, as the mesh
+ * needs; else the smallest sample; else the acceleration makes do with less. */
+void Iteration::emplaceHistoryWithRoom()
+{
+  // The slowest errors may be local to a few vertices of slivers, too few of which are in a sample.
+  // So it is on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample
+  // suffices.
+  const KeptResiduals residuals = this->Faster.kind() != AccelerationKind::ConjugateGradients
+                                    ? KeptResiduals::None
+                                  : this->Levels.slowestAtSlivers() ? KeptResiduals::All
+                                                                    : KeptResiduals::Sampled;
+  if (this->hasRoom(residuals))
+  {
+    this->emplaceHistory(residuals);
+  }
+  else if (residuals != KeptResiduals::None && this->hasRoom(KeptResiduals::Few))
+  {
+    this->emplaceHistory(KeptResiduals::Few);
+  }
+  else
+  {
+    this->Faster.saveMemory();
+  }
+}
+
+/** Whether the memory limit has room for a history with these residuals. The number of threads
+ * must not matter, since the solution depends on the answer. */
+bool Iteration::hasRoom(KeptResiduals residuals) const
+{
+  constexpr std::int64_t Pages = std::int64_t(1) << 16; // rings grow by pages, and ahead of need
+  const Pool& pool = this->Run.pool;
+  const LevelWindow<double>& window = this->Levels.window();
+  const std::int64_t nodes = window.nodes();
+  if (!this->Run.scratch)
+  {
+    const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
+    return pool.used() + need + need / 4 + Pages <= pool.limit();
+  }
+  if (this->Run.isAmple && this->Run.expectedBytes > 0)
+  {
+    return true; // the limit is far above the need: permitsTasks()
+  }
+  return this->Run.passBytes(window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
+         pool.limit();
+}
+
+void Iteration::emplaceHistory(KeptResiduals residuals)
+{
+  LevelWindow<double>& window = this->Levels.window();
+  this->Kept = residuals;
+  this->History.emplace(this->Run.pool, window.nodes(), window.columns(), residuals);
+  if (this->Run.scratch)
+  {
+    this->History->useScratch(*this->Run.scratch, this->Run.traffic.add("history", 0));
+  }
+}
+
+void Iteration::save(StateWriter& state)
+{
+  state.part("iteration");
+  const bool accelerated = this->History.has_value();
+  state(this->Faster, this->Kept, accelerated);
+  if (accelerated)
+  {
+    state(*this->History);
+  }
+}
+
+void Iteration::load(StateReader& state)
+{
+  state.part("iteration");
+  bool accelerated = false;
+  state(this->Faster, this->Kept, accelerated);
+  if (accelerated)
+  {
+    this->emplaceHistory(this->Kept);
+    state(*this->History);
+  }
+  this->Run.progress.repeat(this->Watched.residuals());
+}
+
+} // namespace smg

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/PoissonSolver.h"
+
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/FirstPass.h"
+#include "Solver/Multigrid/Engine/Iteration.h"
+#include "Solver/Multigrid/Engine/StreamedSolution.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace smg
+{
+
+std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& problem)
+{
+  SolveContext& run = *this->Run;
+  run.beginReport();
+  std::optional<ErrorBalance> balance;
+  if (run.options.tolerance == SolveOptions::AutomaticTolerance)
+  {
+    run.energy.emplace(problem.columns());
+    balance.emplace([&] { return this->discretisation(problem); });
+  }
+  constexpr double Least = 1e-13; // the tolerance if it is automatic
+  const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
+  run.progress.begin(
+    { balance ? ErrorBalance::UsualResidual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0,
+    true);
+  Convergence convergence(stopping, {});
+  Iteration iteration(run, this->Levels, convergence, "", balance ? &*balance : nullptr);
+  // What a checkpoint has of this solve, in the order in which it is saved and restored.
+  const auto exchange = [&](auto& state)
+  {
+    state(this->Levels, convergence, iteration);
+    if (balance)
+    {
+      state(*run.energy, *balance);
+    }
+  };
+  if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
+  {
+    const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
+    convergence = Convergence(stopping, first);
+    // The residual after the first sweeps does not count if the right-hand side was projected after
+    // them.
+    convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0);
+    run.endPass(1.0);
+  }
+  iteration(false);
+  Report& r = run.report;
+  r.cycles = convergence.cycles();
+  r.residuals = convergence.residuals();
+  r.converged = convergence.converged();
+  convergence.addNotes(r.notes, "");
+  if (balance)
+  {
+    balance->report(r);
+  }
+  run.free.fix(this->Levels.window(), problem, r);
+  r.seconds.solve = run.seconds() - r.seconds.build;
+  run.finishReport();
+  auto solution =
+    std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
+  run.progress.finish();
+  return solution;
+}
+
+/** Reads the mesh once more to estimate the discretisation error, with the iterate of the last
+ * pass. */
+EnergySquares PoissonSolver::discretisation(Problem& problem)
+{
+  const std::unique_ptr<MeshSource> mesh = this->Run->options.again();
+  try
+  {
+    DiscretisationError error(this->Run->pool, mesh->info(), problem,
+      [this](std::int64_t first, std::int64_t count, std::span<double> values)
+      { this->Levels.window().readX(first, count, values.data()); });
+    for (MeshBlock block; mesh->next(block);)
+    {
+      error.add(block);
+      this->Run->progress.update(1.0); // may cancel
+    }
+    return error.finish();
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw this->Run->explained(error);
+  }
+}
+
+} // namespace smg
