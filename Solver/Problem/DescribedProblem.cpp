@@ -117,7 +117,7 @@ struct DescribedProblem::OnMesh
 
   const DatumOnMesh& operator[](std::size_t row) const { return this->data[row]; }
   const PiecewiseCoefficient& valueOf(std::size_t row) const { return this->data[row].value; }
-  /** Calls visit(row, datum) with the densities that are given at such a place. */
+  /** Calls visit(density, datum) with the densities that are given at such a place. */
   void forDensities(DataPlace place, auto visit) const;
 
   void setValues(const MeshBlock& block, VertexConditions& conditions);
@@ -163,7 +163,7 @@ DataPlace DescribedProblem::OnMesh::placeOf(
   const auto isOfCells = [this](const std::string* column)
   { return column && this->mesh.isOfCells(*column, ColumnOwner::Vertices); };
   const bool inCells =
-    row.inCells &&
+    row.density &&
     std::ranges::any_of((description.*row.member).entries, [&](const PlacedValue& entry)
       { return isOfCells(columnOf(entry.where)) || isOfCells(entry.value.column()); });
   return inCells ? DataPlace::Cells : row.place;
@@ -218,11 +218,11 @@ void DescribedProblem::OnMesh::forDensities(DataPlace place, auto visit) const
     [&](const auto& row)
     {
       const PiecewiseCoefficient& datum = this->valueOf(at++);
-      if constexpr (requires { row.inCells; })
+      if constexpr (requires { row.density; })
       {
-        if (row.inCells && datum.isGiven() && datum.place() == place)
+        if (row.density && datum.isGiven() && datum.place() == place)
         {
-          visit(row, datum);
+          visit(*row.density, datum);
         }
       }
     });
@@ -328,13 +328,13 @@ void DescribedProblem::conditions(const MeshBlock& block, VertexConditions& cond
   data.setValues(block, conditions);
   const auto vertices = static_cast<std::size_t>(block.vertices());
   data.forDensities(DataPlace::Vertices,
-    [&](const DatumRow& row, const PiecewiseCoefficient& datum)
+    [&](const Density& density, const PiecewiseCoefficient& datum)
     {
-      std::vector<double>& density = conditions.*row.atVertices;
+      std::vector<double>& numbers = conditions.*density.atVertices;
       data.entry.assign(vertices, -1);
       datum.entriesAtVertices(data.entry);
       datum.valuesAtVertices(
-        block, data.entry, density.data(), vertices == 0 ? 0 : density.size() / vertices);
+        block, data.entry, numbers.data(), vertices == 0 ? 0 : numbers.size() / vertices);
     });
   data.addSoft(block, conditions);
 }
@@ -402,12 +402,12 @@ void DescribedProblem::cells(CellBatch& batch)
   data.setConductivity(cells, batch);
   data.setField(cells, batch);
   data.forDensities(DataPlace::Cells,
-    [&](const DatumRow& row, const PiecewiseCoefficient& datum)
+    [&](const Density& density, const PiecewiseCoefficient& datum)
     {
-      const std::span<double> density = batch.*row.inCells;
+      const std::span<double> numbers = batch.*density.inCells;
       data.entry.assign(batch.cells(), -1);
       datum.entriesAtCells(cells, data.entry);
-      datum.valuesAtCells(cells, data.entry, density.data(), density.size() / batch.cells());
+      datum.valuesAtCells(cells, data.entry, numbers.data(), numbers.size() / batch.cells());
     });
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/OpenVertices.h"
 #include "Solver/Problem/Coefficient.h"
-#include "smg/Problem.h"
 #include "smg/ProblemDescription.h"
 
 #include <array>
@@ -65,9 +65,9 @@ struct DatumRow
   DataPlace place;
   ValueRules (*rules)(int columns);
   bool poses; ///< whether it poses a problem by itself: without it the solution may be other than 0
-  /** A density: what it sets at vertices, or in cells if an entry names a column of the cells. */
-  std::vector<double> VertexConditions::*atVertices = nullptr;
-  std::span<double> CellBatch::*inCells = nullptr;
+  /** What it sets at vertices, or in cells if an entry names a column of the cells; null: more than
+   * a density. */
+  const Density* density = nullptr;
 };
 
 /** A column of the mesh, everywhere. */
@@ -101,9 +101,9 @@ inline constexpr std::tuple ProblemData{
   DatumRow{
     "conductivity", &ProblemDescription::conductivity, DataPlace::Cells, conductivityRules, false },
   DatumRow{ "screening", &ProblemDescription::screening, DataPlace::Vertices, coefficientRules,
-    false, &VertexConditions::screening, &CellBatch::screening },
+    false, &Densities[ScreeningDensity] },
   DatumRow{ "source", &ProblemDescription::source, DataPlace::Vertices, solutionRules, true,
-    &VertexConditions::source, &CellBatch::source },
+    &Densities[SourceDensity] },
   ColumnRow{ "field", &ProblemDescription::field, DataPlace::Cells, fieldRules, true },
   // Without conditions, it determines the mean of the solution.
   DatumRow{ "initial", &ProblemDescription::initial, DataPlace::Vertices, initialRules, true },
