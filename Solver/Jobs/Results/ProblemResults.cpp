@@ -264,8 +264,8 @@ void ProblemResults::close(std::int64_t i, double* numbers)
   VertexTerms terms(numbers);
   const double mass = this->Vertices.mass[i];
   terms.mass() = mass;
-  terms.screening() =
-    this->Vertices.densities[ScreeningDensity][i] * mass + (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
+  terms.screening() = this->Vertices.densities[ScreeningDensity][i] * mass +
+                      (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
   terms.transfer() = this->FacetLoads ? this->FacetLoads->rowSum(i) : 0.0;
   terms.edges() = this->FacetLoads ? this->EdgeWeights[i] : 0.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
