@@ -10,6 +10,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -18,18 +19,10 @@ vtkStandardNewMacro(vtkMeshCondition);
 namespace
 {
 
-/** Whether a type of the class is the kind of the same name: one is cast to the other. */
-constexpr bool isKind(vtkMeshCondition::ConditionTypes type, smg::ConditionKind kind)
-{
-  return static_cast<int>(type) == static_cast<int>(kind);
-}
-static_assert(isKind(vtkMeshCondition::DIRICHLET, smg::ConditionKind::Dirichlet));
-static_assert(isKind(vtkMeshCondition::FLUX, smg::ConditionKind::Flux));
-static_assert(isKind(vtkMeshCondition::ROBIN, smg::ConditionKind::Robin));
-static_assert(isKind(vtkMeshCondition::SOURCE, smg::ConditionKind::Source));
-static_assert(isKind(vtkMeshCondition::CONDUCTIVITY, smg::ConditionKind::Conductivity));
-static_assert(isKind(vtkMeshCondition::SCREENING, smg::ConditionKind::Screening));
-static_assert(isKind(vtkMeshCondition::SOFT, smg::ConditionKind::Soft));
+/** The data of the table smg::ProblemData that the ConditionTypes set, in their order. */
+constexpr std::array Keys{ "dirichlet", "flux", "robin", "source", "conductivity", "screening",
+  "soft" };
+static_assert(Keys.size() == vtkMeshCondition::SOFT + 1);
 
 } // namespace
 
@@ -44,7 +37,7 @@ struct vtkMeshCondition::Internals
   smg::Condition condition() const
   {
     smg::Condition condition;
-    condition.kind = static_cast<smg::ConditionKind>(this->Self.Condition);
+    condition.key = Keys[static_cast<std::size_t>(this->Self.Condition)];
     condition.values =
       this->Values.empty() ? std::vector<double>{ this->Self.Value } : this->Values;
     condition.isPosition = this->Self.ValueIsPosition;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineCommand.h"
 
-#include "IO/Description/ParseWhere.h"
 #include "IO/Formats/FormatTable.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
+#include "Solver/Problem/ProblemData.h"
 #include "smg/DescribedProblem.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/ConditionText.h"
 
+#include "Solver/Problem/ProblemData.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <type_traits>
 
 namespace smg
 {
@@ -24,23 +27,34 @@ void requireFinite(const std::vector<double>& numbers, const char* name)
 }
 
 /** A number, or a tensor of six components; three values are its diagonal. */
-Json coefficientOf(std::vector<double> values, bool mayBeTensor)
+Json coefficientOf(std::vector<double> values, const ValueRules& rules, const char* key)
 {
   if (values.size() == 1)
   {
     return values.front();
   }
+  const bool mayBeTensor = rules.range == ValueRange::PositiveDefinite;
   if (mayBeTensor && (values.size() == 3 || values.size() == 6))
   {
     values.resize(6, 0.0);
     return values;
   }
-  throw Error(mayBeTensor ? "A conductivity has 1 number, 3 (the diagonal of a tensor: xx, yy, zz) "
-                            "or 6 (xx, yy, zz, xy, yz, xz)."
-                          : "A screening has 1 number.");
+  throw Error(
+    std::string("A ") + key +
+    (mayBeTensor ? " has 1 number, 3 (the diagonal of a tensor: xx, yy, zz) or 6 (xx, yy, zz, xy, "
+                   "yz, xz)."
+                 : " has 1 number."));
 }
 
 } // namespace
+
+bool Condition::mayHoldEverywhere() const
+{
+  bool may = false;
+  forProblemData([&]<class Row>(const Row& row)
+    { may = may || (std::is_same_v<Row, DatumRow> && std::string_view(this->key) == row.key); });
+  return may;
+}
 
 std::string Condition::text() const
 {
@@ -62,41 +76,32 @@ std::string Condition::text() const
   requireFinite({ this->coefficient }, "coefficient");
   const Json value = this->isPosition ? Json("position") : Json(this->values);
   Json problem = Json::object();
-  problem["columns"] = this->isPosition ? 3 : this->values.size();
-  const auto add = [&](const char* key, const char* valueKey, const Json& what)
+  const auto add = [&](const auto& row)
   {
-    entry[valueKey] = what;
-    problem[key] = Json::array({ entry });
-  };
-  switch (this->kind)
-  {
-    case ConditionKind::Dirichlet:
-      add("dirichlet", "value", value);
-      break;
-    case ConditionKind::Flux:
-      add("flux", "value", value);
-      break;
-    case ConditionKind::Robin:
-      entry["coefficient"] = this->coefficient;
-      add("robin", "ambient", value);
-      break;
-    case ConditionKind::Soft:
-      entry["weight"] = this->coefficient;
-      add("soft", "value", value);
-      break;
-    case ConditionKind::Source:
-      add("source", "value", value);
-      break;
-    case ConditionKind::Conductivity:
-    case ConditionKind::Screening:
+    if (std::string_view(this->key) != row.key)
     {
-      const bool isConductivity = this->kind == ConditionKind::Conductivity;
-      add(isConductivity ? "conductivity" : "screening", "value",
-        coefficientOf(this->values, isConductivity));
-      problem.erase("columns");
-      break;
+      return;
     }
-  }
+    const auto columns = static_cast<int>(this->isPosition ? 3 : this->values.size());
+    const ValueRules rules = row.rules(columns);
+    const bool isSolution = rules.range == ValueRange::Any;
+    const char* valueKey = "value";
+    if constexpr (requires { row.valueKey; })
+    {
+      valueKey = row.valueKey;
+      if (row.coefficientKey)
+      {
+        entry[row.coefficientKey] = this->coefficient;
+      }
+    }
+    entry[valueKey] = isSolution ? value : coefficientOf(this->values, rules, row.key);
+    problem[row.key] = Json::array({ entry });
+    if (isSolution)
+    {
+      problem["columns"] = columns;
+    }
+  };
+  forProblemData(add);
   return problem.dump();
 }
 

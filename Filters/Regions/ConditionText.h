@@ -7,22 +7,10 @@
 namespace smg
 {
 
-/** The type of a condition. */
-enum class ConditionKind
-{
-  Dirichlet,    ///< u = values
-  Flux,         ///< (K grad u - q) . n = values, into the body
-  Robin,        ///< (K grad u - q) . n = coefficient * (values - u)
-  Source,       ///< f = values
-  Conductivity, ///< K = values: 1 number, 3 (the diagonal of a tensor) or 6
-  Screening,    ///< s = values: 1 number
-  Soft          ///< adds coefficient * (u - values) to the equations
-};
-
 /** A condition of a problem on a mesh, with the arrays of the mesh that define its region. */
 struct Condition
 {
-  ConditionKind kind = ConditionKind::Dirichlet;
+  const char* key = "dirichlet"; ///< of its datum in the table ProblemData
   std::vector<double> values{ 0.0 };
   bool isPosition = false; ///< the values are the coordinates of the vertex instead
   double coefficient = 1.0;
@@ -34,15 +22,11 @@ struct Condition
   /** ... the boundary. None of them: everywhere. */
   bool isOnBoundary = false;
 
-  /** Whether this kind may hold everywhere. */
-  bool mayHoldEverywhere() const
-  {
-    return this->kind == ConditionKind::Source || this->kind == ConditionKind::Conductivity ||
-           this->kind == ConditionKind::Screening;
-  }
+  /** Whether it may hold everywhere: other than conditions of u or its flux do. */
+  bool mayHoldEverywhere() const;
 
   /** The condition as a problem in the JSON of a problem file. Throws Error if its numbers do not
-   * match its kind. */
+   * match its datum. */
   std::string text() const;
 };
 

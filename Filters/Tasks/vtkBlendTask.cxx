@@ -18,12 +18,7 @@ namespace
 /** The columns that the description names. */
 std::set<std::string> namesInBlend(const BlendDescription& description)
 {
-  ProblemDescription held;
-  for (const Where& part : description.hold)
-  {
-    held.dirichlet.push_back({ part, 0.0 });
-  }
-  std::set<std::string> names = namedColumns(held);
+  std::set<std::string> names = namedColumns(description.hold);
   names.insert(description.columns.begin(), description.columns.end());
   names.insert(description.patch);
   return names;

@@ -16,17 +16,6 @@ namespace smg
 namespace
 {
 
-/** The columns that the sources name. */
-std::set<std::string> namesInSources(const DistanceDescription& description)
-{
-  ProblemDescription sources;
-  for (const Where& part : description.from)
-  {
-    sources.dirichlet.push_back({ part, 0.0 });
-  }
-  return namedColumns(sources);
-}
-
 /** A remark on the distances of a preview. */
 std::string noteOnPreview(const Report& report)
 {
@@ -67,7 +56,7 @@ void DistanceTask::check() const
 PieceColumns DistanceTask::columns() const
 {
   return { .all = false,
-    .required = namesInSources(this->description),
+    .required = namedColumns(this->description.from),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
@@ -106,7 +95,7 @@ SolveSummary DistanceTask::solveOnPreview(
     throw Error(
       "No point of the preview lies in the region from which to measure." + hintOnPreview());
   }
-  const StoredBlock stored(mesh, namesInSources(asked));
+  const StoredBlock stored(mesh, namedColumns(asked.from));
   std::unique_ptr<Solution> solution;
   try
   {

@@ -28,12 +28,7 @@ constexpr double SmoothShare = 0.9;
 /** The columns that the options name. */
 std::set<std::string> namesIn(const Smoothing& options)
 {
-  ProblemDescription held;
-  for (const Where& part : options.hold)
-  {
-    held.dirichlet.push_back({ part, 0.0 });
-  }
-  std::set<std::string> names = namedColumns(held);
+  std::set<std::string> names = namedColumns(options.hold);
   if (!options.column.empty())
   {
     names.insert(options.column);

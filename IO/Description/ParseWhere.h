@@ -36,8 +36,4 @@ SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
 /** The member `weights` of an object, if any. Throws Error. */
 std::optional<Weights> parseWeights(const JsonNode& object);
 
-/** The keys of a problem file. */
-inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "screening",
-  "source", "field", "initial", "dirichlet", "flux", "robin", "soft", "outputs" };
-
 } // namespace smg

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Description/ParseWhere.h"
-#include "Solver/Problem/Coefficient.h"
+#include "Solver/Problem/ProblemData.h"
 #include "smg/DescriptionFiles.h"
+
+#include <type_traits>
 
 namespace smg
 {
@@ -17,112 +19,85 @@ bool isList(const JsonNode& node)
   return node.value().is_array() && !node.value().empty() && node.value()[0].is_object();
 }
 
-/** A single value parsed by `parse(node)`, or a list of entries with such values. */
-Datum parseDatum(const JsonNode& node, auto parse)
+/** A value that satisfies the rules, for instance a number, the numbers of all columns, a tensor,
+ * or the name of a column. */
+DataValue parseValue(const JsonNode& node, const ValueRules& rules)
 {
-  if (!isList(node))
+  const bool isSolution = rules.range == ValueRange::Any;
+  if (node.isString())
   {
-    return parse(node);
+    if (!isSolution || node.string() != "position")
+    {
+      return node.columnName();
+    }
+    if (!rules.positions)
+    {
+      node.fail("can be \"position\" only if there are 3 columns");
+    }
+    return Position{};
   }
-  Datum datum;
-  for (const JsonNode& entry : node.elements())
-  {
-    requireWhereAnd(entry, { "value" });
-    datum.entries.push_back({ parseWhere(entry, true), parse(entry.member("value")) });
-  }
-  return datum;
-}
-
-DataValue parseNumbers(const JsonNode& node, std::vector<double> numbers, ValueRange range)
-{
-  const ValueRules rules{ .components = {}, .range = range };
-  if (const char* complaint = rules.complaint(numbers.data(), static_cast<int>(numbers.size())))
+  const auto most = static_cast<std::size_t>(rules.components.back());
+  // A solution has as many numbers as columns, and a coefficient one number, or all of a tensor.
+  const bool isNumber =
+    isSolution ? most == 1 && node.value().is_number() : most == 1 || !node.value().is_array();
+  std::vector<double> numbers = isNumber ? std::vector{ node.number() } : node.numbers(most);
+  const char* complaint =
+    isSolution ? nullptr : rules.complaint(numbers.data(), static_cast<int>(numbers.size()));
+  if (complaint)
   {
     node.fail(complaint);
   }
   return numbers;
 }
 
-DataValue parseConductivity(const JsonNode& node)
+/** A single value, or a list of entries with such values. */
+Datum parseDatum(const JsonNode& node, const ValueRules& rules)
 {
-  if (node.isString())
+  if (!isList(node))
   {
-    return node.columnName();
+    return parseValue(node, rules);
   }
-  return parseNumbers(node,
-    node.value().is_array() ? node.numbers(6) : std::vector{ node.number() },
-    ValueRange::PositiveDefinite);
-}
-
-DataValue parseCoefficient(const JsonNode& node)
-{
-  if (node.isString())
-  {
-    return node.columnName();
-  }
-  return parseNumbers(node, { node.number() }, ValueRange::NotNegative);
-}
-
-/** Reads values of this many numbers. */
-struct ValueParser
-{
-  int columns;
-
-  DataValue operator()(const JsonNode& node) const
-  {
-    if (this->columns == 1 && node.value().is_number())
-    {
-      return std::vector{ node.number() };
-    }
-    if (!node.isString())
-    {
-      return node.numbers(static_cast<std::size_t>(this->columns));
-    }
-    if (node.string() != "position")
-    {
-      return node.columnName();
-    }
-    if (this->columns != 3)
-    {
-      node.fail("can be \"position\" only if there are 3 columns");
-    }
-    return Position{};
-  }
-};
-
-void parseConditions(const JsonNode& node, ValueParser parseValue, ProblemDescription& problem)
-{
-  const auto forEach = [&node](const char* key, auto parse)
-  {
-    for (const JsonNode& entry :
-      node.has(key) ? node.member(key).elements() : std::vector<JsonNode>())
-    {
-      parse(entry);
-    }
-  };
-  const auto placedValue = [&](const JsonNode& entry) -> PlacedValue
+  Datum datum;
+  for (const JsonNode& entry : node.elements())
   {
     requireWhereAnd(entry, { "value" });
-    return { parseWhere(entry, true), parseValue(entry.member("value")) };
-  };
-  forEach(
-    "dirichlet", [&](const JsonNode& entry) { problem.dirichlet.push_back(placedValue(entry)); });
-  forEach("flux", [&](const JsonNode& entry) { problem.flux.push_back(placedValue(entry)); });
-  forEach("robin",
-    [&](const JsonNode& entry)
+    datum.entries.push_back({ parseWhere(entry, true), parseValue(entry.member("value"), rules) });
+  }
+  return datum;
+}
+
+void parse(const JsonNode& node, const DatumRow& row, ProblemDescription& problem)
+{
+  problem.*row.member = parseDatum(node, row.rules(problem.columns));
+}
+
+void parse(const JsonNode& node, const ColumnRow& row, ProblemDescription& problem)
+{
+  problem.*row.member = node.columnName();
+}
+
+/** Appends to the conditions that there are. */
+template <class Condition>
+void parse(const JsonNode& node, const ConditionRow<Condition>& row, ProblemDescription& problem)
+{
+  const ValueRules rules = row.rules(problem.columns);
+  for (const JsonNode& entry : node.elements())
+  {
+    if constexpr (std::is_same_v<Condition, PlacedValue>)
     {
-      requireWhereAnd(entry, { "coefficient", "ambient" });
-      problem.robin.push_back(
-        { parseWhere(entry, true), parseDatum(entry.member("coefficient"), parseCoefficient),
-          parseValue(entry.member("ambient")) });
-    });
-  forEach("soft",
-    [&](const JsonNode& entry)
+      requireWhereAnd(entry, { row.valueKey });
+      (problem.*row.member)
+        .push_back({ parseWhere(entry, true), parseValue(entry.member(row.valueKey), rules) });
+    }
+    else
     {
-      requireWhereAnd(entry, { "weight", "value" });
-      problem.soft.push_back({ parseWhere(entry, true),
-        parseDatum(entry.member("weight"), parseCoefficient), parseValue(entry.member("value")) });
-    });
+      requireWhereAnd(entry, { row.coefficientKey, row.valueKey });
+      (problem.*row.member)
+        .push_back({ parseWhere(entry, true),
+          parseDatum(entry.member(row.coefficientKey), coefficientRules(problem.columns)),
+          parseValue(entry.member(row.valueKey), rules) });
+    }
+  }
 }
 
 void parseOutputs(const JsonNode& node, ProblemDescription& problem)
@@ -146,28 +121,14 @@ ProblemDescription parseProblem(const JsonNode& node, ProblemDescription problem
   {
     problem.columns = static_cast<int>(node.member("columns").integer(1, MaxColumns));
   }
-  const ValueParser parseValue{ problem.columns };
-  if (node.has("conductivity"))
-  {
-    problem.conductivity = parseDatum(node.member("conductivity"), parseConductivity);
-  }
-  if (node.has("screening"))
-  {
-    problem.screening = parseDatum(node.member("screening"), parseCoefficient);
-  }
-  if (node.has("source"))
-  {
-    problem.source = parseDatum(node.member("source"), parseValue);
-  }
-  if (node.has("field"))
-  {
-    problem.field = node.member("field").columnName();
-  }
-  if (node.has("initial"))
-  {
-    problem.initial = parseDatum(node.member("initial"), parseValue);
-  }
-  parseConditions(node, parseValue, problem);
+  forProblemData(
+    [&](const auto& row)
+    {
+      if (node.has(row.key))
+      {
+        parse(node.member(row.key), row, problem);
+      }
+    });
   if (node.has("outputs"))
   {
     parseOutputs(node.member("outputs"), problem);

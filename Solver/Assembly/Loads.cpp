@@ -51,11 +51,12 @@ void VertexLoads::add(
   const int count = cornersOf(this->Type);
   const double measure = cells.weights().measure;
   const double mass = measure / count;
-  const double* source = cells.source();
+  const double screening = *cells.density(ScreeningDensity);
+  const double* source = cells.density(SourceDensity);
   double* loads[4] = {};
   for (int c = 0; c < count; ++c)
   {
-    this->RowSum[corners[c]] += mass * cells.screening();
+    this->RowSum[corners[c]] += mass * screening;
     loads[c] = this->Load.at(corners[c]);
     for (int k = 0; k < this->Columns; ++k)
     {
@@ -160,10 +161,10 @@ double RowLoads::close(std::int64_t i)
     this->addBoundary(i);
   }
   const double mass = this->Vertices.mass[i];
-  double rowSum = this->Vertices.screening[i] * mass;
+  double rowSum = this->Vertices.densities[ScreeningDensity][i] * mass;
   for (std::size_t k = 0; k < this->Load.size(); ++k)
   {
-    this->Load[k] = mass * this->Vertices.sources.at(i)[k];
+    this->Load[k] = mass * this->Vertices.densities[SourceDensity].at(i)[k];
   }
   // Always in this order: vertex, cells, facets.
   for (const auto* loads : { &this->OfCells, &this->OfFacets })

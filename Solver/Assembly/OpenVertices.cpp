@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 // The data of open vertices: what the stream and the problem give for each vertex, once and in
 // stream order, and what its cells sum up to. All numbers of a problem are checked here, where the
@@ -15,12 +16,32 @@
 namespace smg
 {
 
+std::ptrdiff_t Density::findInvalid(const double* numbers, std::size_t count) const
+{
+  const double* end = numbers + count;
+  const double* found = std::find_if_not(numbers, end,
+    [this](double number)
+    { return std::isfinite(number) && (this->mayBeNegative || number >= 0.0); });
+  return found == end ? -1 : found - numbers;
+}
+
+namespace
+{
+
+template <std::size_t... Index>
+std::array<Ring<double>, sizeof...(Index)> densityRings(
+  Pool& pool, int columns, std::index_sequence<Index...>)
+{
+  return { Ring<double>(pool, Densities[Index].numbers(columns))... };
+}
+
+} // namespace
+
 OpenVertices::OpenVertices(Pool& pool, Problem& problem)
   : points(pool, 3)
   , values(pool, problem.columns())
   , dirichlet(pool)
-  , sources(pool, problem.columns())
-  , screening(pool)
+  , densities(densityRings(pool, problem.columns(), std::make_index_sequence<Densities.size()>()))
   , mass(pool)
   , scale(pool)
   , Given(problem)
@@ -30,35 +51,37 @@ OpenVertices::OpenVertices(Pool& pool, Problem& problem)
 {
 }
 
+void OpenVertices::forGiven(const MeshBlock& block, auto visit)
+{
+  visit(this->points, block.positions);
+  visit(this->values, this->Conditions.value);
+  visit(this->dirichlet, this->Conditions.dirichlet);
+  for (std::size_t k = 0; k < Densities.size(); ++k)
+  {
+    visit(this->densities[k], this->Conditions.*Densities[k].atVertices);
+  }
+}
+
 void OpenVertices::add(const MeshBlock& block)
 {
   // Also of a block without vertices: the problem may keep data of the block for its cells.
   this->ask(block);
   const std::int64_t begin = this->end();
   const std::int64_t end = begin + block.vertices();
-  this->points.extendRaw(end);
-  this->values.extendRaw(end);
-  this->dirichlet.extendRaw(end);
-  this->sources.extendRaw(end);
-  this->screening.extendRaw(end);
+  this->forGiven(block,
+    [&](auto& ring, const auto& numbers)
+    {
+      ring.extendRaw(end);
+      std::ranges::copy(numbers, ring.at(begin));
+    });
   // Zeroed: cells add to these.
   this->mass.extend(end);
   this->scale.extend(end);
-  const VertexConditions& given = this->Conditions;
-  std::copy(block.positions.begin(), block.positions.end(), this->points.at(begin));
-  std::copy(given.value.begin(), given.value.end(), this->values.at(begin));
-  std::copy(given.dirichlet.begin(), given.dirichlet.end(), this->dirichlet.at(begin));
-  std::copy(given.source.begin(), given.source.end(), this->sources.at(begin));
-  std::copy(given.screening.begin(), given.screening.end(), this->screening.at(begin));
 }
 
 void OpenVertices::reserve(std::int64_t more)
 {
-  this->points.reserveMore(more);
-  this->values.reserveMore(more);
-  this->dirichlet.reserveMore(more);
-  this->sources.reserveMore(more);
-  this->screening.reserveMore(more);
+  this->forGiven({}, [more](auto& ring, const auto&) { ring.reserveMore(more); });
   this->mass.reserveMore(more);
   this->scale.reserveMore(more);
 }
@@ -69,15 +92,21 @@ void OpenVertices::ask(const MeshBlock& block)
   VertexConditions& given = this->Conditions;
   const auto count = static_cast<std::size_t>(block.vertices());
   const std::size_t values = count * static_cast<std::size_t>(this->Columns);
+  const auto sizeOf = [count, this](const Density& density)
+  { return count * static_cast<std::size_t>(density.numbers(this->Columns)); };
   given.dirichlet.assign(count, -1);
   given.value.assign(values, 0.0);
-  given.source.assign(values, 0.0);
-  given.screening.assign(count, 0.0);
+  for (const Density& density : Densities)
+  {
+    (given.*density.atVertices).assign(sizeOf(density), 0.0);
+  }
   this->Given.conditions(block, given);
   this->Kept.resize(this->Given.bytes());
   // A problem may resize the vectors that it fills; the copies in add() would then be out of range.
-  if (given.dirichlet.size() != count || given.value.size() != values ||
-      given.source.size() != values || given.screening.size() != count)
+  const bool keepsSizes = given.dirichlet.size() == count && given.value.size() == values &&
+                          std::ranges::all_of(Densities, [&](const Density& density)
+                            { return (given.*density.atVertices).size() == sizeOf(density); });
+  if (!keepsSizes)
   {
     throw Error("the problem has changed the size of its conditions: a block of " +
                 std::to_string(count) + " vertices has one number each, values and sources " +
@@ -89,14 +118,11 @@ void OpenVertices::ask(const MeshBlock& block)
     return nameOfRow(
       block.vertexColumns, OriginalIdSpec, block.firstVertex, static_cast<std::size_t>(k));
   };
-  for (const auto* numbers : { &given.value, &given.source })
+  const auto bad = std::ranges::find_if_not(given.value, [](double v) { return std::isfinite(v); });
+  if (bad != given.value.end())
   {
-    const auto bad = std::ranges::find_if_not(*numbers, [](double v) { return std::isfinite(v); });
-    if (bad != numbers->end())
-    {
-      throw Error("the value or source of vertex " +
-                  vertex((bad - numbers->begin()) / this->Columns) + " is not a finite number");
-    }
+    throw Error("the value of vertex " + vertex((bad - given.value.begin()) / this->Columns) +
+                " is not a finite number");
   }
   // Any negative number means that no condition prescribes the value.
   const auto strange = std::ranges::find_if(
@@ -106,12 +132,15 @@ void OpenVertices::ask(const MeshBlock& block)
     throw Error("vertex " + vertex(strange - given.dirichlet.begin()) +
                 " names a Dirichlet condition that the problem does not have: see conditionCounts");
   }
-  const auto negative = std::ranges::find_if_not(
-    given.screening, [](double s) { return s >= 0.0 && std::isfinite(s); });
-  if (negative != given.screening.end())
+  for (const Density& density : Densities)
   {
-    throw Error("the screening of vertex " + vertex(negative - given.screening.begin()) +
-                " must be a finite number that is not negative");
+    const std::vector<double>& numbers = given.*density.atVertices;
+    const std::ptrdiff_t invalid = density.findInvalid(numbers.data(), numbers.size());
+    if (invalid >= 0)
+    {
+      throw Error(std::string("the ") + density.name + " of vertex " +
+                  vertex(invalid / density.numbers(this->Columns)) + density.complaint());
+    }
   }
 }
 
@@ -122,8 +151,10 @@ void OpenVertices::release(std::int64_t done, std::int64_t final)
   this->values.release(done);
   this->dirichlet.release(done);
   // Read when the vertex itself is collected, and copied then.
-  this->sources.release(final);
-  this->screening.release(final);
+  for (Ring<double>& density : this->densities)
+  {
+    density.release(final);
+  }
   this->mass.release(final);
   this->scale.release(final);
 }

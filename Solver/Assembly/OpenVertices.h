@@ -5,10 +5,45 @@
 #include "Solver/Memory/Ring.h"
 #include "smg/Problem.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace smg
 {
+
+/** A datum of a problem per area or volume, which it may give at vertices and in cells. */
+struct Density
+{
+  const char* name;
+  std::vector<double> VertexConditions::*atVertices;
+  std::span<double> CellBatch::*inCells;
+  bool isPerColumn; ///< whether there is a number for each column, else one
+  bool mayBeNegative;
+
+  int numbers(int columns) const { return this->isPerColumn ? columns : 1; }
+  /** The first of its numbers, of which there are `count`, that is not valid; -1: none. */
+  std::ptrdiff_t findInvalid(const double* numbers, std::size_t count) const;
+  /** What is wrong with an invalid number, for messages. */
+  const char* complaint() const
+  {
+    return this->mayBeNegative ? " is not a finite number"
+                               : " must be a finite number that is not negative";
+  }
+};
+
+/** All densities: asked for, checked and kept alike. Loads.cpp says what each contributes. */
+inline constexpr std::array Densities{
+  Density{ "screening", &VertexConditions::screening, &CellBatch::screening, false, false },
+  Density{ "source", &VertexConditions::source, &CellBatch::source, true, true },
+};
+enum DensityIndex : std::size_t
+{
+  ScreeningDensity,
+  SourceDensity
+};
 
 /** The data of the mesh stream and the problem at open vertices, those that later cells may still
  * use or whose data rows of neighbours still need. */
@@ -31,15 +66,16 @@ struct OpenVertices
   Ring<double> points;          ///< 3 per vertex
   Ring<double> values;          ///< `columns` per vertex: VertexConditions::value
   Ring<std::int32_t> dirichlet; ///< see VertexConditions
-  Ring<double> sources;         ///< `columns` per vertex: density
-  Ring<double> screening;       ///< density
-  Ring<double> mass;            ///< lumped area or volume; initially zero
+  std::array<Ring<double>, Densities.size()> densities; ///< in the order of Densities
+  Ring<double> mass;                                    ///< lumped area or volume; initially zero
   /** The largest scale of the weights of its cells, if the problem has weights of its own; or zero.
    */
   Ring<float> scale;
 
 private:
   void ask(const MeshBlock& block);
+  /** Calls visit(ring, numbers) with what the stream and the problem give of the block. */
+  void forGiven(const MeshBlock& block, auto visit);
 
   Problem& Given;
   Reservation Kept; ///< what the problem itself keeps of open vertices

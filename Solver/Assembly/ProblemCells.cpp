@@ -54,9 +54,19 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
 {
   this->gather(block, first, points);
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
-  CellBatch batch{ this->Type, block, first,
-    std::span(block.corners).subspan(first * corners, this->Cells.size() * corners), this->Points,
-    this->Weight, this->Measure, this->Screening, this->Source, this->Field, this->Conductivity };
+  CellBatch batch{ .type = this->Type,
+    .block = block,
+    .first = first,
+    .corners = std::span(block.corners).subspan(first * corners, this->Cells.size() * corners),
+    .points = this->Points,
+    .weight = this->Weight,
+    .measure = this->Measure,
+    .field = this->Field,
+    .conductivity = this->Conductivity };
+  for (std::size_t k = 0; k < Densities.size(); ++k)
+  {
+    batch.*Densities[k].inCells = this->Values[k];
+  }
   this->Given.cells(batch);
   for (std::size_t k = 0; k < this->Cells.size(); ++k)
   {
@@ -75,8 +85,10 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
   this->Points.clear();
   this->Weight.clear();
   this->Measure.clear();
-  this->Screening.assign(cells, 0.0);
-  this->Source.assign(cells * this->Columns, 0.0);
+  for (std::size_t k = 0; k < Densities.size(); ++k)
+  {
+    this->Values[k].assign(cells * this->numbersOf(Densities[k]), 0.0);
+  }
   this->Field.assign(3 * cells * this->Columns, 0.0);
   const std::int64_t* corner = block.corners.data() + first * static_cast<std::size_t>(corners);
   for (Cell& cell : this->Cells)
@@ -118,7 +130,7 @@ void ProblemCells::take(std::size_t k, const MeshBlock& block, std::size_t c)
     return;
   }
   this->takeWeights(k, block, c);
-  this->requireFinite(k, block, c);
+  this->requireValid(k, block, c);
 }
 
 /** Replaces the weights of finite elements by those of the problem, and notes the ratio of their
@@ -152,18 +164,21 @@ void ProblemCells::takeWeights(std::size_t k, const MeshBlock& block, std::size_
   this->Cells[k].scale = after / before;
 }
 
-void ProblemCells::requireFinite(std::size_t k, const MeshBlock& block, std::size_t c) const
+void ProblemCells::requireValid(std::size_t k, const MeshBlock& block, std::size_t c) const
 {
-  const double screening = this->Screening[k];
-  if (!(screening >= 0.0 && std::isfinite(screening)))
+  for (std::size_t d = 0; d < Densities.size(); ++d)
   {
-    throw Error(
-      "the screening of " + nameOf(block, c) + " must be a finite number that is not negative");
+    const Density& density = Densities[d];
+    const std::size_t numbers = this->numbersOf(density);
+    if (density.findInvalid(this->Values[d].data() + k * numbers, numbers) >= 0)
+    {
+      throw Error(
+        std::string("the ") + density.name + " of " + nameOf(block, c) + density.complaint());
+    }
   }
-  if (!allFinite(this->Source.data() + k * this->Columns, this->Columns) ||
-      !allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
+  if (!allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
   {
-    throw Error("the source or the field of " + nameOf(block, c) + " is not a finite number");
+    throw Error("the field of " + nameOf(block, c) + " is not a finite number");
   }
 }
 

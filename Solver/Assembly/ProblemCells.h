@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/OpenVertices.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/CellWeights.h"
 #include "smg/Problem.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,9 +41,11 @@ public:
   double flatness() const { return this->Cells[this->Current].flatness; }
   /** The largest weight of the cell, divided by the largest one of finite elements with K = 1. */
   double scale() const { return this->Cells[this->Current].scale; }
-  double screening() const { return this->Screening[this->Current]; }
-  /** `columns` numbers. */
-  const double* source() const { return this->Source.data() + this->Current * this->Columns; }
+  /** Density::numbers() numbers. */
+  const double* density(DensityIndex index) const
+  {
+    return this->Values[index].data() + this->Current * this->numbersOf(Densities[index]);
+  }
   /** 3 numbers per column. */
   const double* field() const { return this->Field.data() + 3 * this->Current * this->Columns; }
   /** 6 numbers, if requested. */
@@ -60,7 +64,11 @@ private:
   void gather(const MeshBlock& block, std::size_t first, const Ring<double>& points);
   void take(std::size_t k, const MeshBlock& block, std::size_t c);
   void takeWeights(std::size_t k, const MeshBlock& block, std::size_t c);
-  void requireFinite(std::size_t k, const MeshBlock& block, std::size_t c) const;
+  std::size_t numbersOf(const Density& density) const
+  {
+    return density.isPerColumn ? this->Columns : 1;
+  }
+  void requireValid(std::size_t k, const MeshBlock& block, std::size_t c) const;
 
   Problem& Given;
   CellType Type;
@@ -69,7 +77,8 @@ private:
   bool Conductivities;
   std::size_t Current = 0;
   std::vector<Cell> Cells; // of the batch
-  std::vector<double> Points, Weight, Measure, Screening, Source, Field, Conductivity;
+  std::vector<double> Points, Weight, Measure, Field, Conductivity;
+  std::array<std::vector<double>, Densities.size()> Values; ///< in the order of Densities
 };
 
 /** The factor by which a solve with these weights scales a cell down, see flatnessFactor(). `own`:

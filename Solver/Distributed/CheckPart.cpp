@@ -112,10 +112,12 @@ void checkSharedConditions(
         set(numbers, given.values.at(v));
       }
     });
-  checkSame(vertices, part, "the source", given.sources.lanes(),
-    [&](std::int64_t v, std::span<double> numbers) { set(numbers, given.sources.at(v)); });
-  checkSame(vertices, part, "the screening", 1,
-    [&](std::int64_t v, std::span<double> numbers) { set(numbers, given.screening.at(v)); });
+  for (std::size_t k = 0; k < Densities.size(); ++k)
+  {
+    const Ring<double>& density = given.densities[k];
+    checkSame(vertices, part, std::string("the ") + Densities[k].name, density.lanes(),
+      [&](std::int64_t v, std::span<double> numbers) { set(numbers, density.at(v)); });
+  }
 }
 
 void checkSharedTargets(

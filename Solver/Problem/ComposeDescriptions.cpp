@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/ComposeDescriptions.h"
 
+#include "Solver/Problem/ProblemData.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,8 +14,8 @@
 #include <vector>
 
 // Operations on descriptions as a whole: composing them from several sources (the conditions of a
-// pipeline, a file), listing the columns that they name, and a text that identifies them. Each must
-// know every member of ProblemDescription; visit() goes through all parts and values.
+// pipeline, a file), listing the columns that they name, and a text that identifies them. They
+// follow the table of all data, ProblemData.
 
 namespace smg
 {
@@ -21,43 +23,80 @@ namespace
 {
 
 template <class T>
-void append(std::vector<T>& entries, const std::vector<T>& more)
+void appendTo(std::vector<T>& entries, const std::vector<T>& more)
 {
   entries.insert(entries.end(), more.begin(), more.end());
 }
 
-/** Calls onWhere(where) and onValue(value) with all parts and values of a description. */
-template <class OnWhere, class OnValue>
-void visit(const ProblemDescription& problem, OnWhere onWhere, OnValue onValue)
+void appendTo(Datum& datum, const Datum& more)
 {
-  const auto visitAll = [&](const std::vector<PlacedValue>& entries)
-  {
-    for (const PlacedValue& entry : entries)
-    {
-      onWhere(entry.where);
-      onValue(entry.value);
-    }
-  };
-  for (const Datum* datum :
-    { &problem.conductivity, &problem.screening, &problem.source, &problem.initial })
-  {
-    visitAll(datum->entries);
-  }
-  visitAll(problem.dirichlet);
-  visitAll(problem.flux);
-  for (const ProblemDescription::Robin& robin : problem.robin)
-  {
-    onWhere(robin.where);
-    visitAll(robin.coefficient.entries);
-    onValue(robin.ambient);
-  }
-  for (const ProblemDescription::Soft& soft : problem.soft)
-  {
-    onWhere(soft.where);
-    visitAll(soft.weight.entries);
-    onValue(soft.value);
-  }
+  appendTo(datum.entries, more.entries);
 }
+
+void appendTo(std::string& column, const std::string& more)
+{
+  column = more.empty() ? column : more;
+}
+
+bool isGiven(const Datum& datum)
+{
+  return datum.isGiven();
+}
+
+/** A column, or a list of conditions. */
+bool isGiven(const auto& member)
+{
+  return !member.empty();
+}
+
+/** Collects the columns that parts and values name. */
+class ColumnNames
+{
+public:
+  void add(const Where& where) { this->add(columnOf(where)); }
+  void add(const DataValue& value) { this->add(value.column()); }
+  void add(const Datum& datum)
+  {
+    for (const PlacedValue& entry : datum.entries)
+    {
+      this->add(entry.where);
+      this->add(entry.value);
+    }
+  }
+  void add(const DatumRow& row, const ProblemDescription& problem)
+  {
+    this->add(problem.*row.member);
+  }
+  void add(const ColumnRow& row, const ProblemDescription& problem)
+  {
+    const std::string& column = problem.*row.member;
+    this->add(column.empty() ? nullptr : &column);
+  }
+  template <class Condition>
+  void add(const ConditionRow<Condition>& row, const ProblemDescription& problem)
+  {
+    for (const Condition& condition : problem.*row.member)
+    {
+      this->add(condition.where);
+      this->add(condition.*row.value);
+      if (row.coefficient)
+      {
+        this->add(condition.*row.coefficient);
+      }
+    }
+  }
+
+  std::set<std::string> names;
+
+private:
+  void add(const std::string* column)
+  {
+    if (column)
+    {
+      this->names.insert(*column);
+    }
+  }
+};
 
 } // namespace
 
@@ -68,58 +107,31 @@ void append(ProblemDescription& problem, const ProblemDescription& more)
   // Usually equal; if they are not, the values of one description have the wrong number of
   // components, which the check against the mesh reports.
   problem.columns = std::max(problem.columns, more.columns);
-  append(problem.conductivity.entries, more.conductivity.entries);
-  append(problem.screening.entries, more.screening.entries);
-  append(problem.source.entries, more.source.entries);
-  problem.field = more.field.empty() ? problem.field : more.field;
-  append(problem.initial.entries, more.initial.entries);
-  append(problem.dirichlet, more.dirichlet);
-  append(problem.flux, more.flux);
-  append(problem.robin, more.robin);
-  append(problem.soft, more.soft);
+  forProblemData([&](const auto& row) { appendTo(problem.*row.member, more.*row.member); });
   problem.gradientOutput = problem.gradientOutput || more.gradientOutput;
   problem.fluxOutput = problem.fluxOutput || more.fluxOutput;
 }
 
-/** Both values and places may name columns; the field always does. */
 std::set<std::string> namedColumns(const ProblemDescription& problem)
 {
-  std::set<std::string> names;
-  if (!problem.field.empty())
-  {
-    names.insert(problem.field);
-  }
-  visit(
-    problem,
-    [&names](const Where& where)
-    {
-      // Regions, points and the boundary name no columns.
-      if (const auto* tag = std::get_if<ColumnTag>(&where))
-      {
-        names.insert(tag->column);
-      }
-      if (const auto* mask = std::get_if<ColumnMask>(&where))
-      {
-        names.insert(mask->column);
-      }
-    },
-    [&names](const DataValue& value)
-    {
-      if (value.column())
-      {
-        names.insert(*value.column());
-      }
-    });
-  return names;
+  ColumnNames columns;
+  forProblemData([&](const auto& row) { columns.add(row, problem); });
+  return std::move(columns.names);
 }
 
-/** An initial value alone poses a problem: without conditions, it determines the mean of the
- * solution. */
+std::set<std::string> namedColumns(const std::vector<Where>& parts)
+{
+  ColumnNames columns;
+  std::ranges::for_each(parts, [&](const Where& part) { columns.add(part); });
+  return std::move(columns.names);
+}
+
 bool isPosed(const ProblemDescription& problem)
 {
-  return problem.source.isGiven() || !problem.field.empty() || !problem.dirichlet.empty() ||
-         !problem.flux.empty() || !problem.robin.empty() || !problem.soft.empty() ||
-         problem.initial.isGiven();
+  bool posed = false;
+  forProblemData(
+    [&](const auto& row) { posed = posed || (row.poses && isGiven(problem.*row.member)); });
+  return posed;
 }
 
 namespace
@@ -135,6 +147,22 @@ public:
   void operator()(const Values&... values)
   {
     (this->add(values), ...);
+  }
+  /** The member of a description in this row of the table. */
+  void add(const auto& /*row*/, const auto& member) { this->add(member); }
+  template <class Condition>
+  void add(const ConditionRow<Condition>& row, const std::vector<Condition>& conditions)
+  {
+    this->add(static_cast<std::int64_t>(conditions.size()));
+    for (const Condition& condition : conditions)
+    {
+      this->add(condition.where);
+      if (row.coefficient)
+      {
+        this->add(condition.*row.coefficient);
+      }
+      this->add(condition.*row.value);
+    }
   }
   std::string take() { return std::move(this->Text); }
 
@@ -189,25 +217,19 @@ private:
   void add(const DataValue& value) { this->add(value.content()); }
   void add(const PlacedValue& entry) { (*this)(entry.where, entry.value); }
   void add(const Datum& datum) { this->add(datum.entries); }
-  void add(const ProblemDescription::Robin& robin)
-  {
-    (*this)(robin.where, robin.coefficient, robin.ambient);
-  }
-  void add(const ProblemDescription::Soft& soft) { (*this)(soft.where, soft.weight, soft.value); }
 
   std::string Text;
 };
 
 } // namespace
 
-/** All members, in a fixed order. */
+/** All members, in the order of the table. */
 std::string textOf(const ProblemDescription& problem)
 {
   TextBuilder text;
-  text(static_cast<std::int64_t>(problem.weights), std::int64_t(problem.columns),
-    problem.conductivity, problem.screening, problem.source, problem.field, problem.initial,
-    problem.dirichlet, problem.flux, problem.robin, problem.soft,
-    std::int64_t(problem.gradientOutput), std::int64_t(problem.fluxOutput));
+  text(static_cast<std::int64_t>(problem.weights), std::int64_t(problem.columns));
+  forProblemData([&](const auto& row) { text.add(row, problem.*row.member); });
+  text(std::int64_t(problem.gradientOutput), std::int64_t(problem.fluxOutput));
   return text.take();
 }
 

@@ -3,9 +3,11 @@
 
 #include "smg/Export.h"
 #include "smg/ProblemDescription.h"
+#include "smg/Region.h"
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -16,6 +18,8 @@ SMG_EXPORT void append(ProblemDescription& problem, const ProblemDescription& mo
 
 /** The names of all columns of the mesh that a description names. */
 SMG_EXPORT std::set<std::string> namedColumns(const ProblemDescription& problem);
+/** The same of parts of the mesh. */
+SMG_EXPORT std::set<std::string> namedColumns(const std::vector<Where>& parts);
 
 /** Whether a description poses a problem, that is, has data other than conductivity and screening,
  * which alone have the solution 0. */

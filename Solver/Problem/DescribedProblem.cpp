@@ -1,514 +1,437 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedProblem.h"
-#include "Solver/Mesh/StreamCheck.h"
-#include "Solver/Problem/PiecewiseCoefficient.h"
-#include "Solver/Problem/StartValues.h"
+#include "Solver/Problem/ProblemData.h"
 #include "smg/Error.h"
 #include "smg/Problem.h"
 #include "smg/ProblemDescription.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
 
-// A ProblemDescription on its mesh, as a Problem of the solver: every datum is a
-// PiecewiseCoefficient at vertices, in cells or on facets, evaluated block by block. Values depend
-// on the place in the mesh alone, not on blocks or batches; memory is kept for open vertices only.
+// A ProblemDescription on its mesh, as a Problem of the solver: every datum of the table
+// ProblemData is a PiecewiseCoefficient at vertices, in cells or on facets, evaluated block by
+// block. Values depend on the place in the mesh alone, not on blocks or batches; memory is kept for
+// open vertices only.
 
 namespace smg
 {
-
-/** The implementation of DescribedProblem: the data of a description, resolved on a mesh. */
-class ProblemOnMesh : public Problem
-{
-public:
-  /** Like DescribedProblem. */
-  ProblemOnMesh(
-    const ProblemDescription& description, const StreamInfo& mesh, const std::string& name);
-  ProblemOnMesh(const ProblemOnMesh&) = delete;
-  ProblemOnMesh& operator=(const ProblemOnMesh&) = delete;
-
-  /** The columns that the mesh source must deliver. */
-  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
-  std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
-
-  /** Like DescribedProblem::prepare(). */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
-  /** Like DescribedProblem::preparePart() and endPreparing(). */
-  void preparePart(
-    MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
-  void endPreparing(MeshParts* parts);
-
-  int columns() const override { return static_cast<int>(this->Columns); }
-  Weights weights() const override { return this->EdgeWeights; }
-  ConditionCounts conditionCounts() const override;
-  void conditions(const MeshBlock& block, VertexConditions& conditions) override;
-  bool hasCells() const override;
-  void cells(CellBatch& batch) override;
-  bool hasFacets() const override { return this->Flux.isGiven() || this->Ambient.isGiven(); }
-  void facets(FacetBatch& batch) override;
-  std::int64_t bytes() const override { return this->OfMesh.memory().used(); }
-
-private:
-  struct Soft
-  {
-    PiecewiseCoefficient value, weight;
-  };
-
-  /** The place of a density: the vertices, unless an entry names a column of the cells. */
-  DataPlace placeOf(const Datum& density) const;
-  void addRobin(const ProblemDescription& description);
-  void addSoft(const ProblemDescription& description);
-  /** All data. */
-  std::vector<PiecewiseCoefficient*> data();
-
-  void setValues(const MeshBlock& block, VertexConditions& conditions);
-  void addSoft(const MeshBlock& block, VertexConditions& conditions);
-  void setConductivity(const CellRange& cells, CellBatch& batch);
-  void setField(const CellRange& cells, CellBatch& batch);
-  void setRobin(const CellRange& cells, FacetBatch& batch);
-  /** Evaluates a density at the vertices of a block, or in cells. */
-  void setDensity(
-    const PiecewiseCoefficient& datum, const MeshBlock& block, std::vector<double>& density);
-  void setDensity(
-    const PiecewiseCoefficient& datum, const CellRange& cells, std::span<double> density);
-
-  MeshColumns OfMesh;
-  std::size_t Columns;
-  Weights EdgeWeights;
-  StartValues Start;
-  DataPlace ScreeningPlace, SourcePlace;
-  PiecewiseCoefficient Conductivity, Screening, Source, Field, Initial, Dirichlet, Flux;
-  PiecewiseCoefficient Ambient;                   ///< of the Robin conditions
-  std::vector<PiecewiseCoefficient> Coefficients; ///< of each of them
-  std::vector<Soft> Softs;
-  std::vector<std::int32_t> Entry,
-    Other;                    ///< applicable entries at vertices, in cells, or on facets
-  std::vector<double> Values; ///< their values
-};
-
-// DescribedProblem only forwards, which keeps the private classes out of the public header.
-DescribedProblem::DescribedProblem(
-  const ProblemDescription& description, const StreamInfo& mesh, const std::string& name)
-  : OnMesh(std::make_unique<ProblemOnMesh>(description, mesh, name))
-{
-}
-
-DescribedProblem::~DescribedProblem() = default;
-
-std::vector<std::string> DescribedProblem::vertexColumns() const
-{
-  return this->OnMesh->vertexColumns();
-}
-
-std::vector<std::string> DescribedProblem::cellColumns() const
-{
-  return this->OnMesh->cellColumns();
-}
-
-void DescribedProblem::prepare(
-  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
-{
-  this->OnMesh->prepare(mesh, scratch, memoryLimit);
-}
-
-void DescribedProblem::preparePart(
-  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
-{
-  this->OnMesh->preparePart(part, scratch, memoryLimit);
-}
-
-std::int64_t DescribedProblem::bytes() const
-{
-  return this->OnMesh->bytes();
-}
-
-void DescribedProblem::endPreparing(MeshParts& parts)
-{
-  this->OnMesh->endPreparing(&parts);
-}
-
-int DescribedProblem::columns() const
-{
-  return this->OnMesh->columns();
-}
-
-Weights DescribedProblem::weights() const
-{
-  return this->OnMesh->weights();
-}
-
-ConditionCounts DescribedProblem::conditionCounts() const
-{
-  return this->OnMesh->conditionCounts();
-}
-
-void DescribedProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
-{
-  this->OnMesh->conditions(block, conditions);
-}
-
-bool DescribedProblem::hasCells() const
-{
-  return this->OnMesh->hasCells();
-}
-
-void DescribedProblem::cells(CellBatch& batch)
-{
-  this->OnMesh->cells(batch);
-}
-
-bool DescribedProblem::hasFacets() const
-{
-  return this->OnMesh->hasFacets();
-}
-
-void DescribedProblem::facets(FacetBatch& batch)
-{
-  this->OnMesh->facets(batch);
-}
-
 namespace
 {
 
-constexpr int MaxColumns = ProblemDescription::MaxColumns;
+/**
+ * Where the iteration begins if the description does not say: at the undeformed mesh if a Dirichlet
+ * value is the position; in each column in the middle of the prescribed and ambient numbers if it
+ * is farther from 0 than they are from each other; else at 0. The tolerance is a share of the
+ * residual of the initial values: that of 0 grows with an offset of the values (temperatures in
+ * kelvin), which is no difference that the solution has.
+ */
+class StartValues
+{
+public:
+  StartValues() = default;
+  /** For a description whose numbers have been checked. */
+  explicit StartValues(const ProblemDescription& description);
+
+  /** Sets the values of the vertices of the block, which are 0. */
+  void set(const MeshBlock& block, std::vector<double>& values) const;
+
+private:
+  bool IsPosition = false;
+  std::vector<double> Start; ///< of each column
+};
+
+StartValues::StartValues(const ProblemDescription& description)
+  : Start(static_cast<std::size_t>(description.columns), 0.0)
+{
+  if (description.initial.isGiven())
+  {
+    return;
+  }
+  std::vector<const DataValue*> all;
+  for (const PlacedValue& entry : description.dirichlet)
+  {
+    this->IsPosition = this->IsPosition || entry.value.isPosition();
+    all.push_back(&entry.value);
+  }
+  for (const ProblemDescription::Robin& robin : description.robin)
+  {
+    all.push_back(&robin.ambient);
+  }
+  const bool isKnown =
+    std::ranges::all_of(all, [](const DataValue* value) { return value->numbers() != nullptr; });
+  for (std::size_t k = 0; isKnown && !all.empty() && k < this->Start.size(); ++k)
+  {
+    const auto numberOf = [k](const DataValue* value) { return (*value->numbers())[k]; };
+    const auto [min, max] = std::ranges::minmax(all | std::views::transform(numberOf));
+    const double middle = min / 2 + max / 2;
+    this->Start[k] = min < max && max - min < std::fabs(middle) ? middle : 0.0;
+  }
+}
+
+void StartValues::set(const MeshBlock& block, std::vector<double>& values) const
+{
+  if (this->IsPosition)
+  {
+    values = block.positions;
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    values[i] = this->Start[i % this->Start.size()];
+  }
+}
+
+/** A datum with its entries on the mesh. */
+struct DatumOnMesh
+{
+  PiecewiseCoefficient value;
+  std::vector<PiecewiseCoefficient> coefficients; ///< of conditions: one of each entry, or none
+};
 
 std::string keyOf(const char* list, std::size_t k)
 {
   return std::string(list) + '[' + std::to_string(k) + ']';
 }
 
-ValueRules valueRules(int columns)
-{
-  return { .components = { columns }, .positions = columns == 3 };
-}
-
-/** A solution, whose values may be missing, is an initial value of another solve. */
-ValueRules initialRules(int columns)
-{
-  ValueRules rules = valueRules(columns);
-  rules.missing = true;
-  return rules;
-}
-
-const ValueRules CoefficientRules{ .components = { 1 }, .range = ValueRange::NotNegative };
-const ValueRules ConductivityRules{ .components = { 1, 3, 6 },
-  .range = ValueRange::PositiveDefinite,
-  .preferred = ColumnOwner::Cells };
-
-ValueRules fieldRules(int columns)
-{
-  // 3 components: one vector for all columns.
-  return { .components = columns == 1 ? std::vector{ 3 } : std::vector{ 3, 3 * columns },
-    .preferred = ColumnOwner::Cells };
-}
-
-/** The selecting column; null for other places. */
-const std::string* columnOf(const Where& where)
-{
-  if (const auto* tag = std::get_if<ColumnTag>(&where))
-  {
-    return &tag->column;
-  }
-  const auto* mask = std::get_if<ColumnMask>(&where);
-  return mask ? &mask->column : nullptr;
-}
-
 } // namespace
 
-ProblemOnMesh::ProblemOnMesh(
-  const ProblemDescription& description, const StreamInfo& mesh, const std::string& name)
-  : OfMesh(mesh, name)
-  , Columns(static_cast<std::size_t>(description.columns))
-  , EdgeWeights(description.weights)
-  , ScreeningPlace(this->placeOf(description.screening))
-  , SourcePlace(this->placeOf(description.source))
-  , Conductivity(this->OfMesh, DataPlace::Cells, ConductivityRules)
-  , Screening(this->OfMesh, this->ScreeningPlace, CoefficientRules)
-  , Source(this->OfMesh, this->SourcePlace, valueRules(description.columns))
-  , Field(this->OfMesh, DataPlace::Cells, fieldRules(description.columns))
-  , Initial(this->OfMesh, DataPlace::Vertices, initialRules(description.columns))
-  , Dirichlet(this->OfMesh, DataPlace::Vertices, valueRules(description.columns))
-  , Flux(this->OfMesh, DataPlace::Facets, valueRules(description.columns))
-  , Ambient(this->OfMesh, DataPlace::Facets, valueRules(description.columns))
+/** The data of a description, resolved on a mesh. */
+struct DescribedProblem::OnMesh
 {
+  OnMesh(const ProblemDescription& description, const StreamInfo& mesh, const std::string& name);
+
+  /** The place of a density: the vertices, unless an entry names a column of the cells. */
+  DataPlace placeOf(const DatumRow& row, const ProblemDescription& description) const;
+  void add(const DatumRow& row, const ProblemDescription& description);
+  void add(const ColumnRow& row, const ProblemDescription& description);
+  template <class Condition>
+  void add(const ConditionRow<Condition>& row, const ProblemDescription& description);
+  /** Adds a datum without entries. */
+  DatumOnMesh& add(DataPlace place, const ValueRules& rules);
+
+  const DatumOnMesh& operator[](std::size_t row) const { return this->data[row]; }
+  const PiecewiseCoefficient& valueOf(std::size_t row) const { return this->data[row].value; }
+  /** Calls visit(density, datum) with the densities that are given at such a place. */
+  void forDensities(DataPlace place, auto visit) const;
+
+  void setValues(const MeshBlock& block, VertexConditions& conditions);
+  void addSoft(const MeshBlock& block, VertexConditions& conditions);
+  void setConductivity(const CellRange& cells, CellBatch& batch);
+  void setField(const CellRange& cells, CellBatch& batch);
+  void setRobin(const CellRange& cells, FacetBatch& batch);
+
+  MeshColumns mesh;
+  Selections selections;
+  std::size_t columns;
+  Weights weights;
+  std::vector<DatumOnMesh> data; ///< in the order of ProblemData
+  StartValues start;
+  std::vector<std::int32_t> entry,
+    other;                    ///< applicable entries at vertices, in cells, or on facets
+  std::vector<double> values; ///< their values
+};
+
+DescribedProblem::OnMesh::OnMesh(
+  const ProblemDescription& description, const StreamInfo& info, const std::string& name)
+  : mesh(info, name)
+  , selections(this->mesh)
+  , columns(static_cast<std::size_t>(description.columns))
+  , weights(description.weights)
+{
+  constexpr int MaxColumns = ProblemDescription::MaxColumns;
   if (description.columns < 1 || description.columns > MaxColumns)
   {
-    this->OfMesh.fail("columns", "must be from 1 to " + std::to_string(MaxColumns));
+    this->mesh.fail("columns", "must be from 1 to " + std::to_string(MaxColumns));
   }
-  if (description.conductivity.isGiven() && this->EdgeWeights == Weights::Uniform)
+  if (description.conductivity.isGiven() && this->weights == Weights::Uniform)
   {
-    this->OfMesh.fail("conductivity", "goes with cotangent and clamped weights only");
+    this->mesh.fail("conductivity", "goes with cotangent and clamped weights only");
   }
-  this->Conductivity.add(description.conductivity, "conductivity");
-  this->Screening.add(description.screening, "screening");
-  this->Source.add(description.source, "source");
-  if (!description.field.empty())
-  {
-    this->Field.add(Everywhere{}, description.field, "field", "field");
-  }
-  this->Initial.add(description.initial, "initial");
-  for (std::size_t k = 0; k < description.dirichlet.size(); ++k)
-  {
-    const auto& [where, value] = description.dirichlet[k];
-    this->Dirichlet.add(where, value, keyOf("dirichlet", k), keyOf("dirichlet", k) + ".value");
-  }
-  for (std::size_t k = 0; k < description.flux.size(); ++k)
-  {
-    const auto& [where, value] = description.flux[k];
-    this->Flux.add(where, value, keyOf("flux", k), keyOf("flux", k) + ".value");
-  }
-  this->addRobin(description);
-  this->addSoft(description);
-  this->Start = StartValues(description);
-  if (ProblemOnMesh::hasCells() || ProblemOnMesh::hasFacets())
-  {
-    this->OfMesh.requireCellIds(); // for error messages of the solver
-  }
+  forProblemData([&](const auto& row) { this->add(row, description); });
+  this->start = StartValues(description);
 }
 
-DataPlace ProblemOnMesh::placeOf(const Datum& density) const
+DataPlace DescribedProblem::OnMesh::placeOf(
+  const DatumRow& row, const ProblemDescription& description) const
 {
   const auto isOfCells = [this](const std::string* column)
-  { return column && this->OfMesh.isOfCells(*column, ColumnOwner::Vertices); };
-  const bool inCells = std::ranges::any_of(density.entries, [&](const PlacedValue& entry)
-    { return isOfCells(columnOf(entry.where)) || isOfCells(entry.value.column()); });
-  return inCells ? DataPlace::Cells : DataPlace::Vertices;
+  { return column && this->mesh.isOfCells(*column, ColumnOwner::Vertices); };
+  const bool inCells =
+    row.density &&
+    std::ranges::any_of((description.*row.member).entries, [&](const PlacedValue& entry)
+      { return isOfCells(columnOf(entry.where)) || isOfCells(entry.value.column()); });
+  return inCells ? DataPlace::Cells : row.place;
 }
 
-void ProblemOnMesh::addRobin(const ProblemDescription& description)
+DatumOnMesh& DescribedProblem::OnMesh::add(DataPlace place, const ValueRules& rules)
 {
-  for (std::size_t k = 0; k < description.robin.size(); ++k)
-  {
-    const ProblemDescription::Robin& robin = description.robin[k];
-    const std::string key = keyOf("robin", k);
-    // The ambient values decide which condition holds where; each condition has a coefficient of
-    // its own.
-    this->Ambient.add(robin.where, robin.ambient, key, key + ".ambient");
-    this->Coefficients.emplace_back(this->OfMesh, DataPlace::Facets, CoefficientRules);
-    this->Coefficients.back().add(robin.coefficient, key + ".coefficient");
-  }
+  return this->data.emplace_back(
+    DatumOnMesh{ PiecewiseCoefficient(this->mesh, this->selections, place, rules), {} });
 }
 
-void ProblemOnMesh::addSoft(const ProblemDescription& description)
+void DescribedProblem::OnMesh::add(const DatumRow& row, const ProblemDescription& description)
 {
-  for (std::size_t k = 0; k < description.soft.size(); ++k)
-  {
-    const ProblemDescription::Soft& soft = description.soft[k];
-    const std::string key = keyOf("soft", k);
-    // Soft constraints add up, so each is a datum of its own, not an entry of one.
-    this->Softs.push_back({ { this->OfMesh, DataPlace::Vertices, valueRules(description.columns) },
-      { this->OfMesh, DataPlace::Vertices, CoefficientRules } });
-    this->Softs.back().value.add(soft.where, soft.value, key, key + ".value");
-    this->Softs.back().weight.add(soft.weight, key + ".weight");
-  }
+  this->add(this->placeOf(row, description), row.rules(description.columns))
+    .value.add(description.*row.member, row.key);
 }
 
-std::vector<PiecewiseCoefficient*> ProblemOnMesh::data()
+void DescribedProblem::OnMesh::add(const ColumnRow& row, const ProblemDescription& description)
 {
-  std::vector<PiecewiseCoefficient*> data{ &this->Conductivity, &this->Screening, &this->Source,
-    &this->Field, &this->Initial, &this->Dirichlet, &this->Flux, &this->Ambient };
-  for (PiecewiseCoefficient& coefficient : this->Coefficients)
+  DatumOnMesh& datum = this->add(row.place, row.rules(description.columns));
+  if (const std::string& column = description.*row.member; !column.empty())
   {
-    data.push_back(&coefficient);
+    datum.value.add(Everywhere{}, column, row.key, row.key);
   }
-  for (Soft& soft : this->Softs)
-  {
-    data.push_back(&soft.value);
-    data.push_back(&soft.weight);
-  }
-  return data;
 }
 
-void ProblemOnMesh::prepare(
+/** The values decide which condition holds where; each condition has a coefficient of its own. */
+template <class Condition>
+void DescribedProblem::OnMesh::add(
+  const ConditionRow<Condition>& row, const ProblemDescription& description)
+{
+  DatumOnMesh& datum = this->add(row.place, row.rules(description.columns));
+  const std::vector<Condition>& conditions = description.*row.member;
+  for (std::size_t k = 0; k < conditions.size(); ++k)
+  {
+    const std::string key = keyOf(row.key, k);
+    datum.value.add(conditions[k].where, conditions[k].*row.value, key, key + '.' + row.valueKey);
+    if (row.coefficient)
+    {
+      datum.coefficients
+        .emplace_back(
+          this->mesh, this->selections, row.place, coefficientRules(description.columns))
+        .add(conditions[k].*row.coefficient, key + '.' + row.coefficientKey);
+    }
+  }
+}
+
+void DescribedProblem::OnMesh::forDensities(DataPlace place, auto visit) const
+{
+  std::size_t at = 0;
+  forProblemData(
+    [&](const auto& row)
+    {
+      const PiecewiseCoefficient& datum = this->valueOf(at++);
+      if constexpr (requires { row.density; })
+      {
+        if (row.density && datum.isGiven() && datum.place() == place)
+        {
+          visit(*row.density, datum);
+        }
+      }
+    });
+}
+
+DescribedProblem::DescribedProblem(
+  const ProblemDescription& description, const StreamInfo& mesh, const std::string& name)
+  : Data(std::make_unique<OnMesh>(description, mesh, name))
+{
+  if (DescribedProblem::hasCells() || DescribedProblem::hasFacets())
+  {
+    this->Data->mesh.requireCellIds(); // for error messages of the solver
+  }
+}
+
+DescribedProblem::~DescribedProblem() = default;
+
+std::vector<std::string> DescribedProblem::vertexColumns() const
+{
+  return this->Data->mesh.vertexColumns();
+}
+
+std::vector<std::string> DescribedProblem::cellColumns() const
+{
+  return this->Data->mesh.cellColumns();
+}
+
+void DescribedProblem::prepare(
   MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
   this->preparePart(mesh, scratch, memoryLimit);
-  this->endPreparing(nullptr);
+  this->Data->selections.endPreparing(nullptr);
 }
 
-void ProblemOnMesh::preparePart(
-  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
+/** Without parts of the mesh there is nothing to prepare. The reading also checks that no part is
+ * empty. */
+void DescribedProblem::preparePart(
+  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OfMesh.memory().setLimit(memoryLimit);
-  const std::vector<PiecewiseCoefficient*> data = this->data();
-  const bool selects =
-    std::ranges::any_of(data, [](const PiecewiseCoefficient* datum) { return datum->selects(); });
-  if (selects)
+  this->Data->selections.prepare(part, scratch, memoryLimit);
+}
+
+void DescribedProblem::endPreparing(MeshParts& parts)
+{
+  this->Data->selections.endPreparing(&parts);
+}
+
+std::int64_t DescribedProblem::bytes() const
+{
+  return this->Data->mesh.memory().used();
+}
+
+int DescribedProblem::columns() const
+{
+  return static_cast<int>(this->Data->columns);
+}
+
+Weights DescribedProblem::weights() const
+{
+  return this->Data->weights;
+}
+
+ConditionCounts DescribedProblem::conditionCounts() const
+{
+  const OnMesh& data = *this->Data;
+  return { data.valueOf(rowOf("dirichlet")).entries(), data.valueOf(rowOf("flux")).entries(),
+    data.valueOf(rowOf("robin")).entries() };
+}
+
+bool DescribedProblem::hasCells() const
+{
+  bool any = this->Data->valueOf(rowOf("conductivity")).isGiven() ||
+             this->Data->valueOf(rowOf("field")).isGiven();
+  this->Data->forDensities(DataPlace::Cells, [&](const auto&, const auto&) { any = true; });
+  return any;
+}
+
+bool DescribedProblem::hasFacets() const
+{
+  return this->Data->valueOf(rowOf("flux")).isGiven() ||
+         this->Data->valueOf(rowOf("robin")).isGiven();
+}
+
+// Evaluation on a block of the mesh.
+
+void DescribedProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
+{
+  OnMesh& data = *this->Data;
+  if (data.selections.needPreparing())
   {
-    // Without parts of the mesh there is nothing to prepare. The reading also checks that no part
-    // is empty.
-    forCheckedBlocks(
-      mesh,
-      [&](const MeshBlock& block)
-      {
-        for (PiecewiseCoefficient* datum : data)
-        {
-          datum->prepare(block, scratch);
-        }
-      },
-      true);
+    throw Error(
+      "Nearest vertices, the vertices of cells and the boundary are found by a previous reading "
+      "of the mesh: call DescribedProblem::prepare().");
   }
-}
-
-void ProblemOnMesh::endPreparing(MeshParts* parts)
-{
-  for (PiecewiseCoefficient* datum : this->data())
+  data.selections.startBlock(block);
+  for (DatumOnMesh& datum : data.data)
   {
-    datum->endPreparing(parts);
+    // All of them: cells() and facets() of this block follow.
+    datum.value.startBlock(block);
+    std::ranges::for_each(
+      datum.coefficients, [&](PiecewiseCoefficient& c) { c.startBlock(block); });
   }
-  // A solve counts this memory within its own limit, see Problem::bytes().
-  this->OfMesh.memory().setLimit(INT64_MAX);
-}
-
-ConditionCounts ProblemOnMesh::conditionCounts() const
-{
-  return { this->Dirichlet.entries(), this->Flux.entries(), this->Ambient.entries() };
-}
-
-bool ProblemOnMesh::hasCells() const
-{
-  return this->Conductivity.isGiven() || this->Field.isGiven() ||
-         (this->Screening.isGiven() && this->ScreeningPlace == DataPlace::Cells) ||
-         (this->Source.isGiven() && this->SourcePlace == DataPlace::Cells);
-}
-
-// Evaluation of a described problem on a block of its mesh.
-
-void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditions)
-{
-  for (PiecewiseCoefficient* datum : this->data())
-  {
-    if (datum->needsPreparing())
+  data.setValues(block, conditions);
+  const auto vertices = static_cast<std::size_t>(block.vertices());
+  data.forDensities(DataPlace::Vertices,
+    [&](const Density& density, const PiecewiseCoefficient& datum)
     {
-      throw Error(
-        "Nearest vertices, the vertices of cells and the boundary are found by a previous reading "
-        "of the mesh: call DescribedProblem::prepare().");
-    }
-    // For all data: cells() and facets() of this block follow.
-    datum->startBlock(block);
-  }
-  this->setValues(block, conditions);
-  if (this->SourcePlace == DataPlace::Vertices)
-  {
-    this->setDensity(this->Source, block, conditions.source);
-  }
-  if (this->ScreeningPlace == DataPlace::Vertices)
-  {
-    this->setDensity(this->Screening, block, conditions.screening);
-  }
-  this->addSoft(block, conditions);
+      std::vector<double>& numbers = conditions.*density.atVertices;
+      data.entry.assign(vertices, -1);
+      datum.entriesAtVertices(data.entry);
+      datum.valuesAtVertices(
+        block, data.entry, numbers.data(), vertices == 0 ? 0 : numbers.size() / vertices);
+    });
+  data.addSoft(block, conditions);
 }
 
-void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditions)
+void DescribedProblem::OnMesh::setValues(const MeshBlock& block, VertexConditions& conditions)
 {
-  this->Start.set(block, conditions.value);
-  this->Dirichlet.entriesAtVertices(conditions.dirichlet);
-  this->Entry.assign(conditions.dirichlet.size(), -1);
-  this->Initial.entriesAtVertices(this->Entry);
+  const PiecewiseCoefficient& dirichlet = this->valueOf(rowOf("dirichlet"));
+  const PiecewiseCoefficient& initial = this->valueOf(rowOf("initial"));
+  this->start.set(block, conditions.value);
+  dirichlet.entriesAtVertices(conditions.dirichlet);
+  this->entry.assign(conditions.dirichlet.size(), -1);
+  initial.entriesAtVertices(this->entry);
   // Initial values at prescribed vertices are not used: they may be anything, also NaN.
-  for (std::size_t i = 0; i < this->Entry.size(); ++i)
+  for (std::size_t i = 0; i < this->entry.size(); ++i)
   {
-    this->Entry[i] = conditions.dirichlet[i] >= 0 ? -1 : this->Entry[i];
+    this->entry[i] = conditions.dirichlet[i] >= 0 ? -1 : this->entry[i];
   }
-  this->Initial.valuesAtVertices(block, this->Entry, conditions.value.data(), this->Columns);
+  initial.valuesAtVertices(block, this->entry, conditions.value.data(), this->columns);
   // A missing initial value is 0, as if none were given.
   std::ranges::replace_if(
     conditions.value, [](double value) { return std::isnan(value); }, 0.0);
-  this->Dirichlet.valuesAtVertices(
-    block, conditions.dirichlet, conditions.value.data(), this->Columns);
+  dirichlet.valuesAtVertices(block, conditions.dirichlet, conditions.value.data(), this->columns);
 }
 
-void ProblemOnMesh::setDensity(
-  const PiecewiseCoefficient& datum, const MeshBlock& block, std::vector<double>& density)
+/** Soft constraints add up: each is evaluated by itself. */
+void DescribedProblem::OnMesh::addSoft(const MeshBlock& block, VertexConditions& conditions)
 {
   const auto vertices = static_cast<std::size_t>(block.vertices());
-  this->Entry.assign(vertices, -1);
-  datum.entriesAtVertices(this->Entry);
-  datum.valuesAtVertices(
-    block, this->Entry, density.data(), vertices == 0 ? 0 : density.size() / vertices);
-}
-
-void ProblemOnMesh::setDensity(
-  const PiecewiseCoefficient& datum, const CellRange& cells, std::span<double> density)
-{
-  datum.entriesAtCells(cells, this->Entry);
-  datum.valuesAtCells(cells, this->Entry, density.data(), density.size() / this->Entry.size());
-}
-
-void ProblemOnMesh::addSoft(const MeshBlock& block, VertexConditions& conditions)
-{
-  const auto vertices = static_cast<std::size_t>(block.vertices());
+  const DatumOnMesh& soft = (*this)[rowOf("soft")];
   std::vector<double> weight;
-  for (const Soft& soft : this->Softs)
+  for (std::int32_t e = 0; e < soft.value.entries(); ++e)
   {
-    this->Entry.assign(vertices, -1);
-    soft.value.entriesAtVertices(this->Entry);
-    this->Values.resize(vertices * this->Columns);
-    soft.value.valuesAtVertices(block, this->Entry, this->Values.data(), this->Columns);
-    this->Other.assign(vertices, -1);
-    soft.weight.entriesAtVertices(this->Other);
+    const PiecewiseCoefficient& weights = soft.coefficients[static_cast<std::size_t>(e)];
+    this->entry.assign(vertices, -1);
+    soft.value.entryAtVertices(e, this->entry);
+    this->values.resize(vertices * this->columns);
+    soft.value.valuesAtVertices(block, this->entry, this->values.data(), this->columns);
+    this->other.assign(vertices, -1);
+    weights.entriesAtVertices(this->other);
     for (std::size_t i = 0; i < vertices; ++i)
     {
       // A weight counts only where its constraint holds.
-      this->Other[i] = this->Entry[i] >= 0 ? this->Other[i] : -1;
+      this->other[i] = this->entry[i] >= 0 ? this->other[i] : -1;
     }
     // Where no weight is given, it is 0.
     weight.assign(vertices, 0.0);
-    soft.weight.valuesAtVertices(block, this->Other, weight.data(), 1);
+    weights.valuesAtVertices(block, this->other, weight.data(), 1);
     for (std::size_t i = 0; i < vertices; ++i)
     {
       // weight * (u - value) is a screening and a source.
       conditions.screening[i] += weight[i];
-      for (std::size_t k = i * this->Columns; this->Other[i] >= 0 && k < (i + 1) * this->Columns;
+      for (std::size_t k = i * this->columns; this->other[i] >= 0 && k < (i + 1) * this->columns;
            ++k)
       {
-        conditions.source[k] += weight[i] * this->Values[k];
+        conditions.source[k] += weight[i] * this->values[k];
       }
     }
   }
 }
 
-void ProblemOnMesh::cells(CellBatch& batch)
+void DescribedProblem::cells(CellBatch& batch)
 {
+  OnMesh& data = *this->Data;
   const CellRange cells{ batch.block, batch.first, batch.corners };
-  this->setConductivity(cells, batch);
-  this->setField(cells, batch);
-  if (this->SourcePlace == DataPlace::Cells)
-  {
-    this->Entry.assign(batch.cells(), -1);
-    this->setDensity(this->Source, cells, batch.source);
-  }
-  if (this->ScreeningPlace == DataPlace::Cells)
-  {
-    this->Entry.assign(batch.cells(), -1);
-    this->setDensity(this->Screening, cells, batch.screening);
-  }
+  data.setConductivity(cells, batch);
+  data.setField(cells, batch);
+  data.forDensities(DataPlace::Cells,
+    [&](const Density& density, const PiecewiseCoefficient& datum)
+    {
+      const std::span<double> numbers = batch.*density.inCells;
+      data.entry.assign(batch.cells(), -1);
+      datum.entriesAtCells(cells, data.entry);
+      datum.valuesAtCells(cells, data.entry, numbers.data(), numbers.size() / batch.cells());
+    });
 }
 
 /** A number scales the weights of the cell, a tensor takes new ones. */
-void ProblemOnMesh::setConductivity(const CellRange& cells, CellBatch& batch)
+void DescribedProblem::OnMesh::setConductivity(const CellRange& cells, CellBatch& batch)
 {
-  if (!this->Conductivity.isGiven())
+  const PiecewiseCoefficient& conductivity = this->valueOf(rowOf("conductivity"));
+  if (!conductivity.isGiven())
   {
     return;
   }
-  this->Entry.assign(batch.cells(), -1);
-  this->Conductivity.entriesAtCells(cells, this->Entry);
-  this->Values.resize(6 * batch.cells());
-  this->Conductivity.valuesAtCells(cells, this->Entry, this->Values.data(), 6);
+  this->entry.assign(batch.cells(), -1);
+  conductivity.entriesAtCells(cells, this->entry);
+  this->values.resize(6 * batch.cells());
+  conductivity.valuesAtCells(cells, this->entry, this->values.data(), 6);
   const auto corners = cornersOf(batch.type);
   for (std::size_t c = 0; c < batch.cells(); ++c)
   {
-    if (this->Entry[c] < 0)
+    if (this->entry[c] < 0)
     {
       continue;
     }
-    const double* numbers = this->Values.data() + 6 * c;
-    const int count = this->Conductivity.components(this->Entry[c]);
+    const double* numbers = this->values.data() + 6 * c;
+    const int count = conductivity.components(this->entry[c]);
     const std::span<double> weights = batch.weightsOf(c);
     if (count == 1)
     {
@@ -535,17 +458,18 @@ void ProblemOnMesh::setConductivity(const CellRange& cells, CellBatch& batch)
   }
 }
 
-void ProblemOnMesh::setField(const CellRange& cells, CellBatch& batch)
+void DescribedProblem::OnMesh::setField(const CellRange& cells, CellBatch& batch)
 {
-  if (!this->Field.isGiven())
+  const PiecewiseCoefficient& field = this->valueOf(rowOf("field"));
+  if (!field.isGiven())
   {
     return;
   }
-  const std::size_t numbers = 3 * this->Columns;
+  const std::size_t numbers = 3 * this->columns;
   // There is one entry, everywhere.
-  this->Entry.assign(batch.cells(), 0);
-  this->Field.valuesAtCells(cells, this->Entry, batch.field.data(), numbers);
-  if (this->Field.components(0) == 3)
+  this->entry.assign(batch.cells(), 0);
+  field.valuesAtCells(cells, this->entry, batch.field.data(), numbers);
+  if (field.components(0) == 3)
   {
     // One vector for all columns.
     for (std::size_t c = 0; c < batch.cells(); ++c)
@@ -559,29 +483,31 @@ void ProblemOnMesh::setField(const CellRange& cells, CellBatch& batch)
   }
 }
 
-void ProblemOnMesh::facets(FacetBatch& batch)
+void DescribedProblem::facets(FacetBatch& batch)
 {
   const CellRange cells{ batch.block, batch.first, batch.corners };
-  this->Flux.entriesAtFacets(cells, batch.flux);
-  this->Flux.valuesAtFacets(cells, batch.flux, batch.fluxValue.data(), this->Columns);
-  this->setRobin(cells, batch);
+  const PiecewiseCoefficient& flux = this->Data->valueOf(rowOf("flux"));
+  flux.entriesAtFacets(cells, batch.flux);
+  flux.valuesAtFacets(cells, batch.flux, batch.fluxValue.data(), this->Data->columns);
+  this->Data->setRobin(cells, batch);
 }
 
-void ProblemOnMesh::setRobin(const CellRange& cells, FacetBatch& batch)
+void DescribedProblem::OnMesh::setRobin(const CellRange& cells, FacetBatch& batch)
 {
-  this->Ambient.entriesAtFacets(cells, batch.robin);
-  this->Ambient.valuesAtFacets(cells, batch.robin, batch.ambient.data(), this->Columns);
-  for (std::size_t k = 0; k < this->Coefficients.size(); ++k)
+  const auto& [ambient, coefficients] = (*this)[rowOf("robin")];
+  ambient.entriesAtFacets(cells, batch.robin);
+  ambient.valuesAtFacets(cells, batch.robin, batch.ambient.data(), this->columns);
+  for (std::size_t k = 0; k < coefficients.size(); ++k)
   {
-    this->Entry.assign(batch.robin.size(), -1);
-    this->Coefficients[k].entriesAtFacets(cells, this->Entry);
+    this->entry.assign(batch.robin.size(), -1);
+    coefficients[k].entriesAtFacets(cells, this->entry);
     for (std::size_t facet = 0; facet < batch.robin.size(); ++facet)
     {
       // Each condition has its own coefficient: take the one of the condition that applies here.
       const bool holds = batch.robin[facet] == static_cast<std::int32_t>(k);
-      this->Entry[facet] = holds ? this->Entry[facet] : -1;
+      this->entry[facet] = holds ? this->entry[facet] : -1;
     }
-    this->Coefficients[k].valuesAtFacets(cells, this->Entry, batch.coefficient.data(), 1);
+    coefficients[k].valuesAtFacets(cells, this->entry, batch.coefficient.data(), 1);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "Solver/Files/VertexFile.h"
 #include "Solver/Problem/Selection.h"
 
+#include <algorithm>
 #include <string>
 
 // The vertices that a job holds: the union of several parts of the mesh, and of the boundary if the
@@ -17,6 +18,7 @@ namespace smg
 FixedVertices::FixedVertices(
   const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns)
   : Memory(columns.memory())
+  , All(columns)
 {
   if (findsBoundary)
   {
@@ -25,31 +27,19 @@ FixedVertices::FixedVertices(
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
     // A column of the vertices is meant if both have one, as in problem files.
-    auto part = Selection::make(parts[k], DataPlace::Vertices, ColumnOwner::Vertices,
-      "hold[" + std::to_string(k) + "]", columns);
-    if (part)
-    {
-      this->Parts.push_back(std::move(part));
-    }
-    else
-    {
-      // Everywhere.
-      this->HoldsAll = true;
-    }
+    this->Parts.push_back(this->All.add(
+      parts[k], DataPlace::Vertices, ColumnOwner::Vertices, "hold[" + std::to_string(k) + "]"));
   }
 }
 
-/** All parts see all blocks; the boundary is a selection like any other. */
+/** The boundary is a selection like any other. */
 void FixedVertices::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   if (this->Boundary)
   {
     this->Boundary->prepare(block, scratch);
   }
-  for (const auto& part : this->Parts)
-  {
-    part->prepare(block, scratch);
-  }
+  this->All.prepare(block, scratch);
 }
 
 /** Unlike a part that is asked for, a boundary may be empty: the mesh is closed then. It is looked
@@ -62,32 +52,25 @@ void FixedVertices::endPreparing(bool fixesBoundary)
     // Not held, or empty: later readings need not look at it.
     this->Boundary.reset();
   }
-  for (const auto& part : this->Parts)
-  {
-    part->endPreparing(nullptr);
-  }
+  this->All.endPreparing(nullptr);
 }
 
-/** Every selection must see every block, also those with nothing to select. */
 std::span<const std::uint8_t> FixedVertices::at(const MeshBlock& block)
 {
-  this->Held.assign(static_cast<std::size_t>(block.vertices()), this->HoldsAll ? 1 : 0);
-  const auto add = [this, &block](Selection& selection)
+  this->Held.assign(static_cast<std::size_t>(block.vertices()), 0);
+  const auto add = [this](const Selection* part)
   {
-    selection.startBlock(block);
-    const std::span<const std::uint8_t> selected = selection.atVertices();
-    for (std::size_t i = 0; i < selected.size(); ++i)
+    for (std::size_t i = 0; i < this->Held.size(); ++i)
     {
-      this->Held[i] |= selected[i];
+      this->Held[i] |= part ? part->atVertices()[i] : 1;
     }
   };
-  for (const auto& part : this->Parts)
-  {
-    add(*part);
-  }
+  this->All.startBlock(block);
+  std::ranges::for_each(this->Parts, add);
   if (this->Boundary)
   {
-    add(*this->Boundary);
+    this->Boundary->startBlock(block);
+    add(this->Boundary.get());
   }
   return this->Held;
 }
@@ -96,22 +79,20 @@ std::span<const std::uint8_t> FixedVertices::at(const MeshBlock& block)
 SelectedVertices::SelectedVertices(
   const Where& where, const StreamInfo& mesh, const std::string& name)
   : Columns(mesh, name)
-  , Selected(
-      Selection::make(where, DataPlace::Vertices, ColumnOwner::Cells, "region", this->Columns))
+  , All(this->Columns)
+  , Selected(this->All.add(where, DataPlace::Vertices, ColumnOwner::Cells, "region"))
 {
 }
-
-SelectedVertices::~SelectedVertices() = default;
 
 void SelectedVertices::add(const MeshBlock& block)
 {
   // In the temporary folder of the system.
-  this->Selected->prepare(block, {});
+  this->All.prepare(block, {});
 }
 
 void SelectedVertices::finish()
 {
-  this->Selected->endPreparing(nullptr);
+  this->All.endPreparing(nullptr);
 }
 
 /** Any vertex in any order, from the bits that the preparation has stored. */

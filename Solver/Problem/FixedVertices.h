@@ -42,14 +42,12 @@ public:
 
 private:
   const Pool& Memory;
-  bool HoldsAll = false;
-  std::vector<std::unique_ptr<Selection>> Parts;
+  Selections All;
+  std::vector<const Selection*> Parts;         ///< null: everywhere
   std::unique_ptr<BoundarySelection> Boundary; ///< held after endPreparing(), if any
   std::int64_t BoundarySize = 0;               ///< vertices
   std::vector<std::uint8_t> Held;
 };
-
-class Selection;
 
 /**
  * The vertices of the boundary, or of the cells with a tag or in a mask. They are found in one pass
@@ -62,7 +60,6 @@ public:
   /** `where`: OnBoundary, or a ColumnTag or ColumnMask of the cells. `name` is that of the mesh in
    * messages. Throws Error if the mesh has no such column. */
   SelectedVertices(const Where& where, const StreamInfo& mesh, const std::string& name);
-  ~SelectedVertices();
 
   /** Adds the next block of the stream, which must have that column and, if the mesh has them, the
    * CellFlags. Throws Error if a value of a mask is not a number. */
@@ -75,7 +72,8 @@ public:
 
 private:
   MeshColumns Columns;
-  std::unique_ptr<Selection> Selected;
+  Selections All;
+  Selection* Selected;
 };
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/Selection.h"
 
+#include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Problem/BoundarySelection.h"
 #include "Solver/Problem/ColumnSelection.h"
 #include "Solver/Problem/NearestSelection.h"
@@ -172,6 +173,65 @@ void Selection::endPreparing(MeshParts* parts)
                                                                         : "face";
     this->Columns.fail(this->Key, std::string("no ") + what + " of the mesh " + this->predicate() +
                                     (parts ? "" : this->instead()));
+  }
+}
+
+Selection* Selections::add(
+  const Where& where, DataPlace place, ColumnOwner preferred, const std::string& key)
+{
+  std::unique_ptr<Selection> made = Selection::make(where, place, preferred, key, this->Columns);
+  return made ? this->All.emplace_back(std::move(made)).get() : nullptr;
+}
+
+/** Only some kinds of selections do; others merely can be checked by a reading. */
+bool Selections::needPreparing() const
+{
+  return std::ranges::any_of(
+    this->All, [](const auto& selection) { return selection->needsPreparing(); });
+}
+
+void Selections::prepare(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
+{
+  this->Columns.memory().setLimit(memoryLimit);
+  this->IsLimited = true;
+  if (!this->All.empty())
+  {
+    forCheckedBlocks(
+      mesh, [&](const MeshBlock& block) { this->prepare(block, scratch); }, true);
+  }
+}
+
+void Selections::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+{
+  for (const auto& selection : this->All)
+  {
+    selection->prepare(block, scratch);
+  }
+}
+
+/** All processes have the same selections and come here in the same order, as MeshParts requires.
+ */
+void Selections::endPreparing(MeshParts* parts)
+{
+  for (const auto& selection : this->All)
+  {
+    selection->endPreparing(parts);
+  }
+  if (this->IsLimited)
+  {
+    // From now on a solve counts this memory within its own limit, see Problem::bytes().
+    this->Columns.memory().setLimit(INT64_MAX);
+    this->IsLimited = false;
+  }
+}
+
+/** Also those that nothing in this block asks for: the marks of open vertices must have no gaps. */
+void Selections::startBlock(const MeshBlock& block)
+{
+  for (const auto& selection : this->All)
+  {
+    selection->startBlock(block);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace smg
@@ -52,6 +53,14 @@ enum class DataPlace
   Cells,
   Facets ///< boundary facets; selections treat all facets
 };
+
+/** The column by which a part of the mesh is selected; null for other parts. */
+inline const std::string* columnOf(const Where& where)
+{
+  const auto* tag = std::get_if<ColumnTag>(&where);
+  const auto* mask = std::get_if<ColumnMask>(&where);
+  return tag ? &tag->column : mask ? &mask->column : nullptr;
+}
 
 /** A range of the cells of a block with their `corners`. */
 struct CellRange
@@ -122,6 +131,35 @@ private:
   OpenValues<std::uint8_t> Open;
   std::int64_t Finalized = 0; ///< of the previous block
   std::span<const std::uint8_t> Current;
+};
+
+/** The selections of a description, which are prepared and pass through the stream together. */
+class Selections
+{
+public:
+  explicit Selections(MeshColumns& columns)
+    : Columns(columns)
+  {
+  }
+
+  /** Adds a selection, see Selection::make(); null: everywhere. */
+  Selection* add(
+    const Where& where, DataPlace place, ColumnOwner preferred, const std::string& key);
+
+  /** Whether the stream must be read before all of them can be evaluated. */
+  bool needPreparing() const;
+  /** Reads the stream, unless there are none, to be followed by endPreparing(). The memory of what
+   * is kept meanwhile is limited. Throws Error for an invalid stream. */
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
+  /** See Selection. */
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
+  void endPreparing(MeshParts* parts);
+  void startBlock(const MeshBlock& block);
+
+private:
+  MeshColumns& Columns;
+  std::vector<std::unique_ptr<Selection>> All;
+  bool IsLimited = false; ///< whether prepare() has limited the memory
 };
 
 /** The vertices in a region. */

@@ -220,7 +220,7 @@ TEST(DistributedFailures, OfDataThatAreNoNumbers)
   const int last = sizeOfTest() - 1;
   const std::string message = messageOfSolve(
     last, [](CellBatch& batch) { batch.source[0] = std::numeric_limits<double>::quiet_NaN(); });
-  EXPECT_TRUE(contains(message, "the source or the field of cell")) << message;
+  EXPECT_TRUE(contains(message, "the source of cell")) << message;
 }
 
 TEST(DistributedFailures, OfHandles)

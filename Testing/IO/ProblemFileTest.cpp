@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Description/ParseWhere.h"
+#include "Solver/Problem/ProblemData.h"
 #include "smg/DescriptionFiles.h"
 
 #include "Testing/IO/RegionFileFixture.h"

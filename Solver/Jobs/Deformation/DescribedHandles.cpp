@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedHandles.h"
-#include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Problem/Coefficient.h"
 #include "Solver/Problem/NearestSelection.h"
 #include "Solver/Problem/Selection.h"
@@ -29,36 +28,9 @@
 namespace smg
 {
 
-/** The implementation of DescribedHandles: the handles of a description, resolved on a mesh. */
-class HandlesOnMesh : public Handles
+/** The handles of a description, resolved on a mesh. */
+struct DescribedHandles::OnMesh
 {
-public:
-  /** Like DescribedHandles. */
-  HandlesOnMesh(
-    const DeformationDescription& description, const StreamInfo& mesh, const std::string& name);
-  HandlesOnMesh(const HandlesOnMesh&) = delete;
-  HandlesOnMesh& operator=(const HandlesOnMesh&) = delete;
-
-  /** The columns that the mesh source must deliver. */
-  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
-  std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
-
-  /** Like DescribedHandles::prepare(). */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
-  void preparePart(
-    MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit);
-  /** Null: the stream was the whole mesh. */
-  void endPreparing(MeshParts* parts);
-
-  /** Throws Error, which names the column and the vertex, if a number is not finite. */
-  void at(const MeshBlock& block, VertexHandles& handles) override;
-  std::int64_t bytes() const override { return this->OfMesh.memory().used(); }
-
-  /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
-   * later ones, and a deformation without motion. Null: the blocks were the whole mesh. */
-  std::vector<std::string> notes(MeshParts* parts) const;
-
-private:
   /** The values of a handle at each vertex. */
   struct Values
   {
@@ -67,7 +39,7 @@ private:
   };
   struct Handle
   {
-    std::unique_ptr<Selection> where;          ///< null: everywhere
+    const Selection* where = nullptr;          ///< null: everywhere
     const NearestSelection* nearest = nullptr; ///< the same, of targets
     std::optional<NamedColumn> mask;           ///< which selects and counts
     HandleMotion motion;                       ///< if there are no values
@@ -76,6 +48,12 @@ private:
     std::int64_t following = 0; ///< vertices so far not held by a later handle
     bool moves = false;         ///< whether one that follows it is moved, rotated or scaled, so far
   };
+
+  OnMesh(const StreamInfo& info, const std::string& name)
+    : mesh(info, name)
+    , selections(this->mesh)
+  {
+  }
 
   Handle compile(const HandleDescription& handle, const std::string& key);
   /** Adds the targets of nearest vertices. */
@@ -90,66 +68,71 @@ private:
     VertexHandles& to) const;
   void setValues(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
     VertexHandles& to) const;
+  /** See DescribedHandles::notes(). Null: the blocks were the whole mesh. */
+  std::vector<std::string> notes(MeshParts* parts) const;
 
-  MeshColumns OfMesh;
-  std::vector<Handle> All;
-  std::vector<std::uint8_t> Everywhere; ///< 1 at each vertex of a block
-  std::vector<Handle*> Followed;        ///< the handle of each vertex of a block; null: free
+  MeshColumns mesh;
+  Selections selections;
+  std::vector<Handle> handles;
+  std::vector<std::uint8_t> everywhere; ///< 1 at each vertex of a block
+  std::vector<Handle*> followed;        ///< the handle of each vertex of a block; null: free
 };
 
 DescribedHandles::DescribedHandles(
   const DeformationDescription& description, const StreamInfo& mesh, const std::string& name)
-  : OnMesh(std::make_unique<HandlesOnMesh>(description, mesh, name))
+  : Data(std::make_unique<OnMesh>(mesh, name))
 {
+  for (std::size_t k = 0; k < description.handles.size(); ++k)
+  {
+    this->Data->handles.push_back(
+      this->Data->compile(description.handles[k], "handles[" + std::to_string(k) + "]"));
+  }
 }
 
 DescribedHandles::~DescribedHandles() = default;
 
 std::vector<std::string> DescribedHandles::vertexColumns() const
 {
-  return this->OnMesh->vertexColumns();
+  return this->Data->mesh.vertexColumns();
 }
 
 std::vector<std::string> DescribedHandles::cellColumns() const
 {
-  return this->OnMesh->cellColumns();
+  return this->Data->mesh.cellColumns();
 }
 
 void DescribedHandles::prepare(
   MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OnMesh->prepare(mesh, scratch, memoryLimit);
+  this->preparePart(mesh, scratch, memoryLimit);
+  this->Data->selections.endPreparing(nullptr);
 }
 
 void DescribedHandles::preparePart(
   MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OnMesh->preparePart(part, scratch, memoryLimit);
+  this->Data->selections.prepare(part, scratch, memoryLimit);
+}
+
+/** A handle without a vertex is an error, which names its place in the description. */
+void DescribedHandles::endPreparing(MeshParts& parts)
+{
+  this->Data->selections.endPreparing(&parts);
 }
 
 std::int64_t DescribedHandles::bytes() const
 {
-  return this->OnMesh->bytes();
-}
-
-void DescribedHandles::endPreparing(MeshParts& parts)
-{
-  this->OnMesh->endPreparing(&parts);
-}
-
-void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
-{
-  this->OnMesh->at(block, handles);
+  return this->Data->mesh.memory().used();
 }
 
 std::vector<std::string> DescribedHandles::notes() const
 {
-  return this->OnMesh->notes(nullptr);
+  return this->Data->notes(nullptr);
 }
 
 std::vector<std::string> DescribedHandles::notes(MeshParts& parts) const
 {
-  return this->OnMesh->notes(&parts);
+  return this->Data->notes(&parts);
 }
 
 namespace
@@ -175,34 +158,23 @@ bool moves(const MeshBlock& block, std::size_t i, const VertexHandles& handles)
 
 } // namespace
 
-HandlesOnMesh::HandlesOnMesh(
-  const DeformationDescription& description, const StreamInfo& mesh, const std::string& name)
-  : OfMesh(mesh, name)
-{
-  for (std::size_t k = 0; k < description.handles.size(); ++k)
-  {
-    this->All.push_back(
-      this->compile(description.handles[k], "handles[" + std::to_string(k) + "]"));
-  }
-}
-
-HandlesOnMesh::Handle HandlesOnMesh::compile(
+DescribedHandles::OnMesh::Handle DescribedHandles::OnMesh::compile(
   const HandleDescription& description, const std::string& key)
 {
   Handle handle;
   handle.key = key;
-  handle.where = Selection::make(
-    description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region", this->OfMesh);
+  handle.where = this->selections.add(
+    description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region");
   // The mask of an earlier filter counts how many handles hold the vertex.
   const auto* mask = std::get_if<ColumnMask>(&description.where);
-  if (mask && !this->OfMesh.isOfCells(mask->column, ColumnOwner::Vertices))
+  if (mask && !this->mesh.isOfCells(mask->column, ColumnOwner::Vertices))
   {
-    handle.mask = this->OfMesh.require(mask->column, ColumnOwner::Vertices, key + ".region.mask");
+    handle.mask = this->mesh.require(mask->column, ColumnOwner::Vertices, key + ".region.mask");
   }
   if (const auto* values = std::get_if<HandleDescription::Values>(&description.motion))
   {
     const auto valueOf = [&](const DataValue& value, const ValueRules& rules, const char* member)
-    { return Coefficient(value, DataPlace::Vertices, rules, key + member, this->OfMesh); };
+    { return Coefficient(value, DataPlace::Vertices, rules, key + member, this->mesh); };
     handle.values.emplace(Values{ valueOf(values->target, vectorRules(true), ".target"),
       valueOf(values->rotation, vectorRules(false), ".rotation"),
       valueOf(values->logScale, { .components = { 1 } }, ".logScale"), {} });
@@ -220,7 +192,7 @@ HandlesOnMesh::Handle HandlesOnMesh::compile(
   return handle;
 }
 
-void HandlesOnMesh::compileTargets(const HandleDescription& description,
+void DescribedHandles::OnMesh::compileTargets(const HandleDescription& description,
   const std::vector<std::array<double, 3>>& targets, Handle& handle)
 {
   const auto* nearest = std::get_if<NearestVertices>(&description.where);
@@ -228,24 +200,25 @@ void HandlesOnMesh::compileTargets(const HandleDescription& description,
   {
     const std::string points =
       nearest ? "the region " + std::to_string(nearest->points.size()) : "the region no nearest";
-    this->OfMesh.fail(handle.key + ".target", "has " + std::to_string(targets.size()) +
-                                                " positions, " + points +
-                                                " points: give one position for each");
+    this->mesh.fail(handle.key + ".target", "has " + std::to_string(targets.size()) +
+                                              " positions, " + points +
+                                              " points: give one position for each");
   }
   for (const std::array<double, 3>& target : targets)
   {
     if (!std::ranges::all_of(target, [](double number) { return std::isfinite(number); }))
     {
-      this->OfMesh.fail(handle.key + ".target", "must have finite coordinates");
+      this->mesh.fail(handle.key + ".target", "must have finite coordinates");
     }
   }
-  // Selection::make() has made it of the NearestVertices above.
-  handle.nearest = dynamic_cast<const NearestSelection*>(handle.where.get());
+  // It has been made of the NearestVertices above.
+  handle.nearest = dynamic_cast<const NearestSelection*>(handle.where);
   handle.values->targets = targets;
 }
 
 /** Starts a block in the selection and in the values, which must see every block. */
-std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const MeshBlock& block)
+std::span<const std::uint8_t> DescribedHandles::OnMesh::startBlock(
+  Handle& handle, const MeshBlock& block)
 {
   if (handle.values)
   {
@@ -255,36 +228,41 @@ std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const Me
   }
   if (!handle.where)
   {
-    this->Everywhere.assign(static_cast<std::size_t>(block.vertices()), 1);
-    return this->Everywhere;
+    this->everywhere.assign(static_cast<std::size_t>(block.vertices()), 1);
+    return this->everywhere;
   }
-  if (handle.where->needsPreparing())
-  {
-    throw Error("What " + handle.key +
-                " holds is known only when the mesh has been read once before: call "
-                "DescribedHandles::prepare().");
-  }
-  handle.where->startBlock(block);
   return handle.where->atVertices();
 }
 
-/** Applies the handles to the vertices of a block in their order. */
-void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
+/** Applies the handles to the vertices of a block in their order. Throws Error, which names the
+ * column and the vertex, if a number is not finite. */
+void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
 {
-  // Each vertex follows the last handle that holds it; notes() needs to know how many follow each.
-  this->Followed.assign(static_cast<std::size_t>(block.vertices()), nullptr);
-  for (Handle& handle : this->All)
+  OnMesh& data = *this->Data;
+  for (const OnMesh::Handle& handle : data.handles)
   {
-    const std::span<const std::uint8_t> held = this->startBlock(handle, block);
-    this->hold(handle, block, held, handles);
-    for (std::size_t i = 0; i < held.size(); ++i)
+    if (handle.where && handle.where->needsPreparing())
     {
-      this->Followed[i] = held[i] ? &handle : this->Followed[i];
+      throw Error("What " + handle.key +
+                  " holds is known only when the mesh has been read once before: call "
+                  "DescribedHandles::prepare().");
     }
   }
-  for (std::size_t i = 0; i < this->Followed.size(); ++i)
+  data.selections.startBlock(block);
+  // Each vertex follows the last handle that holds it; notes() needs to know how many follow each.
+  data.followed.assign(static_cast<std::size_t>(block.vertices()), nullptr);
+  for (OnMesh::Handle& handle : data.handles)
   {
-    if (Handle* handle = this->Followed[i])
+    const std::span<const std::uint8_t> held = data.startBlock(handle, block);
+    data.hold(handle, block, held, handles);
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      data.followed[i] = held[i] ? &handle : data.followed[i];
+    }
+  }
+  for (std::size_t i = 0; i < data.followed.size(); ++i)
+  {
+    if (OnMesh::Handle* handle = data.followed[i])
     {
       ++handle->following;
       handle->moves = handle->moves || (handle->values && moves(block, i, handles));
@@ -294,7 +272,7 @@ void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
 
 /** Counts the handles that hold a vertex, which is reported, and sets what this one prescribes
  * there. */
-void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
+void DescribedHandles::OnMesh::hold(const Handle& handle, const MeshBlock& block,
   std::span<const std::uint8_t> held, VertexHandles& to) const
 {
   const Column* counts = handle.mask ? &handle.mask->in(block) : nullptr;
@@ -312,7 +290,7 @@ void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
 }
 
 /** Moves held vertices by the affine map; rotation and scale are the same for all of them. */
-void HandlesOnMesh::setMotion(const Handle& handle, const MeshBlock& block,
+void DescribedHandles::OnMesh::setMotion(const Handle& handle, const MeshBlock& block,
   std::span<const std::uint8_t> held, VertexHandles& to) const
 {
   for (std::size_t i = 0; i < held.size(); ++i)
@@ -327,7 +305,7 @@ void HandlesOnMesh::setMotion(const Handle& handle, const MeshBlock& block,
   }
 }
 
-void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
+void DescribedHandles::OnMesh::setValues(const Handle& handle, const MeshBlock& block,
   std::span<const std::uint8_t> held, VertexHandles& to) const
 {
   const Values& values = *handle.values;
@@ -344,8 +322,8 @@ void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
         given.atVertex(i, of);
         if (!std::all_of(of, of + components, [](double number) { return std::isfinite(number); }))
         {
-          this->OfMesh.fail(handle.key, value.name() + " is not a finite number at " +
-                                          this->OfMesh.vertexName(block, i) + ", which is held");
+          this->mesh.fail(handle.key, value.name() + " is not a finite number at " +
+                                        this->mesh.vertexName(block, i) + ", which is held");
         }
       }
     }
@@ -372,51 +350,10 @@ void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
   set(values.logScale, to.logScale);
 }
 
-void HandlesOnMesh::prepare(
-  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
-{
-  this->preparePart(mesh, scratch, memoryLimit);
-  this->endPreparing(nullptr);
-}
-
-/** Reads the stream even if no selection needs it: a handle that holds nothing is an error. */
-void HandlesOnMesh::preparePart(
-  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
-{
-  this->OfMesh.memory().setLimit(memoryLimit);
-  forCheckedBlocks(
-    part,
-    [&](const MeshBlock& block)
-    {
-      for (Handle& handle : this->All)
-      {
-        if (handle.where)
-        {
-          handle.where->prepare(block, scratch);
-        }
-      }
-    },
-    true);
-}
-
-/** A handle without a vertex is an error, which names its place in the description. */
-void HandlesOnMesh::endPreparing(MeshParts* parts)
-{
-  for (Handle& handle : this->All)
-  {
-    if (handle.where)
-    {
-      handle.where->endPreparing(parts);
-    }
-  }
-  // A deformation counts this memory within its own limit, see Handles::bytes().
-  this->OfMesh.memory().setLimit(INT64_MAX);
-}
-
-std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
+std::vector<std::string> DescribedHandles::OnMesh::notes(MeshParts* parts) const
 {
   std::vector<std::int64_t> following, moving;
-  for (const Handle& handle : this->All)
+  for (const Handle& handle : this->handles)
   {
     following.push_back(handle.following);
     moving.push_back(handle.following > 0 && handle.moves ? 1 : 0);
@@ -433,7 +370,7 @@ std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
     // All of its vertices follow later handles: probably not intended, but not wrong.
     if (following[k] == 0)
     {
-      notes.push_back(this->All[k].key + " holds nothing that a later handle does not hold.");
+      notes.push_back(this->handles[k].key + " holds nothing that a later handle does not hold.");
     }
   }
   if (std::ranges::count(moving, 0) == std::ssize(moving))

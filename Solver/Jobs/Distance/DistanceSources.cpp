@@ -15,13 +15,14 @@ namespace smg
 DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place,
   const StreamInfo& mesh, const std::string& name, Pool& memory)
   : Columns(mesh, name, &memory)
+  , All(this->Columns)
 {
   // For the column of sources, which names them by their numbers in the original file.
   this->Columns.requireIds();
   for (std::size_t k = 0; k < from.size(); ++k)
   {
-    this->Selections.push_back(Selection::make(
-      from[k], place, ColumnOwner::Vertices, "from[" + std::to_string(k) + "]", this->Columns));
+    this->Parts.push_back(
+      this->All.add(from[k], place, ColumnOwner::Vertices, "from[" + std::to_string(k) + "]"));
   }
 }
 
@@ -34,49 +35,41 @@ std::unique_ptr<MeshSource> DistanceSources::read(const StoredMesh& mesh) const
  * reading finds all of them prepared. */
 void DistanceSources::prepare(const StoredMesh& mesh, const std::filesystem::path& scratch)
 {
-  const auto needsPreparing = [](const std::unique_ptr<Selection>& selection)
-  { return selection && selection->needsPreparing(); };
-  if (std::ranges::none_of(this->Selections, needsPreparing))
+  if (!this->All.needPreparing())
   {
     return;
   }
   const std::unique_ptr<MeshSource> source = this->read(mesh);
   for (MeshBlock block; source->next(block);)
   {
-    for (const auto& selection : this->Selections)
-    {
-      if (selection)
-      {
-        selection->prepare(block, scratch);
-      }
-    }
+    this->All.prepare(block, scratch);
   }
   // Prepared is still false: this reports empty selections.
   this->finish();
   this->Prepared = true;
 }
 
-void DistanceSources::start(Selection& selection, const MeshBlock& block) const
+void DistanceSources::start(const MeshBlock& block)
 {
   // Without a reading beforehand, this one counts what is selected; no such selection needs a
   // scratch file.
-  this->Prepared ? selection.startBlock(block) : selection.prepare(block, {});
+  this->Prepared ? this->All.startBlock(block) : this->All.prepare(block, {});
 }
 
 /** The union of the selections. */
 std::span<const std::uint8_t> DistanceSources::verticesAt(const MeshBlock& block)
 {
+  this->start(block);
   this->Selected.assign(static_cast<std::size_t>(block.vertices()), 0);
-  for (const auto& selection : this->Selections)
+  for (const Selection* part : this->Parts)
   {
-    if (!selection)
+    if (!part)
     {
       std::ranges::fill(this->Selected, 1);
       continue;
     }
-    this->start(*selection, block);
     std::ranges::transform(
-      this->Selected, selection->atVertices(), this->Selected.begin(), std::bit_or<>());
+      this->Selected, part->atVertices(), this->Selected.begin(), std::bit_or<>());
   }
   return this->Selected;
 }
@@ -84,18 +77,18 @@ std::span<const std::uint8_t> DistanceSources::verticesAt(const MeshBlock& block
 /** The union of the selections; interior facets are included, and are sorted out by the caller. */
 std::span<const std::uint8_t> DistanceSources::facetsAt(const MeshBlock& block)
 {
+  this->start(block);
   const auto corners = static_cast<unsigned>(cornersOf(this->Columns.cellType()));
   this->Selected.assign(block.corners.size() / corners, 0);
   this->More.resize(this->Selected.size());
-  for (const auto& selection : this->Selections)
+  for (const Selection* part : this->Parts)
   {
-    if (!selection)
+    if (!part)
     {
       std::ranges::fill(this->Selected, static_cast<std::uint8_t>((1U << corners) - 1U));
       continue;
     }
-    this->start(*selection, block);
-    selection->atFacets({ block, 0, block.corners }, this->More);
+    part->atFacets({ block, 0, block.corners }, this->More);
     std::ranges::transform(this->Selected, this->More, this->Selected.begin(), std::bit_or<>());
   }
   return this->Selected;
@@ -110,12 +103,9 @@ std::int64_t DistanceSources::numberOf(const MeshBlock& block, std::size_t i) co
 /** After a reading beforehand, empty selections have been reported already. */
 void DistanceSources::finish()
 {
-  for (const auto& selection : this->Selections)
+  if (!this->Prepared)
   {
-    if (selection && !this->Prepared)
-    {
-      selection->endPreparing(nullptr);
-    }
+    this->All.endPreparing(nullptr);
   }
 }
 

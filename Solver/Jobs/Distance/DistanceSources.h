@@ -40,10 +40,11 @@ public:
 
 private:
   /** Starts the next block. */
-  void start(Selection& selection, const MeshBlock& block) const;
+  void start(const MeshBlock& block);
 
   MeshColumns Columns;
-  std::vector<std::unique_ptr<Selection>> Selections; ///< null: everywhere
+  Selections All;
+  std::vector<const Selection*> Parts; ///< null: everywhere
   bool Prepared = false;
   std::vector<std::uint8_t> Selected; ///< of the block
   std::vector<std::uint8_t> More;     ///< of one of the selections

@@ -264,13 +264,13 @@ void ProblemResults::close(std::int64_t i, double* numbers)
   VertexTerms terms(numbers);
   const double mass = this->Vertices.mass[i];
   terms.mass() = mass;
-  terms.screening() =
-    this->Vertices.screening[i] * mass + (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
+  terms.screening() = this->Vertices.densities[ScreeningDensity][i] * mass +
+                      (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
   terms.transfer() = this->FacetLoads ? this->FacetLoads->rowSum(i) : 0.0;
   terms.edges() = this->FacetLoads ? this->EdgeWeights[i] : 0.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    terms.source(k) = mass * this->Vertices.sources.at(i)[k] +
+    terms.source(k) = mass * this->Vertices.densities[SourceDensity].at(i)[k] +
                       (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
     terms.inflow(k) = this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0;
     terms.outflow(k) = terms.outflowTerms(k) = 0.0;

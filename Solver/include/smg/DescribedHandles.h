@@ -15,7 +15,6 @@
 namespace smg
 {
 
-class HandlesOnMesh;
 class MeshParts;
 
 /**
@@ -80,7 +79,8 @@ public:
   std::vector<std::string> notes(MeshParts& parts) const;
 
 private:
-  std::unique_ptr<HandlesOnMesh> OnMesh;
+  struct OnMesh;
+  std::unique_ptr<OnMesh> Data;
 };
 
 } // namespace smg

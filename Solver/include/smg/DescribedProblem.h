@@ -16,7 +16,6 @@ namespace smg
 {
 
 class MeshParts;
-class ProblemOnMesh;
 
 /**
  * The problem of a ProblemDescription on a mesh stream.
@@ -82,7 +81,8 @@ public:
   std::int64_t bytes() const override;
 
 private:
-  std::unique_ptr<ProblemOnMesh> OnMesh;
+  struct OnMesh;
+  std::unique_ptr<OnMesh> Data;
 };
 
 } // namespace smg
