@@ -280,18 +280,22 @@ struct vtkStreamingSolver::Internals
 
   smg::SolveSummary solveInMemory(vtkPointSet& input, std::vector<double>& values)
   {
+    if (smg::isPreview(input) && input.GetNumberOfCells() == 0)
+    {
+      return this->summaryOfNothing(); // of a preview that is in another process
+    }
     try
     {
-      const smg::PreviewDoubt::Solve solveCoarser = [this](
-                                                      vtkPointSet& mesh, std::vector<double>& found)
-      { return this->Self.SolveForDoubt(mesh, smg::progressOf(this->Self), found); };
+      const smg::ProgressFunction progress = smg::progressOf(this->Self);
+      const auto solveCoarser = [&](vtkPointSet& mesh, std::vector<double>& found)
+      { return this->Self.MakeCoarserTask(mesh)->solveInMemory(mesh, progress, found).columns; };
       std::optional<smg::PreviewDoubt> doubt;
       if (smg::isPreview(input))
       {
         doubt.emplace(input, this->Coarser, solveCoarser);
       }
       smg::SolveSummary summary =
-        this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
+        this->Self.MakeTask(input)->solveInMemory(input, progress, values);
       summary.fullPoints = smg::pointsBehind(input);
       summary.previewPoints = summary.fullPoints > 0 ? input.GetNumberOfPoints() : 0;
       if (doubt)
@@ -306,6 +310,16 @@ struct vtkStreamingSolver::Internals
     {
       return smg::SolveSummary::failed(error.what());
     }
+  }
+
+  /** For a piece without points: the last summary is kept. */
+  smg::SolveSummary summaryOfNothing() const
+  {
+    smg::SolveSummary summary = this->Summary;
+    summary.error.clear();
+    summary.columns = 3; // so many at most, of no points
+    summary.converged = summary.converged || summary.report.empty();
+    return summary;
   }
 
   /** The failure of a solve, which process 0 reports for all. */

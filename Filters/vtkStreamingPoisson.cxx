@@ -275,19 +275,6 @@ bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool isWhole)
   }
 }
 
-smg::SolveSummary vtkStreamingPoisson::SolveInMemory(
-  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
-{
-  if (input.GetNumberOfPoints() == 0)
-  {
-    return this->SummaryOfNothing(1);
-  }
-  smg::PoissonTask task = this->Internal->task(input);
-  task.options.progress = progress;
-  this->Internal->Solved = task.problem;
-  return smg::solveOnPreview(input, task, values);
-}
-
 smg::SolveSummary vtkStreamingPoisson::SolveInProcesses(
   vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values)
 {

@@ -2,13 +2,16 @@
 #include "Filters/Regions/vtkRegionArrays.h"
 
 #include "Filters/Pieces/vtkReplacedArray.h"
+#include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <variant>
 
 namespace smg
@@ -57,9 +60,9 @@ void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& h
   }
 }
 
-std::vector<Where> regionsOf(vtkPointSet& mesh)
+std::vector<Where> placesOn(vtkPointSet& mesh, const char* text, const char* property)
 {
-  std::vector<Where> regions;
+  std::vector<Where> places;
   vtkStringArray* names = fieldTexts(mesh, MeshRegionsName);
   for (vtkIdType k = 0; names && k < names->GetNumberOfValues(); ++k)
   {
@@ -67,10 +70,14 @@ std::vector<Where> regionsOf(vtkPointSet& mesh)
     vtkDataArray* array = mesh.GetPointData()->GetArray(names->GetValue(k).c_str());
     if (array)
     {
-      regions.emplace_back(ColumnMask{ names->GetValue(k) });
+      places.emplace_back(ColumnMask{ names->GetValue(k) });
     }
   }
-  return regions;
+  if (text && *text)
+  {
+    std::ranges::move(readPlacesText(text, property), std::back_inserter(places));
+  }
+  return places;
 }
 
 void dropEmptyRegions(vtkPointSet& preview, std::vector<Where>& places)

@@ -19,8 +19,9 @@ inline constexpr const char* MeshRegionsName = "MeshRegions";
  * Throws Error if the mesh has an array of that name which is no region. */
 void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held);
 
-/** The regions of the mesh. */
-std::vector<Where> regionsOf(vtkPointSet& mesh);
+/** The regions of the mesh, and the places that `text`, the property `property` of a filter, lists
+ * in JSON, if there is one. Throws Error. */
+std::vector<Where> placesOn(vtkPointSet& mesh, const char* text, const char* property);
 
 /** Takes regions without a point of a preview out of `places`: those of the mesh, which may have
  * some, lie between its points. */

@@ -32,9 +32,4 @@ void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
  */
 std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task);
 
-/** Solves a problem in memory on the preview of a mesh and returns the values at the points of the
- * preview, with a note in the report. Throws Error and Cancelled. */
-SolveSummary solveOnPreview(
-  vtkPointSet& preview, const PoissonTask& task, std::vector<double>& values);
-
 } // namespace smg

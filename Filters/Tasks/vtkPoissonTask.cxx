@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkPoissonTask.h"
 
+#include "Filters/Pieces/vtkPieceBlock.h"
 #include "Filters/Tasks/vtkPieceResults.h"
 #include "IO/Files/PartialProgress.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
@@ -113,6 +115,41 @@ std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
   solved.finish(report);
   report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
   return solution;
+}
+
+SolveSummary PoissonTask::solveInMemory(
+  vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values)
+{
+  this->check();
+  values.clear();
+  const PieceBlock mesh(preview, namedColumns(this->problem));
+  DescribedProblem problem(this->problem, mesh.info());
+  problem.prepare(*mesh.source(), this->options.scratch, this->options.memoryLimit);
+  SolveOptions given = this->options;
+  given.progress = progress;
+  given.inCore = true;
+  given.checkpoint = {};
+  given.again = [&mesh] { return mesh.source(); };
+  const std::unique_ptr<Solution> solution = smg::solve(*mesh.source(), problem, given);
+  values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
+  solution->read(0, mesh.info().vertices, values);
+
+  Report report = solution->report();
+  ProblemResults results(mesh.info(), problem, *solution);
+  results.add(mesh.block());
+  results.finish(report);
+  const std::vector<Column>& columns = mesh.block().vertexColumns;
+  if (const std::ptrdiff_t ids = findColumn(columns, OriginalIdSpec); ids >= 0)
+  {
+    const auto numbers = columns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+    renumberExtremes(
+      report, [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+  }
+  report.notes.push_back(
+    "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
+    " vertices: it approximates that on the full mesh, which is solved on when "
+    "it is saved, or with Solve: Full Mesh");
+  return SolveSummary::of(report, problem.columns());
 }
 
 std::string ChosenArrays::named(int index) const

@@ -34,6 +34,8 @@ public:
   AddedValues added(const StreamInfo& info) const override;
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
     const ProgressFunction& progress, Report& report) const override;
+  SolveSummary solveInMemory(
+    vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values) override;
 
 private:
   int columnsOn(const StreamInfo& info) const;
