@@ -24,6 +24,7 @@ struct SimplifyCommand : CommonOptions
 {
   std::filesystem::path in, out;
   InputOptions input;
+  smg::SimplifyTarget target;
   smg::SimplifyOptions simplify;
   bool dryRun = false;
 
@@ -40,7 +41,8 @@ smg::JobEstimate SimplifyCommand::estimate() const
   conversion.scratch = this->scratchPlace();
   smg::SimplifyOptions options = this->simplify;
   options.memoryLimit = this->memoryBytes(options.memoryLimit);
-  return smg::simplifyEstimate({ this->in, conversion }, this->out, options, conversion);
+  return smg::simplifyEstimate(
+    { this->in, conversion }, this->target, this->out, options, conversion);
 }
 
 /** The times are those of the conversion, too. */
@@ -58,9 +60,9 @@ smg::SimplifyReport SimplifyCommand::simplified()
     this->simplify.threads = this->threads;
     this->simplify.scratch = this->scratch;
     this->simplify.checkpoint = this->checkpoint;
-    this->simplify.meshIdentity = mesh->reader().fingerprint();
     this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
-    smg::SimplifyReport report = smg::simplify(mesh->reader(), this->out, this->simplify);
+    smg::SimplifyReport report =
+      smg::simplify(mesh->reader(), this->target, this->out, this->simplify);
     report.seconds = timer.seconds();
     report.cpu_seconds = smg::processSeconds() - cpu;
     return report;
@@ -125,10 +127,10 @@ void addSimplifyCommand(CLI::App& program, Action& action)
         " with the columns of the vertices of IN, and with OriginalId, the number that each vertex "
         "has in IN; or any other format of surfaces that is written")
     ->required();
-  command->add_option("--vertices", options->simplify.vertices, "Maximum number of vertices")
+  command->add_option("--vertices", options->target.vertices, "Maximum number of vertices")
     ->check(CLI::Range(std::int64_t(4), std::int64_t(1) << 40))
     ->type_name("N");
-  command->add_option("--error", options->simplify.error, "Largest error, in the unit of the mesh")
+  command->add_option("--error", options->target.error, "Largest error, in the unit of the mesh")
     ->check(
       [](const std::string& given)
       {
@@ -145,7 +147,7 @@ void addSimplifyCommand(CLI::App& program, Action& action)
   command->callback(
     [options, &action]
     {
-      if (options->simplify.vertices == 0 && options->simplify.error == 0.0)
+      if (options->target.vertices == 0 && options->target.error == 0.0)
       {
         throw CLI::RequiredError("--vertices, --error or both");
       }
