@@ -14,7 +14,7 @@
 #include "IO/Order/Assembly/CellFlagger.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
-#include "IO/Order/Search/TakeIsolated.h"
+#include "IO/Order/Search/FileOrder.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Mesh/AddedColumn.h"
