@@ -3,7 +3,6 @@
 
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/Bodies.h"
-#include "IO/Simplification/VertexClustering.h"
 #include "smg/Error.h"
 
 #include <algorithm>
