@@ -7,7 +7,6 @@
 #include "Filters/Pieces/vtkCoarserPreview.h"
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Tasks/vtkPreviewDoubt.h"
-#include "Filters/Tasks/vtkSharedRequest.h"
 #include "Filters/Tasks/vtkSolutionExchange.h"
 #include "Filters/Tasks/vtkSolveEstimate.h"
 #include "Filters/Tasks/vtkStreamedSolve.h"
@@ -54,9 +53,9 @@ struct vtkStreamingSolver::Internals
     smg::PieceInput input(this->Self, 0);
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
     vtkSmartPointer<vtkPointSet> present;
-    exchange.together([&] { present = smg::bring(input, request, exchange); });
+    exchange.together([&] { present = smg::fetchPiece(input, request, exchange); });
     const bool isOrdinary =
-      !exchange.isParallel() && this->bringWhole(input, request, inputInfo, present);
+      !exchange.isParallel() && this->fetchWhole(input, request, inputInfo, present);
     if (isOrdinary && request.Piece > 0)
     {
       vtkDataObject::GetData(outputInfo)->Initialize(); // piece 0 is all of it
@@ -137,7 +136,7 @@ struct vtkStreamingSolver::Internals
 
   /** Brings all of an ordinary mesh, which is no piece of a mesh stream; returns whether it is one.
    * What is not for the memory is solved on as on a file. */
-  bool bringWhole(smg::PieceInput& input, const smg::PieceRequest& request,
+  bool fetchWhole(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformation* inputInfo, vtkSmartPointer<vtkPointSet>& present)
   {
     // A piece may look like that of a stream where the whole does not.
@@ -245,28 +244,28 @@ struct vtkStreamingSolver::Internals
     }
     try
     {
-      smg::StreamedSolve::Pulling pulling;
-      pulling.pieces = smg::PieceCount::within(
+      smg::StreamedSolve::PieceReading reading;
+      reading.pieces = smg::PieceCount::within(
         this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
       if (asWhole)
       {
-        pulling.pieces.given = 1;
+        reading.pieces.given = 1;
       }
-      pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
-      pulling.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
-      pulling.memory = std::int64_t(this->Self.MemoryLimit) << 20;
-      pulling.threads = this->Self.NumberOfThreads;
+      reading.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+      reading.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
+      reading.memory = std::int64_t(this->Self.MemoryLimit) << 20;
+      reading.threads = this->Self.NumberOfThreads;
       smg::Progress progress(smg::progressOf(this->Self));
       const std::unique_ptr<smg::StreamedTask> task = this->Self.MakeTask(present);
       const std::filesystem::path file = smg::unchangedFile(this->Self, task->columns());
       if (!file.empty())
       {
-        this->Streamed.solveFile(file, *task, pulling, progress);
+        this->Streamed.solveFile(file, *task, reading, progress);
       }
       else
       {
-        isOrdinary ? this->Streamed.solveWhole(present, *task, pulling, progress)
-                   : this->Streamed.solve(input, *task, pulling, progress);
+        isOrdinary ? this->Streamed.solveWhole(present, *task, reading, progress)
+                   : this->Streamed.solve(input, *task, reading, progress);
       }
     }
     catch (const std::exception& error)
@@ -367,7 +366,7 @@ struct vtkStreamingSolver::Internals
       {
         if (!exchange.isParallel())
         {
-          present = smg::bring(input, request, exchange);
+          present = smg::fetchPiece(input, request, exchange);
         }
         if (present->GetNumberOfPoints() > 0)
         {

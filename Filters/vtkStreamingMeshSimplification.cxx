@@ -35,7 +35,7 @@ namespace
 {
 
 /** The share of reading the input in the progress. */
-constexpr double PullShare = 0.5;
+constexpr double ReadShare = 0.5;
 /** The scratch file with a copy of the mesh. */
 constexpr const char* Copy = "mesh.vsm";
 /** Of the input: all that it has. */
@@ -87,7 +87,7 @@ struct vtkStreamingMeshSimplification::Internals
             .threads = this->Self.NumberOfThreads,
             .codec = smg::Codec::Lz4,
             .scratch = this->Scratch->path(),
-            .progress = smg::partOf(smg::progressOf(this->Self), PullShare, 1.0) });
+            .progress = smg::partOf(smg::progressOf(this->Self), ReadShare, 1.0) });
       smg::FileDescriptor::removeClosed(*this->Scratch / Copy);
       this->Result.emplace(result);
       this->Outcome = sentence(this->Report);
@@ -114,7 +114,7 @@ struct vtkStreamingMeshSimplification::Internals
         smg::JobEstimate estimate = smg::simplifyEstimate(
           mesh, this->target(), "simplified.vsm", { .memoryLimit = this->memory() }, places);
         const bool isCopied = smg::unchangedFile(this->Self, AllColumns).empty();
-        estimate.cpu_seconds += isCopied ? smg::pullSeconds(mesh.info) : 0.0;
+        estimate.cpu_seconds += isCopied ? smg::readingSeconds(mesh.info) : 0.0;
         // The copy and the result are compressed less than a file that is saved, see
         // solveEstimate().
         estimate.scratch_bytes = std::max(
@@ -148,7 +148,7 @@ struct vtkStreamingMeshSimplification::Internals
       return whole;
     }
     const std::filesystem::path copy = *this->Scratch / Copy;
-    const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, PullShare);
+    const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, ReadShare);
     if (!smg::hasSeveralProcesses() && smg::isOrdinaryMesh(present) && !smg::isPreview(present))
     {
       vtkDataObject* mesh = request.Pieces > 1 ? input.update(0, 1, false) : &present;
