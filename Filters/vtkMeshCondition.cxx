@@ -2,8 +2,8 @@
 #include "Filters/vtkMeshCondition.h"
 
 #include "Filters/Regions/ConditionText.h"
-#include "Filters/Regions/vtkConditionList.h"
 #include "Filters/Regions/vtkHeldPoints.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkObjectFactory.h"

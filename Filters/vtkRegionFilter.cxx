@@ -2,7 +2,6 @@
 #include "Filters/vtkRegionFilter.h"
 
 #include "Filters/Pieces/vtkPieceRequest.h"
-#include "Filters/Regions/vtkFunctionRegion.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkMarkedRegion.h"
 #include "Filters/Regions/vtkPointRegion.h"
@@ -89,7 +88,7 @@ struct vtkRegionFilter::Internals
   }
 
   /** Updates the input to the requested piece and determines its held points. */
-  vtkPointSet& bring(smg::PieceInput& input, const smg::PieceRequest& request,
+  vtkPointSet& fetchPiece(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformationVector** inputVector, smg::HeldPoints& held)
   {
     const bool isElsewhere = this->Self.IsElsewhere();
@@ -133,8 +132,8 @@ struct vtkRegionFilter::Internals
     smg::Progress progress(smg::progressOf(this->Self));
     const auto warn = [this](const std::string& sentence) { this->FarPoints.warn(sentence); };
     const smg::RegionContext context{ input, mesh, selection, stamp, progress, warn };
-    return this->isOfPoints() ? this->Region.bring(request, context, held)
-                              : this->Marked.bring(request, context, held);
+    return this->isOfPoints() ? this->Region.fetchPiece(request, context, held)
+                              : this->Marked.fetchPiece(request, context, held);
   }
 
   /** Counts the held points; at the end of the mesh, all requested points must have been found. */
@@ -343,7 +342,7 @@ int vtkRegionFilter::RequestData(
       this->Check();
       smg::PieceInput input(*this, 0);
       smg::HeldPoints held;
-      vtkPointSet& piece = this->Internal->bring(input, request, inputVector, held);
+      vtkPointSet& piece = this->Internal->fetchPiece(input, request, inputVector, held);
       const bool holds = !this->IsElsewhere();
       if (holds)
       {

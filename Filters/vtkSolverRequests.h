@@ -7,7 +7,6 @@
 #include "Filters/Pieces/vtkCoarserPreview.h"
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Tasks/vtkPreviewDoubt.h"
-#include "Filters/Tasks/vtkSharedRequest.h"
 #include "Filters/Tasks/vtkSolutionExchange.h"
 #include "Filters/Tasks/vtkSolveEstimate.h"
 #include "Filters/Tasks/vtkStreamedSolve.h"
@@ -54,9 +53,9 @@ struct vtkStreamingSolver::Internals
     smg::PieceInput input(this->Self, 0);
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
     vtkSmartPointer<vtkPointSet> present;
-    exchange.together([&] { present = smg::bring(input, request, exchange); });
+    exchange.together([&] { present = smg::fetchPiece(input, request, exchange); });
     const bool isOrdinary =
-      !exchange.isParallel() && this->bringWhole(input, request, inputInfo, present);
+      !exchange.isParallel() && this->fetchWhole(input, request, inputInfo, present);
     if (isOrdinary && request.Piece > 0)
     {
       vtkDataObject::GetData(outputInfo)->Initialize(); // piece 0 is all of it
@@ -137,7 +136,7 @@ struct vtkStreamingSolver::Internals
 
   /** Brings all of an ordinary mesh, which is no piece of a mesh stream; returns whether it is one.
    * What is not for the memory is solved on as on a file. */
-  bool bringWhole(smg::PieceInput& input, const smg::PieceRequest& request,
+  bool fetchWhole(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformation* inputInfo, vtkSmartPointer<vtkPointSet>& present)
   {
     // A piece may look like that of a stream where the whole does not.
@@ -245,28 +244,28 @@ struct vtkStreamingSolver::Internals
     }
     try
     {
-      smg::StreamedSolve::Pulling pulling;
-      pulling.pieces = smg::PieceCount::within(
+      smg::StreamedSolve::PieceReading reading;
+      reading.pieces = smg::PieceCount::within(
         this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
       if (asWhole)
       {
-        pulling.pieces.given = 1;
+        reading.pieces.given = 1;
       }
-      pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
-      pulling.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
-      pulling.memory = std::int64_t(this->Self.MemoryLimit) << 20;
-      pulling.threads = this->Self.NumberOfThreads;
+      reading.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+      reading.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
+      reading.memory = std::int64_t(this->Self.MemoryLimit) << 20;
+      reading.threads = this->Self.NumberOfThreads;
       smg::Progress progress(smg::progressOf(this->Self));
       const std::unique_ptr<smg::StreamedTask> task = this->Self.MakeTask(present);
       const std::filesystem::path file = smg::unchangedFile(this->Self, task->columns());
       if (!file.empty())
       {
-        this->Streamed.solveFile(file, *task, pulling, progress);
+        this->Streamed.solveFile(file, *task, reading, progress);
       }
       else
       {
-        isOrdinary ? this->Streamed.solveWhole(present, *task, pulling, progress)
-                   : this->Streamed.solve(input, *task, pulling, progress);
+        isOrdinary ? this->Streamed.solveWhole(present, *task, reading, progress)
+                   : this->Streamed.solve(input, *task, reading, progress);
       }
     }
     catch (const std::exception& error)
@@ -280,18 +279,22 @@ struct vtkStreamingSolver::Internals
 
   smg::SolveSummary solveInMemory(vtkPointSet& input, std::vector<double>& values)
   {
+    if (smg::isPreview(input) && input.GetNumberOfCells() == 0)
+    {
+      return this->summaryOfNothing(); // of a preview that is in another process
+    }
     try
     {
-      const smg::PreviewDoubt::Solve solveCoarser = [this](
-                                                      vtkPointSet& mesh, std::vector<double>& found)
-      { return this->Self.SolveForDoubt(mesh, smg::progressOf(this->Self), found); };
+      const smg::ProgressFunction progress = smg::progressOf(this->Self);
+      const auto solveCoarser = [&](vtkPointSet& mesh, std::vector<double>& found)
+      { return this->Self.MakeCoarserTask(mesh)->solveInMemory(mesh, progress, found).columns; };
       std::optional<smg::PreviewDoubt> doubt;
       if (smg::isPreview(input))
       {
         doubt.emplace(input, this->Coarser, solveCoarser);
       }
       smg::SolveSummary summary =
-        this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
+        this->Self.MakeTask(input)->solveInMemory(input, progress, values);
       summary.fullPoints = smg::pointsBehind(input);
       summary.previewPoints = summary.fullPoints > 0 ? input.GetNumberOfPoints() : 0;
       if (doubt)
@@ -306,6 +309,16 @@ struct vtkStreamingSolver::Internals
     {
       return smg::SolveSummary::failed(error.what());
     }
+  }
+
+  /** For a piece without points: the last summary is kept. */
+  smg::SolveSummary summaryOfNothing() const
+  {
+    smg::SolveSummary summary = this->Summary;
+    summary.error.clear();
+    summary.columns = 3; // so many at most, of no points
+    summary.converged = summary.converged || summary.report.empty();
+    return summary;
   }
 
   /** The failure of a solve, which process 0 reports for all. */
@@ -353,7 +366,7 @@ struct vtkStreamingSolver::Internals
       {
         if (!exchange.isParallel())
         {
-          present = smg::bring(input, request, exchange);
+          present = smg::fetchPiece(input, request, exchange);
         }
         if (present->GetNumberOfPoints() > 0)
         {

@@ -3,59 +3,81 @@
 
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/vtkBlendTask.h"
-#include "smg/DescriptionFiles.h"
+#include "Filters/Tasks/vtkJobTask.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "smg/Blend.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
-#include <algorithm>
-#include <iterator>
 #include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingBlend);
 
+namespace
+{
+
+class BlendTask : public smg::JobTask
+{
+public:
+  smg::BlendDescription description; ///< without the parts to hold
+
+  BlendTask()
+    : JobTask("this is the blended preview", "blended")
+  {
+  }
+
+  void check() const override
+  {
+    checkOptions(this->options);
+    refuseAutomaticTolerance(this->options, "a blend");
+    if (this->description.patch.empty())
+    {
+      throw smg::Error("Patch must name the array with the patch of each point or cell.");
+    }
+    if (this->description.columns.empty())
+    {
+      throw smg::Error("Arrays must name at least one point array to blend.");
+    }
+  }
+
+  smg::Costs costs(const smg::StreamInfo& info) const override
+  {
+    constexpr int Usual = 3;
+    int components = 0;
+    for (const std::string& name : this->description.columns)
+    {
+      components += smg::expectedComponents(info, name, Usual);
+    }
+    return smg::blendCosts(info, components, this->description.seam, this->options);
+  }
+
+protected:
+  std::unique_ptr<smg::Solution> run(
+    const smg::StoredMesh& mesh, const smg::SolveOptions& given) const override
+  {
+    smg::BlendDescription asked = this->description;
+    asked.hold = this->places;
+    return smg::blend(mesh, asked, given);
+  }
+};
+
+} // namespace
+
 struct vtkStreamingBlend::Internals
 {
-  explicit Internals(vtkStreamingBlend& self)
-    : Self(self)
-  {
-  }
-
-  std::unique_ptr<smg::BlendTask> task(vtkPointSet& input) const
-  {
-    auto task = std::make_unique<smg::BlendTask>();
-    this->Self.FillOptions(task->options);
-    // "None" is what ParaView offers for no array.
-    const std::string patch = this->Self.Patch ? this->Self.Patch : "";
-    task->description.patch = patch == "None" ? "" : patch;
-    task->description.columns = this->chosen();
-    task->description.anchor = this->Self.Anchor;
-    task->description.seam =
-      this->Self.SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
-    task->description.hold = smg::regionsOf(input);
-    if (this->Self.Hold && *this->Self.Hold)
-    {
-      std::ranges::move(
-        smg::readPlacesText(this->Self.Hold, "Hold"), std::back_inserter(task->description.hold));
-    }
-    return task;
-  }
-
   const std::vector<std::string>& chosen() const
   {
     return this->Arrays.empty() ? this->Columns : this->Arrays;
   }
 
-  vtkStreamingBlend& Self;
   std::vector<std::string> Arrays, Columns;
 };
 
 vtkStreamingBlend::vtkStreamingBlend()
-  : Internal(new Internals(*this))
+  : Internal(new Internals)
 {
 }
 
@@ -127,17 +149,19 @@ const char* vtkStreamingBlend::GetColumn(int number) const
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
 {
-  return this->Internal->task(input);
-}
-
-smg::SolveSummary vtkStreamingBlend::SolveInMemory(
-  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
-{
-  if (input.GetNumberOfCells() == 0)
-  {
-    return this->SummaryOfNothing(0); // of a preview that is in another process
-  }
-  return this->Internal->task(input)->solveOnPreview(input, progress, values);
+  auto task = std::make_unique<BlendTask>();
+  this->FillOptions(task->options);
+  // "None" is what ParaView offers for no array.
+  const std::string patch = this->Patch ? this->Patch : "";
+  task->description.patch = patch == "None" ? "" : patch;
+  task->description.columns = this->Internal->chosen();
+  task->description.anchor = this->Anchor;
+  task->description.seam =
+    this->SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
+  task->places = smg::placesOn(input, this->Hold, "Hold");
+  task->arrays = { task->description.columns.begin(), task->description.columns.end() };
+  task->arrays.insert(task->description.patch);
+  return task;
 }
 
 void vtkStreamingBlend::Deliver(

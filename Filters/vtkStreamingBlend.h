@@ -87,8 +87,6 @@ protected:
 
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
-  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
-    std::vector<double>& values) override;
 
 private:
   vtkStreamingBlend(const vtkStreamingBlend&) = delete;

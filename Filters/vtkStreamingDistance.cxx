@@ -2,11 +2,10 @@
 #include "Filters/vtkStreamingDistance.h"
 
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/vtkDistanceTask.h"
+#include "Filters/Tasks/vtkJobTask.h"
 #include "IO/vtkPieceColumns.h"
 #include "smg/Deform.h"
-#include "smg/DescriptionFiles.h"
+#include "smg/Distance.h"
 #include "smg/Error.h"
 
 #include "vtkDataArray.h"
@@ -15,14 +14,102 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <span>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingDistance);
+
+namespace
+{
+
+/** What to do about sources that a preview does not have. */
+constexpr const char* HintOnPreview =
+  " This is about the preview, which has few vertices of the mesh: Save Data measures on the mesh "
+  "itself; {\"nearest\": [[x, y, z]]} and Mesh Regions select sources on both.";
+
+class DistanceTask : public smg::JobTask
+{
+public:
+  smg::DistanceDescription description; ///< without the sources
+  int maxPasses = 0;
+
+  DistanceTask()
+    : JobTask("these are distances on the preview", "measured")
+  {
+  }
+
+  void check() const override
+  {
+    if (this->places.empty() && !this->description.wall)
+    {
+      throw smg::Error(
+        "Nothing says where the distance is 0: put a Mesh Region before this filter, or set From "
+        "(advanced), for example {\"vertices\": [5]}.");
+    }
+  }
+
+  smg::Costs costs(const smg::StreamInfo& info) const override
+  {
+    return smg::distanceCosts(info, this->description);
+  }
+
+  smg::AddedValues added(const smg::StreamInfo& /*info*/) const override
+  {
+    return { smg::distanceColumns(this->description), {} };
+  }
+
+protected:
+  std::unique_ptr<smg::Solution> run(
+    const smg::StoredMesh& mesh, const smg::SolveOptions& given) const override
+  {
+    smg::DistanceDescription asked = this->description;
+    asked.from = this->places;
+    smg::DistanceOptions options;
+    options.memoryLimit = given.memoryLimit;
+    options.threads = given.threads;
+    options.scratch = given.scratch;
+    options.scratchLimit = given.scratchLimit;
+    options.maxPasses = this->maxPasses;
+    options.progress = given.progress;
+    try
+    {
+      return smg::distance(mesh, asked, options, "From");
+    }
+    catch (const smg::Cancelled&)
+    {
+      throw;
+    }
+    catch (const smg::Error& error)
+    {
+      throw smg::Error(error.what() + std::string(given.inCore ? HintOnPreview : ""));
+    }
+  }
+
+  void adaptTo(vtkPointSet& /*preview*/, const smg::StreamInfo& /*info*/) override
+  {
+    if (this->places.empty() && !this->description.wall)
+    {
+      throw smg::Error(
+        std::string("No point of the preview lies in the region from which to measure.") +
+        HintOnPreview);
+    }
+  }
+
+  void complete(smg::Report& report) const override
+  {
+    if (report.distance && report.distance->unreached > 0)
+    {
+      report.notes.push_back(
+        std::to_string(report.distance->unreached) +
+        " vertices are not reached from any source: their distance is infinite");
+    }
+  }
+};
+
+} // namespace
 
 vtkStreamingDistance::vtkStreamingDistance() = default;
 
@@ -31,49 +118,31 @@ vtkStreamingDistance::~vtkStreamingDistance()
   this->SetFrom(nullptr);
 }
 
-std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask(vtkPointSet& input) const
+smg::DistanceDescription vtkStreamingDistance::Description() const
 {
-  auto task = std::make_unique<smg::DistanceTask>();
-  smg::SolveOptions common;
-  this->FillOptions(common);
-  if (!common.checkpoint.folder.empty())
-  {
-    throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
-  }
-  task->options.memoryLimit = common.memoryLimit;
-  task->options.threads = common.threads;
-  task->options.scratch = common.scratch;
-  task->options.scratchLimit = common.scratchLimit;
-  task->options.maxPasses = this->MaximumPasses;
-  task->description.wall = this->Wall;
-  task->description.source = this->Source;
-  task->description.direction = this->Direction;
-  std::vector<smg::Where>& from = task->description.from;
-  from = smg::regionsOf(input);
-  if (this->From && *this->From)
-  {
-    std::ranges::move(smg::readPlacesText(this->From, "From"), std::back_inserter(from));
-  }
-  if (from.empty() && !this->Wall && input.GetPointData()->HasArray(smg::HandleMaskName))
-  {
-    from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
-  }
-  return task;
+  smg::DistanceDescription description;
+  description.wall = this->Wall;
+  description.source = this->Source;
+  description.direction = this->Direction;
+  return description;
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
 {
-  return this->DescribedTask(input);
-}
-
-smg::SolveSummary vtkStreamingDistance::SolveInMemory(
-  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
-{
-  if (input.GetNumberOfCells() == 0)
+  auto task = std::make_unique<DistanceTask>();
+  this->FillOptions(task->options);
+  if (!task->options.checkpoint.folder.empty())
   {
-    return this->SummaryOfNothing(0); // of a preview that is in another process
+    throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
   }
-  return this->DescribedTask(input)->solveOnPreview(input, progress, values);
+  task->maxPasses = this->MaximumPasses;
+  task->description = this->Description();
+  task->places = smg::placesOn(input, this->From, "From");
+  if (task->places.empty() && !this->Wall && input.GetPointData()->HasArray(smg::HandleMaskName))
+  {
+    task->places.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
+  }
+  return task;
 }
 
 void vtkStreamingDistance::Deliver(
@@ -86,7 +155,7 @@ void vtkStreamingDistance::Deliver(
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
   const auto points = stride == 0 ? 0 : static_cast<std::size_t>(piece.GetNumberOfPoints());
-  for (const smg::ColumnSpec& spec : smg::distanceColumns(this->DescribedTask(piece)->description))
+  for (const smg::ColumnSpec& spec : smg::distanceColumns(this->Description()))
   {
     smg::Column column{ spec, {} };
     column.resize(points);

@@ -27,7 +27,7 @@
 
 namespace smg
 {
-class DistanceTask;
+struct DistanceDescription;
 } // namespace smg
 
 class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingDistance : public vtkStreamingSolver
@@ -82,15 +82,13 @@ protected:
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int /*columns*/) override { return 1; } // the distance
-  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
-    std::vector<double>& values) override;
 
 private:
   vtkStreamingDistance(const vtkStreamingDistance&) = delete;
   void operator=(const vtkStreamingDistance&) = delete;
 
-  /** For a mesh of which `input` is some piece. */
-  std::unique_ptr<smg::DistanceTask> DescribedTask(vtkPointSet& input) const;
+  /** Without the sources. */
+  smg::DistanceDescription Description() const;
 
   char* From = nullptr;
   bool Wall = false;

@@ -33,26 +33,12 @@ struct vtkStreamingMeshDeformation::Internals
     return options;
   }
 
-  /** In memory. */
-  smg::DeformOptions options(const std::function<bool(double)>& progress) const
-  {
-    smg::DeformOptions options = this->options();
-    options.progress = progress;
-    options.checkpoint = {};
-    return options;
-  }
-
   /** Whether a whole mesh is deformed in memory: if that needs no more than the limit. */
   bool isInteractive(vtkPointSet& mesh) const
   {
     const std::int64_t points = mesh.GetNumberOfPoints();
     return points <= this->Self.InteractivePoints && this->Self.Engine != DISTRIBUTED &&
            points * smg::DeformationTask::BytesInMemory <= this->options().memoryLimit;
-  }
-
-  bool needsNormals(vtkPointSet& input) const
-  {
-    return this->Self.Normals == RECOMPUTE && smg::findNormals(*input.GetPointData());
   }
 
   vtkStreamingMeshDeformation& Self;
@@ -83,7 +69,8 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
   }
   auto task = std::make_unique<smg::DeformationTask>();
   task->options = this->Internal->options();
-  task->needsNormals = this->Internal->needsNormals(input);
+  task->needsNormals = this->Normals == RECOMPUTE && smg::findNormals(*input.GetPointData());
+  task->interactive = &this->Internal->Interactive;
   if (!this->GetEngineNote().empty())
   {
     task->notes.push_back(this->GetEngineNote());
@@ -121,41 +108,14 @@ vtkSmartPointer<vtkPointSet> vtkStreamingMeshDeformation::MeshInMemory(vtkPointS
                    : this->Superclass::MeshInMemory(input);
 }
 
-int vtkStreamingMeshDeformation::SolveForDoubt(
-  vtkPointSet& coarser, const std::function<bool(double)>& progress, std::vector<double>& values)
+std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeCoarserTask(
+  vtkPointSet& coarser)
 {
-  values = this->Internal->ForDoubt.deform(coarser, this->Internal->options(progress), false);
-  return this->Internal->ForDoubt.columns();
-}
-
-smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
-  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
-{
-  if (smg::isPreview(input) && input.GetNumberOfPoints() == 0)
-  {
-    return this->SummaryOfNothing(3);
-  }
-  smg::InteractiveMesh& interactive = this->Internal->Interactive;
-  values = interactive.deform(
-    input, this->Internal->options(progress), this->Internal->needsNormals(input));
-  smg::Report report = interactive.report();
-  if (smg::isPreview(input))
-  {
-    report.notes.push_back("this is the deformed preview, a mesh of " +
-                           std::to_string(report.vertices) +
-                           " vertices: the full mesh is deformed when it is saved");
-    if (smg::isSurfaceOfSolid(input))
-    {
-      report.notes.push_back(
-        "the preview is the surface of the solid, on which handles inside have no effect: "
-        "PreviewCells of the reader offers tetrahedra");
-    }
-  }
-  else
-  {
-    interactive.judge(report);
-  }
-  return smg::SolveSummary::of(report, interactive.columns());
+  std::unique_ptr<smg::StreamedTask> task = this->MakeTask(coarser);
+  auto& deformation = static_cast<smg::DeformationTask&>(*task);
+  deformation.interactive = &this->Internal->ForDoubt;
+  deformation.needsNormals = false;
+  return task;
 }
 
 smg::SolveSummary vtkStreamingMeshDeformation::SolveInProcesses(

@@ -100,18 +100,15 @@ protected:
   ~vtkStreamingMeshDeformation() override;
 
   std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::StreamedTask> MakeCoarserTask(vtkPointSet& coarser) override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   vtkSmartPointer<vtkPointSet> MeshInMemory(vtkPointSet& input) override;
-  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
-    std::vector<double>& values) override;
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
   std::string WhyStreaming() override;
-  int GetUsualColumns() override { return 7; } // of both steps
-  int SolveForDoubt(vtkPointSet& coarser, const std::function<bool(double)>& progress,
-    std::vector<double>& values) override;
+  int GetUsualColumns() override { return 7; }                // of both steps
   int ComparedColumns(int /*columns*/) override { return 3; } // without normals
   bool IsToConverge() override { return this->Cycles == 0; }
 

@@ -35,7 +35,7 @@ namespace
 {
 
 /** The share of reading the input in the progress. */
-constexpr double PullShare = 0.5;
+constexpr double ReadShare = 0.5;
 /** The scratch file with a copy of the mesh. */
 constexpr const char* Copy = "mesh.vsm";
 /** Of the input: all that it has. */
@@ -81,14 +81,13 @@ struct vtkStreamingMeshSimplification::Internals
       this->Scratch.emplace(folder ? folder : "");
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
       vtkPointSet& present = *vtkPointSet::GetData(inputInfo);
-      this->Report = smg::simplify(smg::VsmReader(this->fileOf(input, request, present)), result,
-        { .vertices = this->Self.NumberOfVertices,
-          .error = this->Self.MaximumError,
-          .memoryLimit = this->memory(),
-          .threads = this->Self.NumberOfThreads,
-          .codec = smg::Codec::Lz4,
-          .scratch = this->Scratch->path(),
-          .progress = smg::partOf(smg::progressOf(this->Self), PullShare, 1.0) });
+      this->Report =
+        smg::simplify(smg::VsmReader(this->fileOf(input, request, present)), this->target(), result,
+          { .memoryLimit = this->memory(),
+            .threads = this->Self.NumberOfThreads,
+            .codec = smg::Codec::Lz4,
+            .scratch = this->Scratch->path(),
+            .progress = smg::partOf(smg::progressOf(this->Self), ReadShare, 1.0) });
       smg::FileDescriptor::removeClosed(*this->Scratch / Copy);
       this->Result.emplace(result);
       this->Outcome = sentence(this->Report);
@@ -112,13 +111,10 @@ struct vtkStreamingMeshSimplification::Internals
     return smg::estimateText(this->Self, places,
       [&](const smg::EstimatedInput& mesh, vtkPointSet&)
       {
-        smg::JobEstimate estimate = smg::simplifyEstimate(mesh, "simplified.vsm",
-          { .vertices = this->Self.NumberOfVertices,
-            .error = this->Self.MaximumError,
-            .memoryLimit = this->memory() },
-          places);
+        smg::JobEstimate estimate = smg::simplifyEstimate(
+          mesh, this->target(), "simplified.vsm", { .memoryLimit = this->memory() }, places);
         const bool isCopied = smg::unchangedFile(this->Self, AllColumns).empty();
-        estimate.cpu_seconds += isCopied ? smg::pullSeconds(mesh.info) : 0.0;
+        estimate.cpu_seconds += isCopied ? smg::readingSeconds(mesh.info) : 0.0;
         // The copy and the result are compressed less than a file that is saved, see
         // solveEstimate().
         estimate.scratch_bytes = std::max(
@@ -127,6 +123,10 @@ struct vtkStreamingMeshSimplification::Internals
       });
   }
 
+  smg::SimplifyTarget target() const
+  {
+    return { this->Self.NumberOfVertices, this->Self.MaximumError };
+  }
   std::int64_t memory() const { return std::int64_t(this->Self.MemoryLimit) << 20; }
 
   void release()
@@ -148,7 +148,7 @@ struct vtkStreamingMeshSimplification::Internals
       return whole;
     }
     const std::filesystem::path copy = *this->Scratch / Copy;
-    const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, PullShare);
+    const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, ReadShare);
     if (!smg::hasSeveralProcesses() && smg::isOrdinaryMesh(present) && !smg::isPreview(present))
     {
       vtkDataObject* mesh = request.Pieces > 1 ? input.update(0, 1, false) : &present;

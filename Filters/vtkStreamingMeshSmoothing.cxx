@@ -3,11 +3,13 @@
 
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Tasks/SolveSummary.h"
+#include "Filters/Tasks/DeformedVertices.h"
+#include "Filters/Tasks/vtkJobTask.h"
 #include "Filters/Tasks/vtkMovedPiece.h"
-#include "Filters/Tasks/vtkSmoothingTask.h"
-#include "smg/DescriptionFiles.h"
-#include "smg/Error.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/vtkMeshPieceData.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "smg/Smooth.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -15,70 +17,82 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 #include <string>
 
 vtkStandardNewMacro(vtkStreamingMeshSmoothing);
 
-struct vtkStreamingMeshSmoothing::Internals
+namespace
 {
-  explicit Internals(vtkStreamingMeshSmoothing& self)
-    : Self(self)
+
+/** The share of the smoothing in the progress; normals take the rest. */
+constexpr double SmoothShare = 0.9;
+
+/** Of the positions, with normals as DeformedVertices if they are needed, or of a point array. */
+class SmoothingTask : public smg::JobTask
+{
+public:
+  smg::SmoothingDescription description; ///< without the parts to hold
+  bool needsNormals = false;             ///< of the vertices; tetrahedra have none
+
+  SmoothingTask()
+    : JobTask("this is the smoothed preview", "smoothed")
   {
   }
 
-  /** "None" is what ParaView offers for no array. */
-  std::string column() const
+  void check() const override { checkOptions(this->given()); }
+
+  smg::Costs costs(const smg::StreamInfo& info) const override
   {
-    const auto named = [](const char* name)
-    { return name && std::string(name) != "None" ? std::string(name) : std::string(); };
-    const std::string array = named(this->Self.Array);
-    return array.empty() ? named(this->Self.Column) : array;
+    constexpr int OfPoints = 3;
+    return smg::smoothCosts(
+      info, smg::expectedComponents(info, this->description.column, OfPoints), this->given());
   }
 
-  smg::Smoothing options(vtkPointSet& input) const
+protected:
+  std::unique_ptr<smg::Solution> run(
+    const smg::StoredMesh& mesh, const smg::SolveOptions& given) const override
   {
-    smg::Smoothing options;
-    this->Self.FillOptions(options);
-    // Both enumerations have the same order.
-    options.size = { this->Self.Size, static_cast<smg::SmoothingSize::Unit>(this->Self.SizeUnit) };
-    options.steps = this->Self.Steps;
-    options.keepVolume = this->Self.KeepVolume;
-    options.column = this->column();
-    if (this->Self.KeepEdges)
+    smg::SolveOptions smoothing = given;
+    smoothing.progress = smg::partOf(given.progress, 0.0, this->needsNormals ? SmoothShare : 1.0);
+    std::unique_ptr<smg::Solution> solution = smg::smooth(mesh, this->given(), smoothing);
+    if (!this->needsNormals)
     {
-      options.keepEdges = this->Self.EdgeAngle;
+      return solution;
     }
-    if (this->Self.Boundary != AUTOMATIC)
-    {
-      options.boundary = static_cast<smg::SmoothedBoundary>(this->Self.Boundary - SMOOTH);
-    }
-    options.hold = smg::regionsOf(input);
-    if (this->Self.Hold && *this->Self.Hold)
-    {
-      std::ranges::move(
-        smg::readPlacesText(this->Self.Hold, "Hold"), std::back_inserter(options.hold));
-    }
-    return options;
+    smg::NormalsOptions normals;
+    normals.scratch = given.scratch;
+    normals.memory = std::min(normals.memory, given.memoryLimit / 4);
+    normals.progress = smg::partOf(given.progress, SmoothShare, 1.0);
+    auto moved = std::make_unique<smg::DeformedVertices>(std::move(solution));
+    moved->addNormals(mesh.source({}, {}), normals);
+    return moved;
   }
 
-  std::unique_ptr<smg::SmoothingTask> task(vtkPointSet& input) const
+  void adaptTo(vtkPointSet& preview, const smg::StreamInfo& info) override
   {
-    auto task = std::make_unique<smg::SmoothingTask>();
-    task->options = this->options(input);
-    task->needsNormals = this->column().empty() && this->Self.Normals == RECOMPUTE &&
-                         vtkPolyData::SafeDownCast(&input) &&
-                         smg::findNormals(*input.GetPointData());
-    return task;
+    smg::SmoothingSize& size = this->description.size;
+    if (size.unit == smg::SmoothingSize::MeanEdges && smg::cellsBehind(preview) > 0)
+    {
+      // Those of the mesh: an area, or a volume, of so many more cells has shorter edges.
+      const double share = static_cast<double>(preview.GetNumberOfCells()) /
+                           static_cast<double>(smg::cellsBehind(preview));
+      size.value *= info.cellType == smg::CellType::Triangle ? std::sqrt(share) : std::cbrt(share);
+    }
   }
 
-  vtkStreamingMeshSmoothing& Self;
+private:
+  smg::Smoothing given() const
+  {
+    smg::Smoothing given{ this->options, this->description };
+    given.hold = this->places;
+    return given;
+  }
 };
 
-vtkStreamingMeshSmoothing::vtkStreamingMeshSmoothing()
-  : Internal(new Internals(*this))
-{
-}
+} // namespace
+
+vtkStreamingMeshSmoothing::vtkStreamingMeshSmoothing() = default;
 
 vtkStreamingMeshSmoothing::~vtkStreamingMeshSmoothing()
 {
@@ -87,34 +101,56 @@ vtkStreamingMeshSmoothing::~vtkStreamingMeshSmoothing()
   this->SetColumn(nullptr);
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
+std::string vtkStreamingMeshSmoothing::SmoothedArray() const
 {
-  return this->Internal->task(input);
+  // "None" is what ParaView offers for no array.
+  const auto named = [](const char* name)
+  { return name && std::string(name) != "None" ? std::string(name) : std::string(); };
+  const std::string array = named(this->Array);
+  return array.empty() ? named(this->Column) : array;
 }
 
-smg::SolveSummary vtkStreamingMeshSmoothing::SolveInMemory(
-  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
+std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
 {
-  if (input.GetNumberOfCells() == 0)
+  auto task = std::make_unique<SmoothingTask>();
+  this->FillOptions(task->options);
+  smg::SmoothingDescription& description = task->description;
+  // Both enumerations have the same order.
+  description.size = { this->Size, static_cast<smg::SmoothingSize::Unit>(this->SizeUnit) };
+  description.steps = this->Steps;
+  description.keepVolume = this->KeepVolume;
+  description.column = this->SmoothedArray();
+  if (this->KeepEdges)
   {
-    return this->SummaryOfNothing(3); // of a preview that is in another process
+    description.keepEdges = this->EdgeAngle;
   }
-  return this->Internal->task(input)->solveOnPreview(input, progress, values);
+  if (this->Boundary != AUTOMATIC)
+  {
+    description.boundary = static_cast<smg::SmoothedBoundary>(this->Boundary - SMOOTH);
+  }
+  task->places = smg::placesOn(input, this->Hold, "Hold");
+  if (!description.column.empty())
+  {
+    task->arrays = { description.column };
+  }
+  task->needsNormals = description.column.empty() && this->Normals == RECOMPUTE &&
+                       vtkPolyData::SafeDownCast(&input) && smg::findNormals(*input.GetPointData());
+  return task;
 }
 
 int vtkStreamingMeshSmoothing::ComparedColumns(int columns)
 {
-  return this->Internal->column().empty() ? 3 : columns;
+  return this->SmoothedArray().empty() ? 3 : columns;
 }
 
 void vtkStreamingMeshSmoothing::Deliver(
   vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
 {
-  if (!this->Internal->column().empty())
+  if (!this->SmoothedArray().empty())
   {
     output.ShallowCopy(&piece);
     const auto components = static_cast<std::size_t>(this->GetSummary().columns);
-    smg::replaceArray(output, this->Internal->column(), values, 0, components);
+    smg::replaceArray(output, this->SmoothedArray(), values, 0, components);
     return;
   }
   smg::movePiece(piece,

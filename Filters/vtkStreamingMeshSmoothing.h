@@ -138,14 +138,13 @@ protected:
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int columns) override; // without normals
-  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
-    std::vector<double>& values) override;
 
 private:
   vtkStreamingMeshSmoothing(const vtkStreamingMeshSmoothing&) = delete;
   void operator=(const vtkStreamingMeshSmoothing&) = delete;
 
-  struct Internals;
+  /** Of the points; empty: their positions are smoothed. */
+  std::string SmoothedArray() const;
 
   double Size = 4.0;
   int SizeUnit = MEAN_EDGES;
@@ -158,8 +157,6 @@ private:
   char* Array = nullptr;
   char* Column = nullptr;
   int Normals = RECOMPUTE;
-
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -4,9 +4,8 @@
 #include "Filters/Pieces/vtkCellParts.h"
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Processes/vtkDistributedTasks.h"
-#include "Filters/Regions/vtkConditionList.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/vtkPieceResults.h"
 #include "Filters/Tasks/vtkPoissonTask.h"
 #include "Filters/Tasks/vtkWarnOnce.h"
 #include "Filters/vtkRegionChain.h"
@@ -273,19 +272,6 @@ bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool isWhole)
   {
     return false; // the solve on the full mesh reports it
   }
-}
-
-smg::SolveSummary vtkStreamingPoisson::SolveInMemory(
-  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
-{
-  if (input.GetNumberOfPoints() == 0)
-  {
-    return this->SummaryOfNothing(1);
-  }
-  smg::PoissonTask task = this->Internal->task(input);
-  task.options.progress = progress;
-  this->Internal->Solved = task.problem;
-  return smg::solveOnPreview(input, task, values);
 }
 
 smg::SolveSummary vtkStreamingPoisson::SolveInProcesses(

@@ -132,8 +132,6 @@ protected:
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
-  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
-    std::vector<double>& values) override;
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
   std::string WhyStreaming() override;

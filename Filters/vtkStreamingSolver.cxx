@@ -98,6 +98,11 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeEstimatedTask(vtkPoin
   return this->MakeTask(input);
 }
 
+std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeCoarserTask(vtkPointSet& coarser)
+{
+  return this->MakeTask(coarser);
+}
+
 const char* vtkStreamingSolver::GetNotes()
 {
   return this->GetSummary().notes.c_str();
@@ -149,15 +154,6 @@ smg::SolveSummary vtkStreamingSolver::SolveInProcesses(
     std::string(this->GetClassName()) + " does not solve on the pieces of several processes.");
 }
 
-smg::SolveSummary vtkStreamingSolver::SummaryOfNothing(int columns) const
-{
-  smg::SolveSummary summary = this->GetSummary();
-  summary.error.clear();
-  summary.columns = columns;
-  summary.converged = summary.converged || summary.report.empty();
-  return summary;
-}
-
 bool vtkStreamingSolver::IsForMemory(vtkPointSet& input, bool)
 {
   return smg::isPreview(input) && !smg::isSurfaceOfSolid(input) && this->IsForPreview();
@@ -171,18 +167,6 @@ bool vtkStreamingSolver::IsForPreview()
 vtkSmartPointer<vtkPointSet> vtkStreamingSolver::MeshInMemory(vtkPointSet& input)
 {
   return &input;
-}
-
-smg::SolveSummary vtkStreamingSolver::SolveInMemory(
-  vtkPointSet&, const std::function<bool(double)>&, std::vector<double>&)
-{
-  throw smg::Error(std::string(this->GetClassName()) + " does not solve in memory.");
-}
-
-int vtkStreamingSolver::SolveForDoubt(
-  vtkPointSet& coarser, const std::function<bool(double)>& progress, std::vector<double>& values)
-{
-  return this->SolveInMemory(coarser, progress, values).columns;
 }
 
 int vtkStreamingSolver::FillInputPortInformation(int, vtkInformation* info)

@@ -249,10 +249,6 @@ protected:
    * it is solved on in memory. Default: `input`. */
   virtual vtkSmartPointer<vtkPointSet> MeshInMemory(vtkPointSet& input);
 
-  /** Solves on `input` in memory and returns the values at all its points. Throws smg::Error. */
-  virtual smg::SolveSummary SolveInMemory(
-    vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values);
-
   /**
    * Whether the processes solve together on the pieces that they have, instead of process 0 alone
    * out of core. Called in all of them for one request, unless this process answers it alone
@@ -265,14 +261,9 @@ protected:
   virtual smg::SolveSummary SolveInProcesses(
     vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values);
 
-  /** The summary for a piece without points of a mesh solved in memory, with this many values per
-   * point; the last summary is kept. */
-  smg::SolveSummary SummaryOfNothing(int columns) const;
-
-  /** Solves on a coarser preview, with which the values on a preview are compared to say how far
-   * they may be off; returns how many a point has. Default: as SolveInMemory(). */
-  virtual int SolveForDoubt(
-    vtkPointSet& coarser, const std::function<bool(double)>& progress, std::vector<double>& values);
+  /** Creates the task for a coarser preview, with whose values those on a preview are compared to
+   * say how far they may be off. Default: MakeTask(). */
+  virtual std::unique_ptr<smg::StreamedTask> MakeCoarserTask(vtkPointSet& coarser);
   /** How many of the `columns` values of a point that comparison takes as a vector. Default: all.
    */
   virtual int ComparedColumns(int columns) { return columns; }

@@ -5,7 +5,7 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Preview/PreviewPiece.h"
+#include "IO/Preview/StreamPreview.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlacesOption.h"
 #include "SolvingCommand.h"
 
 #include "IO/Formats/FormatTable.h"
@@ -64,16 +63,14 @@ public:
                    "gradients are kept. docs/blend.md explains it");
   }
 
+  void checkUsage() const override { smg::checkOptions(this->Solve); }
+
 protected:
   std::string resultColumns() const override { return "these columns of vertices"; }
 
   std::vector<std::string> changedColumns() const override { return this->Description.columns; }
 
-  void readTask() override
-  {
-    smg::checkOptions(this->Solve);
-    this->Description.hold = this->Hold.places();
-  }
+  void readTask() override { this->Description.hold = this->Hold.places(); }
 
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
@@ -140,9 +137,6 @@ private:
 
 void addBlendCommand(CLI::App& program, Action& action)
 {
-  auto blend = std::make_shared<BlendCommand>();
-  CLI::App* command =
-    program.add_subcommand("blend", "Remove the steps of columns between patches of a mesh");
-  blend->addOptions(*command);
-  command->callback([blend, &action] { action = [blend] { return blend->run(); }; });
+  addCommand<BlendCommand>(
+    program, action, "blend", "Remove the steps of columns between patches of a mesh");
 }

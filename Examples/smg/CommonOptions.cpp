@@ -56,7 +56,8 @@ std::string toMebibytes(std::string& text)
 
 } // namespace
 
-void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
+void CommonOptions::addTo(
+  CLI::App& command, const std::string& memoryDefault, const std::string& moreOnMemory)
 {
   constexpr std::int64_t MaxMemory = std::int64_t(1) << 30;
   command
@@ -64,7 +65,12 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
       "Write the report to this file: in JSON, or with the suffix .html as a page with figures and "
       "a picture of the result, for any browser")
     ->type_name("FILE");
-  command.add_option("--memory", this->memory, "Memory limit in MiB, or with a unit as 2GiB")
+  command
+    .add_option("--memory", this->memory,
+      "Memory limit in MiB, or with a unit, as 2GiB: K, M, G, T, KiB to TiB (powers of 1024), KB "
+      "to "
+      "TB (of 1000)" +
+        moreOnMemory)
     ->check(CLI::Range(std::int64_t(1), MaxMemory))
     ->transform(CLI::Validator(toMebibytes, ""))
     ->default_str(memoryDefault)
@@ -76,8 +82,13 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
   command
     .add_option_function<std::int64_t>(
       "--scratch-limit",
-      [](std::int64_t limit) { smg::ScratchAccount::process().setLimit(limit << 20); },
-      "Limit of the bytes of scratch files that exist at once, in MiB; without it there is none")
+      [this](std::int64_t limit)
+      {
+        this->scratchLimit = limit << 20;
+        smg::ScratchAccount::process().setLimit(this->scratchLimit);
+      },
+      "Limit of the bytes of scratch files that exist at once, in MiB or with a unit; without it "
+      "there is none")
     ->check(CLI::Range(std::int64_t(1), MaxMemory))
     ->transform(CLI::Validator(toMebibytes, ""))
     ->type_name("MiB");
@@ -104,6 +115,62 @@ bool isIn(const std::filesystem::path& file, const std::filesystem::path& folder
 }
 
 } // namespace
+
+void CommonOptions::addInputTo(CLI::App& command)
+{
+  command
+    .add_option(
+      "--cells", this->input.cells, "Cells to keep of a mesh with both types: triangles or tets")
+    ->check(oneOf({ "triangles", "tets" }));
+  command
+    .add_option("--weld", this->input.weld,
+      "Merge points within this distance of each other; 0: equal coordinates")
+    ->check(
+      [](const std::string& value)
+      {
+        return numberFromZero(value).empty()
+                 ? std::string()
+                 : '\'' + value + "' is not a finite distance from 0 on";
+      })
+    ->type_name("DISTANCE");
+  command
+    .add_option(
+      "--time-step", this->input.timeStep, "Which time step to read of a VTKHDF file, from 0")
+    ->check(wholeNumber)
+    ->capture_default_str()
+    ->type_name("N");
+  command
+    .add_option("--partition", this->input.partition,
+      "Which partition to read of a VTKHDF file, from 0; all, joined, unless given")
+    ->check(wholeNumber)
+    ->type_name("K");
+}
+
+smg::ConversionOptions CommonOptions::inputOptions() const
+{
+  smg::ConversionOptions options;
+  options.cells = this->input.cells.empty()          ? smg::CellChoice::Only
+                  : this->input.cells == "triangles" ? smg::CellChoice::Triangles
+                                                     : smg::CellChoice::Tetrahedra;
+  options.weld = this->input.weld;
+  options.timeStep = this->input.timeStep;
+  options.partition = this->input.partition;
+  options.memoryLimit = this->memoryBytes(0);
+  options.codec = smg::Codec::Lz4;
+  options.scratch = this->scratch;
+  options.threads = this->threads;
+  return options;
+}
+
+std::unique_ptr<smg::OpenedMesh> CommonOptions::openInput(
+  const std::filesystem::path& path, smg::ProgressFunction progress, smg::StreamOrder order) const
+{
+  smg::ConversionOptions options = this->inputOptions();
+  options.order = order;
+  options.checkpoint = this->checkpoint;
+  options.progress = std::move(progress);
+  return smg::openMesh(path, options);
+}
 
 void CommonOptions::addThreadsTo(CLI::App& command)
 {
@@ -319,16 +386,47 @@ std::vector<std::string> splitAtCommas(const std::string& list)
   return parts;
 }
 
-void printEstimate(const smg::JobEstimate& estimate)
+void requireOneProcess()
+{
+  // Of Open MPI, and of MPICH and Slurm.
+  for (const char* name : { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE" })
+  {
+    const char* size = std::getenv(name);
+    if (size && std::atoi(size) > 1)
+    {
+      throw smg::Error(std::string(size) +
+                       " processes were started, which would all do the same and "
+                       "write the same files: start smg once, or solve or deform with them "
+                       "together (--engine hypre).");
+    }
+  }
+}
+
+void CommonOptions::printEstimate(const smg::JobEstimate& estimate) const
 {
   std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
     static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
-  std::printf("  memory   about %.0f MiB, the limit is %.0f MiB\n",
-    inMebibytes(estimate.memory_bytes), inMebibytes(estimate.memory_limit));
-  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.scratch_bytes),
-    inMebibytes(estimate.scratch_free));
-  std::printf("  output   about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.output_bytes),
-    inMebibytes(estimate.output_free));
+  const auto line = [](const char* what, std::int64_t bytes)
+  { std::printf("  %-8s about %.0f MiB", what, inMebibytes(bytes)); };
+  const auto limit = [](std::int64_t bytes, std::int64_t most, const char* option)
+  {
+    std::printf(", the limit is %.0f MiB", inMebibytes(most));
+    if (bytes > most)
+    {
+      std::printf(", which is too low: raise %s", option);
+    }
+  };
+  line("memory", estimate.memory_bytes);
+  limit(estimate.memory_bytes, estimate.memory_limit, "--memory");
+  std::printf("\n");
+  line("scratch", estimate.scratch_bytes);
+  if (this->scratchLimit > 0)
+  {
+    limit(estimate.scratch_bytes, this->scratchLimit, "--scratch-limit");
+  }
+  std::printf(", %.0f MiB are free\n", inMebibytes(estimate.scratch_free));
+  line("output", estimate.output_bytes);
+  std::printf(", %.0f MiB are free\n", inMebibytes(estimate.output_free));
   if (estimate.passes > 0)
   {
     std::printf("  passes   about %d\n", estimate.passes);

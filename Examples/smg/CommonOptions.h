@@ -3,12 +3,15 @@
 
 #include "HtmlReport/Page.h"
 
+#include "smg/Convert.h"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,25 +21,50 @@ namespace smg
 struct JobEstimate;
 }
 
-/** The options that every command has. */
+/** How a file that is no .vsm is read. */
+struct InputOptions
+{
+  std::string cells; ///< triangles, tets, or empty: the only ones
+  std::optional<double> weld;
+  std::int64_t timeStep = 0;
+  std::optional<std::int64_t> partition;
+};
+
+/** The options that every command has, and what most do with them. */
 struct CommonOptions
 {
+  InputOptions input;
   std::filesystem::path report;     ///< file for the report; empty: none
   std::int64_t memory = 0;          ///< MiB; 0: the default of the operation
   int threads = 0;                  ///< 0: one per core
   std::filesystem::path scratch;    ///< empty: the system's temporary folder
+  std::int64_t scratchLimit = 0;    ///< bytes of the scratch files at once; 0: none
   std::filesystem::path checkpoint; ///< folder, of commands that have one; empty: none
   bool quiet = false;
 
   /**
-   * Adds the options to a command, except --threads. `memoryDefault` is the default of --memory.
+   * Adds the options to a command, except --threads. `memoryDefault` is the default of --memory,
+   * `moreOnMemory` ends its description.
    */
-  void addTo(CLI::App& command, const std::string& memoryDefault = "256");
+  void addTo(CLI::App& command, const std::string& memoryDefault = "256",
+    const std::string& moreOnMemory = {});
+  /** Adds --cells, --weld, --time-step and --partition. */
+  void addInputTo(CLI::App& command);
   /** Adds --threads. */
   void addThreadsTo(CLI::App& command);
 
   /** Adds --checkpoint. */
   void addCheckpointTo(CLI::App& command);
+  /** What is wrong with the options, whatever the files say: throws CLI::Error or smg::Error. */
+  void checkUsage() const {}
+
+  /** How the mesh file is converted within the memory limit. */
+  smg::ConversionOptions inputOptions() const;
+  /** Opens a mesh file of any format. A file that is not a stream is converted to `order`; with a
+   * checkpoint, it is kept there. Throws smg::Error. */
+  std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
+    smg::ProgressFunction progress, smg::StreamOrder order = smg::StreamOrder::BreadthFirst) const;
+
   /** The folder of the scratch files, or of what exists of it; empty: the temporary one. */
   std::filesystem::path scratchPlace() const;
   /** The bytes that a checkpoint has. */
@@ -57,6 +85,9 @@ struct CommonOptions
   {
     return this->memory > 0 ? this->memory << 20 : fallback;
   }
+
+  /** Prints what the command is expected to cost, and which limits are below that. */
+  void printEstimate(const smg::JobEstimate& estimate) const;
 
   /** Throws smg::Error if a requested report cannot be written or would overwrite another file of
    * the command. */
@@ -86,19 +117,32 @@ inline double inMebibytes(std::int64_t bytes)
   return static_cast<double>(bytes) / (1 << 20);
 }
 
-/** Prints what a command is expected to cost. */
-void printEstimate(const smg::JobEstimate& estimate);
-
 /** Runs the selected command; returns its exit code. */
 using Action = std::function<int()>;
 
-/** Add the commands to the program; each sets `action` when it is selected. */
-void addInfoCommand(CLI::App& program, Action& action);
-void addConvertCommand(CLI::App& program, Action& action);
-void addSolveCommand(CLI::App& program, Action& action);
-void addDeformCommand(CLI::App& program, Action& action);
-void addSmoothCommand(CLI::App& program, Action& action);
-void addBlendCommand(CLI::App& program, Action& action);
-void addDistanceCommand(CLI::App& program, Action& action);
-void addSimplifyCommand(CLI::App& program, Action& action);
-void addPreviewCommand(CLI::App& program, Action& action);
+/** Adds a command with options, which sets `action` when it is selected. */
+template <class Command>
+void addCommand(
+  CLI::App& program, Action& action, const std::string& name, const std::string& description)
+{
+  const auto command = std::make_shared<Command>();
+  CLI::App* added = program.add_subcommand(name, description);
+  command->addOptions(*added);
+  added->callback(
+    [command, &action]
+    {
+      try
+      {
+        command->checkUsage();
+      }
+      catch (const smg::Error& error)
+      {
+        throw CLI::ValidationError(error.what());
+      }
+      action = [command] { return command->run(); };
+    });
+}
+
+/** Throws smg::Error if mpiexec has started several processes, which would all do the same and
+ * write the same files. */
+void requireOneProcess();

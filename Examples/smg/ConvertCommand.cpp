@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 #include "DrawMesh.h"
-#include "InputOptions.h"
-#include "OneProcess.h"
 #include "ProgressBar.h"
 
 #include "IO/Conversion/JobEstimate.h"
@@ -56,28 +54,23 @@ void print(const smg::ConversionReport& report)
   }
 }
 
-struct ConvertOptions : CommonOptions
+struct ConvertCommand : CommonOptions
 {
   std::filesystem::path in, out;
   std::string order = "bfs";
   std::string codec = "zstd";
-  InputOptions input;
   bool restoreOrder = false;
   bool dryRun = false;
 
   smg::ConversionOptions conversion() const
   {
-    smg::ConversionOptions options;
+    smg::ConversionOptions options = this->inputOptions();
     options.order = smg::streamOrder(this->order);
-    options.memoryLimit = this->memoryBytes(0);
     options.codec = this->codec == "zstd"  ? smg::Codec::Zstd
                     : this->codec == "lz4" ? smg::Codec::Lz4
                                            : smg::Codec::None;
-    this->input.applyTo(options);
     options.restoreOrder = this->restoreOrder;
-    options.scratch = this->scratch;
     options.checkpoint = this->checkpoint;
-    options.threads = this->threads;
     return options;
   }
 
@@ -95,7 +88,36 @@ struct ConvertOptions : CommonOptions
     }
   }
 
-  void run() const
+  void addOptions(CLI::App& command)
+  {
+    command.add_option("IN", this->in, "The mesh")->required();
+    command
+      .add_option("OUT", this->out,
+        "The mesh in stream order: " + smg::suffixList(smg::FormatUse::Write, "or"))
+      ->required();
+    command
+      .add_option("--order", this->order,
+        "bfs (breadth-first), spectral (the smallest width), axis (along the longest side) or keep "
+        "(the order of the file)")
+      ->check(oneOf({ "bfs", "axis", "keep", "spectral" }))
+      ->capture_default_str();
+    command.add_option("--codec", this->codec, "Compression of .vsm files: zstd, lz4 or none")
+      ->check(oneOf({ "zstd", "lz4", "none" }))
+      ->capture_default_str();
+    this->addInputTo(command);
+    command
+      .add_flag("--restore-order", this->restoreOrder,
+        "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
+          smg::suffixList(smg::FormatUse::Restore, "or") + " file")
+      ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
+    command.add_flag("--dry-run", this->dryRun,
+      "Only estimate the size of the mesh and the cost of the conversion");
+    this->addCheckpointTo(command);
+    this->addTo(command);
+    this->addThreadsTo(command);
+  }
+
+  int run() const
   {
     requireOneProcess();
     smg::checkOutputPlace(this->out);
@@ -107,8 +129,8 @@ struct ConvertOptions : CommonOptions
       options.scratch = this->scratchPlace();
       const smg::JobEstimate estimate(this->in, this->out, options);
       this->writeReport(estimate.json(), { this->in });
-      printEstimate(estimate);
-      return;
+      this->printEstimate(estimate);
+      return 0;
     }
     this->checkRoom(options);
     this->announceCheckpoint("stage");
@@ -133,6 +155,7 @@ struct ConvertOptions : CommonOptions
     {
       print(report);
     }
+    return 0;
   }
 };
 
@@ -140,32 +163,5 @@ struct ConvertOptions : CommonOptions
 
 void addConvertCommand(CLI::App& program, Action& action)
 {
-  auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = program.add_subcommand("convert", "Convert a mesh to a stream order");
-  command->add_option("IN", options->in, "The mesh")->required();
-  command
-    ->add_option("OUT", options->out,
-      "The mesh in stream order: " + smg::suffixList(smg::FormatUse::Write, "or"))
-    ->required();
-  command
-    ->add_option("--order", options->order,
-      "bfs (breadth-first), spectral (the smallest width), axis (along the longest side) or keep "
-      "(the order of the file)")
-    ->check(oneOf({ "bfs", "axis", "keep", "spectral" }))
-    ->capture_default_str();
-  command->add_option("--codec", options->codec, "Compression of .vsm files: zstd, lz4 or none")
-    ->check(oneOf({ "zstd", "lz4", "none" }))
-    ->capture_default_str();
-  options->input.addTo(*command);
-  command
-    ->add_flag("--restore-order", options->restoreOrder,
-      "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
-        smg::suffixList(smg::FormatUse::Restore, "or") + " file")
-    ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
-  command->add_flag("--dry-run", options->dryRun,
-    "Only estimate the size of the mesh and the cost of the conversion");
-  options->addCheckpointTo(*command);
-  options->addTo(*command);
-  options->addThreadsTo(*command);
-  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
+  addCommand<ConvertCommand>(program, action, "convert", "Convert a mesh to a stream order");
 }

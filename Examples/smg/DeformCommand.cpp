@@ -192,9 +192,6 @@ private:
 
 void addDeformCommand(CLI::App& program, Action& action)
 {
-  auto deform = std::make_shared<DeformCommand>();
-  CLI::App* command =
-    program.add_subcommand("deform", "Deform a mesh by handles, keeping its details");
-  deform->addOptions(*command);
-  command->callback([deform, &action] { action = [deform] { return deform->run(); }; });
+  addCommand<DeformCommand>(
+    program, action, "deform", "Deform a mesh by handles, keeping its details");
 }

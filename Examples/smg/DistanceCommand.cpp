@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshCommand.h"
-#include "PlacesOption.h"
 
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
@@ -47,8 +46,7 @@ public:
       "{\"halfspace\": [nx, ny, nz, d]}, {\"tag\": [\"column\", value]}, {\"mask\": \"column\"}");
   }
 
-  /** Throws CLI::Error if the options do not say from what the distance is. */
-  void checkUsage() const
+  void checkUsage() const override
   {
     if (this->From.given().empty() && !this->Description.wall)
     {
@@ -142,14 +140,6 @@ private:
 
 void addDistanceCommand(CLI::App& program, Action& action)
 {
-  auto distance = std::make_shared<DistanceCommand>();
-  CLI::App* command =
-    program.add_subcommand("distance", "Measure the distance of all vertices from some of them");
-  distance->addOptions(*command);
-  command->callback(
-    [distance, &action]
-    {
-      distance->checkUsage();
-      action = [distance] { return distance->run(); };
-    });
+  addCommand<DistanceCommand>(
+    program, action, "distance", "Measure the distance of all vertices from some of them");
 }

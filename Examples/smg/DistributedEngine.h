@@ -54,9 +54,6 @@ struct DistributedEngine
   void (*deform)(const DistributedJob& job, const DistributedDeformation& deformation);
 };
 
-/** Loads it. Throws smg::Error if this build or this system does not have it. */
-const DistributedEngine& distributedEngine();
-
 /** Whether the name of a result asks for a piece of each process. */
 inline bool isInPieces(const std::filesystem::path& out)
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
 
-#include "OpenInput.h"
-
 #include "smg/Error.h"
 
 html::ResultSurface drawnBy(const std::function<html::ResultSurface()>& draw)
@@ -35,7 +33,8 @@ html::ResultSurface surfaceOf(const std::filesystem::path& written, const Common
     {
       CommonOptions opening = common;
       opening.checkpoint.clear();
-      const auto mesh = openInput(written, opening, {});
+      opening.input = {};
+      const auto mesh = opening.openInput(written, {});
       return html::resultSurface(
         *mesh->reader().source(), {}, common.memoryBytes(DrawingMemory), {});
     });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
-#include "OpenInput.h"
 #include "ProgressBar.h"
 
 #include "IO/Formats/MeshFile.h"
@@ -116,13 +115,22 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
   }
 }
 
-struct InfoOptions : CommonOptions
+struct InfoCommand : CommonOptions
 {
   std::filesystem::path file;
-  InputOptions input;
   bool check = false;
 
-  void run() const
+  void addOptions(CLI::App& command)
+  {
+    command.add_option("FILE", this->file, "The mesh")->required();
+    command.add_flag("--check", this->check,
+      "Read an entire .vsm file and verify its checksums; an error names the first damaged block");
+    this->addInputTo(command);
+    this->addTo(command);
+    this->addThreadsTo(command);
+  }
+
+  int run() const
   {
     this->checkReport({ this->file });
     if (this->check && smg::kindOfInput(this->file) != smg::MeshFileKind::Vsm)
@@ -134,7 +142,7 @@ struct InfoOptions : CommonOptions
     ProgressBar bar("reading", this->quiet);
     // The figures refer to the order of the file.
     const std::unique_ptr<smg::OpenedMesh> mesh =
-      openInput(this->file, *this, bar.function(), smg::StreamOrder::Keep, this->input);
+      this->openInput(this->file, bar.function(), smg::StreamOrder::Keep);
     nlohmann::ordered_json report = describe(this->file, *mesh);
     if (this->check)
     {
@@ -156,6 +164,7 @@ struct InfoOptions : CommonOptions
       std::printf("  checksums   those of all %lld blocks are right\n",
         report["checked_blocks"].get<long long>());
     }
+    return 0;
   }
 };
 
@@ -163,13 +172,5 @@ struct InfoOptions : CommonOptions
 
 void addInfoCommand(CLI::App& program, Action& action)
 {
-  auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = program.add_subcommand("info", "Print the properties of a mesh file");
-  command->add_option("FILE", options->file, "The mesh")->required();
-  command->add_flag("--check", options->check,
-    "Read an entire .vsm file and verify its checksums; an error names the first damaged block");
-  options->input.addTo(*command);
-  options->addTo(*command);
-  options->addThreadsTo(*command);
-  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
+  addCommand<InfoCommand>(program, action, "info", "Print the properties of a mesh file");
 }

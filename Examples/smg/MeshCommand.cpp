@@ -2,8 +2,6 @@
 #include "MeshCommand.h"
 
 #include "DrawMesh.h"
-#include "OneProcess.h"
-#include "OpenInput.h"
 #include "ProgressBar.h"
 
 #include "IO/External/Workspace.h"
@@ -11,6 +9,7 @@
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "smg/DescriptionFiles.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +18,12 @@
 
 namespace
 {
+
+/** Of the value of an option that may be a file instead. */
+bool isJson(const std::string& given)
+{
+  return given.starts_with('{') || given.starts_with('[');
+}
 
 /** Prints time and memory, and the notes that are no warnings. */
 void printCosts(const smg::Report& report)
@@ -39,6 +44,50 @@ void printCosts(const smg::Report& report)
 
 } // namespace
 
+void PlacesOption::addTo(CLI::App& command, const std::string& what)
+{
+  command
+    .add_option(this->Name, this->Given,
+      what +
+        ", as WHERE of a problem file: JSON, as '{\"sphere\": [0, 0, 0, 1]}', a list of these, or "
+        "a file; may be given several times")
+    ->check(
+      [this](const std::string& given)
+      {
+        // What a file says is no matter of the usage.
+        try
+        {
+          if (isJson(given))
+          {
+            this->placesOf(given);
+          }
+        }
+        catch (const smg::Error& error)
+        {
+          const std::string sentence = error.what(), prefix = this->Name + ": ";
+          return sentence.substr(sentence.starts_with(prefix) ? prefix.size() : 0);
+        }
+        return std::string(given.empty() ? "names no part of the mesh" : "");
+      })
+    ->allow_extra_args(false)
+    ->type_name("WHERE");
+}
+
+std::vector<smg::Where> PlacesOption::placesOf(const std::string& given) const
+{
+  return isJson(given) ? smg::readPlacesText(given, this->Name) : smg::readPlacesFile(given);
+}
+
+std::vector<smg::Where> PlacesOption::places() const
+{
+  std::vector<smg::Where> all;
+  for (const std::string& given : this->Given)
+  {
+    std::ranges::move(this->placesOf(given), std::back_inserter(all));
+  }
+  return all;
+}
+
 void MeshCommand::addFiles(CLI::App& command, const std::string& result)
 {
   command.add_option("IN", this->In, "The mesh, preferably a .vsm file")->required();
@@ -47,10 +96,8 @@ void MeshCommand::addFiles(CLI::App& command, const std::string& result)
 
 void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
 {
-  this->Input.addTo(command);
-  this->addTo(command, std::to_string(memoryLimit >> 20));
-  command.get_option("--memory")
-    ->description("Memory limit in MiB; without it, 256 MiB to convert IN");
+  this->addInputTo(command);
+  this->addTo(command, std::to_string(memoryLimit >> 20), "; without it, 256 MiB to convert IN");
   this->addThreadsTo(command);
   command.add_flag("--dry-run", this->DryRun, "Only estimate the cost; IN is not read");
 }
@@ -67,7 +114,7 @@ smg::AddedValues MeshCommand::replacedIn(
 
 smg::JobEstimate MeshCommand::estimate(const ResultFile& out) const
 {
-  smg::ConversionOptions conversion = inputOptions(*this, this->Input);
+  smg::ConversionOptions conversion = this->inputOptions();
   conversion.scratch = this->scratchPlace();
   const smg::EstimatedInput in(this->In, conversion);
   smg::JobEstimate estimate(in,
@@ -109,8 +156,8 @@ int MeshCommand::run()
 
 ResultFile MeshCommand::checkFiles()
 {
-  ResultFile out({ this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns(),
-    this->changedColumns(), this->threads });
+  ResultFile out({ this->In, this->Out, this->scratch, this->input.weld.has_value(),
+    this->resultColumns(), this->changedColumns(), this->threads });
   smg::checkIsNotInput(this->In, this->Out);
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });
@@ -147,7 +194,7 @@ void MeshCommand::compute()
   {
     const smg::JobEstimate estimate = this->estimate(out);
     this->writeReport(estimate.json(), this->pageFacts());
-    printEstimate(estimate);
+    this->printEstimate(estimate);
     return;
   }
   this->checkRoom(out);
@@ -155,8 +202,8 @@ void MeshCommand::compute()
   std::optional<html::ResultSurface> drawn;
   {
     ProgressBar bar(this->Title, this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
-      smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      this->openInput(this->In, smg::partOf(bar.function(), 0.0, 0.2));
     if (mesh->conversion())
     {
       this->Conversion = *mesh->conversion();

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "CommonOptions.h"
-#include "InputOptions.h"
 #include "ResultFile.h"
 
 #include "IO/Conversion/JobEstimate.h"
 #include "smg/Convert.h"
+#include "smg/Region.h"
 #include "smg/Solve.h"
 #include "smg/VsmReader.h"
 
@@ -16,6 +16,32 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+/** An option that names parts of the mesh in JSON, and may be given several times. */
+class PlacesOption
+{
+public:
+  /** `name` is the name of the option, for example "--hold". */
+  explicit PlacesOption(std::string name)
+    : Name(std::move(name))
+  {
+  }
+
+  /** Adds the option. `what` is what it names, for example "A part of the mesh that does not move".
+   */
+  void addTo(CLI::App& command, const std::string& what);
+
+  /** The values given: JSON or names of files. */
+  const std::vector<std::string>& given() const { return this->Given; }
+  /** The parts of all options. Throws smg::Error. */
+  std::vector<smg::Where> places() const;
+
+private:
+  std::vector<smg::Where> placesOf(const std::string& given) const;
+
+  std::string Name;
+  std::vector<std::string> Given;
+};
 
 /** Base of the commands that compute something on a mesh: opens the mesh, computes, writes the mesh
  * with the result and reports. */
@@ -28,6 +54,8 @@ public:
    */
   static constexpr int NotConverged = 3;
 
+  /** As CommonOptions::checkUsage(). */
+  virtual void checkUsage() const {}
   /** Runs the command; returns its exit code. Throws smg::Error. */
   int run();
 
@@ -96,7 +124,6 @@ protected:
   std::int64_t writerMemory() const;
 
   std::filesystem::path In, Out;
-  InputOptions Input;         ///< of a file that is not a .vsm
   std::filesystem::path File; ///< the task: problem or handles
   /** The report on the conversion of IN; none if IN is a .vsm file. */
   std::optional<smg::ConversionReport> Conversion;

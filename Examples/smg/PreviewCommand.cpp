@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
-#include "OneProcess.h"
-#include "OpenInput.h"
 #include "ProgressBar.h"
 
 #include "IO/Files/PartialProgress.h"
@@ -19,20 +17,20 @@
 namespace
 {
 
-struct PreviewOptions : CommonOptions
+struct PreviewCommand : CommonOptions
 {
   std::filesystem::path in, out;
-  InputOptions input;
   std::int64_t points = smg::DefaultPreviewPoints;
 
-  void run() const;
+  void addOptions(CLI::App& command);
+  int run() const;
 
 private:
   void checkOutputName() const;
 };
 
 /** Rejects formats that cannot store the map from the preview to the mesh. */
-void PreviewOptions::checkOutputName() const
+void PreviewCommand::checkOutputName() const
 {
   if (smg::kindOfOutput(this->out) == smg::MeshFileKind::Stream)
   {
@@ -43,7 +41,7 @@ void PreviewOptions::checkOutputName() const
   smg::checkOutput(this->out, smg::CellType::Triangle);
 }
 
-void PreviewOptions::run() const
+int PreviewCommand::run() const
 {
   requireOneProcess();
   const auto start = std::chrono::steady_clock::now();
@@ -54,8 +52,8 @@ void PreviewOptions::run() const
   std::vector<std::string> notes;
   {
     ProgressBar bar("reading", this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->in, *this,
-      smg::partOf(bar.function(), 0.0, 0.5), smg::StreamOrder::BreadthFirst, this->input);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      this->openInput(this->in, smg::partOf(bar.function(), 0.0, 0.5));
     const double begin = mesh->conversion() ? 0.5 : 0.0;
     smg::PreviewSource preview(
       mesh->reader(), this->points, smg::partOf(bar.function(), begin, 0.95), this->in.string());
@@ -88,30 +86,31 @@ void PreviewOptions::run() const
       std::printf("  %s\n", note.c_str());
     }
   }
+  return 0;
+}
+
+void PreviewCommand::addOptions(CLI::App& command)
+{
+  command.add_option("IN", this->in, "The mesh")->required();
+  command
+    .add_option("OUT", this->out,
+      "The preview: " +
+        smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
+        ", with the columns of the vertices of IN; StreamIndex "
+        "and OriginalId are their indices in the stream and in the original file")
+    ->required();
+  command.add_option("--points", this->points, "Maximum number of points of the preview")
+    ->check(CLI::Range(smg::MinPreviewPoints, smg::MaxPreviewPoints))
+    ->capture_default_str()
+    ->type_name("N");
+  this->addInputTo(command);
+  this->addTo(command, "256", "; to convert IN: a .vsm file is not converted");
 }
 
 } // namespace
 
 void addPreviewCommand(CLI::App& program, Action& action)
 {
-  auto options = std::make_shared<PreviewOptions>();
-  CLI::App* command = program.add_subcommand(
-    "preview", "Create a coarse surface whose points are vertices of the mesh");
-  command->add_option("IN", options->in, "The mesh")->required();
-  command
-    ->add_option("OUT", options->out,
-      "The preview: " +
-        smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
-        ", with the columns of the vertices of IN; StreamIndex "
-        "and OriginalId are their indices in the stream and in the original file")
-    ->required();
-  command->add_option("--points", options->points, "Maximum number of points of the preview")
-    ->check(CLI::Range(smg::MinPreviewPoints, smg::MaxPreviewPoints))
-    ->capture_default_str()
-    ->type_name("N");
-  options->input.addTo(*command);
-  options->addTo(*command);
-  command->get_option("--memory")
-    ->description("Memory limit in MiB for converting IN; a .vsm file is not converted");
-  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
+  addCommand<PreviewCommand>(
+    program, action, "preview", "Create a coarse surface whose points are vertices of the mesh");
 }

@@ -7,6 +7,10 @@
 #include <filesystem>
 #include <string>
 
+/** Makes SIGINT, SIGTERM and SIGHUP (unless ignored) cancel the running operation with a clean-up,
+ * instead of terminating the program. A second signal terminates it. */
+void catchInterrupts();
+
 /** The progress with the remaining time on standard error: a bar if that is a terminal, else a line
  * at most every ten seconds; cancels the work on an interrupt. */
 class ProgressBar

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
-#include "OneProcess.h"
-#include "OpenInput.h"
 #include "ProgressBar.h"
 
 #include "IO/Conversion/JobEstimate.h"
@@ -20,27 +18,32 @@
 namespace
 {
 
-struct SimplifyCommand : CommonOptions
+class SimplifyCommand : public CommonOptions
 {
-  std::filesystem::path in, out;
-  InputOptions input;
-  smg::SimplifyOptions simplify;
-  bool dryRun = false;
-
-  void run();
+public:
+  void addOptions(CLI::App& command);
+  void checkUsage() const;
+  int run();
 
 private:
   smg::JobEstimate estimate() const;
   smg::SimplifyReport simplified();
+  void print(const smg::SimplifyReport& report) const;
+
+  std::filesystem::path In, Out;
+  smg::SimplifyTarget Target;
+  smg::SimplifyOptions Simplify;
+  bool DryRun = false;
 };
 
 smg::JobEstimate SimplifyCommand::estimate() const
 {
-  smg::ConversionOptions conversion = inputOptions(*this, this->input);
+  smg::ConversionOptions conversion = this->inputOptions();
   conversion.scratch = this->scratchPlace();
-  smg::SimplifyOptions options = this->simplify;
+  smg::SimplifyOptions options = this->Simplify;
   options.memoryLimit = this->memoryBytes(options.memoryLimit);
-  return smg::simplifyEstimate({ this->in, conversion }, this->out, options, conversion);
+  return smg::simplifyEstimate(
+    { this->In, conversion }, this->Target, this->Out, options, conversion);
 }
 
 /** The times are those of the conversion, too. */
@@ -52,15 +55,15 @@ smg::SimplifyReport SimplifyCommand::simplified()
   try
   {
     ProgressBar bar("simplifying", this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->in, *this,
-      smg::partOf(bar.function(), 0.0, 0.5), smg::StreamOrder::BreadthFirst, this->input);
-    this->simplify.memoryLimit = this->memoryBytes(this->simplify.memoryLimit);
-    this->simplify.threads = this->threads;
-    this->simplify.scratch = this->scratch;
-    this->simplify.checkpoint = this->checkpoint;
-    this->simplify.meshIdentity = mesh->reader().fingerprint();
-    this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
-    smg::SimplifyReport report = smg::simplify(mesh->reader(), this->out, this->simplify);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      this->openInput(this->In, smg::partOf(bar.function(), 0.0, 0.5));
+    this->Simplify.memoryLimit = this->memoryBytes(this->Simplify.memoryLimit);
+    this->Simplify.threads = this->threads;
+    this->Simplify.scratch = this->scratch;
+    this->Simplify.checkpoint = this->checkpoint;
+    this->Simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
+    smg::SimplifyReport report =
+      smg::simplify(mesh->reader(), this->Target, this->Out, this->Simplify);
     report.seconds = timer.seconds();
     report.cpu_seconds = smg::processSeconds() - cpu;
     return report;
@@ -71,64 +74,65 @@ smg::SimplifyReport SimplifyCommand::simplified()
   }
 }
 
-void SimplifyCommand::run()
+void SimplifyCommand::print(const smg::SimplifyReport& report) const
+{
+  std::printf("%lld vertices and %lld triangles of %lld and %lld, ",
+    static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
+    static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before));
+  if (!std::isnan(report.error))
+  {
+    std::printf(
+      "error %.3g%s, ", report.error, report.dropped_bodies > 0 ? " of what is left" : "");
+  }
+  std::printf("%.2f s\n", report.seconds);
+  for (const std::string& note : report.notes)
+  {
+    std::printf("  %s\n", note.c_str());
+  }
+}
+
+int SimplifyCommand::run()
 {
   requireOneProcess();
-  smg::checkSimplifiedPath(this->out);
-  smg::checkIsNotInput(this->in, this->out);
-  this->checkReport({ this->in, this->out });
-  this->checkCheckpoint({ this->out, this->report });
-  if (this->dryRun)
+  smg::checkSimplifiedPath(this->Out);
+  smg::checkIsNotInput(this->In, this->Out);
+  this->checkReport({ this->In, this->Out });
+  this->checkCheckpoint({ this->Out, this->report });
+  if (this->DryRun)
   {
     const smg::JobEstimate costs = this->estimate();
-    this->writeReport(costs.json(), { this->in });
-    printEstimate(costs);
-    return;
+    this->writeReport(costs.json(), { this->In });
+    this->printEstimate(costs);
+    return 0;
   }
   const smg::SimplifyReport report = this->simplified();
-  html::PageFacts facts{ this->in, this->simplify.memoryLimit };
+  html::PageFacts facts{ this->In, this->Simplify.memoryLimit };
   if (this->reportsPage())
   {
-    facts.surface = surfaceOf(this->out, *this);
+    facts.surface = surfaceOf(this->Out, *this);
   }
   this->writeReport(report.json(), facts);
   if (!this->quiet)
   {
-    std::printf("%lld vertices and %lld triangles of %lld and %lld, ",
-      static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
-      static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before));
-    if (!std::isnan(report.error))
-    {
-      std::printf(
-        "error %.3g%s, ", report.error, report.dropped_bodies > 0 ? " of what is left" : "");
-    }
-    std::printf("%.2f s\n", report.seconds);
-    for (const std::string& note : report.notes)
-    {
-      std::printf("  %s\n", note.c_str());
-    }
+    this->print(report);
   }
+  return 0;
 }
 
-} // namespace
-
-void addSimplifyCommand(CLI::App& program, Action& action)
+void SimplifyCommand::addOptions(CLI::App& command)
 {
-  auto options = std::make_shared<SimplifyCommand>();
-  CLI::App* command = program.add_subcommand(
-    "simplify", "Simplify a surface, or that of a solid, by collapsing edges");
-  command->add_option("IN", options->in, "The mesh")->required();
+  command.add_option("IN", this->In, "The mesh")->required();
   command
-    ->add_option("OUT", options->out,
+    .add_option("OUT", this->Out,
       "The simplified surface: " +
         smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
         " with the columns of the vertices of IN, and with OriginalId, the number that each vertex "
         "has in IN; or any other format of surfaces that is written")
     ->required();
-  command->add_option("--vertices", options->simplify.vertices, "Maximum number of vertices")
+  command.add_option("--vertices", this->Target.vertices, "Maximum number of vertices")
     ->check(CLI::Range(std::int64_t(4), std::int64_t(1) << 40))
     ->type_name("N");
-  command->add_option("--error", options->simplify.error, "Largest error, in the unit of the mesh")
+  command.add_option("--error", this->Target.error, "Largest error, in the unit of the mesh")
     ->check(
       [](const std::string& given)
       {
@@ -136,19 +140,25 @@ void addSimplifyCommand(CLI::App& program, Action& action)
         return length && *length > 0.0 ? std::string() : '\'' + given + "' is not a number above 0";
       })
     ->type_name("LENGTH");
-  command->add_flag(
-    "--dry-run", options->dryRun, "Only estimate the size of the mesh and the costs");
-  options->input.addTo(*command);
-  options->addTo(*command);
-  options->addThreadsTo(*command);
-  options->addCheckpointTo(*command);
-  command->callback(
-    [options, &action]
-    {
-      if (options->simplify.vertices == 0 && options->simplify.error == 0.0)
-      {
-        throw CLI::RequiredError("--vertices, --error or both");
-      }
-      action = [options] { return options->run(), 0; };
-    });
+  command.add_flag("--dry-run", this->DryRun, "Only estimate the size of the mesh and the costs");
+  this->addInputTo(command);
+  this->addTo(command);
+  this->addThreadsTo(command);
+  this->addCheckpointTo(command);
+}
+
+void SimplifyCommand::checkUsage() const
+{
+  if (this->Target.vertices == 0 && this->Target.error == 0.0)
+  {
+    throw CLI::RequiredError("--vertices, --error or both");
+  }
+}
+
+} // namespace
+
+void addSimplifyCommand(CLI::App& program, Action& action)
+{
+  addCommand<SimplifyCommand>(
+    program, action, "simplify", "Simplify a surface, or that of a solid, by collapsing edges");
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlacesOption.h"
 #include "SolvingCommand.h"
 
 #include "IO/Files/PartialProgress.h"
@@ -61,6 +60,8 @@ public:
       ->capture_default_str();
   }
 
+  void checkUsage() const override { smg::checkOptions(this->Smooth); }
+
 protected:
   std::string resultColumns() const override
   {
@@ -73,11 +74,7 @@ protected:
                                        : std::vector{ this->Smooth.column };
   }
 
-  void readTask() override
-  {
-    smg::checkOptions(this->Smooth);
-    this->Smooth.hold = this->Hold.places();
-  }
+  void readTask() override { this->Smooth.hold = this->Hold.places(); }
 
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
@@ -174,9 +171,6 @@ private:
 
 void addSmoothCommand(CLI::App& program, Action& action)
 {
-  auto smooth = std::make_shared<SmoothCommand>();
-  CLI::App* command =
-    program.add_subcommand("smooth", "Smooth a surface, or a column of the vertices of any mesh");
-  smooth->addOptions(*command);
-  command->callback([smooth, &action] { action = [smooth] { return smooth->run(); }; });
+  addCommand<SmoothCommand>(
+    program, action, "smooth", "Smooth a surface, or a column of the vertices of any mesh");
 }

@@ -84,6 +84,12 @@ public:
     command.footer(problemHelp());
   }
 
+  void checkUsage() const override
+  {
+    smg::checkOptions(this->Solve);
+    smg::checkOperators(this->Solve);
+  }
+
 protected:
   void computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
@@ -105,8 +111,6 @@ protected:
 
   void readTask() override
   {
-    smg::checkOptions(this->Solve);
-    smg::checkOperators(this->Solve);
     this->Description = smg::readProblemText(this->readText(), this->File.string());
     if (!smg::isPosed(this->Description))
     {
@@ -186,8 +190,5 @@ private:
 
 void addSolveCommand(CLI::App& program, Action& action)
 {
-  auto solve = std::make_shared<SolveCommand>();
-  CLI::App* command = program.add_subcommand("solve", "Solve a Poisson problem on a mesh");
-  solve->addOptions(*command);
-  command->callback([solve, &action] { action = [solve] { return solve->run(); }; });
+  addCommand<SolveCommand>(program, action, "solve", "Solve a Poisson problem on a mesh");
 }

@@ -77,6 +77,7 @@ const char* iterations(const smg::Report& report, int count)
 void SolvingCommand::warn(const smg::Report& report) const
 {
   this->MeshCommand::warn(report);
+  bool isAdvised = false;
   const auto warning = [&](const std::string& what, double residual, int cycles)
   {
     std::fprintf(stderr, "smg: warning: %snot converged: the relative residual is %.3g after %d %s",
@@ -85,6 +86,11 @@ void SolvingCommand::warn(const smg::Report& report) const
     if (tolerance != smg::SolveOptions::AutomaticTolerance)
     {
       std::fprintf(stderr, ", the tolerance %.3g", tolerance);
+    }
+    // What has stagnated does not get better by that.
+    if (cycles >= this->solveOptions().maxCycles && !std::exchange(isAdvised, true))
+    {
+      std::fputs(": raise --max-cycles or --tolerance", stderr);
     }
     std::fputc('\n', stderr);
   };

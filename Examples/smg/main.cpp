@@ -17,7 +17,7 @@
 
 #include "CommonOptions.h"
 #include "HtmlReport/Page.h"
-#include "Interrupt.h"
+#include "ProgressBar.h"
 
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
@@ -35,8 +35,24 @@
 #include <utility>
 #include <vector>
 
+/** Each in its own file. */
+void addBlendCommand(CLI::App& program, Action& action);
+void addConvertCommand(CLI::App& program, Action& action);
+void addDeformCommand(CLI::App& program, Action& action);
+void addDistanceCommand(CLI::App& program, Action& action);
+void addInfoCommand(CLI::App& program, Action& action);
+void addPreviewCommand(CLI::App& program, Action& action);
+void addSimplifyCommand(CLI::App& program, Action& action);
+void addSmoothCommand(CLI::App& program, Action& action);
+void addSolveCommand(CLI::App& program, Action& action);
+
 namespace
 {
+
+/** In the order of the help. */
+constexpr void (*Commands[])(CLI::App&, Action&) = { addInfoCommand, addConvertCommand,
+  addSolveCommand, addDeformCommand, addSmoothCommand, addBlendCommand, addDistanceCommand,
+  addSimplifyCommand, addPreviewCommand };
 
 /** Prints an error in one line, without control characters. */
 int fail(const std::string& sentence)
@@ -111,15 +127,10 @@ int run(int argc, char** argv)
   program.set_version_flag("--version", SMG_VERSION);
   program.require_subcommand(1);
   Action action;
-  addInfoCommand(program, action);
-  addConvertCommand(program, action);
-  addSolveCommand(program, action);
-  addDeformCommand(program, action);
-  addSmoothCommand(program, action);
-  addBlendCommand(program, action);
-  addDistanceCommand(program, action);
-  addSimplifyCommand(program, action);
-  addPreviewCommand(program, action);
+  for (const auto add : Commands)
+  {
+    add(program, action);
+  }
   if (argc < 2 || std::string_view(argv[1]) == "help")
   {
     std::fputs(program.help().c_str(), argc < 2 ? stderr : stdout);

@@ -17,6 +17,7 @@
 
 class vtkPointSet;
 class vtkSelection;
+class vtkImplicitFunction;
 
 namespace smg
 {
@@ -107,5 +108,12 @@ struct RegionContext
   Progress& progress;
   std::function<void(const std::string&)> warn;
 };
+
+/**
+ * Holds the points where the function is at most 0, or (`isInsideOut`) at least 0. Throws Error if
+ * there is no function, if it is a sphere or a cylinder with a radius that is not greater than 0,
+ * or if it is not finite at a point.
+ */
+HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPointSet& piece);
 
 } // namespace smg

@@ -60,7 +60,7 @@ bool MarkedRegion::isByItself(vtkPointSet& piece, const PieceRequest& request) c
   return isWhole;
 }
 
-vtkPointSet& MarkedRegion::bring(
+vtkPointSet& MarkedRegion::fetchPiece(
   const PieceRequest& request, const RegionContext& context, HeldPoints& held)
 {
   const auto update = [&context, &request]

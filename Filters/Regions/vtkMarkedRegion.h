@@ -29,7 +29,8 @@ public:
    * whole mesh is computed first and kept until the settings or the stamp change. Throws Error and
    * Cancelled.
    */
-  vtkPointSet& bring(const PieceRequest& request, const RegionContext& context, HeldPoints& held);
+  vtkPointSet& fetchPiece(
+    const PieceRequest& request, const RegionContext& context, HeldPoints& held);
 
 private:
   /** The held points of the whole mesh. */

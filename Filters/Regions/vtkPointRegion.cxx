@@ -231,7 +231,7 @@ bool PointRegion::isDisplayed(const PieceRequest& request, const RegionContext& 
          (this->Asked.isAlone() || isByNumber(*context.selection));
 }
 
-vtkPointSet& PointRegion::bring(
+vtkPointSet& PointRegion::fetchPiece(
   const PieceRequest& request, const RegionContext& context, HeldPoints& held)
 {
   this->Asked.check(context.selection != nullptr);

@@ -96,7 +96,8 @@ public:
    * the mesh are computed first and kept until the settings or the stamp change. Throws Error and
    * Cancelled.
    */
-  vtkPointSet& bring(const PieceRequest& request, const RegionContext& context, HeldPoints& held);
+  vtkPointSet& fetchPiece(
+    const PieceRequest& request, const RegionContext& context, HeldPoints& held);
 
   /** Throws Error if the holders are ids, which must all hold a point of the mesh, and `isHolding`
    * does not mark one of them. */

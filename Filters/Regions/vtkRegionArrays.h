@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Filters/Regions/vtkHeldPoints.h"
+#include "smg/ProblemDescription.h"
 #include "smg/Region.h"
 
 #include <string>
@@ -19,11 +20,36 @@ inline constexpr const char* MeshRegionsName = "MeshRegions";
  * Throws Error if the mesh has an array of that name which is no region. */
 void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held);
 
-/** The regions of the mesh. */
-std::vector<Where> regionsOf(vtkPointSet& mesh);
+/** The regions of the mesh, and the places that `text`, the property `property` of a filter, lists
+ * in JSON, if there is one. Throws Error. */
+std::vector<Where> placesOn(vtkPointSet& mesh, const char* text, const char* property);
 
 /** Takes regions without a point of a preview out of `places`: those of the mesh, which may have
  * some, lie between its points. */
 void dropEmptyRegions(vtkPointSet& preview, std::vector<Where>& places);
+
+/** The conditions of a mesh: the field array `MeshConditions` of strings, each a part of a problem
+ * in the JSON of a problem file (see smg/DescriptionFiles.h). */
+inline constexpr const char* MeshConditionsName = "MeshConditions";
+
+/** The field array of strings with the names of the point arrays that conditions have added. */
+inline constexpr const char* MeshConditionArraysName = "MeshConditionArrays";
+
+/** Adds the point array of another condition, unsigned char and 0, and returns its name, which was
+ * unused. */
+std::string addMask(vtkPointSet& mesh);
+
+/** Appends a condition to those of the mesh. */
+void addCondition(vtkPointSet& mesh, const std::string& text);
+
+/** Removes all conditions and the arrays that they have added. */
+void removeConditions(vtkPointSet& mesh);
+
+/** The number of conditions of the mesh. */
+int countConditions(vtkPointSet& mesh);
+
+/** Adds the conditions of a mesh to a problem. Throws Error if one is not a valid part of a
+ * problem. */
+void applyConditions(vtkPointSet& mesh, ProblemDescription& problem);
 
 } // namespace smg

@@ -3,8 +3,11 @@
 
 #include "Filters/Regions/vtkHandleArrays.h"
 #include "Filters/Tasks/DeformedVertices.h"
+#include "Filters/Tasks/vtkInteractiveMesh.h"
+#include "Filters/Tasks/vtkJobTask.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Results/MovedPoints.h"
+#include "IO/vtkMeshPieceData.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/DescribedHandles.h"
@@ -81,6 +84,29 @@ std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
   }
   report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
   return moved;
+}
+
+SolveSummary DeformationTask::solveInMemory(
+  vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values)
+{
+  DeformOptions given = this->options;
+  given.progress = progress;
+  given.checkpoint = {};
+  values = this->interactive->deform(mesh, given, this->needsNormals);
+  Report report = this->interactive->report();
+  if (!isPreview(mesh))
+  {
+    this->interactive->judge(report);
+    return SolveSummary::of(report, this->interactive->columns());
+  }
+  report.notes.push_back(
+    noteOnPreview(report.vertices, "this is the deformed preview", "deformed"));
+  if (isSurfaceOfSolid(mesh))
+  {
+    report.notes.push_back("the preview is the surface of the solid, on which handles inside have "
+                           "no effect: PreviewCells of the reader offers tetrahedra");
+  }
+  return SolveSummary::of(report, this->interactive->columns());
 }
 
 } // namespace smg

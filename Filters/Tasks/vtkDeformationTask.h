@@ -11,6 +11,8 @@
 namespace smg
 {
 
+class InteractiveMesh;
+
 /** A deformation by the handles in the arrays of the pieces. Its values: see DeformedVertices. */
 class DeformationTask : public StreamedTask
 {
@@ -22,6 +24,8 @@ public:
   DeformOptions options;          ///< except for the progress function
   bool needsNormals = false;      ///< of the vertices; tetrahedra have none
   std::vector<std::string> notes; ///< for the report
+  /** Keeps the hierarchy of a mesh in memory for the next deformation; that of the filter. */
+  InteractiveMesh* interactive = nullptr;
 
   void check() const override;
   PieceColumns columns() const override;
@@ -29,6 +33,8 @@ public:
   bool isInMemory() const override { return this->options.inCore; }
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
     const ProgressFunction& progress, Report& report) const override;
+  SolveSummary solveInMemory(
+    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) override;
 };
 
 } // namespace smg

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkPoissonTask.h"
 
-#include "Filters/Tasks/vtkPieceResults.h"
+#include "Filters/Pieces/vtkPieceBlock.h"
 #include "IO/Files/PartialProgress.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
@@ -13,14 +14,19 @@
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
+#include <string>
 
 namespace smg
 {
+
 namespace
 {
 
@@ -115,6 +121,41 @@ std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
   return solution;
 }
 
+SolveSummary PoissonTask::solveInMemory(
+  vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values)
+{
+  this->check();
+  values.clear();
+  const PieceBlock mesh(preview, namedColumns(this->problem));
+  DescribedProblem problem(this->problem, mesh.info());
+  problem.prepare(*mesh.source(), this->options.scratch, this->options.memoryLimit);
+  SolveOptions given = this->options;
+  given.progress = progress;
+  given.inCore = true;
+  given.checkpoint = {};
+  given.again = [&mesh] { return mesh.source(); };
+  const std::unique_ptr<Solution> solution = smg::solve(*mesh.source(), problem, given);
+  values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
+  solution->read(0, mesh.info().vertices, values);
+
+  Report report = solution->report();
+  ProblemResults results(mesh.info(), problem, *solution);
+  results.add(mesh.block());
+  results.finish(report);
+  const std::vector<Column>& columns = mesh.block().vertexColumns;
+  if (const std::ptrdiff_t ids = findColumn(columns, OriginalIdSpec); ids >= 0)
+  {
+    const auto numbers = columns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+    renumberExtremes(
+      report, [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+  }
+  report.notes.push_back(
+    "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
+    " vertices: it approximates that on the full mesh, which is solved on when "
+    "it is saved, or with Solve: Full Mesh");
+  return SolveSummary::of(report, problem.columns());
+}
+
 std::string ChosenArrays::named(int index) const
 {
   vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
@@ -151,6 +192,98 @@ std::string ChosenArrays::ofPoints(int index) const
                 "data into point data.");
   }
   return name;
+}
+
+namespace
+{
+
+/** The data of a problem that the results of the cells depend on. */
+ProblemDescription ofCells(const ProblemDescription& problem)
+{
+  ProblemDescription part;
+  part.weights = problem.weights;
+  part.columns = problem.columns;
+  if (problem.fluxOutput)
+  {
+    part.conductivity = problem.conductivity;
+  }
+  return part;
+}
+
+void addArray(vtkPointSet& piece, const char* name, int columns, std::span<const double> numbers)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3 * columns);
+  array->SetNumberOfTuples(piece.GetNumberOfCells());
+  std::ranges::copy(numbers, array->GetPointer(0));
+  piece.GetCellData()->AddArray(array);
+}
+
+} // namespace
+
+void checkCellResults(const ProblemDescription& problem)
+{
+  for (const PlacedValue& entry : problem.conductivity.entries)
+  {
+    if (problem.fluxOutput && (std::holds_alternative<NearestVertices>(entry.where) ||
+                                std::holds_alternative<OnBoundary>(entry.where)))
+    {
+      throw Error(
+        "The cell array Flux needs a conductivity that a cell knows by itself: choose its "
+        "cells by a region, a tag or a mask instead of the nearest points or the boundary.");
+    }
+  }
+}
+
+void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
+  std::span<const double> values, vtkPointSet& output)
+{
+  if (piece.GetNumberOfCells() == 0 || !(problem.gradientOutput || problem.fluxOutput))
+  {
+    return;
+  }
+  const ProblemDescription part = ofCells(problem);
+  const PieceBlock mesh(piece, namedColumns(part));
+  DescribedProblem described(part, mesh.info());
+  InMemorySolution solution(values, problem.columns);
+  ProblemResults results(mesh.info(), described, solution,
+    { .gradient = problem.gradientOutput, .flux = problem.fluxOutput });
+  results.add(mesh.block());
+  if (problem.gradientOutput)
+  {
+    addArray(output, GradientName, problem.columns, results.gradient());
+  }
+  if (problem.fluxOutput)
+  {
+    addArray(output, FluxName, problem.columns, results.flux());
+  }
+}
+
+std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
+{
+  if (!vtkPolyData::SafeDownCast(&preview))
+  {
+    return "the boundary of a solid's preview is not that of the mesh";
+  }
+  if (!task.problem.flux.empty() || !task.problem.robin.empty())
+  {
+    return "the preview has open edges that the mesh has not, where flux and exchange would act";
+  }
+  try
+  {
+    if (preview.GetNumberOfCells() > 0)
+    {
+      const PieceBlock mesh(preview, namedColumns(task.problem));
+      DescribedProblem(task.problem, mesh.info())
+        .prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
+    }
+    return {};
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
 }
 
 } // namespace smg

@@ -12,6 +12,7 @@
 
 namespace smg
 {
+
 namespace
 {
 
@@ -218,6 +219,37 @@ void SolutionExchange::serve(Solution& solution, int process)
       this->Controller->Send(
         values.data(), static_cast<vtkIdType>(values.size()), process, ValuesTag);
     }
+  }
+}
+
+bool SharedRequest::isShared(const PieceRequest& request, const InputStamp& stamp, bool isServer)
+{
+  if (request.IsStreamed)
+  {
+    // The others are not there to answer.
+    if (!isServer)
+    {
+      throw Error("A streamed request reached a process other than 0, which has no solution: "
+                  "stream in process 0.");
+    }
+    this->HasStreamed = true;
+    return false;
+  }
+  if (isServer && this->HasStreamed &&
+      this->Last == Answered{ stamp, request.Piece, request.Pieces })
+  {
+    return false;
+  }
+  this->HasStreamed = false;
+  this->Last.reset();
+  return true;
+}
+
+void SharedRequest::noteAnswer(const PieceRequest& request, const InputStamp& stamp)
+{
+  if (!request.IsStreamed)
+  {
+    this->Last = Answered{ stamp, request.Piece, request.Pieces };
   }
 }
 

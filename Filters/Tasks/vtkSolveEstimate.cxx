@@ -97,14 +97,14 @@ EstimateOf estimateOfSolve(const TaskOf& taskOf, const SolveOptions& options)
     // meshes, while they are solved on. Saving is not part of the solve.
     estimate.scratch_bytes =
       task->isInMemory() ? 0 : std::max(in.conversionScratch, in.streamBytes + costs.scratch);
-    estimate.cpu_seconds = costs.seconds + in.conversionSeconds + pullSeconds(in.info);
+    estimate.cpu_seconds = costs.seconds + in.conversionSeconds + readingSeconds(in.info);
     return estimate;
   };
 }
 
 } // namespace
 
-double pullSeconds(const StreamInfo& mesh)
+double readingSeconds(const StreamInfo& mesh)
 {
   // That of pvpython besides the solve, on surfaces of 168 and 720 thousand vertices and on
   // tetrahedra of 59 thousand; on an AMD EPYC as the times in Solver/Jobs/Estimate/Costs.cpp.

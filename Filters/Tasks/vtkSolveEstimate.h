@@ -27,7 +27,7 @@ using TaskOf = std::function<std::unique_ptr<StreamedTask>(vtkPointSet& input)>;
 using EstimateOf = std::function<JobEstimate(const EstimatedInput& mesh, vtkPointSet& present)>;
 
 /** Processor time for a mesh whose pieces are requested and written to a scratch file. */
-double pullSeconds(const StreamInfo& mesh);
+double readingSeconds(const StreamInfo& mesh);
 
 /**
  * What a computation of a filter on the whole mesh is expected to cost, in one line, or why that is

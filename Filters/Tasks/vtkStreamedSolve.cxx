@@ -26,7 +26,7 @@ namespace
 {
 
 /** The share of reading the input in the progress; the solve takes the rest. */
-constexpr double PullShare = 0.25;
+constexpr double ReadShare = 0.25;
 /** A conversion needs so much memory. */
 constexpr std::int64_t MinConversionMemory = std::int64_t(16) << 20;
 
@@ -36,26 +36,27 @@ constexpr const char* FolderInMemory = "/dev/shm";
 /** A folder for the scratch files of a solve on a mesh that VTK has in memory: there, too, if none
  * is given and they take at most half of the memory limit and a quarter of what is free. The mesh
  * is written as it is, sorted, and written in order; a solve has some hundred bytes a point. */
-std::unique_ptr<ScratchFolder> folderFor(vtkPointSet& mesh, const StreamedSolve::Pulling& pulling)
+std::unique_ptr<ScratchFolder> folderFor(
+  vtkPointSet& mesh, const StreamedSolve::PieceReading& reading)
 {
   constexpr std::int64_t OfPoint = 400;
   const std::int64_t bytes = 4 * static_cast<std::int64_t>(mesh.GetActualMemorySize()) * 1024 +
                              OfPoint * mesh.GetNumberOfPoints();
   std::error_code absent;
   const std::filesystem::space_info space = std::filesystem::space(FolderInMemory, absent);
-  if (pulling.scratch.empty() && !absent && bytes <= pulling.memory / 2 &&
+  if (reading.scratch.empty() && !absent && bytes <= reading.memory / 2 &&
       static_cast<std::uintmax_t>(bytes) <= space.available / 4)
   {
     try
     {
-      return std::make_unique<ScratchFolder>(FolderInMemory, pulling.scratchLimit);
+      return std::make_unique<ScratchFolder>(FolderInMemory, reading.scratchLimit);
     }
     catch (const Error&)
     {
       // Not writable: on the disk, then.
     }
   }
-  return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit);
+  return std::make_unique<ScratchFolder>(reading.scratch, reading.scratchLimit);
 }
 
 /** A progress function that cannot cancel by itself. */
@@ -71,11 +72,11 @@ ProgressFunction functionOf(Progress& progress)
 } // namespace
 
 void StreamedSolve::solve(
-  PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress)
+  PieceInput& input, const StreamedTask& task, const PieceReading& reading, Progress& progress)
 {
   const auto make = [&](const std::filesystem::path& container, Progress& pulled, Report& notes)
   {
-    PieceStream stream(input, pulling.pieces, task.columns());
+    PieceStream stream(input, reading.pieces, task.columns());
     writeContainer(stream, container, true, pulled);
     if (const std::string lacking = input.noteOnNeighbours(stream.pieces()); !lacking.empty())
     {
@@ -83,16 +84,16 @@ void StreamedSolve::solve(
     }
   };
   const auto folder = [&]
-  { return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit); };
+  { return std::make_unique<ScratchFolder>(reading.scratch, reading.scratchLimit); };
   this->solveOn(folder, make, task, progress);
 }
 
 void StreamedSolve::solveWhole(
-  vtkPointSet& mesh, const StreamedTask& task, const Pulling& pulling, Progress& progress)
+  vtkPointSet& mesh, const StreamedTask& task, const PieceReading& reading, Progress& progress)
 {
   const auto make = [&](const std::filesystem::path& container, Progress& written, Report& notes)
   {
-    const ConversionReport converted = this->writeWhole(mesh, pulling, container, written);
+    const ConversionReport converted = this->writeWhole(mesh, reading, container, written);
     notes.notes = converted.notes;
     if (converted.higher_order_cells > 0)
     {
@@ -101,7 +102,7 @@ void StreamedSolve::solveWhole(
                  "result (Tessellate of ParaView makes linear cells of them)");
     }
   };
-  this->solveOn([&] { return folderFor(mesh, pulling); }, make, task, progress);
+  this->solveOn([&] { return folderFor(mesh, reading); }, make, task, progress);
 }
 
 std::vector<double> StreamedSolve::valuesOfPoints()
@@ -151,13 +152,13 @@ void StreamedSolve::fail(const std::string& sentence)
 }
 
 void StreamedSolve::solveFile(const std::filesystem::path& file, const StreamedTask& task,
-  const Pulling& pulling, Progress& progress)
+  const PieceReading& reading, Progress& progress)
 {
   try
   {
     this->discard();
     task.check();
-    this->Scratch = std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit);
+    this->Scratch = std::make_unique<ScratchFolder>(reading.scratch, reading.scratchLimit);
     const Report report = this->solveOnFile(file, task, functionOf(progress));
     this->Summary = SolveSummary::of(report, this->Result->columns());
   }
@@ -186,12 +187,12 @@ void StreamedSolve::solveOn(
     this->Scratch = folder();
     const std::filesystem::path container = *this->Scratch / "mesh.vsm";
     const ProgressFunction whole = functionOf(progress);
-    Progress made(partOf(whole, 0.0, PullShare));
+    Progress made(partOf(whole, 0.0, ReadShare));
     Report ofMesh;
     make(container, made, ofMesh);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
-    Report report = this->solveOnFile(container, task, partOf(whole, PullShare, 1.0));
+    Report report = this->solveOnFile(container, task, partOf(whole, ReadShare, 1.0));
     FileDescriptor::removeClosed(container);
     if (const auto loose = std::ranges::count(this->VertexOfPoint, -1); loose > 0)
     {
@@ -212,7 +213,7 @@ void StreamedSolve::solveOn(
   }
 }
 
-ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const Pulling& pulling,
+ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const PieceReading& reading,
   const std::filesystem::path& container, Progress& progress)
 {
   // Its own numbers would be taken for those of the points.
@@ -221,9 +222,9 @@ ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const Pulling& pul
   plain->GetPointData()->RemoveArray(OriginalIdName);
   plain->GetCellData()->RemoveArray(OriginalCellIdName);
   ConversionOptions options;
-  options.memoryLimit = std::max(pulling.memory, MinConversionMemory);
+  options.memoryLimit = std::max(reading.memory, MinConversionMemory);
   options.scratch = this->Scratch->path();
-  options.threads = pulling.threads;
+  options.threads = reading.threads;
   options.codec = Codec::Lz4;
   options.progress = functionOf(progress);
   const ConversionReport report = writeOrdinaryMesh(*plain, container, options);

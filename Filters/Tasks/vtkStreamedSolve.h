@@ -33,7 +33,7 @@ public:
   StreamedSolve& operator=(const StreamedSolve&) = delete;
 
   /** How the pieces of the input are requested. */
-  struct Pulling
+  struct PieceReading
   {
     PieceCount pieces;
     /** Folder for scratch files; empty: the system's, or of an ordinary mesh the memory. */
@@ -64,11 +64,11 @@ public:
    * error, and there is then no solution.
    */
   void solve(
-    PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
+    PieceInput& input, const StreamedTask& task, const PieceReading& reading, Progress& progress);
 
   /** The same on a .vsm file, which is only read. */
   void solveFile(const std::filesystem::path& file, const StreamedTask& task,
-    const Pulling& pulling, Progress& progress);
+    const PieceReading& reading, Progress& progress);
 
   /**
    * The same on a whole ordinary mesh (see isOrdinaryMesh()): it is converted as a file is, so that
@@ -76,7 +76,7 @@ public:
    * out.
    */
   void solveWhole(
-    vtkPointSet& mesh, const StreamedTask& task, const Pulling& pulling, Progress& progress);
+    vtkPointSet& mesh, const StreamedTask& task, const PieceReading& reading, Progress& progress);
 
   /** Of a solution on an ordinary mesh: the values at all its points; not a number where no cell
    * is. */
@@ -101,7 +101,7 @@ private:
     const MakeFolder& folder, const MakeMesh& make, const StreamedTask& task, Progress& progress);
   Report solveOnFile(
     const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress);
-  ConversionReport writeWhole(vtkPointSet& mesh, const Pulling& pulling,
+  ConversionReport writeWhole(vtkPointSet& mesh, const PieceReading& reading,
     const std::filesystem::path& container, Progress& progress);
 
   std::unique_ptr<ScratchFolder> Scratch; ///< of the solution

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Tasks/SolveSummary.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/vtkPieceStream.h"
 #include "smg/Solve.h"
@@ -8,11 +9,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
+
+class vtkPointSet;
 
 namespace smg
 {
 
-/** A computation on a mesh that an input delivers in pieces. */
+/** A computation on a mesh that an input delivers in pieces or, with its preview or as a whole, in
+ * memory. */
 class StreamedTask
 {
 public:
@@ -39,6 +44,11 @@ public:
   virtual std::unique_ptr<Solution> solve(const VsmReader& mesh,
     const std::filesystem::path& scratch, const ProgressFunction& progress,
     Report& report) const = 0;
+
+  /** Computes on a mesh in memory, which has cells, and sets the values at its points. Throws Error
+   * and Cancelled. */
+  virtual SolveSummary solveInMemory(
+    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) = 0;
 };
 
 } // namespace smg

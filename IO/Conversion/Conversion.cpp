@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Conversion.h"
 
-#include "IO/Conversion/CompressedStream.h"
 #include "IO/Conversion/ConversionStages.h"
+#include "IO/Files/Inflate.h"
+#include "IO/Files/InputFile.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Import/Weld.h"
 #include "Solver/Memory/Pool.h"
@@ -223,6 +225,15 @@ std::string ConversionReport::json(int indent) const
     { "write", this->seconds.write }, { "total", this->seconds.total } };
   json["notes"] = this->notes;
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+bool isCompressedStream(const std::filesystem::path& path)
+{
+  // A text stream looks like an OBJ file: its name decides.
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) &&
+         std::filesystem::file_size(path, ignored) > 0 && isGzip(InputFile(path).at(0, 2)) &&
+         (kindOfInput(path) != MeshFileKind::Indexed || streamFormatOfName(path.stem()));
 }
 
 } // namespace smg

@@ -80,4 +80,7 @@ private:
   ConversionReport Report;
 };
 
+/** Whether the file is a stream compressed by gzip, according to its first bytes and its name. */
+bool isCompressedStream(const std::filesystem::path& path);
+
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/ConversionEstimate.h"
 
-#include "IO/Conversion/CompressedStream.h"
+#include "IO/Conversion/Conversion.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/FormatTable.h"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
-#include "IO/Conversion/CompressedStream.h"
 #include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/ConversionStages.h"
 #include "IO/Files/FileNames.h"
+#include "IO/Files/Inflate.h"
+#include "IO/Files/InputFile.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Formats/WriteFiles.h"
@@ -14,7 +15,7 @@
 #include "IO/Order/Assembly/CellFlagger.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
-#include "IO/Order/Search/TakeIsolated.h"
+#include "IO/Order/Search/FileOrder.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Mesh/AddedColumn.h"
@@ -68,6 +69,40 @@ void restoreMesh(Conversion& conversion)
   report.cells = info.cells;
   report.notes = writeRestored(conversion.in(), conversion.out(), space);
   report.seconds.write = conversion.lap();
+}
+
+/** Converts a stream compressed by gzip via an uncompressed file in the scratch folder. Throws like
+ * convert(), and Error if the compressed data are damaged. */
+ConversionReport convertCompressedStream(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ConversionOptions& options)
+{
+  Workspace space(options.scratch, Workspace::MinMemory, {}, options.scratchLimit);
+  ConversionOptions inner = options;
+  inner.scratch = space.folder();
+  inner.checkpoint.clear(); // the inflated file has another name in each program
+  InputFile file(in);
+  const std::string name = in.stem().string() + ".stream";
+  const InflatedFile inflated(file, space, name.c_str());
+  try
+  {
+    ConversionReport report = convert(inflated.path(), out, inner);
+    report.scratch_bytes_peak = space.peakScratch();
+    return report;
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    std::string sentence = error.what();
+    const std::string path = inflated.path().string();
+    if (sentence.starts_with(path))
+    {
+      sentence.replace(0, path.size(), in.string());
+    }
+    throw Error(sentence);
+  }
 }
 
 void run(Conversion& conversion)

@@ -2,7 +2,7 @@
 #include "IO/Order/LayOut.h"
 
 #include "IO/Order/Search/AxisOrder.h"
-#include "IO/Order/Search/FirstUseOrder.h"
+#include "IO/Order/Search/FileOrder.h"
 #include "IO/Order/Search/SpectralOrder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"

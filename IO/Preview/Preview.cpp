@@ -6,7 +6,6 @@
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
-#include "IO/Preview/PreviewPiece.h"
 #include "IO/Preview/StreamPreview.h"
 #include "smg/Error.h"
 

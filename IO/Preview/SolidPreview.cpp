@@ -2,6 +2,7 @@
 #include "IO/Preview/SolidPreview.h"
 
 #include "IO/Files/PartialProgress.h"
+#include "Solver/Core/DisjointSets.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Vector.h"
 #include "Solver/Problem/OpenValues.h"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <unordered_set>
@@ -265,32 +265,6 @@ int sortClusters(SolidClusters::Tetrahedron& clusters)
   return sign;
 }
 
-/** Numbers that are joined to sets: a forest, in which a root is its own parent. */
-class ClusterSets
-{
-public:
-  explicit ClusterSets(std::size_t count)
-    : Parent(count)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-
-  int root(int i)
-  {
-    while (this->parent(i) != i)
-    {
-      i = this->parent(i) = this->parent(this->parent(i));
-    }
-    return i;
-  }
-  void join(int i, int j) { this->parent(this->root(i)) = this->root(j); }
-
-private:
-  int& parent(int i) { return this->Parent[static_cast<std::size_t>(i)]; }
-
-  std::vector<int> Parent;
-};
-
 } // namespace
 
 std::size_t SolidClusters::Hash::operator()(const Tetrahedron& corners) const
@@ -364,7 +338,7 @@ std::vector<SolidClusters::Tetrahedron> SolidClusters::tetrahedra() const
 std::vector<SolidClusters::Tetrahedron> SolidClusters::withoutFragments(
   std::vector<Tetrahedron> all) const
 {
-  ClusterSets sets(this->Clusters.size());
+  DisjointSets<int> sets(this->Clusters.size());
   for (const Tetrahedron& corners : all)
   {
     for (const int corner : corners)
@@ -376,11 +350,11 @@ std::vector<SolidClusters::Tetrahedron> SolidClusters::withoutFragments(
   std::size_t largest = 0;
   for (const Tetrahedron& corners : all)
   {
-    largest = std::max(largest, ++sizes[static_cast<std::size_t>(sets.root(corners[0]))]);
+    largest = std::max(largest, ++sizes[static_cast<std::size_t>(sets.first(corners[0]))]);
   }
   const std::size_t least = std::min(AroundAPoint, largest);
   std::erase_if(all, [&](const Tetrahedron& corners)
-    { return sizes[static_cast<std::size_t>(sets.root(corners[0]))] < least; });
+    { return sizes[static_cast<std::size_t>(sets.first(corners[0]))] < least; });
   return all;
 }
 

@@ -53,4 +53,9 @@ inline constexpr std::int64_t CollapseBytes = 110;
 double collapseEdges(
   SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal);
 
+/** Merges vertices that are near one another, whatever surface they belong to, into at most
+ * `vertices`: for surfaces whose edges cannot be collapsed since their triangles do not share
+ * vertices. */
+void clusterVertices(SurfacePart& part, std::size_t vertices);
+
 } // namespace smg

@@ -14,10 +14,10 @@
 namespace smg
 {
 
-SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, const SimplificationGoal& goal,
-  std::int64_t memory, Workers& workers, std::function<void(double)> progress)
+SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, const SimplifyTarget& target, std::int64_t memory,
+  Workers& workers, std::function<void(double)> progress)
   : Surface(mesh)
-  , Simplifier(this->Surface, goal, memory, workers, std::move(progress))
+  , Simplifier(this->Surface, target, memory, workers, std::move(progress))
   , Info(mesh.info())
 {
   this->Info.cellType = CellType::Triangle;

@@ -23,7 +23,7 @@ class SMG_EXPORT SimplifiedMesh : public MeshSource
 {
 public:
   /** `mesh` and `workers` must outlive it; see StreamSimplifier. */
-  SimplifiedMesh(MeshSource& mesh, const SimplificationGoal& goal, std::int64_t memory,
+  SimplifiedMesh(MeshSource& mesh, const SimplifyTarget& target, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
 
   const StreamInfo& info() const override { return this->Info; }
@@ -49,7 +49,7 @@ SMG_EXPORT void checkSimplifiedPath(const std::filesystem::path& path);
 /** The expected cost of simplify() of `mesh` to the file `out`; without a limit of the vertices,
  * for a result as large as the mesh. Of `conversion` only the folder for scratch files counts.
  * Throws Error if the options are not valid. */
-SMG_EXPORT JobEstimate simplifyEstimate(const EstimatedInput& mesh,
+SMG_EXPORT JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& target,
   const std::filesystem::path& out, const SimplifyOptions& options,
   const ConversionOptions& conversion);
 

@@ -36,21 +36,21 @@ namespace smg
 namespace
 {
 
-void check(const SimplifyOptions& options)
+void check(const SimplifyTarget& target, const SimplifyOptions& options)
 {
   constexpr std::int64_t MinVertices = 4, MinMemory = std::int64_t(16) << 20;
-  if (options.vertices == 0 && options.error == 0.0)
+  if (target.vertices == 0 && target.error == 0.0)
   {
     throw Error("a simplification needs the number of vertices or the error of its result");
   }
-  if (options.vertices != 0 && options.vertices < MinVertices)
+  if (target.vertices != 0 && target.vertices < MinVertices)
   {
-    throw Error("a simplified mesh of " + std::to_string(options.vertices) +
+    throw Error("a simplified mesh of " + std::to_string(target.vertices) +
                 " vertices is asked for; expected at least " + std::to_string(MinVertices));
   }
-  if (!std::isfinite(options.error) || options.error < 0.0)
+  if (!std::isfinite(target.error) || target.error < 0.0)
   {
-    throw Error("the error of a simplification is " + std::to_string(options.error) +
+    throw Error("the error of a simplification is " + std::to_string(target.error) +
                 "; expected a length above 0, or 0 for what the number of vertices needs");
   }
   if (options.memoryLimit < MinMemory)
@@ -58,26 +58,23 @@ void check(const SimplifyOptions& options)
     throw Error("the memory limit of a simplification is " + mebibytes(options.memoryLimit) +
                 "; expected at least " + mebibytes(MinMemory));
   }
-  if (!options.checkpoint.empty() && options.meshIdentity.empty())
-  {
-    throw Error("the checkpoint of a simplification needs a text that identifies the mesh");
-  }
 }
 
 /** What must be the same when a simplification is continued: the mesh and everything that its
  * result depends on. Threads do not. */
-std::vector<Checkpoint::Item> subjectOf(const SimplifyOptions& options)
+std::vector<Checkpoint::Item> subjectOf(
+  const StoredMesh& mesh, const SimplifyTarget& target, const SimplifyOptions& options)
 {
   char error[32];
   // Seventeen digits: different numbers are different texts.
-  std::snprintf(error, sizeof(error), "%.17g", options.error);
-  return { { "kind of task", "simplification" }, { "mesh", options.meshIdentity },
-    { "number of vertices", std::to_string(options.vertices) }, { "error", error },
+  std::snprintf(error, sizeof(error), "%.17g", target.error);
+  return { { "kind of task", "simplification" }, { "mesh", mesh.fingerprint() },
+    { "number of vertices", std::to_string(target.vertices) }, { "error", error },
     { "memory limit", std::to_string(options.memoryLimit) } };
 }
 
 std::vector<std::string> notesOn(
-  const SimplifyOptions& options, const SimplifyReport& report, const SimplificationCounts& counts)
+  const SimplifyTarget& target, const SimplifyReport& report, const SimplificationCounts& counts)
 {
   std::vector<std::string> notes;
   if (counts.resumedAt > 0)
@@ -100,32 +97,28 @@ std::vector<std::string> notesOn(
       "with the same coordinates first: on the command line with --weld 0, in ParaView by the "
       "filter Clean.");
   }
-  if (options.vertices > 0 && report.vertices > options.vertices)
+  if (target.vertices > 0 && report.vertices > target.vertices)
   {
-    notes.push_back("The result has more than " + std::to_string(options.vertices) +
+    notes.push_back("The result has more than " + std::to_string(target.vertices) +
                     " vertices: further collapses would turn triangles over, tear the surface" +
-                    (options.error > 0.0 ? " or exceed the error." : "."));
+                    (target.error > 0.0 ? " or exceed the error." : "."));
   }
   return notes;
 }
 
 /** Simplifies the mesh to a .vsm file and reports what it did. `kept` is the folder of the
  * checkpoint, or null. */
-SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path& vsm,
-  const SimplifyOptions& options, double end, ScratchFolder* kept)
+SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& target,
+  const std::filesystem::path& vsm, const SimplifyOptions& options, double end, ScratchFolder* kept)
 {
   Progress done(partOf(options.progress, 0.0, end));
   Workers workers(options.threads);
   const auto source = mesh.source(columnNames(mesh.info().vertexColumns), {});
-  SimplificationGoal goal;
-  goal.vertices = options.vertices;
-  // 0 stands for no limit.
-  goal.error = options.error > 0.0 ? options.error : goal.error;
   SimplifiedMesh simplified(
-    *source, goal, options.memoryLimit, workers, [&done](double share) { done.update(share); });
+    *source, target, options.memoryLimit, workers, [&done](double share) { done.update(share); });
   if (kept)
   {
-    simplified.simplifier().keepIn(*kept, subjectOf(options));
+    simplified.simplifier().keepIn(*kept, subjectOf(mesh, target, options));
   }
   VsmWriter writer(vsm, simplified.info(), { .codec = options.codec, .scratch = options.scratch });
   for (MeshBlock block; simplified.next(block);)
@@ -143,7 +136,7 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   report.dropped_bodies = counts.dropped;
   report.resumed_vertices = counts.resumedAt;
   report.pool_bytes_peak = simplified.simplifier().peakMemory();
-  report.notes = notesOn(options, report, counts);
+  report.notes = notesOn(target, report, counts);
   done.update(1.0);
   return report;
 }
@@ -175,10 +168,11 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
 
 } // namespace
 
-JobEstimate simplifyEstimate(const EstimatedInput& mesh, const std::filesystem::path& out,
-  const SimplifyOptions& options, const ConversionOptions& conversion)
+JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& target,
+  const std::filesystem::path& out, const SimplifyOptions& options,
+  const ConversionOptions& conversion)
 {
-  check(options);
+  check(target, options);
   constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
   constexpr std::int64_t BytesOfCell = 400;
   Costs costs;
@@ -189,9 +183,9 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const std::filesystem::
   result.parts.clear();
   result.info.cellType = CellType::Triangle;
   result.info.cellColumns.clear();
-  if (options.vertices > 0)
+  if (target.vertices > 0)
   {
-    result.info.vertices = std::min(result.info.vertices, options.vertices);
+    result.info.vertices = std::min(result.info.vertices, target.vertices);
     result.info.cells = std::min(result.info.cells, 2 * result.info.vertices);
   }
   JobEstimate estimate(result, { out, { { OriginalIdSpec }, {} } }, costs, conversion);
@@ -234,10 +228,10 @@ std::string SimplifyReport::json(int indent) const
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-SimplifyReport simplify(
-  const StoredMesh& mesh, const std::filesystem::path& path, const SimplifyOptions& options)
+SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
+  const std::filesystem::path& path, const SimplifyOptions& options)
 {
-  check(options);
+  check(target, options);
   const bool restores = !suffixFor(FormatUse::Write, path);
   checkSimplifiedPath(path);
   const Timer timer;
@@ -246,12 +240,16 @@ SimplifyReport simplify(
   std::optional<ScratchFolder> kept;
   if (!options.checkpoint.empty())
   {
+    if (mesh.fingerprint().empty())
+    {
+      throw Error("the checkpoint of a simplification needs a mesh with a fingerprint");
+    }
     kept.emplace(KeptFolder(options.checkpoint));
   }
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path vsm = isVsm ? path : scratch / "simplified.vsm";
   SimplifyReport report =
-    simplifyToVsm(mesh, vsm, options, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
+    simplifyToVsm(mesh, target, vsm, options, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
   if (!isVsm)
   {
     const std::vector<std::string> notes =
@@ -262,7 +260,7 @@ SimplifyReport simplify(
   if (kept)
   {
     // Only when the result is complete and has its name.
-    Checkpoint(*kept, subjectOf(options)).discard();
+    Checkpoint(*kept, subjectOf(mesh, target, options)).discard();
   }
   report.rss_bytes_peak = peakResidentBytes();
   report.cpu_seconds = processSeconds() - cpu;

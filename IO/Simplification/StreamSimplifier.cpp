@@ -3,11 +3,11 @@
 
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/Bodies.h"
-#include "IO/Simplification/VertexClustering.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 // Simplification of a stream in bounded memory: parts on all threads, appended to a window, which
@@ -64,14 +64,15 @@ std::size_t partOf(std::int64_t memory, const StreamInfo& info)
 
 } // namespace
 
-StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal,
+StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& target,
   std::int64_t memory, Workers& workers, std::function<void(double)> progress)
   : Memory(memory, SimplificationMemory)
   , Parts(triangles, this->Memory, partOf(memory, triangles.info()), std::move(progress))
   , Info(triangles.info())
-  , Goal(goal)
+  , Goal{ target.vertices,
+    target.error > 0.0 ? target.error : std::numeric_limits<double>::infinity() }
   , Capacity(PartsOfWindow * partOf(memory, triangles.info()))
-  , Triangles(2 * goal.vertices)
+  , Triangles(2 * target.vertices)
   , Jobs(
       workers, PartsOfWindow, // parts in use at once
       [](Item& item)
@@ -99,7 +100,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
   {
     const double share =
       static_cast<double>(this->Info.cells) / static_cast<double>(this->Info.vertices);
-    this->Triangles = static_cast<std::int64_t>(share * static_cast<double>(goal.vertices));
+    this->Triangles = static_cast<std::int64_t>(share * static_cast<double>(target.vertices));
   }
   // The number of cells of the boundary of a solid is not known.
   const bool mayBeLarge = this->Info.cells <= 0 || this->Info.cells > window;

@@ -9,12 +9,12 @@
 #include "Solver/Memory/Pool.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/Simplify.h"
 
 #include <cmath>
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -23,14 +23,6 @@
 
 namespace smg
 {
-
-/** How far a surface is simplified: to at most so many vertices, or as far as an error allows; with
- * both, until either is reached. */
-struct SimplificationGoal
-{
-  std::int64_t vertices = 0;                              ///< 0: not limited
-  double error = std::numeric_limits<double>::infinity(); ///< in the unit of the mesh
-};
 
 /** What a simplification did. */
 struct SimplificationCounts
@@ -77,7 +69,7 @@ public:
   /** `triangles` and `workers` must outlive it; `progress` receives the share of the stream that
    * was read, and may throw. A result of more than a third of what fits into `memory`, in bytes,
    * needs the number of vertices. */
-  StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal, std::int64_t memory,
+  StreamSimplifier(MeshSource& triangles, const SimplifyTarget& target, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
 
   /** To be called before next(): saves the state in a kept folder, which must outlive this
@@ -128,7 +120,7 @@ private:
   Pool Memory;
   SurfaceParts Parts;
   const StreamInfo& Info;
-  SimplificationGoal Goal;
+  SimplifyTarget Goal;    ///< an error of 0 has become infinity
   std::size_t Capacity;   ///< of the window, triangles
   std::int64_t Triangles; ///< of the result, as far as it is known
   bool Streams;           ///< whether the result does not fit into the window

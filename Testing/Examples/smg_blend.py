@@ -143,7 +143,6 @@ def test_errors():
                             (("--patch", "scan", "--columns", "Colours"), "no column 'Colours'"),
                             (("--patch", "scan", "--columns", "Colors,scan"), "numbers the patches"),
                             (("--patch", "Colors", "--columns", "scan"), "has 3 components"),
-                            (("--patch", "scan", "--columns", "Colors", "--hold", "{"), "--hold"),
                             (("--patch", "scan", "--columns", "Colors", "--hold",
                               '{"sphere": [99, 0, 0, 1]}'), "hold[0]: no vertex")):
         done = run("blend", "scan.ply", "bad.ply", *arguments, code=1)
@@ -152,6 +151,8 @@ def test_errors():
         done = run("blend", "scan.ply", name, "--patch", "scan", "--columns", columns, code=1)
         assert "cannot hold these columns of vertices" in done.stderr, done.stderr
     run("blend", "scan.ply", "bad.ply", "--columns", "Colors", code=2)
+    done = run("blend", "scan.ply", "bad.ply", "--patch", "scan", "--columns", "Colors", "--hold", "{", code=2)
+    assert "--hold: " in done.stderr, done.stderr
     for columns in ("", ",", "Colors,,height", "Colors,"):
         done = run("blend", "scan.ply", "bad.ply", "--patch", "scan", "--columns", columns, code=2)
         assert "has an empty name" in done.stderr or not columns, done.stderr

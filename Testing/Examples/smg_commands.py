@@ -80,8 +80,11 @@ def test_solve():
     done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--max-cycles", 1, "--quiet",
                "--report", "solve.json", code=3)
     assert "not converged" in done.stderr and not load("solve.json")["converged"]
-    done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "shi2006", code=1)
+    assert done.stderr.count("--max-cycles") == 1, done.stderr
+    done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "shi2006", code=2)
     assert "solve_shi2006" in done.stderr, done.stderr
+    assert "shi2006" not in run("deform", "--help").stdout
+    assert "KiB to TiB" in run("preview", "--help").stdout
 
 
 def test_solutions_have_the_order_of_their_mesh():

@@ -112,6 +112,7 @@ def test_report_and_options():
     done = deform("torus.vsm", "one.vsm", "--tolerance", 1e-8, "--max-cycles", 1, "--quiet",
                   "--report", "report.json", code=3)
     assert "not converged" in done.stderr and not load("report.json")["converged"]
+    assert done.stderr.count("--max-cycles") == 1, done.stderr
     deform("torus.vsm", "cotangent.vsm", "--tolerance", 1e-8, "--weights", "cotangent", "--quiet")
     tight = arrays("tight.vsm")["Points"]
     assert distance(arrays("cotangent.vsm")["Points"], tight) > 1e-4

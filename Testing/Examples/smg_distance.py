@@ -113,8 +113,11 @@ def test_errors():
                            ("-3G", "'-3G' is not a size"), ("nanG", "'nanG' is not a size"), ("M", "M")):
         assert sentence in run("distance", "torus.obj", "out.vtp", *places, "--memory", size,
                                code=2).stderr
+    assert "smg: --from: " in run("distance", "torus.obj", "out.vtp", "--from", "{", code=2).stderr
+    with open("broken.json", "w", encoding="utf-8") as file:
+        file.write("{")
     for arguments, sentence in (
-            (("--from", "{"), "--from"),
+            (("--from", "broken.json"), "broken.json: "),
             (("--from", "absent.json"), "absent.json: cannot be opened"),
             (("--from", '{"vertices": [1800]}'), "--from: from[0].vertices: the mesh has no vertex"),
             (("--from", '{"boundary": true}'), "--from: from[0]: no vertex of the mesh is on a boundary"),

@@ -204,6 +204,13 @@ def test_threads():
     assert memory("1") < memory("2") == memory("4") < memory("8") == memory("16")
 
 
+def test_limits_below_the_need():
+    common = ("solve", "surface.vsm", "o.vsm", "--problem", "surface-one.json", "--dry-run")
+    assert "raise" not in run(*common).stdout
+    shown = run(*common, "--memory", 1, "--scratch-limit", 1).stdout
+    assert shown.count("the limit is 1 MiB, which is too low: raise --") == 2, shown
+
+
 def test_unconverted():
     """Of a file that does not tell its counts these are estimated, too."""
     write_torus("torus.obj", 300, 150)
@@ -242,6 +249,7 @@ for each in ("surface", "solid"):
         for count in ("2", "8"):
             test_costs(each, *task, count)
 test_threads()
+test_limits_below_the_need()
 test_unconverted()
 if can_mount():
     test_room()

@@ -170,10 +170,11 @@ def test_errors():
     says("has no column 'x'", "torus.obj", "c.vsm", "--column", "x")
     says("'OriginalId' numbers the vertices", "torus.obj", "c.vsm", "--column", "OriginalId")
     says("name a column of the vertices", "solid.vsm", "c.vsm")
-    says("between 0 and 180", "torus.obj", "c.vsm", "--keep-edges", "180")
+    for angle in ("180", "-3"):
+        says("between 0 and 180", "torus.obj", "c.vsm", "--keep-edges", angle, code=2)
     says("steps", "torus.obj", "c.vsm", "--steps", "0", code=2)
     says("hold[0]: no vertex", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9, 9, 1]}')
-    says("--hold: sphere: must be", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9]}')
+    says("--hold: sphere: must be", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9]}', code=2)
     says("cannot be opened", "torus.obj", "c.vsm", "--hold", "missing.json")
     says("boundary", "torus.obj", "c.vsm", "--boundary", "none", code=2)
 

@@ -73,8 +73,8 @@ protected:
 TEST_F(VtkStreamingMeshSimplification, IsThatOfTheLibraryInAnyPieces)
 {
   const auto file = this->Folder / "expected.vsm";
-  const SimplifyReport report = simplify(VsmReader(this->Folder / "mesh.vsm"), file,
-    { .vertices = 900, .memoryLimit = std::int64_t(256) << 20 });
+  const SimplifyReport report = simplify(VsmReader(this->Folder / "mesh.vsm"), { .vertices = 900 },
+    file, { .memoryLimit = std::int64_t(256) << 20 });
   const StreamMesh expected = collect(*VsmReader(file).source());
   ASSERT_LE(expected.vertices(), 900);
   for (const int pieces : { 1, 3, 8 })

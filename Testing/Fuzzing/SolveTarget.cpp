@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/BlockFile.h"
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Preview/PreviewPiece.h"
+#include "IO/Preview/StreamPreview.h"
 #include "Testing/Fuzzing/SealedVsm.h"
 #include "Testing/Fuzzing/SmallSolve.h"
 #include "Testing/Fuzzing/SolverTargets.h"

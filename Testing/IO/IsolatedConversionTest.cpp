@@ -3,8 +3,7 @@
 
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Import/RawMeshBuilder.h"
-#include "IO/Order/Search/FirstUseOrder.h"
-#include "IO/Order/Search/TakeIsolated.h"
+#include "IO/Order/Search/FileOrder.h"
 #include "Solver/Memory/Pool.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"

@@ -35,14 +35,19 @@ namespace
 /** A limit with which a window has fewer triangles than the larger meshes. */
 constexpr std::int64_t LittleMemory = std::int64_t(16) << 20;
 
+/** A target with options. */
+struct Asked : SimplifyTarget, SimplifyOptions
+{
+};
+
 class Simplify : public ::testing::Test
 {
 protected:
   /** Simplifies the mesh, in blocks of so many cells. */
-  StreamMesh simplified(
-    const StreamMesh& mesh, const SimplifyOptions& options, std::int64_t blockCells = 1000)
+  StreamMesh simplified(const StreamMesh& mesh, const Asked& asked, std::int64_t blockCells = 1000)
   {
-    this->Report = simplify(MemoryMesh(mesh, blockCells), this->Folder / "simple.vsm", options);
+    this->Report =
+      simplify(MemoryMesh(mesh, blockCells), asked, this->Folder / "simple.vsm", asked);
     const VsmReader reader(this->Folder / "simple.vsm");
     EXPECT_EQ(reader.info().vertices, this->Report.vertices);
     EXPECT_EQ(reader.info().cells, this->Report.cells);
@@ -55,17 +60,17 @@ protected:
   SimplifyReport Report;
 };
 
-SimplifyOptions toVertices(std::int64_t vertices, std::int64_t memory = std::int64_t(256) << 20)
+Asked toVertices(std::int64_t vertices, std::int64_t memory = std::int64_t(256) << 20)
 {
-  SimplifyOptions options;
+  Asked options;
   options.vertices = vertices;
   options.memoryLimit = memory;
   return options;
 }
 
-SimplifyOptions toError(double error, std::int64_t memory = std::int64_t(256) << 20)
+Asked toError(double error, std::int64_t memory = std::int64_t(256) << 20)
 {
-  SimplifyOptions options;
+  Asked options;
   options.error = error;
   options.memoryLimit = memory;
   return options;
@@ -186,7 +191,7 @@ TEST_F(Simplify, GivesTheSameBitsForAllThreads)
   const StreamMesh mesh = toStream(torus(220, 150, 0.2));
   for (const std::int64_t vertices : { 500, 20000 })
   {
-    SimplifyOptions options = toVertices(vertices, LittleMemory);
+    Asked options = toVertices(vertices, LittleMemory);
     options.threads = 1;
     const StreamMesh one = this->simplified(mesh, options);
     const double error = this->Report.error;
@@ -351,8 +356,7 @@ TEST_F(Simplify, KeepsTheAreaOfAnOpenSurfaceInAnyOrder)
 TEST_F(Simplify, ASolidInLittleMemoryIsThatOfMuch)
 {
   const StreamMesh solid = toStream(tetBox(45, 40, 35, 0.1));
-  for (const SimplifyOptions& options :
-    { toVertices(4000, LittleMemory), toError(0.02, LittleMemory) })
+  for (const Asked& options : { toVertices(4000, LittleMemory), toError(0.02, LittleMemory) })
   {
     const StreamMesh simple = this->simplified(solid, options);
     EXPECT_EQ(edgesOf(simple).euler, 2);
@@ -374,7 +378,7 @@ TEST_F(Simplify, BodiesOfOneSizeAreBodies)
   EXPECT_EQ(this->simplified(many, toVertices(600)).vertices(), 600);
   EXPECT_EQ(this->Report.dropped_bodies, 30);
   // An error keeps all of them.
-  SimplifyOptions both = toVertices(600);
+  Asked both = toVertices(600);
   both.error = 1e9;
   const StreamMesh kept = this->simplified(many, both);
   EXPECT_EQ(this->Report.dropped_bodies, 0);
@@ -438,7 +442,7 @@ TEST_F(Simplify, RefusesOptionsOutOfRangeAndCanBeCancelled)
   expectError([&] { this->simplified(mesh, toError(-1.0)); }, "expected a length above 0");
   expectError([&] { this->simplified(mesh, toError(std::nan(""))); }, "expected a length above 0");
   expectError([&] { this->simplified(mesh, toVertices(100, 1000)); }, "16 MiB");
-  SimplifyOptions options = toVertices(100);
+  Asked options = toVertices(100);
   for (const double end : { 0.0, 0.5, 1.0 })
   {
     options.progress = [end](double done) { return done < end; };

@@ -227,6 +227,22 @@ TEST(ProblemResults, BalanceWhereNothingFlows)
   }
 }
 
+TEST(ProblemResults, WarnOfFluxesThatMissTheirBalance)
+{
+  for (const StreamMesh& mesh : meshesOfResults())
+  {
+    ElementProblem problem(mesh);
+    const auto ofX = columnsOf(1, [](const Point& p, int) { return 100.0 * p[0]; });
+    problem.DirichletConditions.push_back({ below(0, 0.6), ofX });
+    problem.DirichletConditions.push_back({ above(0, 2.0), ofX });
+    const Report report = resultsOf(mesh, problem, accurate(0.2)).report;
+    ASSERT_TRUE(report.converged);
+    ASSERT_GT(std::fabs(report.balance[0]), 1e-3);
+    ASSERT_EQ(report.warnings.size(), 1U);
+    EXPECT_NE(report.warnings[0].find("miss their balance"), std::string::npos);
+  }
+}
+
 /** The rim of a flat cell, as a clip leaves it, whose vertex nothing determines. */
 TEST(ProblemResults, ConditionsWhereNothingIsDeterminedAreFinite)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Order/Pages/CellGroups.h"
 #include "IO/Order/Pages/PageBuilder.h"
 #include "IO/Order/Pages/RankedVertices.h"
 #include "IO/Order/Pages/VertexStar.h"

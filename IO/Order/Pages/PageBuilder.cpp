@@ -2,11 +2,11 @@
 #include "IO/Order/Pages/PageBuilder.h"
 
 #include "IO/External/Relabelling.h"
-#include "IO/Order/Pages/CellGroups.h"
 #include "IO/Order/Pages/Contraction.h"
 #include "IO/Order/Pages/EdgeMetric.h"
 #include "IO/Order/Pages/GroupPages.h"
 #include "IO/Order/Pages/RankedVertices.h"
+#include "IO/Order/Pages/VertexStar.h"
 
 #include <algorithm>
 #include <cmath>

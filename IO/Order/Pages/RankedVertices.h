@@ -55,7 +55,15 @@ class UsedVertices
 {
 public:
   /** The bits use at most `memory` bytes. Mesh and workspace must outlive this object. */
-  UsedVertices(const RawMesh& mesh, Workspace& workspace, std::int64_t memory);
+  UsedVertices(const RawMesh& mesh, Workspace& workspace, std::int64_t memory)
+    : Mesh(mesh)
+    , Range(
+        (std::clamp<std::int64_t>(memory * 8, 64, std::max<std::int64_t>(mesh.vertices, 64)) + 63) /
+        64 * 64)
+    , First(-this->Range)
+    , Bits(workspace.pool(), static_cast<std::size_t>(this->Range / 8))
+  {
+  }
 
   /** Vertices should be asked for in ascending order, since a step back may require a pass over the
    * cells. */
@@ -63,14 +71,54 @@ public:
   {
     if (std::int64_t(vertex) - this->First >= this->Range || vertex < this->First)
     {
-      this->load(vertex);
+      // Ranges begin at multiples of their size, so a range is loaded once if vertices are asked
+      // for in order.
+      this->load(vertex / this->Range * this->Range, [](std::uint64_t, std::uint32_t) {});
     }
     const auto place = static_cast<std::uint32_t>(vertex - this->First);
     return (this->words()[place / 64] >> place % 64 & 1) != 0;
   }
 
+  /** Calls `take` with the number of the corner in the file, and the vertex, for the first use of
+   * each; range by range in the order of the corners. */
+  template <class Take>
+  void forEachFirstUse(Take&& take)
+  {
+    for (std::int64_t first = 0; first < this->Mesh.vertices; first += this->Range)
+    {
+      this->load(first, take);
+    }
+  }
+
 private:
-  void load(std::uint32_t vertex);
+  template <class Take>
+  void load(std::int64_t first, Take&& take)
+  {
+    this->First = first;
+    std::uint64_t* const words = this->words();
+    std::fill_n(words, this->Range / 64, 0);
+    std::uint64_t number = 0;
+    forEachStretch(this->Mesh.corners, 1,
+      [&](std::span<const std::uint32_t> corners)
+      {
+        for (const std::uint32_t corner : corners)
+        {
+          // Unsigned: a corner below the range becomes a large number, too.
+          const std::uint32_t place = corner - static_cast<std::uint32_t>(first);
+          if (place < this->Range)
+          {
+            std::uint64_t& word = words[place / 64];
+            const std::uint64_t bit = std::uint64_t(1) << place % 64;
+            if ((word & bit) == 0)
+            {
+              word |= bit;
+              take(number, corner);
+            }
+          }
+          ++number;
+        }
+      });
+  }
   std::uint64_t* words() const { return reinterpret_cast<std::uint64_t*>(this->Bits.data()); }
 
   const RawMesh& Mesh;

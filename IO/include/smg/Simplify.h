@@ -14,16 +14,20 @@
 namespace smg
 {
 
-/** How far to simplify a surface, and how. */
-struct SimplifyOptions
+/** How far to simplify a surface: as far as one of the two says that is given, at least. */
+struct SimplifyTarget
 {
   /** The most vertices of the result, at least 4; 0: as many as `error` needs. */
   std::int64_t vertices = 0;
   /** The largest error, in the unit of the mesh, more than 0: the distance of what is left from the
    * planes of the triangles of the mesh that were there, the root of the mean of the squares
-   * weighted by areas (Garland and Heckbert 1997). 0: what `vertices` needs. At least one of the
-   * two is to be given. */
+   * weighted by areas (Garland and Heckbert 1997). 0: what `vertices` needs. */
   double error = 0.0;
+};
+
+/** How to simplify a surface. */
+struct SimplifyOptions
+{
   /** Memory limit in bytes, at least 16 MiB. */
   std::int64_t memoryLimit = std::int64_t(256) << 20;
   /** Threads; 0: one per core. The result does not depend on them, but on the memory limit. */
@@ -35,12 +39,9 @@ struct SimplifyOptions
   /**
    * Folder from which the same simplification, with any number of threads, continues if it was
    * killed: it is made, or must be empty or have the checkpoint, and is removed when the result is
-   * complete. Empty: none.
+   * complete. Empty: none. It needs a mesh that has a StoredMesh::fingerprint().
    */
   std::filesystem::path checkpoint = {};
-  /** A text that is another one if the mesh is, for example VsmReader::fingerprint(). Not empty
-   * with `checkpoint`. */
-  std::string meshIdentity = {};
   /** Progress callback; empty: none. */
   ProgressFunction progress = {};
 };
@@ -52,7 +53,7 @@ struct SMG_EXPORT SimplifyReport
   std::int64_t cells_before = 0;    ///< of the mesh
   std::int64_t vertices = 0;        ///< of the result
   std::int64_t cells = 0;           ///< triangles of the result
-  /** The sum of the largest errors of its steps, see SimplifyOptions; NaN where vertices were
+  /** The sum of the largest errors of its steps, see SimplifyTarget; NaN where vertices were
    * merged instead, since that is not measured. */
   double error = 0;
   std::int64_t dropped_bodies = 0;  ///< small bodies that are not in the result
@@ -82,15 +83,17 @@ struct SMG_EXPORT SimplifyReport
  * be closed where that changes the surface much less than other collapses.
  *
  * @param mesh the mesh, which is read once
+ * @param target how far to simplify
  * @param path the file to write, in the format of its suffix: any that meshes of triangles are
  * written in, with the columns that it can hold. In the order of the mesh
- * @param options how far to simplify
+ * @param options how to simplify
  * @return what was done
- * @throws Error if an option is out of range, the memory limit too low, or a file fails
+ * @throws Error if the target or an option is out of range, the memory limit too low, or a file
+ * fails
  * @throws Cancelled if the progress callback returns false. No file but the checkpoint remains
  * after an exception.
  */
-SMG_EXPORT SimplifyReport simplify(
-  const StoredMesh& mesh, const std::filesystem::path& path, const SimplifyOptions& options);
+SMG_EXPORT SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
+  const std::filesystem::path& path, const SimplifyOptions& options = {});
 
 } // namespace smg

@@ -406,10 +406,8 @@ void ResultSums::reportBalance(Report& report) const
   }
   if (largest > Noted && report.converged)
   {
-    report.notes.push_back("the fluxes of the conditions miss their balance by " +
-                           percent(largest) +
-                           " % of all that flows: a smaller tolerance makes them "
-                           "better");
+    report.warn("the fluxes of the conditions miss their balance by " + percent(largest) +
+                " % of all that flows: a smaller tolerance makes them better");
   }
 }
 

@@ -1,20 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/Search/TakeIsolated.h"
+#include "IO/Order/Search/FileOrder.h"
 
+#include "IO/External/ExternalSort.h"
+#include "IO/External/Relabelling.h"
 #include "IO/Order/Pages/RankedVertices.h"
 #include "Solver/Mesh/AddedColumn.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
-// The vertices of no cell, which are not part of the stream: one pass over the vertices of the file
-// with their columns, in chunks, and a bit per vertex that tells which are used.
+// The order `keep`: vertices numbered by the first cell of the file that uses them. The first uses
+// of all vertices are found with a bit per vertex (UsedVertices), sorted by their place in the
+// file, and the places joined with the coordinates through two row tables.
+//
+// The vertices of no cell, which are not part of a stream: one pass over the vertices of the file
+// with their columns, in chunks, and a bit per vertex.
 
 namespace smg
 {
+namespace
+{
+
+/** The place of the first corner in the file that is a given vertex; all corners count, cell by
+ * cell. */
+struct FirstUse
+{
+  std::uint64_t corner;
+  std::uint32_t id;
+  auto operator<=>(const FirstUse&) const = default;
+};
+
+/** Stores the position of each used vertex; returns their number. */
+std::int64_t putPlaces(const RawMesh& mesh, Workspace& workspace, RowTable& places)
+{
+  ExternalSort<FirstUse> uses(workspace, workspace.available() / 3);
+  UsedVertices(mesh, workspace, workspace.available() / 4)
+    .forEachFirstUse(
+      [&uses](std::uint64_t corner, std::uint32_t id) {
+        uses.put({ corner, id });
+      });
+  uses.sort();
+  std::uint32_t count = 0;
+  for (FirstUse use{}; uses.next(use); ++count)
+  {
+    // Sorted by corner, the uses come in the order of the positions.
+    places.put(use.id, std::as_bytes(std::span(&count, 1)));
+  }
+  places.close();
+  return count;
+}
+
+template <class Real>
+void order(const RawMesh& mesh, Workspace& workspace, OrderedVertices& result)
+{
+  RowTable places(workspace, mesh.vertices, sizeof(std::uint32_t), workspace.available() / 4);
+  result.count = putPlaces(mesh, workspace, places);
+  RowTable rows(workspace, result.count, sizeof(OrderedVertex<Real>), workspace.available() / 4);
+  OrderedVertex<Real> vertex{ {}, 0, NoIndex };
+  BucketFile::Reader positions(mesh.positions);
+  for (std::span<const std::byte> bytes; positions.get(vertex.position); ++vertex.id)
+  {
+    if (bytes.empty())
+    {
+      bytes = places.read(vertex.id);
+    }
+    std::uint32_t place = 0;
+    std::memcpy(&place, bytes.data(), sizeof(place));
+    bytes = bytes.subspan(sizeof(place));
+    // Isolated vertices have no place: their row has all bits set.
+    if (place != NoIndex)
+    {
+      rows.put(place, std::as_bytes(std::span(&vertex, 1)));
+    }
+  }
+  rows.close();
+  for (std::int64_t first = 0; first < rows.count(); first += rows.range())
+  {
+    result.records.append(0, rows.read(first));
+  }
+}
+
+} // namespace
+
+OrderedVertices firstUseOrder(const RawMesh& mesh, Workspace& workspace)
+{
+  OrderedVertices result(workspace);
+  result.doublePositions = mesh.doublePositions;
+  mesh.doublePositions ? order<double>(mesh, workspace, result)
+                       : order<float>(mesh, workspace, result);
+  result.records.close();
+  return result;
+}
 
 namespace
 {

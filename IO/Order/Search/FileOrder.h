@@ -3,12 +3,17 @@
 
 #include "IO/Import/RawMesh.h"
 #include "IO/Order/Assembly/StreamAssembly.h"
+#include "IO/Order/Pages/OrderedVertices.h"
 #include "smg/VsmReader.h"
 
 #include <functional>
 
 namespace smg
 {
+
+/** The vertices in the order in which the cells of the file first use them; isolated ones are left
+ * out. */
+OrderedVertices firstUseOrder(const RawMesh& mesh, Workspace& workspace);
 
 using TakeVertices = std::function<void(const IsolatedVertices& vertices)>;
 
