@@ -204,14 +204,14 @@ void RestoredMesh::deliver(std::int64_t count)
                                    static_cast<double>(this->Info.vertices + this->Info.elements));
 }
 
-bool RestoredMesh::next(RestoredVertices& vertices)
+bool RestoredMesh::next(VertexChunk& vertices)
 {
   const bool more = this->Vertices->next(vertices);
   this->deliver(vertices.count());
   return more;
 }
 
-bool RestoredMesh::next(RestoredElements& elements)
+bool RestoredMesh::next(ElementChunk& elements)
 {
   const bool more = this->Elements->next(elements);
   this->deliver(elements.count());

@@ -337,14 +337,14 @@ TEST_F(LargeRestoredMesh, IsRestoredInLittleMemory)
   Column a{ this->Mesh.vertexColumns[0].spec, {} };
   Column b{ this->Mesh.cellColumns[0].spec, {} };
   std::vector<Corners> cells;
-  for (RestoredVertices vertices; restored.next(vertices);)
+  for (VertexChunk vertices; restored.next(vertices);)
   {
     EXPECT_EQ(vertices.first, std::int64_t(points.size() / 3));
     points.insert(points.end(), vertices.positions.begin(), vertices.positions.end());
     const std::vector<std::byte>& bytes = vertices.columns[0].bytes;
     a.bytes.insert(a.bytes.end(), bytes.begin(), bytes.end());
   }
-  for (RestoredElements elements; restored.next(elements);)
+  for (ElementChunk elements; restored.next(elements);)
   {
     EXPECT_EQ(elements.first, std::int64_t(cells.size()));
     elements.forEach([&cells](std::span<const std::int64_t> corners, std::size_t)

@@ -2,6 +2,11 @@
 #pragma once
 
 #include "IO/Mesh/Format.h"
+#include "smg/Column.h"
+#include "smg/Export.h"
+
+#include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -21,13 +26,18 @@ void importVtkXml(InputFile& file, RawMeshBuilder& builder);
 void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 
-/** Legacy VTK, binary, version 3.0, which is widely supported: polygonal data, or an unstructured
- * grid of tetrahedra, with all columns as field data. Corners are 32-bit numbers. */
-WriteNotes writeRestoredVtk(RestoredMesh& mesh, const std::filesystem::path& path);
+MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
 std::int64_t bytesOfVtk(const MeshToWrite& written);
-/** .vtp (polygons) or .vtu (triangles, quadrilaterals, polygons or tetrahedra), with all columns.
- */
-WriteNotes writeRestoredVtkXml(RestoredMesh& mesh, const std::filesystem::path& path);
 std::int64_t bytesOfVtkXml(const MeshToWrite& written);
+
+/** The names of the scalar types in VTK's XML files. */
+inline constexpr std::string_view VtkXmlTypeNames[] = { "Int8", "UInt8", "Int16", "UInt16", "Int32",
+  "UInt32", "Int64", "UInt64", "Float32", "Float64" };
+constexpr std::string_view vtkXmlTypeName(ScalarType type)
+{
+  return VtkXmlTypeNames[static_cast<int>(type)];
+}
+/** The text with the characters that mean something in XML written as entities. */
+SMG_EXPORT std::string xmlEscaped(const std::string& text);
 
 } // namespace smg
