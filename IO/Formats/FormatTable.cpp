@@ -93,8 +93,7 @@ const Format* formatLookingRight(std::string_view start, std::optional<std::uint
 
 bool canBeUsed(const Format& format, FormatUse use)
 {
-  const bool writes =
-    format.kind == MeshFileKind::Vsm || format.writeVsm || format.turn == PartTurn::Any;
+  const bool writes = format.kind == MeshFileKind::Vsm || format.writeVsm || format.writer;
   switch (use)
   {
     case FormatUse::Read:

@@ -58,11 +58,12 @@ WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileIn
   return notes;
 }
 
-WriteNotes writeInOriginalOrder(
-  RestoredMesh& mesh, const Format& format, const std::filesystem::path& path)
+/** Writes vertices and elements apart, in the order in which `mesh` gives them. */
+template <class Mesh>
+WriteNotes writeParts(
+  Mesh& mesh, const Format& format, const std::filesystem::path& path, Workspace& space)
 {
-  const std::unique_ptr<MeshFileWriter> writer =
-    format.writer(path, mesh.info(), &mesh.workspace());
+  const std::unique_ptr<MeshFileWriter> writer = format.writer(path, mesh.info(), &space);
   const auto writeVertices = [&]
   {
     for (VertexChunk chunk; mesh.next(chunk);)
@@ -94,26 +95,96 @@ WriteNotes writeInOriginalOrder(
   return finish(*writer, format, mesh.info());
 }
 
-/** For PartTurn::Any: as the blocks of the stream come. */
-WriteNotes writeInStreamOrder(MeshSource& source, const Format& format,
+void take(MeshBlock& block, VertexChunk& chunk)
+{
+  chunk.first = block.firstVertex;
+  std::swap(chunk.positions, block.positions);
+  std::swap(chunk.columns, block.vertexColumns);
+}
+
+void take(MeshBlock& block, CellType cells, ElementChunk& chunk)
+{
+  const auto corners = static_cast<std::uint32_t>(cornersOf(cells));
+  chunk.first = block.firstCell;
+  std::swap(chunk.corners, block.corners);
+  std::swap(chunk.columns, block.cellColumns);
+  chunk.sizes.assign(chunk.corners.size() / corners, corners);
+}
+
+/** The mesh of a .vsm file in stream order, without the columns that a conversion adds: its
+ * vertices and, from another reading, its cells. */
+class StreamedMesh
+{
+public:
+  StreamedMesh(const std::filesystem::path& vsm, const ProgressFunction& progress)
+    : Reader(vsm)
+    , Info(this->Reader.info())
+    , Reported(progress)
+  {
+    this->Info.vertexColumns = ownColumns(this->Info.vertexColumns);
+    this->Info.elementColumns = ownColumns(this->Info.elementColumns);
+    this->Vertices = this->Reader.source(columnNames(this->Info.vertexColumns), {});
+  }
+
+  const MeshFileInfo& info() const { return this->Info; }
+
+  bool next(VertexChunk& chunk)
+  {
+    const bool more = this->Vertices->next(this->Block);
+    if (more)
+    {
+      take(this->Block, chunk);
+      this->tell(chunk.count());
+    }
+    return more;
+  }
+
+  bool next(ElementChunk& chunk)
+  {
+    const bool more = this->Cells->next(this->Block);
+    if (more)
+    {
+      take(this->Block, this->Info.cellType, chunk);
+      this->tell(chunk.count());
+    }
+    return more;
+  }
+
+  void rewindElements()
+  {
+    this->Cells = this->Reader.source({}, columnNames(this->Info.elementColumns));
+  }
+
+private:
+  void tell(std::int64_t count)
+  {
+    this->Delivered += count;
+    this->Reported.update(static_cast<double>(this->Delivered) /
+                          static_cast<double>(this->Info.vertices + this->Info.elements));
+  }
+
+  VsmReader Reader;
+  MeshFileInfo Info;
+  Progress Reported;
+  std::unique_ptr<MeshSource> Vertices, Cells;
+  MeshBlock Block;
+  std::int64_t Delivered = 0; ///< vertices and elements
+};
+
+/** Writes vertices and elements as the blocks of a stream come. */
+WriteNotes writeAsTheyCome(MeshSource& source, const Format& format,
   const std::filesystem::path& path, const ProgressFunction& progress)
 {
   const MeshFileInfo info(source.info());
-  const auto corners = static_cast<std::uint32_t>(cornersOf(info.cellType));
   const std::unique_ptr<MeshFileWriter> writer = format.writer(path, info, nullptr);
   Progress reported(progress);
   VertexChunk vertices;
   ElementChunk elements;
   for (MeshBlock block; source.next(block);)
   {
-    vertices.first = block.firstVertex;
-    std::swap(vertices.positions, block.positions);
-    std::swap(vertices.columns, block.vertexColumns);
+    take(block, vertices);
     writer->vertices(vertices);
-    elements.first = block.firstCell;
-    std::swap(elements.corners, block.corners);
-    std::swap(elements.columns, block.cellColumns);
-    elements.sizes.assign(elements.corners.size() / corners, corners);
+    take(block, info.cellType, elements);
     writer->elements(elements);
     reported.update(
       static_cast<double>(elements.first + elements.count()) / static_cast<double>(info.cells));
@@ -128,6 +199,20 @@ WriteNotes writeInStreamOrder(MeshSource& source, const Format& format,
   return finish(*writer, format, info);
 }
 
+/** Writes a .vsm file in stream order, in a format for which it is read more than once. */
+WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
+  const std::filesystem::path& path, const WriteMeshOptions& options)
+{
+  if (format.writeVsm)
+  {
+    return format.writeVsm(vsm, path, options);
+  }
+  constexpr std::int64_t Memory = std::int64_t(64) << 20; // only for PartTurn::ElementsFirst
+  Workspace space(options.scratch, Memory);
+  StreamedMesh mesh(vsm, options.progress);
+  return writeParts(mesh, format, path, space);
+}
+
 } // namespace
 
 std::vector<std::string> writeRestored(
@@ -136,7 +221,7 @@ std::vector<std::string> writeRestored(
   checkRestoredPath(out, VsmReader(vsm).info().cellType);
   RestoredMesh mesh(vsm, workspace);
   std::vector<std::string> notes = mesh.notes();
-  const WriteNotes more = writeInOriginalOrder(mesh, *formatOfName(out), out);
+  const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace);
   notes.insert(notes.end(), more.begin(), more.end());
   workspace.tell(1.0);
   return notes;
@@ -147,9 +232,9 @@ std::vector<std::string> writeMesh(
 {
   checkOutput(path, source.info().cellType);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
-  if (format.turn == PartTurn::Any)
+  if (format.turn == PartTurn::AsTheyCome)
   {
-    return writeInStreamOrder(source, format, path, options.progress);
+    return writeAsTheyCome(source, format, path, options.progress);
   }
   Workers workers(options.threads);
   if (format.kind == MeshFileKind::Vsm)
@@ -181,7 +266,7 @@ std::vector<std::string> writeMesh(
   WriteMeshOptions rest = options;
   rest.scratch = scratch.path();
   rest.progress = partOf(options.progress, 0.6, 1.0);
-  return format.writeVsm(whole, path, rest);
+  return writeAgain(format, whole, path, rest);
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
@@ -195,11 +280,9 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   options.scratch = scratch;
   options.isolatedFrom = vsm;
   options.progress = progress;
-  if (format.writeVsm)
-  {
-    return format.writeVsm(vsm, path, options);
-  }
-  return writeMesh(*reader.source(), path, options);
+  return format.kind == MeshFileKind::Vsm || format.turn == PartTurn::AsTheyCome
+           ? writeMesh(*reader.source(), path, options)
+           : writeAgain(format, vsm, path, options);
 }
 
 namespace

@@ -87,14 +87,14 @@ using WriteNotes = std::vector<std::string>;
 /** The turn in which the writer of a format takes a mesh. */
 enum class PartTurn
 {
-  Any, ///< vertices and elements in turn, as they come, since each has its place in the file
+  AsTheyCome, ///< as in a mesh stream, since each vertex and element has its place in the file
   VerticesFirst,
   ElementsFirst
 };
 
 /**
  * Begins a mesh file; see IO/Export/MeshFileWriter.h. The file is renamed when it is complete.
- * @param space for scratch files; may be null for a format that takes PartTurn::Any
+ * @param space for scratch files; may be null for PartTurn::AsTheyCome
  */
 using MeshFileFunction = std::unique_ptr<MeshFileWriter>(
   const std::filesystem::path& path, const MeshFileInfo& info, Workspace* space);
@@ -149,10 +149,16 @@ struct Format
   /** Begins a file of an indexed mesh, in the order of its original file or of a mesh stream. */
   MeshFileFunction* writer = nullptr;
   PartTurn turn = PartTurn::VerticesFirst;
+  /**
+   * Whether a mesh stream is written as such: in its order, with all columns, also those of a
+   * conversion (OriginalId ...). Other files are like an original: in its order if that is known,
+   * and without these columns.
+   */
+  bool isStreamed() const { return !this->writer || this->turn == PartTurn::AsTheyCome; }
   /** The most corners of a polygon in its files; larger ones become triangles. */
   std::int64_t maxCorners = std::numeric_limits<std::int64_t>::max();
-  /** Writes a .vsm file in another order than vertices and cells apart, or reads it more than once.
-   * The suffix is one for these cells. */
+  /** Writes the mesh of a .vsm file, instead of `writer`, for a format that wants more of it: the
+   * last uses of vertices, or pieces with their points. The suffix is one for these cells. */
   WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;
 };

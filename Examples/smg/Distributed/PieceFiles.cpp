@@ -4,7 +4,7 @@
 #include "ReadPart.h"
 
 #include "IO/Files/FileNames.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"

@@ -72,7 +72,7 @@ const Format PlyFormat{
   .counts = countsOfPly,
   .bytes = bytesOfPly,
   .writer = makePlyWriter,
-  .turn = PartTurn::Any,
+  .turn = PartTurn::AsTheyCome,
 };
 
 } // namespace smg

@@ -98,7 +98,7 @@ const Format VtkXmlFormat{
   .parse = parseWith<importVtkXml>,
   .bytes = bytesOfVtkXml,
   .writer = makeVtkXmlWriter,
-  .turn = PartTurn::Any,
+  .turn = PartTurn::AsTheyCome,
 };
 
 const Format ParallelVtkXmlFormat{

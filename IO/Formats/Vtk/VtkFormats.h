@@ -2,11 +2,7 @@
 #pragma once
 
 #include "IO/Mesh/Format.h"
-#include "smg/Column.h"
 #include "smg/Export.h"
-
-#include <string>
-#include <string_view>
 
 namespace smg
 {
@@ -29,15 +25,5 @@ void importParallelVtkXml(
 MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
 std::int64_t bytesOfVtk(const MeshToWrite& written);
 std::int64_t bytesOfVtkXml(const MeshToWrite& written);
-
-/** The names of the scalar types in VTK's XML files. */
-inline constexpr std::string_view VtkXmlTypeNames[] = { "Int8", "UInt8", "Int16", "UInt16", "Int32",
-  "UInt32", "Int64", "UInt64", "Float32", "Float64" };
-constexpr std::string_view vtkXmlTypeName(ScalarType type)
-{
-  return VtkXmlTypeNames[static_cast<int>(type)];
-}
-/** The text with the characters that mean something in XML written as entities. */
-SMG_EXPORT std::string xmlEscaped(const std::string& text);
 
 } // namespace smg

@@ -7,6 +7,7 @@
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 

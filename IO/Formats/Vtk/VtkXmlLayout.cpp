@@ -2,7 +2,6 @@
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
 
 #include "IO/Files/FileNames.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
 
