@@ -2,6 +2,7 @@
 #include "IO/Export/RestoredMesh.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -27,11 +28,7 @@ const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
  * the mesh first. */
 std::vector<std::string> namesWith(const std::vector<ColumnSpec>& specs, const std::string& last)
 {
-  std::vector<std::string> names;
-  for (const ColumnSpec& spec : specs)
-  {
-    names.push_back(spec.name);
-  }
+  std::vector<std::string> names = columnNames(specs);
   names.push_back(last);
   return names;
 }
