@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceFiles.h"
 
-#include "IO/Formats/Vtk/VtkXmlFile.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Files/FileDescriptor.h"

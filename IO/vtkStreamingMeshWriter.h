@@ -6,9 +6,11 @@
  * Requests the pieces of its input one after the other, each once, and writes them to one of
  * - .vsm: all point and cell arrays become columns; the points that no cell uses, which no piece
  *   has, are copied from the .vsm file of the pieces;
- * - .ply, .vtp (triangles), .vtu, .vtkhdf: one file with all point and cell arrays; for their names
- *   in PLY see smg::writePly;
+ * - .ply, .vtp (triangles), .vtu, .vtkhdf: one file with all point and cell arrays; in PLY those of
+ *   several components have a property NAME_0, NAME_1 ... for each;
  * - .sma, .smb (triangles), .sva, .svb (tetrahedra): positions in single precision and cells;
+ * - .vtk, .obj, .off, .stl (triangles), .mesh, .msh, .node with .ele: the arrays that they can
+ * hold;
  * - .pvtp, .pvtu: an index and a folder of that name with one file per piece, with the GlobalIds
  *   and ghost arrays that make them valid input of all streaming filters.
  *

@@ -5,7 +5,9 @@
 #include "ProgressBar.h"
 
 #include "IO/External/Workspace.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Mesh/AddedColumn.h"
@@ -311,8 +313,8 @@ std::vector<std::string> MeshCommand::notesOn(
   }
   if (!ordered && smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed)
   {
-    const bool hasIds =
-      smg::kindOfOutput(this->Out) != smg::MeshFileKind::Stream && !conversion.keeps_numbers;
+    const smg::Format& format = *smg::formatOfSuffix(smg::lowerSuffix(this->Out));
+    const bool hasIds = format.holdsColumns() && format.isStreamed() && !conversion.keeps_numbers;
     notes.push_back(hasIds
                       ? std::string("The vertices are in stream order; ") + smg::OriginalIdName +
                           " names their places in " + this->In.string() + '.'

@@ -2,6 +2,7 @@
 #include "ResultFile.h"
 
 #include "IO/External/Workspace.h"
+#include "IO/Files/FileNames.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
@@ -21,8 +22,7 @@ ResultFile::ResultFile(Options options)
     return;
   }
   const bool hasColumns = !this->Files.columns.empty();
-  const bool isFormat = smg::suffixFor(smg::FormatUse::Write, this->Files.out) ||
-                        smg::suffixFor(smg::FormatUse::Restore, this->Files.out);
+  const bool isFormat = smg::suffixFor(smg::FormatUse::Write, this->Files.out) != nullptr;
   const smg::FormatUse use = hasColumns ? smg::FormatUse::WriteColumns : smg::FormatUse::Write;
   if (!smg::suffixFor(use, this->Files.out) && !(hasColumns && this->restoresColumns()))
   {
@@ -30,23 +30,16 @@ ResultFile::ResultFile(Options options)
                               ? "this format cannot hold " + this->Files.columns
                               : "this is not a format of a result";
     throw smg::Error(
-      this->Files.out.string() + ": " + why + ": write it as " + this->choices() + '.' +
-      (this->Files.welds ? " Formats in the order of the input are not possible with --weld."
-                         : ""));
+      this->Files.out.string() + ": " + why + ": write it as " + this->choices() + '.');
   }
   smg::checkOutputPlace(this->Files.out);
 }
 
 std::string ResultFile::choices(std::optional<smg::CellType> cells) const
 {
-  const bool hasColumns = !this->Files.columns.empty();
-  std::vector<smg::FormatUse> uses{ hasColumns ? smg::FormatUse::WriteColumns
-                                               : smg::FormatUse::Write };
-  if (!this->Files.welds && smg::kindOfInput(this->Files.in) == smg::MeshFileKind::Indexed)
-  {
-    uses.push_back(hasColumns ? smg::FormatUse::RestoreColumns : smg::FormatUse::Restore);
-  }
-  return smg::suffixList(uses, cells, "or");
+  const smg::FormatUse use =
+    this->Files.columns.empty() ? smg::FormatUse::Write : smg::FormatUse::WriteColumns;
+  return smg::suffixList({ &use, 1 }, cells, "or");
 }
 
 bool ResultFile::restoresColumns() const
@@ -61,11 +54,15 @@ bool ResultFile::mayRestore() const
   const bool canRestore = this->Files.columns.empty()
                             ? smg::suffixFor(smg::FormatUse::Restore, this->Files.out) != nullptr
                             : this->restoresColumns();
+  if (this->Files.welds || !canRestore)
+  {
+    return false;
+  }
   const smg::MeshFileKind kind = smg::kindOfInput(this->Files.in);
-  // A .vsm file is in stream order, and so is the result where the format can have that.
-  const bool isContainer =
-    kind == smg::MeshFileKind::Vsm && !smg::suffixFor(smg::FormatUse::Write, this->Files.out);
-  return !this->Files.welds && canRestore && (kind == smg::MeshFileKind::Indexed || isContainer);
+  // A .vsm file is in stream order, and so is the result if it is written as a stream.
+  return kind == smg::MeshFileKind::Indexed ||
+         (kind == smg::MeshFileKind::Vsm &&
+           !smg::formatOfSuffix(smg::lowerSuffix(this->Files.out))->isStreamed());
 }
 
 bool ResultFile::mayRewrite() const
@@ -99,23 +96,9 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
   if (this->mayRestore() && isNumbered)
   {
     this->Order = smg::WrittenOrder::Restored;
-    this->check(smg::FormatUse::Restore, cells);
-    return;
   }
-  if (!smg::suffixFor(smg::FormatUse::Write, this->Files.out))
-  {
-    throw smg::Error(this->Files.out.string() + ": " + this->Files.in.string() + " has " +
-                     (conversion ? "a column OriginalId of its own" : "no column OriginalId") +
-                     ", so that the result can be written in stream order only: choose " +
-                     smg::suffixList(smg::FormatUse::Write, cells, "or") + '.');
-  }
-  this->check(smg::FormatUse::Write, cells);
-}
-
-void ResultFile::check(smg::FormatUse use, smg::CellType cells) const
-{
   const std::filesystem::path& out = this->Files.out;
-  smg::checkHolds(out, *smg::suffixFor(use, out), cells, this->choices(cells));
+  smg::checkHolds(out, *smg::suffixFor(smg::FormatUse::Write, out), cells, this->choices(cells));
   smg::checkOutputPlace(out);
 }
 

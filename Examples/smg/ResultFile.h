@@ -60,9 +60,7 @@ public:
 private:
   /** The suffixes that OUT may have; `cells`: of the mesh, if they are known. */
   std::string choices(std::optional<smg::CellType> cells = {}) const;
-  /** Throws smg::Error if the format of OUT does not hold these cells, or OUT cannot be written. */
-  void check(smg::FormatUse use, smg::CellType cells) const;
-  /** Whether the format of OUT has places for the columns in the order of its original file. */
+  /** Whether the format of OUT can have the order of its original file and the columns. */
   bool restoresColumns() const;
   /** Whether IN can be written again with other positions. */
   bool mayRewrite() const;

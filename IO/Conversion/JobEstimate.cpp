@@ -121,7 +121,8 @@ std::int64_t fileBytes(const ResultMesh& result, const std::filesystem::path& ou
 {
   const NamedFormat named(out);
   const std::int64_t vsm = result.bytes(codec);
-  const bool isRestored = order == WrittenOrder::Restored;
+  const bool isRestored =
+    order == WrittenOrder::Restored || (named.format && !named.format->isStreamed());
   return named.format && named.format->bytes
            ? named.format->bytes(
                { isRestored ? result.restored() : result.mesh, vsm, named.suffix })
@@ -152,7 +153,8 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
       break;
   }
   const Format* const format = formatOfSuffix(suffix);
-  return normals + (format && format->writeVsm ? result.bytes(Codec::Lz4) : 0);
+  const bool readsAgain = format && (format->writeVsm || !format->isStreamed());
+  return normals + (readsAgain ? result.bytes(Codec::Lz4) : 0);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Export/Restorers.h"
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Files/FileNames.h"
 
 #include <algorithm>
@@ -14,20 +14,23 @@
 namespace smg
 {
 
-/** The columns of a restored mesh that a text format can hold. The others are left out, with a
+/** The columns of a mesh that a text format can hold. The others are left out, with a
  * note. */
 class PlacedColumns
 {
 public:
-  explicit PlacedColumns(const RestoredInfo& info)
-    : OfVertices(info.vertexColumns)
-    , OfElements(info.elementColumns)
+  PlacedColumns(
+    const std::vector<ColumnSpec>& ofVertices, const std::vector<ColumnSpec>& ofElements)
+    : OfVertices(ofVertices)
+    , OfElements(ofElements)
   {
   }
-  /** Of a mesh that is to be restored. */
+  explicit PlacedColumns(const MeshFileInfo& info)
+    : PlacedColumns(info.vertexColumns, info.elementColumns)
+  {
+  }
   explicit PlacedColumns(const StreamInfo& mesh)
-    : OfVertices(mesh.vertexColumns)
-    , OfElements(mesh.cellColumns)
+    : PlacedColumns(mesh.vertexColumns, mesh.cellColumns)
   {
   }
 

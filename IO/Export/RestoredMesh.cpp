@@ -2,6 +2,7 @@
 #include "IO/Export/RestoredMesh.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -27,11 +28,7 @@ const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
  * the mesh first. */
 std::vector<std::string> namesWith(const std::vector<ColumnSpec>& specs, const std::string& last)
 {
-  std::vector<std::string> names;
-  for (const ColumnSpec& spec : specs)
-  {
-    names.push_back(spec.name);
-  }
+  std::vector<std::string> names = columnNames(specs);
   names.push_back(last);
   return names;
 }
@@ -204,14 +201,14 @@ void RestoredMesh::deliver(std::int64_t count)
                                    static_cast<double>(this->Info.vertices + this->Info.elements));
 }
 
-bool RestoredMesh::next(RestoredVertices& vertices)
+bool RestoredMesh::next(VertexChunk& vertices)
 {
   const bool more = this->Vertices->next(vertices);
   this->deliver(vertices.count());
   return more;
 }
 
-bool RestoredMesh::next(RestoredElements& elements)
+bool RestoredMesh::next(ElementChunk& elements)
 {
   const bool more = this->Elements->next(elements);
   this->deliver(elements.count());

@@ -37,7 +37,7 @@ public:
   RestoredMesh(const RestoredMesh&) = delete;
   RestoredMesh& operator=(const RestoredMesh&) = delete;
 
-  const RestoredInfo& info() const { return this->Info; }
+  const MeshFileInfo& info() const { return this->Info; }
   /** The workspace of the sort, for further operations. */
   Workspace& workspace() const { return this->Space; }
   /** Notes for the user on the restored mesh, a sentence each. */
@@ -45,9 +45,9 @@ public:
 
   /** The next vertices, from 0; returns false at the end. They can be read once. Throws Error;
    * Cancelled. */
-  bool next(RestoredVertices& vertices);
+  bool next(VertexChunk& vertices);
   /** The next elements, from 0; returns false at the end. Throws Error; Cancelled. */
-  bool next(RestoredElements& elements);
+  bool next(ElementChunk& elements);
   /** Goes back to the first element. */
   void rewindElements() { this->Elements->rewind(); }
 
@@ -63,7 +63,7 @@ private:
 
   Workspace& Space;
   std::string Name;
-  RestoredInfo Info;
+  MeshFileInfo Info;
   bool KnowsCells = false; ///< whether there is an OriginalCellId
   std::unique_ptr<VertexRestorer> Vertices;
   std::unique_ptr<ElementRestorer> Elements;

@@ -6,7 +6,6 @@
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
@@ -142,7 +141,7 @@ std::int64_t elementBytes(Workspace& workspace)
 } // namespace
 
 ElementRestorer::ElementRestorer(
-  Workspace& workspace, std::int64_t memory, const RestoredInfo& info)
+  Workspace& workspace, std::int64_t memory, const MeshFileInfo& info)
   : Space(workspace)
   , CornersOfCell(static_cast<std::size_t>(cornersOf(info.cellType)))
   , Columns(info.elementColumns)
@@ -161,7 +160,7 @@ void ElementRestorer::put(std::int64_t element, std::span<const std::uint32_t> c
   this->Columns.gather(columns, tuple, row + corners.size_bytes());
 }
 
-void ElementRestorer::restore(RestoredInfo& info)
+void ElementRestorer::restore(MeshFileInfo& info)
 {
   this->Sorted.sort();
   // For the cells of one element, which are in memory together.
@@ -287,7 +286,7 @@ std::vector<std::string> ElementRestorer::notes() const
   return notes;
 }
 
-bool ElementRestorer::next(RestoredElements& elements)
+bool ElementRestorer::next(ElementChunk& elements)
 {
   if (!this->Reader)
   {
@@ -327,15 +326,14 @@ constexpr std::size_t VertexChunkBytes = std::size_t(512) << 10;
 } // namespace
 
 VertexRestorer::VertexRestorer(
-  Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name)
+  Workspace& workspace, std::int64_t memory, const MeshFileInfo& info, std::string name)
   : Name(std::move(name))
-  , DoublePositions(info.doublePositions)
-  , PositionBytes(3 * (info.doublePositions ? sizeof(double) : sizeof(float)))
+  , Positions(info.doublePositions)
   , Columns(info.vertexColumns)
   , Count(info.vertices)
   , Chunk(static_cast<std::int64_t>(std::clamp<std::size_t>(
-      VertexChunkBytes / (this->PositionBytes + this->Columns.bytes()), 1, 8192)))
-  , Sorted(workspace, memory, this->PositionBytes + this->Columns.bytes())
+      VertexChunkBytes / (this->Positions.size() + this->Columns.bytes()), 1, 8192)))
+  , Sorted(workspace, memory, this->Positions.size() + this->Columns.bytes())
 {
 }
 
@@ -350,7 +348,10 @@ void VertexRestorer::fail(const std::string& what) const
 void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const double> positions,
   const std::vector<Column>& columns)
 {
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  // Positions that were in single precision take half the room in the sort, and lose nothing.
+  const std::size_t size = this->Positions.size();
+  const std::byte* position = this->Positions.bytes(positions).data();
+  for (std::size_t i = 0; i < ids.size(); ++i, position += size)
   {
     // Checked as they come: with all numbers in range, one that is missing means that another one
     // occurs twice.
@@ -360,27 +361,17 @@ void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const doub
                  ", but there are only " + std::to_string(this->Count) + " vertices");
     }
     std::byte* const row = this->Sorted.put(static_cast<std::uint64_t>(ids[i]));
-    const std::span<const double> position = positions.subspan(3 * i, 3);
-    if (this->DoublePositions)
-    {
-      std::memcpy(row, position.data(), this->PositionBytes);
-    }
-    else
-    {
-      // Positions that were in single precision take half the room in the sort, and lose nothing.
-      const std::array<float, 3> single{ static_cast<float>(position[0]),
-        static_cast<float>(position[1]), static_cast<float>(position[2]) };
-      std::memcpy(row, single.data(), this->PositionBytes);
-    }
-    this->Columns.gather(columns, i, row + this->PositionBytes);
+    std::memcpy(row, position, size);
+    this->Columns.gather(columns, i, row + size);
   }
 }
 
-bool VertexRestorer::next(RestoredVertices& vertices)
+bool VertexRestorer::next(VertexChunk& vertices)
 {
   vertices.first = this->Next;
   vertices.positions.clear();
   vertices.columns = emptyColumns(this->Columns.specs(), static_cast<std::size_t>(this->Chunk));
+  this->Bytes.clear();
   RowSort::Row row;
   for (std::int64_t i = 0; i < this->Chunk && this->Sorted.next(row); ++i, ++this->Next)
   {
@@ -391,20 +382,10 @@ bool VertexRestorer::next(RestoredVertices& vertices)
                    ? "two vertices have the original number " + std::to_string(row.key)
                    : "no vertex has the original number " + std::to_string(this->Next));
     }
-    if (this->DoublePositions)
-    {
-      std::array<double, 3> position;
-      std::memcpy(position.data(), row.bytes, sizeof(position));
-      vertices.positions.insert(vertices.positions.end(), position.begin(), position.end());
-    }
-    else
-    {
-      std::array<float, 3> position;
-      std::memcpy(position.data(), row.bytes, sizeof(position));
-      vertices.positions.insert(vertices.positions.end(), position.begin(), position.end());
-    }
-    this->Columns.append(row.bytes + this->PositionBytes, vertices.columns);
+    this->Bytes.insert(this->Bytes.end(), row.bytes, row.bytes + this->Positions.size());
+    this->Columns.append(row.bytes + this->Positions.size(), vertices.columns);
   }
+  this->Positions.append(this->Bytes, vertices.positions);
   return !vertices.positions.empty();
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/External/ExternalSort.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Column.h"
-#include "smg/MeshSource.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -89,75 +89,6 @@ private:
   std::vector<std::uint32_t> Stack, Trail; ///< the trail from its end to its start
 };
 
-/** The properties of a restored mesh before its vertices and elements are read. */
-struct RestoredInfo
-{
-  CellType cellType = CellType::Triangle;
-  /** Whether positions have double precision; otherwise they were single precision numbers. */
-  bool doublePositions = true;
-  std::int64_t vertices = 0; ///< including isolated ones
-  std::int64_t isolated = 0;
-  std::int64_t cells = 0;          ///< triangles or tetrahedra of the stream
-  std::int64_t elements = 0;       ///< the restored polygons or tetrahedra
-  std::int64_t quadrilaterals = 0; ///< elements that are polygons of four corners
-  std::int64_t corners = 0;        ///< of all elements
-  std::int64_t maxCorners = 0;     ///< of an element
-  std::vector<ColumnSpec> vertexColumns;
-  std::vector<ColumnSpec> elementColumns;
-};
-
-/** Consecutive vertices of a restored mesh. */
-struct RestoredVertices
-{
-  std::int64_t first = 0;
-  std::vector<double> positions; ///< x, y, z of each vertex
-  std::vector<Column> columns;
-
-  std::int64_t count() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
-};
-
-/** Calls `take` with the corners of each triangle of the fan of a polygon. */
-template <class Take>
-void forEachFanTriangle(std::span<const std::int64_t> polygon, Take&& take)
-{
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    take(std::array{ polygon[0], polygon[i - 1], polygon[i] });
-  }
-}
-
-/** Consecutive elements of a restored mesh: polygons of any number of corners, or tetrahedra. */
-struct RestoredElements
-{
-  std::int64_t first = 0;
-  std::vector<std::uint32_t> sizes;  ///< corners of each element
-  std::vector<std::int64_t> corners; ///< original numbers of vertices
-  std::vector<Column> columns;
-
-  std::int64_t count() const { return static_cast<std::int64_t>(this->sizes.size()); }
-
-  /** Calls `take` with the corners of each element and its index here, in order. */
-  template <class Take>
-  void forEach(Take&& take) const
-  {
-    std::size_t begin = 0;
-    for (std::size_t element = 0; element < this->sizes.size(); ++element)
-    {
-      const std::size_t size = this->sizes[element];
-      take(std::span<const std::int64_t>(this->corners).subspan(begin, size), element);
-      begin += size;
-    }
-  }
-
-  /** The same with the triangles of the fan of each element. */
-  template <class Take>
-  void forEachTriangle(Take&& take) const
-  {
-    this->forEach([&take](std::span<const std::int64_t> polygon, std::size_t)
-      { forEachFanTriangle(polygon, take); });
-  }
-};
-
 /**
  * Restores the elements of the original file, in its order, from the cells of a mesh stream, out of
  * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
@@ -168,7 +99,7 @@ class ElementRestorer
 {
 public:
   /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. */
-  ElementRestorer(Workspace& workspace, std::int64_t memory, const RestoredInfo& info);
+  ElementRestorer(Workspace& workspace, std::int64_t memory, const MeshFileInfo& info);
 
   /** Adds a cell with tuple `tuple` of the columns, the first of which are the columns of the
    * info. */
@@ -177,13 +108,13 @@ public:
 
   /** To be called after the last put(); sets the counts of elements and corners in `info`. Throws
    * Error. */
-  void restore(RestoredInfo& info);
+  void restore(MeshFileInfo& info);
 
   /** Notes on elements that restore() could not restore, a sentence each. */
   std::vector<std::string> notes() const;
 
   /** The next elements; returns false at the end. */
-  bool next(RestoredElements& elements);
+  bool next(ElementChunk& elements);
   /** Goes back to the first element. */
   void rewind() { this->Reader.reset(); }
 
@@ -198,7 +129,7 @@ private:
   ColumnRows Columns;
   RowSort Sorted;      ///< a row is the corners, then the columns
   BucketFile Elements; ///< number of corners, corners, columns
-  RestoredInfo Counts;
+  MeshFileInfo Counts;
   std::size_t MaxCells; ///< of an element that is processed as a whole
 
   // The cells of one element.
@@ -223,7 +154,7 @@ public:
   /** For info.vertices vertices with info.vertexColumns. Uses `memory` bytes of the workspace.
    * `name` is the name of the mesh in errors. */
   VertexRestorer(
-    Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name);
+    Workspace& workspace, std::int64_t memory, const MeshFileInfo& info, std::string name);
 
   /** Adds vertices with these numbers. The first columns are the columns of the info. Throws Error
    * if a number is out of range. */
@@ -235,19 +166,19 @@ public:
 
   /** The next vertices; returns false at the end. Throws Error if no vertex, or more than one, has
    * a number. */
-  bool next(RestoredVertices& vertices);
+  bool next(VertexChunk& vertices);
 
 private:
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string Name;
-  bool DoublePositions;
-  std::size_t PositionBytes;
+  FilePositions Positions;
   ColumnRows Columns;
   std::int64_t Count;
   std::int64_t Chunk; ///< vertices delivered at once
   std::int64_t Next = 0;
-  RowSort Sorted; ///< a row is a position, then the columns
+  RowSort Sorted;               ///< a row is a position, then the columns
+  std::vector<std::byte> Bytes; ///< of the positions delivered at once
 };
 
 } // namespace smg

@@ -74,6 +74,16 @@ public:
     }
   }
 
+  /** Writes the corners of an element with a blank before each; vertices are numbered from `first`.
+   */
+  void corners(std::span<const std::int64_t> corners, std::int64_t first)
+  {
+    for (const std::int64_t corner : corners)
+    {
+      *this << ' ' << corner + first;
+    }
+  }
+
   /** Writes a tuple of a column with a blank before each number; without a column `otherwise`. */
   void tuple(const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple,
     std::string_view otherwise = "")

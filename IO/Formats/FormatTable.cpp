@@ -93,7 +93,7 @@ const Format* formatLookingRight(std::string_view start, std::optional<std::uint
 
 bool canBeUsed(const Format& format, FormatUse use)
 {
-  const bool writes = format.write || format.writeVsm;
+  const bool writes = format.kind == MeshFileKind::Vsm || format.writeVsm || format.writer;
   switch (use)
   {
     case FormatUse::Read:
@@ -103,9 +103,9 @@ bool canBeUsed(const Format& format, FormatUse use)
     case FormatUse::WriteColumns:
       return writes && format.holdsColumns();
     case FormatUse::Restore:
-      return format.restore != nullptr;
+      return format.writer != nullptr;
     case FormatUse::RestoreColumns:
-      return format.restore && format.holdsColumns();
+      return format.writer && format.holdsColumns();
   }
   return false;
 }
@@ -204,7 +204,7 @@ bool restoresColumns(const std::filesystem::path& path, std::span<const std::str
   const Format* const format = formatOfSuffix(lowerSuffix(path));
   const auto hasPlace = [format](const std::string& column)
   { return std::ranges::find(format->vertexColumns, column) != format->vertexColumns.end(); };
-  return format && format->restore &&
+  return format && format->writer &&
          (format->holdsColumns() || std::ranges::all_of(columns, hasPlace));
 }
 

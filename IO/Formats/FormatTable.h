@@ -47,8 +47,8 @@ enum class FormatUse
 /** The suffix of the path, if it supports the operation; null otherwise. */
 SMG_EXPORT const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path);
 
-/** Whether a file of this name, written in the order of its original file, has places for these
- * columns of the vertices. */
+/** Whether a file of this name, of an indexed mesh, has places for these columns of the vertices.
+ */
 SMG_EXPORT bool restoresColumns(
   const std::filesystem::path& path, std::span<const std::string> columns);
 

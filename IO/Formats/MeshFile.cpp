@@ -83,8 +83,7 @@ void checkOutput(const std::filesystem::path& path)
   if (!suffixFor(FormatUse::Write, path))
   {
     throw Error(path.string() + ": meshes are written as " + suffixList(FormatUse::Write, "or") +
-                ": choose such a suffix. Other formats are written from a .vsm file by smg convert "
-                "--restore-order.");
+                ": choose such a suffix.");
   }
   checkOutputPlace(path);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/WriteFiles.h"
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/RestoredMesh.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/FileNames.h"
@@ -10,16 +11,20 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Ply/PlyFormat.h"
-#include "IO/Formats/Ply/RewritePly.h"
-#include "IO/Formats/Streams/RewriteStream.h"
 #include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Results/MovedVertices.h"
+#include "Solver/Core/Progress.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
+
+#include <cstdint>
+#include <memory>
+#include <utility>
 
 namespace smg
 {
@@ -36,13 +41,187 @@ void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
   checkHolds(path, *suffix, cellType, suffixList(FormatUse::Restore, cellType, "or"));
 }
 
+namespace
+{
+
+/** Completes a file. Adds what the format cannot hold of the polygons to the notes of its writer.
+ */
+WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileInfo& info)
+{
+  WriteNotes notes = writer.finish();
+  if (info.cellType == CellType::Triangle && info.maxCorners > format.maxCorners)
+  {
+    notes.emplace_back(format.maxCorners == 3
+                         ? "Polygons are written as triangles."
+                         : "Polygons of more than four corners are written as triangles.");
+  }
+  return notes;
+}
+
+/** Writes vertices and elements apart, in the order in which `mesh` gives them. */
+template <class Mesh>
+WriteNotes writeParts(
+  Mesh& mesh, const Format& format, const std::filesystem::path& path, Workspace& space)
+{
+  const std::unique_ptr<MeshFileWriter> writer = format.writer(path, mesh.info(), &space);
+  const auto writeVertices = [&]
+  {
+    for (VertexChunk chunk; mesh.next(chunk);)
+    {
+      writer->vertices(chunk);
+    }
+  };
+  const auto writeElements = [&]
+  {
+    do
+    {
+      mesh.rewindElements();
+      for (ElementChunk chunk; mesh.next(chunk);)
+      {
+        writer->elements(chunk);
+      }
+    } while (writer->needsElementsAgain());
+  };
+  if (format.turn == PartTurn::ElementsFirst)
+  {
+    writeElements();
+    writeVertices();
+  }
+  else
+  {
+    writeVertices();
+    writeElements();
+  }
+  return finish(*writer, format, mesh.info());
+}
+
+void take(MeshBlock& block, VertexChunk& chunk)
+{
+  chunk.first = block.firstVertex;
+  std::swap(chunk.positions, block.positions);
+  std::swap(chunk.columns, block.vertexColumns);
+}
+
+void take(MeshBlock& block, CellType cells, ElementChunk& chunk)
+{
+  const auto corners = static_cast<std::uint32_t>(cornersOf(cells));
+  chunk.first = block.firstCell;
+  std::swap(chunk.corners, block.corners);
+  std::swap(chunk.columns, block.cellColumns);
+  chunk.sizes.assign(chunk.corners.size() / corners, corners);
+}
+
+/** The mesh of a .vsm file in stream order, without the columns that a conversion adds: its
+ * vertices and, from another reading, its cells. */
+class StreamedMesh
+{
+public:
+  StreamedMesh(const std::filesystem::path& vsm, const ProgressFunction& progress)
+    : Reader(vsm)
+    , Info(this->Reader.info())
+    , Reported(progress)
+  {
+    this->Info.vertexColumns = ownColumns(this->Info.vertexColumns);
+    this->Info.elementColumns = ownColumns(this->Info.elementColumns);
+    this->Vertices = this->Reader.source(columnNames(this->Info.vertexColumns), {});
+  }
+
+  const MeshFileInfo& info() const { return this->Info; }
+
+  bool next(VertexChunk& chunk)
+  {
+    const bool more = this->Vertices->next(this->Block);
+    if (more)
+    {
+      take(this->Block, chunk);
+      this->tell(chunk.count());
+    }
+    return more;
+  }
+
+  bool next(ElementChunk& chunk)
+  {
+    const bool more = this->Cells->next(this->Block);
+    if (more)
+    {
+      take(this->Block, this->Info.cellType, chunk);
+      this->tell(chunk.count());
+    }
+    return more;
+  }
+
+  void rewindElements()
+  {
+    this->Cells = this->Reader.source({}, columnNames(this->Info.elementColumns));
+  }
+
+private:
+  void tell(std::int64_t count)
+  {
+    this->Delivered += count;
+    this->Reported.update(static_cast<double>(this->Delivered) /
+                          static_cast<double>(this->Info.vertices + this->Info.elements));
+  }
+
+  VsmReader Reader;
+  MeshFileInfo Info;
+  Progress Reported;
+  std::unique_ptr<MeshSource> Vertices, Cells;
+  MeshBlock Block;
+  std::int64_t Delivered = 0; ///< vertices and elements
+};
+
+/** Writes vertices and elements as the blocks of a stream come. */
+WriteNotes writeAsTheyCome(MeshSource& source, const Format& format,
+  const std::filesystem::path& path, const ProgressFunction& progress)
+{
+  const MeshFileInfo info(source.info());
+  const std::unique_ptr<MeshFileWriter> writer = format.writer(path, info, nullptr);
+  Progress reported(progress);
+  VertexChunk vertices;
+  ElementChunk elements;
+  for (MeshBlock block; source.next(block);)
+  {
+    take(block, vertices);
+    writer->vertices(vertices);
+    take(block, info.cellType, elements);
+    writer->elements(elements);
+    reported.update(
+      static_cast<double>(elements.first + elements.count()) / static_cast<double>(info.cells));
+  }
+  if (vertices.first + vertices.count() != info.vertices ||
+      elements.first + elements.count() != info.cells)
+  {
+    throw Error(path.string() + ": the mesh stream does not have the " +
+                std::to_string(info.vertices) + " vertices and " + std::to_string(info.cells) +
+                " cells of its info: write it to a .vsm file first.");
+  }
+  return finish(*writer, format, info);
+}
+
+/** Writes a .vsm file in stream order, in a format for which it is read more than once. */
+WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
+  const std::filesystem::path& path, const WriteMeshOptions& options)
+{
+  if (format.writeVsm)
+  {
+    return format.writeVsm(vsm, path, options);
+  }
+  constexpr std::int64_t Memory = std::int64_t(64) << 20; // only for PartTurn::ElementsFirst
+  Workspace space(options.scratch, Memory);
+  StreamedMesh mesh(vsm, options.progress);
+  return writeParts(mesh, format, path, space);
+}
+
+} // namespace
+
 std::vector<std::string> writeRestored(
   const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace)
 {
   checkRestoredPath(out, VsmReader(vsm).info().cellType);
   RestoredMesh mesh(vsm, workspace);
   std::vector<std::string> notes = mesh.notes();
-  const WriteNotes more = formatOfName(out)->restore(mesh, out);
+  const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace);
   notes.insert(notes.end(), more.begin(), more.end());
   workspace.tell(1.0);
   return notes;
@@ -53,13 +232,31 @@ std::vector<std::string> writeMesh(
 {
   checkOutput(path, source.info().cellType);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
-  if (format.write)
+  if (format.turn == PartTurn::AsTheyCome)
   {
-    return format.write(source, path, options);
+    return writeAsTheyCome(source, format, path, options.progress);
+  }
+  Workers workers(options.threads);
+  if (format.kind == MeshFileKind::Vsm)
+  {
+    const auto addIsolated = [&](VsmWriter& writer)
+    {
+      if (!options.isolatedFrom.empty())
+      {
+        copyIsolated(options.isolatedFrom, source.info(), writer);
+      }
+    };
+    writeVsm(source, path,
+      { .codec = options.codec,
+        .scratch = options.scratch,
+        .add = addIsolated,
+        .workers = &workers,
+        .apart = true,
+        .progress = options.progress });
+    return {};
   }
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path whole = scratch / "mesh.vsm";
-  Workers workers(options.threads);
   writeVsm(source, whole,
     { .codec = Codec::Lz4,
       .scratch = scratch.path(),
@@ -69,7 +266,7 @@ std::vector<std::string> writeMesh(
   WriteMeshOptions rest = options;
   rest.scratch = scratch.path();
   rest.progress = partOf(options.progress, 0.6, 1.0);
-  return format.writeVsm(whole, path, rest);
+  return writeAgain(format, whole, path, rest);
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
@@ -83,11 +280,9 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   options.scratch = scratch;
   options.isolatedFrom = vsm;
   options.progress = progress;
-  if (format.writeVsm)
-  {
-    return format.writeVsm(vsm, path, options);
-  }
-  return writeMesh(*reader.source(), path, options);
+  return format.kind == MeshFileKind::Vsm || format.turn == PartTurn::AsTheyCome
+           ? writeMesh(*reader.source(), path, options)
+           : writeAgain(format, vsm, path, options);
 }
 
 namespace

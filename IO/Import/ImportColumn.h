@@ -94,14 +94,6 @@ private:
   bool Used = false; ///< whether any differs from the default
 };
 
-/** The error of a format that needs the counts of a stream first, which turn out to be others. */
-inline std::string otherCounts(const std::string& file, const StreamInfo& info)
-{
-  return file + ": the mesh stream does not have the " + std::to_string(info.vertices) +
-         " vertices and " + std::to_string(info.cells) +
-         " cells of its info: write it to a .vsm file first.";
-}
-
 /**
  * The column `Colors` from the numbers after the vertices or the faces of a text file, three or
  * four each. The first colour that is not black determines the type: integers up to 255, at least

@@ -117,6 +117,11 @@ public:
    * match.
    */
   void solid(std::span<const std::int64_t> corners);
+  /** The same for a wedge whose first triangle faces inwards; that of VTK's faces outwards. */
+  void invertedPrism(std::span<const std::int64_t> c)
+  {
+    this->solid(std::array<std::int64_t, 6>{ c[0], c[2], c[1], c[3], c[5], c[4] });
+  }
   /** A point, a line, or another element without triangles and tetrahedra. */
   void dropped();
   /** Counts that the last element had points besides its corners, which are not used. */

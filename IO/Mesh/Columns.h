@@ -94,6 +94,52 @@ constexpr bool isReservedColumn(std::string_view name)
   return isContractArray(name) || std::find(own.begin(), own.end(), name) != own.end();
 }
 
+/** The type of the coordinates of a mesh or file. */
+constexpr ScalarType positionType(bool doublePositions)
+{
+  return doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+}
+
+/** Makes positions the bytes of a file, in its precision. */
+class FilePositions
+{
+public:
+  explicit FilePositions(bool doublePositions)
+    : Type(positionType(doublePositions))
+  {
+  }
+
+  ScalarType type() const { return this->Type; }
+  /** Bytes of a position. */
+  std::size_t size() const { return 3 * sizeOf(this->Type); }
+
+  /** The bytes of these coordinates, until the next call. */
+  std::span<const std::byte> bytes(std::span<const double> coordinates)
+  {
+    if (this->Type == ScalarType::Float64)
+    {
+      return std::as_bytes(coordinates);
+    }
+    this->Singles.assign(coordinates.begin(), coordinates.end());
+    return std::as_bytes(std::span(this->Singles));
+  }
+
+  /** Appends the coordinates that have these bytes. */
+  void append(std::span<const std::byte> bytes, std::vector<double>& coordinates) const
+  {
+    const auto append = [&]<class T>(T)
+    {
+      const auto* const values = reinterpret_cast<const T*>(bytes.data());
+      coordinates.insert(coordinates.end(), values, values + bytes.size() / sizeof(T));
+    };
+    this->Type == ScalarType::Float64 ? append(double()) : append(float());
+  }
+
+private:
+  ScalarType Type;
+  std::vector<float> Singles;
+};
+
 /** Bytes of a tuple of each of the columns, and `more`. */
 inline std::int64_t rowBytes(const std::vector<ColumnSpec>& columns, std::int64_t more = 0)
 {
@@ -107,7 +153,7 @@ inline std::int64_t rowBytes(const std::vector<ColumnSpec>& columns, std::int64_
 /** Bytes of the coordinates of a vertex. */
 inline std::int64_t positionBytes(const StreamInfo& mesh)
 {
-  return 3 * static_cast<std::int64_t>(mesh.doublePositions ? sizeof(double) : sizeof(float));
+  return 3 * static_cast<std::int64_t>(sizeOf(positionType(mesh.doublePositions)));
 }
 
 /** Bytes of all columns of a mesh. */

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,8 +32,10 @@ struct MeshPart
 void checkIsWhole(const MeshPart& part, const std::string& name);
 
 class InputFile;
+class MeshFileWriter;
+struct MeshFileInfo;
 class RawMeshBuilder;
-class RestoredMesh;
+class Workspace;
 
 /** How a file holds its mesh. */
 enum class MeshFileKind
@@ -80,6 +84,21 @@ struct VertexShare
 /** A sentence for each difference between a written file and the mesh. */
 using WriteNotes = std::vector<std::string>;
 
+/** The turn in which the writer of a format takes a mesh. */
+enum class PartTurn
+{
+  AsTheyCome, ///< as in a mesh stream, since each vertex and element has its place in the file
+  VerticesFirst,
+  ElementsFirst
+};
+
+/**
+ * Begins a mesh file; see IO/Export/MeshFileWriter.h. The file is renamed when it is complete.
+ * @param space for scratch files; may be null for PartTurn::AsTheyCome
+ */
+using MeshFileFunction = std::unique_ptr<MeshFileWriter>(
+  const std::filesystem::path& path, const MeshFileInfo& info, Workspace* space);
+
 /** Format::attributes of a format that has every column of a mesh. */
 inline constexpr std::string_view AllColumns = "all columns";
 
@@ -99,7 +118,7 @@ struct Format
   std::string_view attributes;
   MeshFileKind kind = MeshFileKind::Indexed;
 
-  /** Columns of vertices that `restore` has places for, of a format without all columns. */
+  /** Columns of vertices that its files have places for, of a format without all columns. */
   std::span<const std::string_view> vertexColumns = {};
 
   bool holdsColumns() const { return this->attributes == AllColumns; }
@@ -125,17 +144,23 @@ struct Format
   /** Otherwise, the estimate from the size of the file. */
   VertexShare share = {};
 
-  /** About the bytes of a file that is written or restored, or of both files of TetGen. */
+  /** About the bytes of a file that is written, or of both files of TetGen. */
   std::int64_t (*bytes)(const MeshToWrite& written) = nullptr;
-  /** Writes a mesh stream in its order, in one pass. The suffix is one for these cells. */
-  WriteNotes (*write)(MeshSource& source, const std::filesystem::path& path,
-    const WriteMeshOptions& options) = nullptr;
-  /** Writes a .vsm file; instead of `write`, for a format that reads the mesh more than once. */
+  /** Begins a file of an indexed mesh, in the order of its original file or of a mesh stream. */
+  MeshFileFunction* writer = nullptr;
+  PartTurn turn = PartTurn::VerticesFirst;
+  /**
+   * Whether a mesh stream is written as such: in its order, with all columns, also those of a
+   * conversion (OriginalId ...). Other files are like an original: in its order if that is known,
+   * and without these columns.
+   */
+  bool isStreamed() const { return !this->writer || this->turn == PartTurn::AsTheyCome; }
+  /** The most corners of a polygon in its files; larger ones become triangles. */
+  std::int64_t maxCorners = std::numeric_limits<std::int64_t>::max();
+  /** Writes the mesh of a .vsm file, instead of `writer`, for a format that wants more of it: the
+   * last uses of vertices, or pieces with their points. The suffix is one for these cells. */
   WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;
-  /** Writes a mesh in the order of its original file; reads it once. The file is renamed when it is
-   * complete. */
-  WriteNotes (*restore)(RestoredMesh& mesh, const std::filesystem::path& path) = nullptr;
 };
 
 /** Format::parse of a function that reports progress only by the bytes it reads. */

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Simplify.h"
 
-#include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/Formats/WriteFiles.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/VsmReader.h"
@@ -24,9 +23,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
-#include <span>
 
 // simplify(): a mesh file to a simplified surface, through a .vsm file. A .vsm result is written as
 // the parts come; any other format is written from a .vsm file in a scratch folder.
@@ -141,31 +138,6 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   return report;
 }
 
-/** Writes a format that can only be restored, that is, written in the order of an original file:
- * the numbers of vertices and cells in the stream take the place of the original ones. */
-std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
-  const std::filesystem::path& path, const std::filesystem::path& scratch,
-  const SimplifyOptions& options)
-{
-  const VsmReader reader(vsm);
-  std::vector<std::string> columns = columnNames(reader.info().vertexColumns);
-  std::erase(columns, OriginalIdName);
-  // Vertices and cells are numbered as they come.
-  const auto number = [](std::int64_t first, std::span<std::int64_t> numbers)
-  { std::iota(numbers.begin(), numbers.end(), first); };
-  AddedColumn ordered(
-    std::make_unique<AddedColumn>(reader.source(columns, {}), AddedColumn::Vertices, OriginalIdSpec,
-      [number](const MeshBlock& block, Column& column)
-      { number(block.firstVertex, column.as<std::int64_t>()); }),
-    AddedColumn::Cells, OriginalCellIdSpec,
-    [number](const MeshBlock& block, Column& column)
-    { number(block.firstCell, column.as<std::int64_t>()); });
-  const std::filesystem::path numbered = scratch / "numbered.vsm";
-  writeVsm(ordered, numbered, { .codec = Codec::Lz4, .scratch = scratch });
-  Workspace space(scratch, options.memoryLimit, partOf(options.progress, 0.95, 1.0));
-  return writeRestored(numbered, path, space);
-}
-
 } // namespace
 
 JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& target,
@@ -197,10 +169,8 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
 
 void checkSimplifiedPath(const std::filesystem::path& path)
 {
-  const bool restores = !suffixFor(FormatUse::Write, path);
-  constexpr FormatUse Uses[] = { FormatUse::Write, FormatUse::Restore };
-  const std::string choices = suffixList(Uses, CellType::Triangle, "or");
-  const FileSuffix* suffix = suffixFor(restores ? FormatUse::Restore : FormatUse::Write, path);
+  const std::string choices = suffixList(FormatUse::Write, CellType::Triangle, "or");
+  const FileSuffix* const suffix = suffixFor(FormatUse::Write, path);
   if (!suffix)
   {
     throw Error(
@@ -232,7 +202,6 @@ SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
   const std::filesystem::path& path, const SimplifyOptions& options)
 {
   check(target, options);
-  const bool restores = !suffixFor(FormatUse::Write, path);
   checkSimplifiedPath(path);
   const Timer timer;
   const double cpu = processSeconds();
@@ -253,8 +222,7 @@ SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
   if (!isVsm)
   {
     const std::vector<std::string> notes =
-      restores ? writeAsFile(vsm, path, scratch.path(), options)
-               : writeFromVsm(vsm, path, partOf(options.progress, 0.9, 1.0), scratch.path());
+      writeFromVsm(vsm, path, partOf(options.progress, 0.9, 1.0), scratch.path());
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
   }
   if (kept)

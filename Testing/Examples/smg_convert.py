@@ -134,6 +134,31 @@ def test_moved_meshes_keep_their_order():
     assert unused <= missing and len(missing - unused) == load("report.json")["held"]
 
 
+def test_other_formats_in_the_order_of_the_stream():
+    """Every format is written in stream order, too, and holds the same mesh."""
+    write_torus("torus.obj", 40, 20)
+    points, cells = read_mesh("torus.obj")[:2]
+    triangles = fans(cells)
+    for suffix in SURFACES:
+        assert not convert("torus.obj", "kept" + suffix, "--order", "keep")["notes"]
+        assert not convert("torus.obj", "bfs" + suffix)["notes"]
+        run("convert", "kept" + suffix, "kept.vsm", "--quiet")
+        run("convert", "bfs" + suffix, "bfs.vsm", "--quiet")
+        for stream in ("kept.vsm", "bfs.vsm"):
+            run("info", stream, "--report", "info.json")
+            assert [load("info.json")[key] for key in ("vertices", "cells")] == [len(points), len(triangles)]
+        if suffix != ".stl":
+            assert read_mesh("kept" + suffix).cells == read_mesh("kept.ply").cells
+            assert len(read_mesh("bfs" + suffix).points) == len(points)
+    tets = tetrahedra(4)
+    write_medit("tets.mesh", *tets)
+    for suffix in SOLIDS:
+        convert("tets.mesh", "bfs" + suffix)
+        mesh = read_mesh("bfs" + suffix)
+        used = [[mesh.points[corner] for corner in cell] for cell in mesh.cells]
+        assert sorted(map(sorted, used)) == sorted(sorted(tets[0][corner] for corner in cell) for cell in tets[1]), suffix
+
+
 def test_gzip_and_wrong_suffixes():
     """The content of a file determines its format, regardless of its name and compression."""
     convert("odd.ply", "odd.vsm", "--order", "keep")
@@ -317,7 +342,7 @@ def test_too_many_vertices_are_said_at_once():
 
 
 for each in (test_too_many_vertices_are_said_at_once, test_restored_order, test_restored_solids, test_restored_is_the_same_file,
-             test_moved_meshes_keep_their_order, test_gzip_and_wrong_suffixes,
+             test_moved_meshes_keep_their_order, test_other_formats_in_the_order_of_the_stream, test_gzip_and_wrong_suffixes,
              test_compressed_streams, test_own_name, test_weld,
              test_cells_of_both_kinds, test_parts, test_same_mesh_for_any_memory):
     each()

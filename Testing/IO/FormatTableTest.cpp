@@ -74,8 +74,8 @@ TEST(FormatTable, SuffixesAreOfOneFormatEach)
       EXPECT_TRUE(suffix.triangles || suffix.tetrahedra);
     }
     EXPECT_TRUE(format->parse || format->kind != MeshFileKind::Indexed) << format->name;
-    EXPECT_FALSE(format->write && format->writeVsm) << format->name;
-    const bool isWritten = format->write || format->writeVsm || format->restore;
+    EXPECT_FALSE(format->writer && format->writeVsm) << format->name;
+    const bool isWritten = format->writer || format->writeVsm || format->kind == MeshFileKind::Vsm;
     EXPECT_EQ(format->bytes != nullptr, isWritten) << format->name;
   }
   EXPECT_EQ(formatOfName("A.PLY.gz"), formatOfSuffix(".ply"));
@@ -85,8 +85,8 @@ TEST(FormatTable, SuffixesAreOfOneFormatEach)
 TEST(FormatTable, ListsFollowFromIt)
 {
   EXPECT_EQ(suffixList(FormatUse::Write, CellType::Tetrahedron, "or"),
-    ".vsm, .sva, .svb, .vtu, .vtkhdf or .hdf");
-  EXPECT_EQ(suffixFor(FormatUse::Write, "a.obj"), nullptr);
+    ".vsm, .sva, .svb, .mesh, .msh, .node, .ele, .vtk, .vtu, .vtkhdf or .hdf");
+  EXPECT_EQ(suffixFor(FormatUse::Write, "a.pvtu"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.ply.gz"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
   EXPECT_EQ(suffixFor(FormatUse::WriteColumns, "a.sma"), nullptr);
@@ -116,7 +116,7 @@ TEST(FormatTable, ParaViewOffersItsFormats)
   std::erase_if(offered, [](const std::string& suffix) { return suffix.ends_with(".gz"); });
   EXPECT_EQ(offered, parsed);
   std::set<std::string> written = suffixesWhere(
-    [&](const Format& format) { return !isOwn(format) && (format.write || format.writeVsm); });
+    [&](const Format& format) { return !isOwn(format) && format.isStreamed() && format.bytes; });
   EXPECT_EQ(written.erase(".hdf"), 1u);
   written.insert({ ".pvtp", ".pvtu" });
   std::set<std::string> saved = suffixesOfProxy("BigMeshWriter.xml", "WriterFactory");

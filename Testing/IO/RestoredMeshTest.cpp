@@ -5,6 +5,7 @@
 #include "Testing/Support/ColumnValues.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/ProgressRecord.h"
+#include "smg/WriteMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -253,6 +254,45 @@ TEST_F(RestoredMeshTest, RefusesWhatIsNotTheWholeMesh)
   EXPECT_FALSE(std::filesystem::exists(this->Folder / "out.ply"));
 }
 
+TEST_F(RestoredMeshTest, StreamsAreWrittenInTheirOrderToo)
+{
+  for (const IndexedTestMesh& mesh : { torus(9, 7, 0.1), tetBox(4, 3, 3, 0.1) })
+  {
+    StreamMesh stream = toStream(mesh);
+    const bool isSurface = stream.cellType == CellType::Triangle;
+    stream.vertexColumns = { randomColumn(
+      { "OriginalId", ScalarType::Int64, 1 }, stream.vertices(), 3) };
+    testing::write(this->Folder / "mesh.vsm", stream);
+    const auto surfaces = { ".ply", ".vtp", ".obj", ".off", ".vtk", ".vtu", ".mesh", ".msh" };
+    const auto solids = { ".vtk", ".vtu", ".mesh", ".msh" };
+    for (const char* suffix : isSurface ? std::vector<const char*>(surfaces) : solids)
+    {
+      SCOPED_TRACE(suffix);
+      const std::filesystem::path out = this->Folder / (std::string("out") + suffix);
+      EXPECT_TRUE(writeFromVsm(this->Folder / "mesh.vsm", out, {}, this->Folder.path()).empty());
+      const FileMesh back = readFileMesh(out);
+      EXPECT_EQ(back.points, stream.positions);
+      Corners corners;
+      for (const Corners& cell : back.cells)
+      {
+        corners.insert(corners.end(), cell.begin(), cell.end());
+      }
+      EXPECT_EQ(corners, stream.corners);
+    }
+    if (isSurface)
+    {
+      writeFromVsm(this->Folder / "mesh.vsm", this->Folder / "out.stl", {}, this->Folder.path());
+      std::vector<double> points;
+      for (const std::int64_t corner : stream.corners)
+      {
+        const auto point = stream.positions.begin() + 3 * corner;
+        points.insert(points.end(), point, point + 3);
+      }
+      EXPECT_EQ(readStlPoints(this->Folder / "out.stl"), points);
+    }
+  }
+}
+
 TEST_F(RestoredMeshTest, RefusesFormatsThatCannotHaveIt)
 {
   const MeshOfFile surface = randomMeshOfFile(CellType::Triangle, 3, true);
@@ -337,14 +377,14 @@ TEST_F(LargeRestoredMesh, IsRestoredInLittleMemory)
   Column a{ this->Mesh.vertexColumns[0].spec, {} };
   Column b{ this->Mesh.cellColumns[0].spec, {} };
   std::vector<Corners> cells;
-  for (RestoredVertices vertices; restored.next(vertices);)
+  for (VertexChunk vertices; restored.next(vertices);)
   {
     EXPECT_EQ(vertices.first, std::int64_t(points.size() / 3));
     points.insert(points.end(), vertices.positions.begin(), vertices.positions.end());
     const std::vector<std::byte>& bytes = vertices.columns[0].bytes;
     a.bytes.insert(a.bytes.end(), bytes.begin(), bytes.end());
   }
-  for (RestoredElements elements; restored.next(elements);)
+  for (ElementChunk elements; restored.next(elements);)
   {
     EXPECT_EQ(elements.first, std::int64_t(cells.size()));
     elements.forEach([&cells](std::span<const std::int64_t> corners, std::size_t)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/WriteMesh.h"
 
-#include "IO/Formats/Ply/WritePly.h"
 #include "IO/Results/VertexNormals.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Testing/IO/ContainerMeshes.h"
@@ -158,7 +157,7 @@ TEST_F(RewritePly, GivesABinaryFileBackByteForByte)
   {
     write(this->Folder / "keep.vsm", single ? testStream(torus(9, 9), true) : mesh,
       { .single = single });
-    writePly(*VsmReader(this->Folder / "keep.vsm").source(), this->Folder / "in.ply");
+    writeMesh(*VsmReader(this->Folder / "keep.vsm").source(), this->Folder / "in.ply");
     // The order of the stream differs from that of the file.
     rewriteMesh(
       this->Folder / "in.ply", this->Folder / "out.ply", *this->streamOf(this->Folder / "in.ply"));
@@ -170,7 +169,7 @@ TEST_F(RewritePly, RefusesAnotherMeshAndLeavesNothing)
 {
   const std::filesystem::path in = this->squareFile();
   write(this->Folder / "keep.vsm", toStream(torus(9, 9)));
-  writePly(*VsmReader(this->Folder / "keep.vsm").source(), this->Folder / "torus.ply");
+  writeMesh(*VsmReader(this->Folder / "keep.vsm").source(), this->Folder / "torus.ply");
   const std::unique_ptr<MeshSource> other = this->streamOf(this->Folder / "torus.ply");
   expectError([&] { rewriteMesh(in, this->Folder / "out.ply", *other); }, "only 7 vertices");
   const std::unique_ptr<MeshSource> far = this->moved(in, 1e39);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Ply/WritePly.h"
-
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/Support/RawMeshReading.h"
@@ -23,11 +21,11 @@ class WritePly : public ::testing::Test
 {
 protected:
   /** Writes the mesh as out.ply. */
-  WrittenPly writeAsPly(const StreamMesh& mesh, WriteOptions options = {})
+  std::vector<std::string> writeAsPly(const StreamMesh& mesh, WriteOptions options = {})
   {
     write(this->Folder / "mesh.vsm", mesh, options);
     const auto source = VsmReader(this->Folder / "mesh.vsm").source();
-    return writePly(*source, this->Folder / "out.ply");
+    return writeMesh(*source, this->Folder / "out.ply");
   }
 
   std::string header() const
@@ -64,7 +62,7 @@ TEST_F(WritePly, ComesBackWithItsColumns)
     {
       mesh.positions.assign(mesh.positions.size(), 0.1F);
     }
-    EXPECT_TRUE(this->writeAsPly(mesh, { .single = single }).renamedColumns.empty());
+    EXPECT_TRUE(this->writeAsPly(mesh, { .single = single }).empty());
     const ReadMesh back = importWhole(this->Folder / "out.ply");
     EXPECT_EQ(back.doublePositions, !single);
     EXPECT_EQ(back.positions, mesh.positions);
@@ -85,7 +83,7 @@ TEST_F(WritePly, IsTheSameForAllBlocks)
   for (const std::int64_t blockCells : { 1, 100, 100000 })
   {
     MemorySource source(mesh, blockCells);
-    writePly(source, this->Folder / "again.ply");
+    writeMesh(source, this->Folder / "again.ply");
     EXPECT_TRUE(readFile(this->Folder / "again.ply") == expected);
   }
 }
@@ -103,12 +101,12 @@ TEST_F(WritePly, NamesPropertiesOfOtherColumns)
   add("OriginalId", ScalarType::Int64, 1);
   mesh.cellColumns.push_back(
     randomColumn({ "vertex_indices", ScalarType::Int32, 1 }, mesh.cells(), 7));
-  const WrittenPly written = this->writeAsPly(mesh);
-  const std::vector<std::pair<std::string, std::string>> renamed{ { "two words", "two_words_1" },
-    { "x", "x_1" }, { "vertex_indices", "vertex_indices_1" } };
-  EXPECT_EQ(written.renamedColumns, renamed);
-  EXPECT_TRUE(written.roundedColumns.empty());
-  EXPECT_EQ(notesOn(written).size(), 3u);
+  const std::vector<std::string> renamed{
+    "The column 'two words' is called 'two_words_1' in the file.",
+    "The column 'x' is called 'x_1' in the file.",
+    "The column 'vertex_indices' is called 'vertex_indices_1' in the file."
+  };
+  EXPECT_EQ(this->writeAsPly(mesh), renamed);
   const ReadMesh back = importWhole(this->Folder / "out.ply");
   // Each column has its own values under a name that no other one had.
   const std::vector<std::pair<std::string, std::pair<int, int>>> expected{
@@ -171,7 +169,10 @@ TEST_F(WritePly, SaysWhatWasRounded)
   std::vector<std::uint64_t> odd(mesh.vertices(), 3);
   odd[3] = std::numeric_limits<std::uint64_t>::max();
   mesh.vertexColumns.push_back(makeColumn<std::uint64_t>("odd", odd));
-  EXPECT_EQ(this->writeAsPly(mesh).roundedColumns, (std::vector<std::string>{ "large", "odd" }));
+  const std::vector<std::string> notes = this->writeAsPly(mesh);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("column 'large' were rounded"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("column 'odd' were rounded"), std::string::npos) << notes[1];
 }
 
 /** A source that declares other counts than it has. */
@@ -195,7 +196,7 @@ TEST_F(WritePly, RefusesWhatItCannotHold)
 {
   const auto refusal = [this](MeshSource& source, const std::string& name)
   {
-    const std::string message = messageOf([&] { writePly(source, this->Folder / name); });
+    const std::string message = messageOf([&] { writeMesh(source, this->Folder / name); });
     EXPECT_EQ(this->Folder.entries(), 0) << message;
     return message;
   };
@@ -213,7 +214,8 @@ TEST_F(WritePly, RefusesWhatItCannotHold)
     EXPECT_EQ(this->Folder.entries(), 0);
   }
   contains(refusal(good, "missing/out.ply"), "missing");
-  EXPECT_THROW(writePly(good, this->Folder / "out.ply", [](double) { return false; }), Cancelled);
+  const WriteMeshOptions cancelled{ .progress = [](double) { return false; } };
+  EXPECT_THROW(writeMesh(good, this->Folder / "out.ply", cancelled), Cancelled);
   EXPECT_EQ(this->Folder.entries(), 0);
 }
 

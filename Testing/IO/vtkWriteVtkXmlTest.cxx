@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vtk/VtkXmlFile.h"
-
 #include "Testing/Support/PrecisionSource.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/WriteMesh.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -125,12 +124,12 @@ TEST(WriteVtkXml, VtkReadsTheSameBits)
       for (const bool doublePositions : { false, true })
       {
         PrecisionSource grid(stream, blockCells, doublePositions);
-        writeVtkXml(grid, folder / "a.vtu");
+        writeMesh(grid, folder / "a.vtu");
         expectFile<vtkXMLUnstructuredGridReader>(folder / "a.vtu", stream, doublePositions);
         if (stream.cellType == CellType::Triangle)
         {
           PrecisionSource surface(stream, blockCells, doublePositions);
-          writeVtkXml(surface, folder / "a.vtp");
+          writeMesh(surface, folder / "a.vtp");
           expectFile<vtkXMLPolyDataReader>(folder / "a.vtp", stream, doublePositions);
         }
       }
@@ -143,6 +142,6 @@ TEST(WriteVtkXml, VtkReadsArraysOfMegabytes)
   TemporaryFolder folder;
   const StreamMesh stream = withColumns(torus(300, 200));
   PrecisionSource source(stream, 1000, true);
-  writeVtkXml(source, folder / "a.vtp");
+  writeMesh(source, folder / "a.vtp");
   expectFile<vtkXMLPolyDataReader>(folder / "a.vtp", stream, true);
 }

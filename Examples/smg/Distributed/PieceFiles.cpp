@@ -4,11 +4,12 @@
 #include "ReadPart.h"
 
 #include "IO/Files/FileNames.h"
-#include "IO/Formats/Vtk/VtkXmlFile.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
+#include "smg/WriteMesh.h"
 
 #include <algorithm>
 #include <bit>
@@ -199,7 +200,7 @@ smg::StreamInfo writePiece(const smg::Team& team, const smg::VsmReader& mesh, Pi
     firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);
   ResultPiece source(mesh.info(), std::move(piece), std::move(result));
   smg::StreamInfo info = source.info();
-  smg::writeVtkXml(source, path);
+  smg::writeMesh(source, path);
   return info;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Gmsh/GmshFormat.h"
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
-#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
@@ -16,29 +16,6 @@
 
 namespace smg
 {
-
-namespace
-{
-
-bool isGmsh(std::string_view start)
-{
-  return textStart(start).starts_with("$MeshFormat");
-}
-
-constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, true } };
-
-} // namespace
-
-const Format GmshFormat{
-  .name = "Gmsh",
-  .suffixes = GmshSuffixes,
-  .attributes = "tags of cells",
-  .hasSign = isGmsh,
-  .parse = parseWith<importGmsh>,
-  .share = { 250, 4 },
-  .bytes = bytesOfGmsh,
-  .restore = writeRestoredGmsh,
-};
 
 namespace
 {
@@ -338,105 +315,75 @@ void importGmsh(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
-/** Types of elements in Gmsh. */
-enum GmshType
-{
-  GmshTriangle = 2,
-  GmshQuadrilateral = 3,
-  GmshTetrahedron = 4
-};
-
-/** Numbers elements from 1 and writes them with their tags. */
-class GmshElements
+/** Version 2.2, text: triangles, quadrilaterals or tetrahedra, with the tags of cells. */
+class GmshWriter : public MeshFileWriter
 {
 public:
-  GmshElements(TextOutput& out, CellType cellType, PlacedColumns& columns)
-    : Out(out)
-    , CellKind(cellType)
-    , Group(columns.integerOfElements({ PhysicalTagName, ReferenceName }))
-    , Entity(columns.integerOfElements({ GeometricalTagName }))
+  GmshWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : Out(path)
+    , Info(info)
+    , Columns(info)
+    , Group(this->Columns.integerOfElements({ PhysicalTagName, ReferenceName }))
+    , Entity(this->Columns.integerOfElements({ GeometricalTagName }))
   {
+    this->Out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << info.vertices << '\n';
   }
 
-  void write(const RestoredElements& elements)
+  void vertices(const VertexChunk& chunk) override
   {
-    elements.forEach([&](std::span<const std::int64_t> corners, std::size_t element)
-      { this->write(elements, element, corners); });
+    chunk.forEach(
+      [&](std::span<const double, 3> position, std::size_t vertex)
+      {
+        this->Out << chunk.first + static_cast<std::int64_t>(vertex) + 1 << ' ';
+        this->Out.position(position, this->Info.doublePositions);
+        this->Out << '\n';
+      });
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    this->beginElements();
+    chunk.forEachUpTo(4,
+      [&](std::span<const std::int64_t> corners, std::size_t element)
+      {
+        constexpr int Triangle = 2, Quadrilateral = 3, Tetrahedron = 4; // types of Gmsh
+        const int type = this->Info.cellType == CellType::Tetrahedron ? Tetrahedron
+                         : corners.size() == 4                        ? Quadrilateral
+                                                                      : Triangle;
+        // Two tags, which Gmsh requires.
+        this->Out << ++this->Elements << ' ' << type << " 2";
+        this->Out.tuple(chunk.columns, this->Group, element, " 0");
+        this->Out.tuple(chunk.columns, this->Entity, element, " 1");
+        this->Out.corners(corners, 1);
+        this->Out << '\n';
+      });
+  }
+
+  WriteNotes finish() override
+  {
+    this->beginElements();
+    this->Out << "$EndElements\n";
+    this->Out.finish();
+    return this->Columns.leftOut(".msh");
   }
 
 private:
-  void write(
-    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
+  /** Begins the section of the elements, unless there are some already. */
+  void beginElements()
   {
-    if (this->CellKind == CellType::Tetrahedron)
+    if (this->Elements == 0)
     {
-      this->write(elements, element, GmshTetrahedron, corners);
-    }
-    else if (corners.size() == 4)
-    {
-      this->write(elements, element, GmshQuadrilateral, corners);
-    }
-    else
-    {
-      forEachFanTriangle(corners,
-        [&](const auto& triangle) { this->write(elements, element, GmshTriangle, triangle); });
+      // All cells of the stream, except for one of the two triangles of each quadrilateral.
+      this->Out << "$EndNodes\n$Elements\n" << this->Info.cells - this->Info.quadrilaterals << '\n';
     }
   }
 
-  void write(const RestoredElements& elements, std::size_t element, GmshType type,
-    std::span<const std::int64_t> corners)
-  {
-    // Two tags, which Gmsh requires.
-    this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2";
-    this->Out.tuple(elements.columns, this->Group, element, " 0");
-    this->Out.tuple(elements.columns, this->Entity, element, " 1");
-    for (const std::int64_t corner : corners)
-    {
-      this->Out << ' ' << corner + 1;
-    }
-    this->Out << '\n';
-  }
-
-  TextOutput& Out;
-  CellType CellKind;
+  TextOutput Out;
+  const MeshFileInfo Info;
+  PlacedColumns Columns;
   std::ptrdiff_t Group, Entity; ///< columns
-  std::int64_t Count = 0;
+  std::int64_t Elements = 0;
 };
-
-} // namespace
-
-WriteNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path& path)
-{
-  TextOutput out(path);
-  const RestoredInfo& info = mesh.info();
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << info.vertices << '\n';
-  for (RestoredVertices vertices; mesh.next(vertices);)
-  {
-    const std::span<const double> positions = vertices.positions;
-    for (std::int64_t i = 0; i < vertices.count(); ++i)
-    {
-      out << vertices.first + i + 1 << ' ';
-      out.position(positions.subspan(static_cast<std::size_t>(3 * i), 3), info.doublePositions);
-      out << '\n';
-    }
-  }
-  // All cells of the stream, except for one of the two triangles of each quadrilateral.
-  out << "$EndNodes\n$Elements\n" << info.cells - info.quadrilaterals << '\n';
-  PlacedColumns columns(info);
-  GmshElements writer(out, info.cellType, columns);
-  for (RestoredElements elements; mesh.next(elements);)
-  {
-    writer.write(elements);
-  }
-  out << "$EndElements\n";
-  out.finish();
-  WriteNotes notes = columns.leftOut(".msh");
-  if (info.cellType == CellType::Triangle && info.maxCorners > 4)
-  {
-    notes.emplace_back("Polygons of more than four corners are written as triangles.");
-  }
-  return notes;
-}
 
 std::int64_t bytesOfGmsh(const MeshToWrite& written)
 {
@@ -447,5 +394,26 @@ std::int64_t bytesOfGmsh(const MeshToWrite& written)
          textBytes(mesh.cells, numberCharacters(mesh.cells) + TypeAndTags +
                                  cornersOf(mesh.cellType) * numberCharacters(mesh.vertices));
 }
+
+bool isGmsh(std::string_view start)
+{
+  return textStart(start).starts_with("$MeshFormat");
+}
+
+constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, true } };
+
+} // namespace
+
+const Format GmshFormat{
+  .name = "Gmsh",
+  .suffixes = GmshSuffixes,
+  .attributes = "tags of cells",
+  .hasSign = isGmsh,
+  .parse = parseWith<importGmsh>,
+  .share = { 250, 4 },
+  .bytes = bytesOfGmsh,
+  .writer = makeWriter<GmshWriter>,
+  .maxCorners = 4,
+};
 
 } // namespace smg

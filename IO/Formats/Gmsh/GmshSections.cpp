@@ -113,9 +113,7 @@ void addGmshElement(
       builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
       break;
     case GmshShape::Prism:
-      // The first triangle faces inwards here, and outwards in VTK.
-      builder.solid(std::array<std::int64_t, 6>{
-        corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] });
+      builder.invertedPrism(corners);
       break;
     default:
       builder.solid(corners);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Medit/MeditFormat.h"
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
-#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
@@ -185,11 +185,7 @@ private:
           : this->Builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
         break;
       default:
-        corners.size() == 6
-          // The first triangle of a prism faces inwards here, and outwards in VTK.
-          ? this->Builder.solid(std::array<std::int64_t, 6>{
-              corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] })
-          : this->Builder.solid(corners);
+        corners.size() == 6 ? this->Builder.invertedPrism(corners) : this->Builder.solid(corners);
     }
   }
 
@@ -247,6 +243,117 @@ void importMedit(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
+/** Tetrahedra, or triangles and then quadrilaterals; vertices and cells with their references. */
+class MeditWriter : public MeshFileWriter
+{
+public:
+  MeditWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : Out(path)
+    , Info(info)
+    , Columns(info)
+    , VertexReferences(this->Columns.integerOfVertices({ ReferenceName, MarkerName }))
+    , References(this->Columns.integerOfElements({ ReferenceName, PhysicalTagName }))
+    // All triangles of the stream, except for the two of each quadrilateral.
+    , Triangles(info.cellType == CellType::Triangle ? info.cells - 2 * info.quadrilaterals : 0)
+    , WritesQuadrilaterals(this->Triangles == 0)
+  {
+    this->Out << "MeshVersionFormatted " << (info.doublePositions ? 2 : 1)
+              << "\nDimension 3\nVertices\n"
+              << info.vertices << '\n';
+  }
+
+  void vertices(const VertexChunk& chunk) override
+  {
+    chunk.forEach(
+      [&](std::span<const double, 3> position, std::size_t vertex)
+      {
+        this->Out.position(position, this->Info.doublePositions);
+        this->Out.tuple(chunk.columns, this->VertexReferences, vertex, " 0");
+        this->Out << '\n';
+      });
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    if (chunk.first == 0)
+    {
+      this->beginSection();
+    }
+    const bool isSurface = this->Info.cellType == CellType::Triangle;
+    chunk.forEachUpTo(4,
+      [&](std::span<const std::int64_t> corners, std::size_t element)
+      {
+        if (isSurface && (corners.size() == 4) != this->WritesQuadrilaterals)
+        {
+          return;
+        }
+        for (std::size_t k = 0; k < corners.size(); ++k)
+        {
+          this->Out << (k > 0 ? " " : "") << corners[k] + 1;
+        }
+        this->Out.tuple(chunk.columns, this->References, element, " 0");
+        this->Out << '\n';
+      });
+  }
+
+  /** For the section of the quadrilaterals, which comes after the triangles. */
+  bool needsElementsAgain() override
+  {
+    const bool again = !this->WritesQuadrilaterals && this->Info.quadrilaterals > 0;
+    this->WritesQuadrilaterals = true;
+    return again;
+  }
+
+  WriteNotes finish() override
+  {
+    this->Out << "End\n";
+    this->Out.finish();
+    WriteNotes notes = this->Columns.leftOut(".mesh");
+    if (this->Info.quadrilaterals > 0 && this->Info.quadrilaterals < this->Info.elements)
+    {
+      notes.push_back("The quadrilaterals come after the triangles, as the format has it.");
+    }
+    return notes;
+  }
+
+private:
+  void beginSection()
+  {
+    if (this->Info.cellType == CellType::Tetrahedron)
+    {
+      this->Out << "Tetrahedra\n" << this->Info.elements << '\n';
+    }
+    else if (this->WritesQuadrilaterals)
+    {
+      this->Out << "Quadrilaterals\n" << this->Info.quadrilaterals << '\n';
+    }
+    else
+    {
+      this->Out << "Triangles\n" << this->Triangles << '\n';
+    }
+  }
+
+  TextOutput Out;
+  const MeshFileInfo Info;
+  PlacedColumns Columns;
+  std::ptrdiff_t VertexReferences, References;
+  std::int64_t Triangles;
+  bool WritesQuadrilaterals; ///< otherwise, of a surface, the triangles
+};
+
+std::int64_t bytesOfMedit(const MeshToWrite& written)
+{
+  constexpr double NoReference = 2;
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  const std::ptrdiff_t ofVertices = columns.integerOfVertices({ ReferenceName, MarkerName });
+  const std::ptrdiff_t ofCells = columns.integerOfElements({ ReferenceName, PhysicalTagName });
+  return textBytes(mesh.vertices, positionCharacters(mesh.doublePositions) +
+                                    tupleCharacters(mesh.vertexColumns, ofVertices, NoReference)) +
+         textBytes(mesh.cells, cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
+                                 tupleCharacters(mesh.cellColumns, ofCells, NoReference));
+}
+
 bool isMedit(std::string_view start)
 {
   return textAfterComments(start).starts_with("MeshVersionFormatted");
@@ -264,133 +371,8 @@ const Format MeditFormat{
   .parse = parseWith<importMedit>,
   .share = { 200, 4 },
   .bytes = bytesOfMedit,
-  .restore = writeRestoredMedit,
+  .writer = makeWriter<MeditWriter>,
+  .maxCorners = 4,
 };
-
-namespace
-{
-
-/** Writes elements by their corners, which count from 1, and their references. */
-class MeditElements
-{
-public:
-  MeditElements(TextOutput& out, RestoredMesh& mesh, std::ptrdiff_t references)
-    : Out(out)
-    , Mesh(mesh)
-    , References(references)
-  {
-  }
-
-  /** Writes those for which `choose`, given their number of corners, returns true. */
-  template <class Choose>
-  void write(std::string_view keyword, std::int64_t count, Choose&& choose)
-  {
-    if (count == 0)
-    {
-      return;
-    }
-    this->Out << keyword << '\n' << count << '\n';
-    for (RestoredElements elements; this->Mesh.next(elements);)
-    {
-      elements.forEach(
-        [&](std::span<const std::int64_t> corners, std::size_t element)
-        {
-          if (choose(corners.size()))
-          {
-            this->write(elements, element, corners);
-          }
-        });
-    }
-    this->Mesh.rewindElements();
-  }
-
-private:
-  void write(
-    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
-  {
-    if (corners.size() <= 4)
-    {
-      this->writeCell(elements, element, corners);
-      return;
-    }
-    forEachFanTriangle(
-      corners, [&](const auto& triangle) { this->writeCell(elements, element, triangle); });
-  }
-
-  void writeCell(
-    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
-  {
-    for (std::size_t k = 0; k < corners.size(); ++k)
-    {
-      this->Out << (k > 0 ? " " : "") << corners[k] + 1;
-    }
-    this->Out.tuple(elements.columns, this->References, element, " 0");
-    this->Out << '\n';
-  }
-
-  TextOutput& Out;
-  RestoredMesh& Mesh;
-  std::ptrdiff_t References; ///< column
-};
-
-} // namespace
-
-WriteNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path& path)
-{
-  TextOutput out(path);
-  const RestoredInfo& info = mesh.info();
-  PlacedColumns columns(info);
-  const std::ptrdiff_t references = columns.integerOfVertices({ ReferenceName, MarkerName });
-  out << "MeshVersionFormatted " << (info.doublePositions ? 2 : 1) << "\nDimension 3\nVertices\n"
-      << info.vertices << '\n';
-  for (RestoredVertices vertices; mesh.next(vertices);)
-  {
-    const std::span<const double> positions = vertices.positions;
-    for (std::size_t i = 0; i < positions.size(); i += 3)
-    {
-      out.position(positions.subspan(i, 3), info.doublePositions);
-      out.tuple(vertices.columns, references, i / 3, " 0");
-      out << '\n';
-    }
-  }
-  MeditElements writer(out, mesh, columns.integerOfElements({ ReferenceName, PhysicalTagName }));
-  if (info.cellType == CellType::Triangle)
-  {
-    // All triangles of the stream, except for the two of each quadrilateral.
-    writer.write("Triangles", info.cells - 2 * info.quadrilaterals,
-      [](std::size_t corners) { return corners != 4; });
-    writer.write(
-      "Quadrilaterals", info.quadrilaterals, [](std::size_t corners) { return corners == 4; });
-  }
-  else
-  {
-    writer.write("Tetrahedra", info.elements, [](std::size_t) { return true; });
-  }
-  out << "End\n";
-  out.finish();
-  WriteNotes notes = columns.leftOut(".mesh");
-  if (info.quadrilaterals > 0 && info.quadrilaterals < info.elements)
-  {
-    notes.push_back("The quadrilaterals come after the triangles, as the format has it.");
-  }
-  if (info.cellType == CellType::Triangle && info.maxCorners > 4)
-  {
-    notes.push_back("Polygons of more than four corners are written as triangles.");
-  }
-  return notes;
-}
-
-std::int64_t bytesOfMedit(const MeshToWrite& written)
-{
-  constexpr double NoReference = 2;
-  const StreamInfo& mesh = written.mesh;
-  PlacedColumns columns(mesh);
-  const std::ptrdiff_t ofVertices = columns.integerOfVertices({ ReferenceName, MarkerName });
-  const std::ptrdiff_t ofCells = columns.integerOfElements({ ReferenceName, PhysicalTagName });
-  return textBytes(mesh.vertices, positionCharacters(mesh.doublePositions) +
-                                    tupleCharacters(mesh.vertexColumns, ofVertices, NoReference)) +
-         textBytes(mesh.cells, cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
-                                 tupleCharacters(mesh.cellColumns, ofCells, NoReference));
-}
 
 } // namespace smg

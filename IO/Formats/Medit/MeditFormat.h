@@ -10,11 +10,5 @@ namespace smg
 extern const Format MeditFormat;
 
 void importMedit(InputFile& file, RawMeshBuilder& builder);
-/**
- * Triangles, then quadrilaterals, or tetrahedra, and references. Polygons of more corners become
- * triangles.
- */
-WriteNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path& path);
-std::int64_t bytesOfMedit(const MeshToWrite& written);
 
 } // namespace smg

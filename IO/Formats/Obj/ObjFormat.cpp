@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Obj/ObjFormat.h"
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
-#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
@@ -176,6 +176,80 @@ void importObj(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
+/** Writes a colour, from 0 to 1. */
+void writeColor(TextOutput& out, const Column& colors, std::size_t tuple)
+{
+  const double one = colors.spec.type == ScalarType::UInt8 ? 255.0 : 1.0;
+  for (int k = 0; k < colors.spec.components; ++k)
+  {
+    out << ' ' << static_cast<float>(colors.value(tuple, k) / one);
+  }
+}
+
+/** Polygons; vertices with their colours. */
+class ObjWriter : public MeshFileWriter
+{
+public:
+  ObjWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : Out(path)
+    , DoublePositions(info.doublePositions)
+    , Columns(info)
+    , Colors(this->Columns.ofVertices(ColorsName, 3, 4))
+  {
+  }
+
+  void vertices(const VertexChunk& chunk) override
+  {
+    chunk.forEach(
+      [&](std::span<const double, 3> position, std::size_t vertex)
+      {
+        this->Out << "v ";
+        this->Out.position(position, this->DoublePositions);
+        if (this->Colors >= 0)
+        {
+          writeColor(this->Out, chunk.columns[static_cast<std::size_t>(this->Colors)], vertex);
+        }
+        this->Out << '\n';
+      });
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    chunk.forEach(
+      [this](std::span<const std::int64_t> corners, std::size_t)
+      {
+        this->Out << 'f';
+        this->Out.corners(corners, 1);
+        this->Out << '\n';
+      });
+  }
+
+  WriteNotes finish() override
+  {
+    this->Out.finish();
+    return this->Columns.leftOut(".obj");
+  }
+
+private:
+  TextOutput Out;
+  bool DoublePositions;
+  PlacedColumns Columns;
+  std::ptrdiff_t Colors;
+};
+
+std::int64_t bytesOfObj(const MeshToWrite& written)
+{
+  constexpr double Keyword = 2;
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
+  const double colorCharacters =
+    colors < 0 ? 0 : realCharacters(false) * mesh.vertexColumns[std::size_t(colors)].components;
+  return textBytes(
+           mesh.vertices, Keyword + positionCharacters(mesh.doublePositions) + colorCharacters) +
+         textBytes(mesh.cells, Keyword + 3 * numberCharacters(mesh.vertices));
+}
+
 bool isObjKeyword(std::string_view word)
 {
   constexpr std::string_view keywords[] = { "v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s",
@@ -228,72 +302,7 @@ const Format ObjFormat{
   .looksRight = looksLikeObj,
   .parse = parseWith<importObj>,
   .bytes = bytesOfObj,
-  .restore = writeRestoredObj,
+  .writer = makeWriter<ObjWriter>,
 };
-
-namespace
-{
-
-/** Writes a colour, from 0 to 1. */
-void writeColor(TextOutput& out, const Column& colors, std::size_t tuple)
-{
-  const double one = colors.spec.type == ScalarType::UInt8 ? 255.0 : 1.0;
-  for (int k = 0; k < colors.spec.components; ++k)
-  {
-    out << ' ' << static_cast<float>(colors.value(tuple, k) / one);
-  }
-}
-
-} // namespace
-
-WriteNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& path)
-{
-  TextOutput out(path);
-  const bool isDouble = mesh.info().doublePositions;
-  PlacedColumns columns(mesh.info());
-  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
-  for (RestoredVertices vertices; mesh.next(vertices);)
-  {
-    const std::span<const double> positions = vertices.positions;
-    for (std::size_t i = 0; i < positions.size(); i += 3)
-    {
-      out << "v ";
-      out.position(positions.subspan(i, 3), isDouble);
-      if (colors >= 0)
-      {
-        writeColor(out, vertices.columns[static_cast<std::size_t>(colors)], i / 3);
-      }
-      out << '\n';
-    }
-  }
-  for (RestoredElements elements; mesh.next(elements);)
-  {
-    elements.forEach(
-      [&out](std::span<const std::int64_t> corners, std::size_t)
-      {
-        out << 'f';
-        for (const std::int64_t corner : corners)
-        {
-          out << ' ' << corner + 1;
-        }
-        out << '\n';
-      });
-  }
-  out.finish();
-  return columns.leftOut(".obj");
-}
-
-std::int64_t bytesOfObj(const MeshToWrite& written)
-{
-  constexpr double Keyword = 2;
-  const StreamInfo& mesh = written.mesh;
-  PlacedColumns columns(mesh);
-  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
-  const double colorCharacters =
-    colors < 0 ? 0 : realCharacters(false) * mesh.vertexColumns[std::size_t(colors)].components;
-  return textBytes(
-           mesh.vertices, Keyword + positionCharacters(mesh.doublePositions) + colorCharacters) +
-         textBytes(mesh.cells, Keyword + 3 * numberCharacters(mesh.vertices));
-}
 
 } // namespace smg

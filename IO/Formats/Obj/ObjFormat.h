@@ -10,8 +10,5 @@ namespace smg
 extern const Format ObjFormat;
 
 void importObj(InputFile& file, RawMeshBuilder& builder);
-/** Polygons; vertices with their colours. */
-WriteNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& path);
-std::int64_t bytesOfObj(const MeshToWrite& written);
 
 } // namespace smg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Off/OffFormat.h"
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
-#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
@@ -137,6 +137,96 @@ void importOff(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
+/** Writes a colour; numbers from 0 to 1 with a decimal point, since those without are bytes. */
+void writeColor(
+  TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
+{
+  if (column < 0 || columns[static_cast<std::size_t>(column)].spec.type == ScalarType::UInt8)
+  {
+    out.tuple(columns, column, tuple);
+    return;
+  }
+  const Column& colors = columns[static_cast<std::size_t>(column)];
+  for (int k = 0; k < colors.spec.components; ++k)
+  {
+    const auto value = static_cast<float>(colors.value(tuple, k));
+    out << ' ' << value << (value == std::floor(value) ? ".0" : "");
+  }
+}
+
+/** Text: normals, colours and texture coordinates of vertices, colours of faces. */
+class OffWriter : public MeshFileWriter
+{
+public:
+  OffWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : Out(path)
+    , DoublePositions(info.doublePositions)
+    , Columns(info)
+    , Normals(this->Columns.ofVertices(NormalsName, 3, 3))
+    , Colors(this->Columns.ofVertices(ColorsName, 3, 4))
+    , Texture(this->Columns.ofVertices(TextureCoordinatesName, 2, 2))
+    , FaceColors(this->Columns.ofElements(ColorsName, 3, 4))
+  {
+    this->Out << (this->Texture < 0 ? "" : "ST") << (this->Colors < 0 ? "" : "C")
+              << (this->Normals < 0 ? "" : "N") << "OFF\n"
+              << info.vertices << ' ' << info.elements << " 0\n";
+  }
+
+  void vertices(const VertexChunk& chunk) override
+  {
+    chunk.forEach(
+      [&](std::span<const double, 3> position, std::size_t vertex)
+      {
+        this->Out.position(position, this->DoublePositions);
+        this->Out.tuple(chunk.columns, this->Normals, vertex);
+        writeColor(this->Out, chunk.columns, this->Colors, vertex);
+        this->Out.tuple(chunk.columns, this->Texture, vertex);
+        this->Out << '\n';
+      });
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    chunk.forEach(
+      [&](std::span<const std::int64_t> corners, std::size_t element)
+      {
+        this->Out << corners.size();
+        this->Out.corners(corners, 0);
+        writeColor(this->Out, chunk.columns, this->FaceColors, element);
+        this->Out << '\n';
+      });
+  }
+
+  WriteNotes finish() override
+  {
+    this->Out.finish();
+    return this->Columns.leftOut(".off");
+  }
+
+private:
+  TextOutput Out;
+  bool DoublePositions;
+  PlacedColumns Columns;
+  std::ptrdiff_t Normals, Colors, Texture, FaceColors;
+};
+
+std::int64_t bytesOfOff(const MeshToWrite& written)
+{
+  constexpr double CountOfCorners = 2;
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  double ofVertices = positionCharacters(mesh.doublePositions);
+  for (const std::ptrdiff_t column : { columns.ofVertices(NormalsName, 3, 3),
+         columns.ofVertices(ColorsName, 3, 4), columns.ofVertices(TextureCoordinatesName, 2, 2) })
+  {
+    ofVertices += tupleCharacters(mesh.vertexColumns, column);
+  }
+  const std::ptrdiff_t faceColors = columns.ofElements(ColorsName, 3, 4);
+  return textBytes(mesh.vertices, ofVertices) +
+         textBytes(mesh.cells, CountOfCorners + 3 * numberCharacters(mesh.vertices) +
+                                 tupleCharacters(mesh.cellColumns, faceColors));
+}
+
 /** Whether the file begins with OFF or one of its variants, such as COFF or STN4OFF. */
 bool isOff(std::string_view start)
 {
@@ -171,87 +261,7 @@ const Format OffFormat{
   .parse = parseWith<importOff>,
   .counts = countsOfOff,
   .bytes = bytesOfOff,
-  .restore = writeRestoredOff,
+  .writer = makeWriter<OffWriter>,
 };
-
-namespace
-{
-
-/** Writes a colour; numbers from 0 to 1 with a decimal point, since those without are bytes. */
-void writeColor(
-  TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
-{
-  if (column < 0 || columns[static_cast<std::size_t>(column)].spec.type == ScalarType::UInt8)
-  {
-    out.tuple(columns, column, tuple);
-    return;
-  }
-  const Column& colors = columns[static_cast<std::size_t>(column)];
-  for (int k = 0; k < colors.spec.components; ++k)
-  {
-    const auto value = static_cast<float>(colors.value(tuple, k));
-    out << ' ' << value << (value == std::floor(value) ? ".0" : "");
-  }
-}
-
-} // namespace
-
-WriteNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& path)
-{
-  TextOutput out(path);
-  const RestoredInfo& info = mesh.info();
-  PlacedColumns columns(info);
-  const std::ptrdiff_t normals = columns.ofVertices(NormalsName, 3, 3);
-  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
-  const std::ptrdiff_t texture = columns.ofVertices(TextureCoordinatesName, 2, 2);
-  const std::ptrdiff_t faceColors = columns.ofElements(ColorsName, 3, 4);
-  out << (texture < 0 ? "" : "ST") << (colors < 0 ? "" : "C") << (normals < 0 ? "" : "N");
-  out << "OFF\n" << info.vertices << ' ' << info.elements << " 0\n";
-  for (RestoredVertices vertices; mesh.next(vertices);)
-  {
-    const std::span<const double> positions = vertices.positions;
-    for (std::size_t i = 0; i < positions.size(); i += 3)
-    {
-      out.position(positions.subspan(i, 3), info.doublePositions);
-      out.tuple(vertices.columns, normals, i / 3);
-      writeColor(out, vertices.columns, colors, i / 3);
-      out.tuple(vertices.columns, texture, i / 3);
-      out << '\n';
-    }
-  }
-  for (RestoredElements elements; mesh.next(elements);)
-  {
-    elements.forEach(
-      [&](std::span<const std::int64_t> corners, std::size_t element)
-      {
-        out << corners.size();
-        for (const std::int64_t corner : corners)
-        {
-          out << ' ' << corner;
-        }
-        writeColor(out, elements.columns, faceColors, element);
-        out << '\n';
-      });
-  }
-  out.finish();
-  return columns.leftOut(".off");
-}
-
-std::int64_t bytesOfOff(const MeshToWrite& written)
-{
-  constexpr double CountOfCorners = 2;
-  const StreamInfo& mesh = written.mesh;
-  PlacedColumns columns(mesh);
-  double ofVertices = positionCharacters(mesh.doublePositions);
-  for (const std::ptrdiff_t column : { columns.ofVertices(NormalsName, 3, 3),
-         columns.ofVertices(ColorsName, 3, 4), columns.ofVertices(TextureCoordinatesName, 2, 2) })
-  {
-    ofVertices += tupleCharacters(mesh.vertexColumns, column);
-  }
-  const std::ptrdiff_t faceColors = columns.ofElements(ColorsName, 3, 4);
-  return textBytes(mesh.vertices, ofVertices) +
-         textBytes(mesh.cells, CountOfCorners + 3 * numberCharacters(mesh.vertices) +
-                                 tupleCharacters(mesh.cellColumns, faceColors));
-}
 
 } // namespace smg

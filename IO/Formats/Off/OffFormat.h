@@ -10,8 +10,5 @@ namespace smg
 extern const Format OffFormat;
 
 void importOff(InputFile& file, RawMeshBuilder& builder);
-/** Polygons with their colours; vertices with normals, colours and texture coordinates. */
-WriteNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& path);
-std::int64_t bytesOfOff(const MeshToWrite& written);
 
 } // namespace smg

@@ -3,7 +3,6 @@
 
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "IO/Formats/Ply/WritePly.h"
 
 #include <vector>
 
@@ -29,20 +28,6 @@ std::vector<ColumnSpec> plyColumns(const PlyElement& element, PlyRole role)
       return static_cast<int>(columns.size()) - 1;
     });
   return columns;
-}
-
-/** Of triangles. */
-std::int64_t bytesOfPly(const MeshToWrite& written)
-{
-  const StreamInfo& mesh = written.mesh;
-  PlyRecords vertices("vertex", mesh.vertices), faces("face", mesh.cells);
-  WrittenPly ignored;
-  vertices.addPositions(mesh.doublePositions);
-  vertices.add(mesh.vertexColumns, ignored);
-  faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
-  faces.add(mesh.cellColumns, ignored);
-  return mesh.vertices * static_cast<std::int64_t>(vertices.recordBytes()) +
-         mesh.cells * static_cast<std::int64_t>(faces.recordBytes());
 }
 
 std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
@@ -74,12 +59,6 @@ std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
   return counts;
 }
 
-WriteNotes write(
-  MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
-{
-  return notesOn(writePly(source, path, options.progress));
-}
-
 constexpr FileSuffix PlySuffixes[] = { { ".ply", true, false } };
 
 } // namespace
@@ -92,8 +71,8 @@ const Format PlyFormat{
   .parse = parseWith<importPly>,
   .counts = countsOfPly,
   .bytes = bytesOfPly,
-  .write = write,
-  .restore = writeRestoredPly,
+  .writer = makePlyWriter,
+  .turn = PartTurn::AsTheyCome,
 };
 
 } // namespace smg

@@ -14,7 +14,19 @@ namespace smg
 extern const Format PlyFormat;
 
 void importPly(InputFile& file, RawMeshBuilder& builder);
-/** Faces are polygons; columns are properties as writePly() has them. */
-WriteNotes writeRestoredPly(RestoredMesh& mesh, const std::filesystem::path& path);
+/** Binary, with the columns as properties; see WritePly.cpp. */
+MeshFileFunction makePlyWriter;
+std::int64_t bytesOfPly(const MeshToWrite& written);
+/** The first lines of the header of a binary PLY file in this machine's byte order. */
+std::string plyFormatLines();
+
+class MovedVertices;
+/**
+ * Writes the PLY file `in` again as `out`, in binary, with its vertices moved; see rewriteMesh().
+ * Integer coordinates become float, or double if they have 32 bits; integer normals become float.
+ * Throws Error; Cancelled.
+ */
+void rewritePly(const std::filesystem::path& in, const std::filesystem::path& out,
+  MovedVertices& moved, const ProgressFunction& progress = {});
 
 } // namespace smg

@@ -17,19 +17,14 @@ namespace smg
 namespace
 {
 
+/** The type of a name such as uchar or uint8; PLY has none of 64-bit integers. */
 std::optional<ScalarType> scalarType(std::string_view name)
 {
-  constexpr std::pair<std::string_view, ScalarType> names[] = { { "char", ScalarType::Int8 },
-    { "int8", ScalarType::Int8 }, { "uchar", ScalarType::UInt8 }, { "uint8", ScalarType::UInt8 },
-    { "short", ScalarType::Int16 }, { "int16", ScalarType::Int16 },
-    { "ushort", ScalarType::UInt16 }, { "uint16", ScalarType::UInt16 },
-    { "int", ScalarType::Int32 }, { "int32", ScalarType::Int32 }, { "uint", ScalarType::UInt32 },
-    { "uint32", ScalarType::UInt32 }, { "float", ScalarType::Float32 },
-    { "float32", ScalarType::Float32 }, { "double", ScalarType::Float64 },
-    { "float64", ScalarType::Float64 } };
-  for (const auto& [text, type] : names)
+  for (int i = 0; i <= static_cast<int>(ScalarType::Float64); ++i)
   {
-    if (name == text)
+    const auto type = static_cast<ScalarType>(i);
+    const std::string_view own = plyTypeName(type);
+    if (!own.empty() && (name == own || name == nameOf(type)))
     {
       return type;
     }

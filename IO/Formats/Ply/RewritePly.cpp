@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Ply/RewritePly.h"
-
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Ply/PlyCursor.h"
+#include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "IO/Formats/Ply/WritePly.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Results/MovedVertices.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,106 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Ply/WritePly.h"
-
-#include "IO/Export/RestoredMesh.h"
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "IO/Import/ImportColumn.h"
 #include "IO/Mesh/Columns.h"
-#include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
-#include <limits>
-#include <span>
+#include <string>
+#include <utility>
+
+// Binary PLY in this machine's byte order. Columns become properties of the vertices or faces,
+// named so that importPly() restores the same columns: `Normals` of 3 components nx, ny, nz;
+// `Colors` of 3 or 4 red, green, blue, alpha; a column of one component its own name, and one of
+// several NAME_0, NAME_1 ..., which come back as columns of their own. What is no visible ASCII
+// character in a name becomes an underscore, and a name whose property another column or the mesh
+// has is followed by _1, _2 ...; columns that need no other name keep theirs. PLY has no 64-bit
+// integers: they are written, and come back, as double, which is exact up to 2^53. So convert()
+// takes the `OriginalId` of a PLY file for an attribute (see there): its own are the places in the
+// PLY file.
 
 namespace smg
 {
 
+std::string plyFormatLines()
+{
+  const bool little = std::endian::native == std::endian::little;
+  return std::string("ply\nformat binary_") + (little ? "little" : "big") + "_endian 1.0\n";
+}
+
 namespace
 {
 
-/**
- * Writes the stream; all records of an element have the same size, so their positions are known.
- */
-class PlyWriter
+/** The changes to the columns of a mesh written as PLY. */
+struct WrittenPly
 {
-public:
-  PlyWriter(const StreamInfo& info, const std::filesystem::path& path)
-    : Info(info)
-    , File(path)
-    , Vertices("vertex", info.vertices)
-    , Faces("face", info.cells)
-  {
-    this->Vertices.addPositions(info.doublePositions);
-    this->Faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
-    this->Vertices.add(info.vertexColumns, this->Written);
-    this->Faces.add(info.cellColumns, this->Written);
-    const std::string header =
-      plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n";
-    this->File.write(0, std::as_bytes(std::span(header)));
-    this->VertexEnd = static_cast<std::int64_t>(header.size());
-    this->FirstFace = this->FaceEnd =
-      this->VertexEnd + info.vertices * static_cast<std::int64_t>(this->Vertices.recordBytes());
-    this->File.reserve(
-      this->FirstFace + info.cells * static_cast<std::int64_t>(this->Faces.recordBytes()));
-  }
-
-  void append(const MeshBlock& block)
-  {
-    this->Vertices.begin(static_cast<std::size_t>(block.vertices()));
-    this->Vertices.fillPositions(block.positions);
-    this->Vertices.fill(block.vertexColumns, this->Written);
-    this->write(this->Vertices, this->VertexEnd);
-
-    this->Corners.assign(block.corners.begin(), block.corners.end());
-    this->Counts.assign(this->Corners.size() / 3, std::byte(3));
-    this->Faces.begin(this->Counts.size());
-    this->Faces.fill(0, this->Counts, 1);
-    this->Faces.fill(1, std::as_bytes(std::span(this->Corners)), 3 * sizeof(std::int32_t));
-    this->Faces.fill(block.cellColumns, this->Written);
-    this->write(this->Faces, this->FaceEnd);
-  }
-
-  WrittenPly finish(const std::filesystem::path& path)
-  {
-    const std::int64_t end =
-      this->FirstFace + this->Info.cells * static_cast<std::int64_t>(this->Faces.recordBytes());
-    if (this->VertexEnd != this->FirstFace || this->FaceEnd != end)
-    {
-      throw Error(otherCounts(path.string(), this->Info));
-    }
-    this->File.finish();
-    return this->Written;
-  }
-
-private:
-  void write(const PlyRecords& records, std::int64_t& at)
-  {
-    this->File.write(at, records.records());
-    at += static_cast<std::int64_t>(records.records().size());
-  }
-
-  const StreamInfo& Info;
-  PositionedFile File;
-  PlyRecords Vertices, Faces;
-  std::int64_t VertexEnd = 0, FirstFace = 0, FaceEnd = 0;
-  std::vector<std::int32_t> Corners;
-  std::vector<std::byte> Counts; ///< of corners, each 3
-  WrittenPly Written;
+  /** Columns with another name in the file, and that name. */
+  std::vector<std::pair<std::string, std::string>> renamedColumns;
+  /** Columns of 64-bit integers with values beyond 2^53, which were rounded. */
+  std::vector<std::string> roundedColumns;
 };
 
-} // namespace
-
-std::vector<std::string> notesOn(const WrittenPly& written)
+/** A sentence per column. */
+WriteNotes notesOn(const WrittenPly& written)
 {
-  std::vector<std::string> notes;
+  WriteNotes notes;
   for (const auto& [column, name] : written.renamedColumns)
   {
     notes.push_back(
@@ -113,36 +60,6 @@ std::vector<std::string> notesOn(const WrittenPly& written)
   }
   return notes;
 }
-
-void checkPlyVertices(const std::filesystem::path& path, std::int64_t vertices)
-{
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  if (vertices > most)
-  {
-    throw Error(path.string() + ": PLY has room for " + std::to_string(most) +
-                " vertices, but there are " + std::to_string(vertices) + ": choose .vsm or .vtp.");
-  }
-}
-
-WrittenPly writePly(
-  MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
-{
-  const StreamInfo& info = source.info();
-  checkPlyVertices(path, info.vertices);
-  Progress reported(progress);
-  PlyWriter writer(info, path);
-  for (MeshBlock block; source.next(block);)
-  {
-    writer.append(block);
-    const auto end =
-      static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size()) / 3.0;
-    reported.update(end / static_cast<double>(info.cells));
-  }
-  return writer.finish(path);
-}
-
-namespace
-{
 
 bool isLongInteger(ScalarType type)
 {
@@ -193,28 +110,66 @@ bool isExact(T value, double converted)
   return converted < end && static_cast<T>(converted) == value;
 }
 
-} // namespace
-
-std::string plyFormatLines()
+/** An element of a PLY file whose records all have the same size: its part of the header, and its
+ * records, made from columns. Columns of 64-bit integers become double. */
+class PlyRecords
 {
-  const bool little = std::endian::native == std::endian::little;
-  return std::string("ply\nformat binary_") + (little ? "little" : "big") + "_endian 1.0\n";
-}
-
-PlyRecords::PlyRecords(const std::string& name, std::int64_t count)
-  : Header("element " + name + ' ' + std::to_string(count) + '\n')
-{
-}
-
-void PlyRecords::addPositions(bool isDouble)
-{
-  this->DoublePositions = isDouble;
-  for (const char* name : { "x", "y", "z" })
+public:
+  /** The element `name` with `count` records. */
+  PlyRecords(const std::string& name, std::int64_t count)
+    : Header("element " + name + ' ' + std::to_string(count) + '\n')
   {
-    const ScalarType type = isDouble ? ScalarType::Float64 : ScalarType::Float32;
-    this->add(std::string(plyTypeName(type)) + ' ' + name, sizeOf(type));
   }
-}
+
+  /** Adds the property described by a line, of `bytes` bytes in each record. */
+  void add(const std::string& property, std::size_t bytes)
+  {
+    this->Names.push_back(property.substr(property.rfind(' ') + 1));
+    this->addProperty(property, bytes);
+  }
+  /** Adds the coordinates x, y and z. */
+  void addPositions(ScalarType type)
+  {
+    for (const char* name : { "x", "y", "z" })
+    {
+      this->add(std::string(plyTypeName(type)) + ' ' + name, sizeOf(type));
+    }
+  }
+  /** Adds the properties of columns. Other names are noted. */
+  void add(const std::vector<ColumnSpec>& columns, WrittenPly& written);
+
+  const std::string& header() const { return this->Header; }
+  std::size_t recordBytes() const { return this->RecordBytes; }
+
+  /** Makes `count` records, whose fields must be filled. */
+  void begin(std::size_t count) { this->Records.resize(count * this->RecordBytes); }
+  /** Fills in tuples of `bytes` bytes, one per record, at a position of the record. */
+  void fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes);
+  /** Fills in the columns that were added. Rounded values are noted. */
+  void fill(const std::vector<Column>& columns, WrittenPly& written);
+  std::span<const std::byte> records() const { return this->Records; }
+
+private:
+  void addProperty(const std::string& property, std::size_t bytes)
+  {
+    this->Header += "property " + property + '\n';
+    this->RecordBytes += bytes;
+  }
+  /** Whether no property has one of these names. */
+  bool areFree(const std::vector<std::string>& names) const
+  {
+    return std::ranges::none_of(names, [this](const std::string& name)
+      { return std::ranges::find(this->Names, name) != this->Names.end(); });
+  }
+  bool fill(std::ptrdiff_t place, const Column& column);
+
+  std::string Header;
+  std::vector<std::string> Names;
+  std::size_t RecordBytes = 0;
+  std::vector<std::ptrdiff_t> Places; ///< of each column in the record
+  std::vector<std::byte> Records;
+  std::vector<double> Doubles;
+};
 
 void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written)
 {
@@ -263,30 +218,6 @@ void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written
   }
 }
 
-/** Whether no property has one of these names. */
-bool PlyRecords::areFree(const std::vector<std::string>& names) const
-{
-  return std::ranges::none_of(names, [this](const std::string& name)
-    { return std::ranges::find(this->Names, name) != this->Names.end(); });
-}
-
-void PlyRecords::addProperty(const std::string& property, std::size_t bytes)
-{
-  this->Header += "property " + property + '\n';
-  this->RecordBytes += bytes;
-}
-
-void PlyRecords::add(const std::string& property, std::size_t bytes)
-{
-  this->Names.push_back(property.substr(property.rfind(' ') + 1));
-  this->addProperty(property, bytes);
-}
-
-void PlyRecords::begin(std::size_t count)
-{
-  this->Records.resize(count * this->RecordBytes);
-}
-
 void PlyRecords::fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes)
 {
   const std::byte* from = tuples.data();
@@ -296,17 +227,6 @@ void PlyRecords::fill(std::ptrdiff_t place, std::span<const std::byte> tuples, s
     std::memcpy(record + place, from, bytes);
     from += bytes;
   }
-}
-
-void PlyRecords::fillPositions(std::span<const double> positions)
-{
-  if (this->DoublePositions)
-  {
-    this->fill(0, std::as_bytes(positions), 3 * sizeof(double));
-    return;
-  }
-  this->Single.assign(positions.begin(), positions.end());
-  this->fill(0, std::as_bytes(std::span(this->Single)), 3 * sizeof(float));
 }
 
 void PlyRecords::fill(const std::vector<Column>& columns, WrittenPly& written)
@@ -347,90 +267,122 @@ bool PlyRecords::fill(std::ptrdiff_t place, const Column& column)
   return !exact;
 }
 
-namespace
+/** Throws Error if there are more vertices than PLY has numbers for. */
+const std::filesystem::path& checkedForPly(const std::filesystem::path& path, std::int64_t vertices)
 {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (vertices > most)
+  {
+    throw Error(path.string() + ": PLY has room for " + std::to_string(most) +
+                " vertices, but there are " + std::to_string(vertices) + ": choose .vsm or .vtp.");
+  }
+  return path;
+}
 
-/** Writes the vertices, then the faces, whose records have different sizes. */
-class RestoredPlyWriter
+/** Writes vertices and faces at their places, which are known from the counts. */
+class PlyWriter : public MeshFileWriter
 {
 public:
-  RestoredPlyWriter(const RestoredInfo& info, const std::filesystem::path& path)
-    : Info(info)
-    , Out(path)
+  PlyWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : File(checkedForPly(path, info.vertices))
+    , Positions(info.doublePositions)
     , Vertices("vertex", info.vertices)
     , Faces("face", info.elements)
-    , ManyCorners(info.maxCorners > UINT8_MAX)
+    , CountBytes(info.maxCorners > UINT8_MAX ? sizeof(std::int32_t) : 1)
   {
-    this->Vertices.addPositions(info.doublePositions);
+    this->Vertices.addPositions(this->Positions.type());
     // The list precedes each record and is not part of it.
     this->Faces.add(
-      this->ManyCorners ? "list int int vertex_indices" : "list uchar int vertex_indices", 0);
+      this->CountBytes > 1 ? "list int int vertex_indices" : "list uchar int vertex_indices", 0);
+    this->Vertices.add(info.vertexColumns, this->Written);
+    this->Faces.add(info.elementColumns, this->Written);
+    const std::string header =
+      plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n";
+    this->write(std::as_bytes(std::span(header)), this->VertexEnd);
+    const std::size_t faceBytes = this->CountBytes + this->Faces.recordBytes();
+    this->FaceEnd =
+      this->VertexEnd + info.vertices * static_cast<std::int64_t>(this->Vertices.recordBytes());
+    this->File.reserve(this->FaceEnd + info.elements * static_cast<std::int64_t>(faceBytes) +
+                       info.corners * static_cast<std::int64_t>(sizeof(std::int32_t)));
   }
 
-  WrittenPly write(RestoredMesh& mesh)
+  void vertices(const VertexChunk& chunk) override
   {
-    WrittenPly written;
-    this->Vertices.add(this->Info.vertexColumns, written);
-    this->Faces.add(this->Info.elementColumns, written);
-    this->Out.put(
-      plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n");
-    for (RestoredVertices vertices; mesh.next(vertices);)
+    this->Vertices.begin(static_cast<std::size_t>(chunk.count()));
+    this->Vertices.fill(0, this->Positions.bytes(chunk.positions), this->Positions.size());
+    this->Vertices.fill(chunk.columns, this->Written);
+    this->write(this->Vertices.records(), this->VertexEnd);
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    const std::size_t faces = chunk.sizes.size();
+    const std::size_t recordBytes = this->Faces.recordBytes();
+    this->Faces.begin(faces);
+    this->Faces.fill(chunk.columns, this->Written);
+    this->Lists.resize(
+      faces * (this->CountBytes + recordBytes) + chunk.corners.size() * sizeof(std::int32_t));
+    std::byte* to = this->Lists.data();
+    const auto put = [&to](const auto& value)
     {
-      this->Vertices.begin(static_cast<std::size_t>(vertices.count()));
-      this->Vertices.fillPositions(vertices.positions);
-      this->Vertices.fill(vertices.columns, written);
-      this->Out.put(this->Vertices.records());
-    }
-    for (RestoredElements elements; mesh.next(elements);)
-    {
-      this->Faces.begin(elements.sizes.size());
-      this->Faces.fill(elements.columns, written);
-      this->writeFaces(elements);
-    }
-    this->Out.finish();
-    return written;
+      std::memcpy(to, &value, sizeof(value));
+      to += sizeof(value);
+    };
+    chunk.forEach(
+      [&](std::span<const std::int64_t> corners, std::size_t face)
+      {
+        this->CountBytes > 1 ? put(static_cast<std::int32_t>(corners.size()))
+                             : put(static_cast<std::uint8_t>(corners.size()));
+        for (const std::int64_t corner : corners)
+        {
+          put(static_cast<std::int32_t>(corner));
+        }
+        to = std::copy_n(this->Faces.records().data() + recordBytes * face, recordBytes, to);
+      });
+    this->write(this->Lists, this->FaceEnd);
+  }
+
+  WriteNotes finish() override
+  {
+    this->File.finish();
+    return notesOn(this->Written);
   }
 
 private:
-  void writeFaces(const RestoredElements& elements)
+  void write(std::span<const std::byte> bytes, std::int64_t& at)
   {
-    this->Bytes.clear();
-    elements.forEach(
-      [&](std::span<const std::int64_t> corners, std::size_t face)
-      {
-        const auto count = static_cast<std::int32_t>(corners.size());
-        this->ManyCorners ? this->add(&count, sizeof(count))
-                          : this->add(std::array{ static_cast<std::uint8_t>(count) }.data(), 1);
-        for (const std::int64_t corner : corners)
-        {
-          const auto number = static_cast<std::int32_t>(corner);
-          this->add(&number, sizeof(number));
-        }
-        const std::size_t bytes = this->Faces.recordBytes();
-        this->add(this->Faces.records().data() + bytes * face, bytes);
-      });
-    this->Out.put(this->Bytes);
+    this->File.write(at, bytes);
+    at += static_cast<std::int64_t>(bytes.size());
   }
 
-  void add(const void* bytes, std::size_t count)
-  {
-    const auto* const first = static_cast<const std::byte*>(bytes);
-    this->Bytes.insert(this->Bytes.end(), first, first + count);
-  }
-
-  const RestoredInfo& Info;
-  SequentialOutput Out;
+  PositionedFile File;
+  FilePositions Positions;
   PlyRecords Vertices, Faces;
-  const bool ManyCorners; ///< whether a face has more corners than a byte can count
-  std::vector<std::byte> Bytes;
+  const std::size_t CountBytes; ///< of the number of the corners of a face
+  std::int64_t VertexEnd = 0, FaceEnd = 0;
+  std::vector<std::byte> Lists; ///< of corners, with the records
+  WrittenPly Written;
 };
 
 } // namespace
 
-WriteNotes writeRestoredPly(RestoredMesh& mesh, const std::filesystem::path& path)
+std::unique_ptr<MeshFileWriter> makePlyWriter(
+  const std::filesystem::path& path, const MeshFileInfo& info, Workspace*)
 {
-  checkPlyVertices(path, mesh.info().vertices);
-  return notesOn(RestoredPlyWriter(mesh.info(), path).write(mesh));
+  return std::make_unique<PlyWriter>(path, info);
+}
+
+std::int64_t bytesOfPly(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  PlyRecords vertices("vertex", mesh.vertices), faces("face", mesh.cells);
+  WrittenPly ignored;
+  vertices.addPositions(positionType(mesh.doublePositions));
+  vertices.add(mesh.vertexColumns, ignored);
+  faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
+  faces.add(mesh.cellColumns, ignored);
+  return mesh.vertices * static_cast<std::int64_t>(vertices.recordBytes()) +
+         mesh.cells * static_cast<std::int64_t>(faces.recordBytes());
 }
 
 } // namespace smg

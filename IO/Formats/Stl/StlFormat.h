@@ -15,12 +15,6 @@ namespace smg
 extern const Format StlFormat;
 
 void importStl(InputFile& file, RawMeshBuilder& builder);
-/**
- * Triangles with their corners' coordinates: binary if these are single precision numbers, else
- * text, which holds them exactly. There is no place for isolated vertices.
- */
-WriteNotes writeRestoredStl(RestoredMesh& mesh, const std::filesystem::path& path);
-std::int64_t bytesOfStl(const MeshToWrite& written);
 
 /** Bytes of the header of a binary STL file: 80 of any text and the number of triangles. */
 inline constexpr std::size_t StlHeaderBytes = 84;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Streams/RewriteStream.h"
-
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
+#include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Results/MovedVertices.h"
+#include "Solver/Core/Progress.h"
 
 #include <algorithm>
 #include <limits>

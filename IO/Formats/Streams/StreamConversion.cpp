@@ -151,10 +151,7 @@ private:
 std::vector<std::string> notesOnOmitted(
   const StreamInfo& info, const std::vector<std::string>& kept, const std::string& suffix)
 {
-  RestoredInfo mesh;
-  mesh.vertexColumns = ownColumns(info.vertexColumns);
-  mesh.elementColumns = ownColumns(info.cellColumns);
-  PlacedColumns columns(mesh);
+  PlacedColumns columns(ownColumns(info.vertexColumns), ownColumns(info.cellColumns));
   for (const std::string& name : kept)
   {
     columns.ofVertices(name, 1, 1);

@@ -9,4 +9,12 @@ namespace smg
 /** The streaming formats SMA, SMB, SVA and SVB; see StreamFile.h. */
 extern const Format StreamsFormat;
 
+class MovedVertices;
+/**
+ * Writes the streaming mesh file `in` again as `out`, another or the same of the four formats, with
+ * its vertices moved; see rewriteMesh(). Comments are kept in text. Throws Error; Cancelled.
+ */
+void rewriteStream(const std::filesystem::path& in, const std::filesystem::path& out,
+  MovedVertices& moved, const ProgressFunction& progress = {});
+
 } // namespace smg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/TetGen/TetGenFormat.h"
 
+#include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
-#include "IO/Export/RestoredMesh.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
@@ -254,6 +254,102 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
+constexpr int AnyNumber = std::numeric_limits<int>::max();
+
+/** The column with the attributes of cells; -1: none. */
+std::ptrdiff_t cellAttributes(PlacedColumns& columns)
+{
+  const std::ptrdiff_t attributes = columns.ofElements(AttributeName, 1, AnyNumber);
+  return attributes < 0 ? columns.integerOfElements({ ReferenceName, PhysicalTagName })
+                        : attributes;
+}
+
+int components(const std::vector<ColumnSpec>& specs, std::ptrdiff_t column)
+{
+  return column < 0 ? 0 : specs[static_cast<std::size_t>(column)].components;
+}
+
+/** Both files: vertices with attributes and markers, tetrahedra or triangles with attributes. */
+class TetGenWriter : public MeshFileWriter
+{
+public:
+  TetGenWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : Nodes(std::filesystem::path(path).replace_extension(
+        lowerSuffix(path) == ".node" ? path.extension() : ".node"))
+    , Elements(std::filesystem::path(path).replace_extension(
+        lowerSuffix(path) == ".ele" ? path.extension() : ".ele"))
+    , DoublePositions(info.doublePositions)
+    , CornersOfCell(cornersOf(info.cellType))
+    , Columns(info)
+    , Attributes(this->Columns.ofVertices(AttributeName, 1, AnyNumber))
+    , Markers(this->Columns.integerOfVertices({ MarkerName, ReferenceName }))
+    , CellAttributes(cellAttributes(this->Columns))
+  {
+    this->Nodes << info.vertices << " 3 " << components(info.vertexColumns, this->Attributes) << ' '
+                << components(info.vertexColumns, this->Markers) << '\n';
+    this->Elements << info.cells << ' ' << this->CornersOfCell << ' '
+                   << components(info.elementColumns, this->CellAttributes) << '\n';
+  }
+
+  void vertices(const VertexChunk& chunk) override
+  {
+    chunk.forEach(
+      [&](std::span<const double, 3> position, std::size_t vertex)
+      {
+        this->Nodes << chunk.first + static_cast<std::int64_t>(vertex) + 1 << ' ';
+        this->Nodes.position(position, this->DoublePositions);
+        this->Nodes.tuple(chunk.columns, this->Attributes, vertex);
+        this->Nodes.tuple(chunk.columns, this->Markers, vertex);
+        this->Nodes << '\n';
+      });
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    chunk.forEachUpTo(static_cast<std::size_t>(this->CornersOfCell),
+      [&](std::span<const std::int64_t> corners, std::size_t element)
+      {
+        this->Elements << ++this->Count;
+        this->Elements.corners(corners, 1);
+        this->Elements.tuple(chunk.columns, this->CellAttributes, element);
+        this->Elements << '\n';
+      });
+  }
+
+  WriteNotes finish() override
+  {
+    // Neither is renamed before both are on the disk.
+    this->Nodes.write();
+    this->Elements.write();
+    this->Nodes.finish();
+    this->Elements.finish();
+    return this->Columns.leftOut(".node and .ele");
+  }
+
+private:
+  TextOutput Nodes, Elements;
+  bool DoublePositions;
+  int CornersOfCell;
+  PlacedColumns Columns;
+  std::ptrdiff_t Attributes, Markers, CellAttributes;
+  std::int64_t Count = 0; ///< of cells
+};
+
+std::int64_t bytesOfTetGen(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  const double attributes =
+    tupleCharacters(mesh.vertexColumns, columns.ofVertices(AttributeName, 1, AnyNumber)) +
+    tupleCharacters(mesh.vertexColumns, columns.integerOfVertices({ MarkerName, ReferenceName }));
+  const std::ptrdiff_t ofCells = cellAttributes(columns);
+  return textBytes(mesh.vertices, numberCharacters(mesh.vertices) +
+                                    positionCharacters(mesh.doublePositions) + attributes) +
+         textBytes(mesh.cells, numberCharacters(mesh.cells) +
+                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
+                                 tupleCharacters(mesh.cellColumns, ofCells));
+}
+
 constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, true },
   { ".ele", true, true, true } };
 
@@ -266,113 +362,8 @@ const Format TetGenFormat{
   .parse = parseWith<importTetGen>,
   .share = { 200, 4 },
   .bytes = bytesOfTetGen,
-  .restore = writeRestoredTetGen,
+  .writer = makeWriter<TetGenWriter>,
+  .maxCorners = 3,
 };
-
-namespace
-{
-
-constexpr int AnyNumber = std::numeric_limits<int>::max();
-
-int components(const std::vector<ColumnSpec>& specs, std::ptrdiff_t column)
-{
-  return column < 0 ? 0 : specs[static_cast<std::size_t>(column)].components;
-}
-
-void writeNodes(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
-{
-  const RestoredInfo& info = mesh.info();
-  const std::ptrdiff_t attributes = columns.ofVertices(AttributeName, 1, AnyNumber);
-  const std::ptrdiff_t markers = columns.integerOfVertices({ MarkerName, ReferenceName });
-  out << info.vertices << " 3 " << components(info.vertexColumns, attributes) << ' '
-      << components(info.vertexColumns, markers) << '\n';
-  for (RestoredVertices vertices; mesh.next(vertices);)
-  {
-    const std::span<const double> positions = vertices.positions;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(vertices.count()); ++i)
-    {
-      out << vertices.first + static_cast<std::int64_t>(i) + 1 << ' ';
-      out.position(positions.subspan(3 * i, 3), info.doublePositions);
-      out.tuple(vertices.columns, attributes, i);
-      out.tuple(vertices.columns, markers, i);
-      out << '\n';
-    }
-  }
-}
-
-/** Tetrahedra, or polygons as triangles. */
-void writeElements(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
-{
-  const RestoredInfo& info = mesh.info();
-  std::ptrdiff_t attributes = columns.ofElements(AttributeName, 1, AnyNumber);
-  if (attributes < 0)
-  {
-    attributes = columns.integerOfElements({ ReferenceName, PhysicalTagName });
-  }
-  out << info.cells << ' ' << cornersOf(info.cellType) << ' '
-      << components(info.elementColumns, attributes) << '\n';
-  std::int64_t number = 0;
-  for (RestoredElements elements; mesh.next(elements);)
-  {
-    const auto write = [&](std::size_t element, std::span<const std::int64_t> corners)
-    {
-      out << ++number;
-      for (const std::int64_t corner : corners)
-      {
-        out << ' ' << corner + 1;
-      }
-      out.tuple(elements.columns, attributes, element);
-      out << '\n';
-    };
-    elements.forEach(
-      [&](std::span<const std::int64_t> corners, std::size_t element)
-      {
-        info.cellType == CellType::Triangle
-          ? forEachFanTriangle(corners, [&](const auto& triangle) { write(element, triangle); })
-          : write(element, corners);
-      });
-  }
-}
-
-} // namespace
-
-WriteNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& path)
-{
-  PlacedColumns columns(mesh.info());
-  const bool namesNodes = lowerSuffix(path) == ".node";
-  const auto beside = [&path](const char* suffix)
-  { return std::filesystem::path(path).replace_extension(suffix); };
-  TextOutput nodes(namesNodes ? path : beside(".node"));
-  TextOutput elements(namesNodes ? beside(".ele") : path);
-  writeNodes(nodes, mesh, columns);
-  writeElements(elements, mesh, columns);
-  // Neither is renamed before both are on the disk.
-  nodes.write();
-  elements.write();
-  nodes.finish();
-  elements.finish();
-  WriteNotes notes = columns.leftOut(".node and .ele");
-  if (mesh.info().cellType == CellType::Triangle && mesh.info().maxCorners > 3)
-  {
-    notes.emplace_back("Polygons are written as triangles.");
-  }
-  return notes;
-}
-
-std::int64_t bytesOfTetGen(const MeshToWrite& written)
-{
-  const StreamInfo& mesh = written.mesh;
-  PlacedColumns columns(mesh);
-  const double attributes =
-    tupleCharacters(mesh.vertexColumns, columns.ofVertices(AttributeName, 1, AnyNumber)) +
-    tupleCharacters(mesh.vertexColumns, columns.integerOfVertices({ MarkerName, ReferenceName }));
-  std::ptrdiff_t ofCells = columns.ofElements(AttributeName, 1, AnyNumber);
-  ofCells = ofCells < 0 ? columns.integerOfElements({ ReferenceName, PhysicalTagName }) : ofCells;
-  return textBytes(mesh.vertices, numberCharacters(mesh.vertices) +
-                                    positionCharacters(mesh.doublePositions) + attributes) +
-         textBytes(mesh.cells, numberCharacters(mesh.cells) +
-                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
-                                 tupleCharacters(mesh.cellColumns, ofCells));
-}
 
 } // namespace smg

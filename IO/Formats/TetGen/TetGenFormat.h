@@ -10,9 +10,5 @@ namespace smg
 extern const Format TetGenFormat;
 
 void importTetGen(InputFile& file, RawMeshBuilder& builder);
-/** Two files in the same folder, either of which may be named: .node with attributes and markers,
- * .ele with attributes. Tetrahedra or triangles; polygons become triangles. */
-WriteNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& path);
-std::int64_t bytesOfTetGen(const MeshToWrite& written);
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #include "IO/Formats/Vsm/VsmBuffers.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ IsolatedWriter::IsolatedWriter(std::string name, const StreamInfo& info)
 
 TableSpec IsolatedWriter::table(const StreamInfo& info)
 {
-  const ScalarType real = info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+  const ScalarType real = positionType(info.doublePositions);
   TableSpec table{ "isolated", { { "Id", ScalarType::Int64, 1 }, { "Position", real, 3 } } };
   table.columns.insert(table.columns.end(), info.vertexColumns.begin(), info.vertexColumns.end());
   return table;

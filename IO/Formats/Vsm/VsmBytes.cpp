@@ -91,8 +91,7 @@ std::int64_t vsmBytes(const StreamInfo& mesh, Codec codec, const VsmParts& known
                                                : static_cast<double>(numbers) * bytes;
   };
   std::vector<ColumnSpec> ofVertices = mesh.vertexColumns;
-  ofVertices.push_back(
-    { "Position", mesh.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 3 });
+  ofVertices.push_back({ "Position", positionType(mesh.doublePositions), 3 });
   const PackedBytes rates = packedBytes(mesh.cellType);
   const double bytes =
     tableBytes(VsmFormat::Vertices, ofVertices, mesh.vertices, isCompressed, known) +

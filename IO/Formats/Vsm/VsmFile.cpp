@@ -4,6 +4,7 @@
 #include "IO/External/BlockFile.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
 #include "IO/Formats/Vsm/VsmBuffers.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 
@@ -119,7 +120,7 @@ void VsmFile::readTables()
   const std::vector<TableSpec>& tables = this->Blocks.tables();
   const auto first = [&](int table) -> ColumnSpec
   { return tables[table].columns.empty() ? ColumnSpec{} : tables[table].columns[0]; };
-  const ScalarType real = this->Info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+  const ScalarType real = positionType(this->Info.doublePositions);
   const std::vector<ColumnSpec> blockColumns{ { "FirstVertex", ScalarType::Int64, 1 },
     { "Finalized", ScalarType::Int64, 1 } };
   const std::size_t most = VsmFormat::MinTables + 1;

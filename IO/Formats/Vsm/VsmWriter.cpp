@@ -59,7 +59,7 @@ std::vector<TableSpec> tablesOf(const StreamInfo& info, const std::string& file)
 {
   checkColumns(info.vertexColumns, file);
   checkColumns(info.cellColumns, file);
-  const ScalarType real = info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+  const ScalarType real = positionType(info.doublePositions);
   const ColumnSpec firstVertex{ "FirstVertex", ScalarType::Int64, 1 };
   const ColumnSpec finalized{ "Finalized", ScalarType::Int64, 1 };
   return { tableWith("vertices", { "Position", real, 3 }, info.vertexColumns),

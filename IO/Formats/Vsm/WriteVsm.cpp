@@ -114,27 +114,6 @@ WrittenVsm writeVsm(
 namespace
 {
 
-WriteNotes write(
-  MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
-{
-  Workers workers(options.threads);
-  const auto addIsolated = [&](VsmWriter& writer)
-  {
-    if (!options.isolatedFrom.empty())
-    {
-      copyIsolated(options.isolatedFrom, source.info(), writer);
-    }
-  };
-  writeVsm(source, path,
-    { .codec = options.codec,
-      .scratch = options.scratch,
-      .add = addIsolated,
-      .workers = &workers,
-      .apart = true,
-      .progress = options.progress });
-  return {};
-}
-
 constexpr FileSuffix VsmSuffixes[] = { { ".vsm" } };
 
 } // namespace
@@ -145,7 +124,6 @@ const Format VsmFileFormat{
   .attributes = AllColumns,
   .kind = MeshFileKind::Vsm,
   .bytes = [](const MeshToWrite& written) { return written.vsmBytes; },
-  .write = write,
 };
 
 } // namespace smg

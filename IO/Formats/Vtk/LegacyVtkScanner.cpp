@@ -26,7 +26,8 @@ struct TypeName
   ScalarType file, column;
 };
 
-/** Numbers of type vtkIdType are written as int. */
+/** The first name of a type is the one that is written. Numbers of type vtkIdType are written as
+ * int. */
 constexpr TypeName LegacyTypeNames[] = { { "char", ScalarType::Int8, ScalarType::Int8 },
   { "signed_char", ScalarType::Int8, ScalarType::Int8 },
   { "unsigned_char", ScalarType::UInt8, ScalarType::UInt8 },
@@ -34,8 +35,6 @@ constexpr TypeName LegacyTypeNames[] = { { "char", ScalarType::Int8, ScalarType:
   { "unsigned_short", ScalarType::UInt16, ScalarType::UInt16 },
   { "int", ScalarType::Int32, ScalarType::Int32 },
   { "unsigned_int", ScalarType::UInt32, ScalarType::UInt32 },
-  { "long", ScalarType::Int64, ScalarType::Int64 },
-  { "unsigned_long", ScalarType::UInt64, ScalarType::UInt64 },
   { "vtkidtype", ScalarType::Int32, ScalarType::Int64 },
   { "float", ScalarType::Float32, ScalarType::Float32 },
   { "double", ScalarType::Float64, ScalarType::Float64 },
@@ -47,6 +46,8 @@ constexpr TypeName LegacyTypeNames[] = { { "char", ScalarType::Int8, ScalarType:
   { "vtktypeuint32", ScalarType::UInt32, ScalarType::UInt32 },
   { "vtktypeint64", ScalarType::Int64, ScalarType::Int64 },
   { "vtktypeuint64", ScalarType::UInt64, ScalarType::UInt64 },
+  { "long", ScalarType::Int64, ScalarType::Int64 },
+  { "unsigned_long", ScalarType::UInt64, ScalarType::UInt64 },
   { "vtktypefloat32", ScalarType::Float32, ScalarType::Float32 },
   { "vtktypefloat64", ScalarType::Float64, ScalarType::Float64 } };
 
@@ -68,6 +69,13 @@ std::optional<TypeName> typeOf(std::string name)
 }
 
 } // namespace
+
+std::string_view legacyTypeName(ScalarType type)
+{
+  return std::ranges::find_if(LegacyTypeNames,
+    [type](const TypeName& known) { return known.file == type && known.column == type; })
+    ->name;
+}
 
 void LegacyVtkScanner::readTitle()
 {

@@ -12,6 +12,9 @@
 namespace smg
 {
 
+/** The name under which numbers of a type are written to legacy VTK files. */
+std::string_view legacyTypeName(ScalarType type);
+
 /** Reads the words of a legacy VTK file and skips the arrays between them. */
 class LegacyVtkScanner
 {

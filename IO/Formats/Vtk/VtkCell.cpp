@@ -2,6 +2,7 @@
 #include "IO/Formats/Vtk/VtkCell.h"
 
 #include "IO/External/Workspace.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -134,8 +135,7 @@ std::int64_t partsOfVtk(int type, std::int64_t points)
 
 void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)
 {
-  constexpr int Tetrahedron = 10;
-  if (type == Tetrahedron && points.size() == 4)
+  if (type == VtkCellTypes::Tetrahedron && points.size() == 4)
   {
     // The most frequent cells of a volume.
     builder.tetrahedron(points[0], points[1], points[2], points[3]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Mesh/Format.h"
+#include "smg/Export.h"
 
 namespace smg
 {
@@ -21,13 +22,8 @@ void importVtkXml(InputFile& file, RawMeshBuilder& builder);
 void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 
-/** Legacy VTK, binary, version 3.0, which is widely supported: polygonal data, or an unstructured
- * grid of tetrahedra, with all columns as field data. Corners are 32-bit numbers. */
-WriteNotes writeRestoredVtk(RestoredMesh& mesh, const std::filesystem::path& path);
+MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
 std::int64_t bytesOfVtk(const MeshToWrite& written);
-/** .vtp (polygons) or .vtu (triangles, quadrilaterals, polygons or tetrahedra), with all columns.
- */
-WriteNotes writeRestoredVtkXml(RestoredMesh& mesh, const std::filesystem::path& path);
 std::int64_t bytesOfVtkXml(const MeshToWrite& written);
 
 } // namespace smg

@@ -82,7 +82,8 @@ struct VtkLayout
 /** Types of cells in VTK, which are the same in its files. */
 namespace VtkCellTypes
 {
-inline constexpr int PolyVertex = 2, PolyLine = 4, TriangleStrip = 6, Polygon = 7;
+inline constexpr int PolyVertex = 2, PolyLine = 4, Triangle = 5, TriangleStrip = 6, Polygon = 7,
+                     Quadrilateral = 9, Tetrahedron = 10;
 }
 
 /** The files of a mesh, whose arrays are read concurrently, each through its own window. Only the

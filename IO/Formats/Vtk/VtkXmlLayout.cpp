@@ -20,12 +20,6 @@ namespace smg
 namespace
 {
 
-constexpr std::pair<std::string_view, ScalarType> XmlTypeNames[] = { { "Int8", ScalarType::Int8 },
-  { "UInt8", ScalarType::UInt8 }, { "Int16", ScalarType::Int16 }, { "UInt16", ScalarType::UInt16 },
-  { "Int32", ScalarType::Int32 }, { "UInt32", ScalarType::UInt32 }, { "Int64", ScalarType::Int64 },
-  { "UInt64", ScalarType::UInt64 }, { "Float32", ScalarType::Float32 },
-  { "Float64", ScalarType::Float64 } };
-
 /** Reads the tags of a file into the pieces of a layout. */
 class XmlLayoutReader
 {
@@ -166,21 +160,21 @@ private:
   void addArray(const XmlTag& tag)
   {
     const std::string type = tag.value("type");
-    const auto* const known =
-      std::ranges::find(XmlTypeNames, type, &std::pair<std::string_view, ScalarType>::first);
+    const auto* const known = std::ranges::find(VtkXmlTypeNames, type);
     const bool attribute = this->isOfAttributes();
-    if (known == std::end(XmlTypeNames) && attribute && (type == "String" || type == "Bit"))
+    if (known == std::end(VtkXmlTypeNames) && attribute && (type == "String" || type == "Bit"))
     {
       this->noteOther(tag);
       return;
     }
-    if (known == std::end(XmlTypeNames) || this->Layout.pieces.size() == this->FirstPiece)
+    if (known == std::end(VtkXmlTypeNames) || this->Layout.pieces.size() == this->FirstPiece)
     {
       this->File.fail(tag.begin, "the array here has the type " + inQuotes(type) +
                                    ", or stands outside a piece, and cannot be read");
     }
     VtkPiece& piece = this->Layout.pieces.back();
-    VtkArray array = vtkXmlArray(this->File, tag, known->second, this->Encoding);
+    VtkArray array = vtkXmlArray(this->File, tag,
+      static_cast<ScalarType>(known - std::begin(VtkXmlTypeNames)), this->Encoding);
     if (attribute)
     {
       const bool ofPoints = this->Section == "PointData";

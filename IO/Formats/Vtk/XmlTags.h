@@ -2,6 +2,8 @@
 #pragma once
 
 #include "IO/Files/InputFile.h"
+#include "smg/Column.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <string>
@@ -58,5 +60,15 @@ private:
   InputFile& File;
   std::size_t At = 0;
 };
+
+/** The names of the scalar types in VTK's XML files. */
+inline constexpr std::string_view VtkXmlTypeNames[] = { "Int8", "UInt8", "Int16", "UInt16", "Int32",
+  "UInt32", "Int64", "UInt64", "Float32", "Float64" };
+constexpr std::string_view vtkXmlTypeName(ScalarType type)
+{
+  return VtkXmlTypeNames[static_cast<int>(type)];
+}
+/** The text with the characters that mean something in XML written as entities. */
+SMG_EXPORT std::string xmlEscaped(const std::string& text);
 
 } // namespace smg

@@ -36,7 +36,9 @@ struct WriteMeshOptions
  * @param source the stream, read to its end; its StreamInfo must have the numbers of vertices and
  * cells
  * @param path the file, in the format of its suffix: .vsm, .ply (triangles), .vtp (triangles), .vtu
- * or .vtkhdf with all columns; .sma or .smb (triangles), .sva or .svb (tetrahedra)
+ * or .vtkhdf with all columns; .sma or .smb (triangles), .sva or .svb (tetrahedra); .vtk, .obj,
+ * .off and .stl (triangles), .mesh, .msh, and .node with .ele, without the columns OriginalId,
+ * OriginalCellId and CellFlags of a conversion
  * @param options how to write
  * @return a sentence for each thing that the format cannot hold as the mesh has it
  * @throws Error if meshes or such cells are not written with this suffix, the stream is not valid,

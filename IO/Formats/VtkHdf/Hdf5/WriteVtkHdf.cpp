@@ -2,6 +2,7 @@
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 #include "IO/Mesh/Columns.h"
@@ -25,6 +26,7 @@ public:
   GridWriter(VsmReader& reader, const std::filesystem::path& path, std::int64_t partitions)
     : Reader(reader)
     , Out(path)
+    , Positions(reader.info().doublePositions)
   {
     const StreamInfo& info = reader.info();
     this->Out.addGroup("/VTKHDF");
@@ -39,8 +41,7 @@ public:
       VtkHdfRoot + "Connectivity", ScalarType::Int64, 0, info.cells * cornersOf(info.cellType));
     this->Out.addDataset(VtkHdfRoot + "Offsets", ScalarType::Int64, 0, info.cells + partitions);
     this->Out.addDataset(VtkHdfRoot + "Types", ScalarType::UInt8, 0, info.cells);
-    this->Out.addDataset(VtkHdfRoot + "Points",
-      info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 3, info.vertices);
+    this->Out.addDataset(VtkHdfRoot + "Points", this->Positions.type(), 3, info.vertices);
     this->Out.addGroup(this->PointData);
     this->Out.addText(this->PointData, "GlobalIds", GlobalIdsName);
     this->Out.addGroup(this->CellData);
@@ -66,10 +67,9 @@ public:
       this->Ends[i] = static_cast<std::int64_t>(i * corners);
     }
     this->Out.append(VtkHdfRoot + "Offsets", std::span<const std::int64_t>(this->Ends));
-    constexpr std::uint8_t Triangle = 5, Tetrahedron = 10; // types of VTK
-    this->Bytes.assign(cells, corners == 3 ? Triangle : Tetrahedron);
+    this->Bytes.assign(cells, corners == 3 ? VtkCellTypes::Triangle : VtkCellTypes::Tetrahedron);
     this->Out.append(VtkHdfRoot + "Types", std::span<const std::uint8_t>(this->Bytes));
-    this->writePoints(piece);
+    this->Out.append(VtkHdfRoot + "Points", this->Positions.bytes(piece.positions));
     this->Out.append(
       this->PointData + '/' + GlobalIdsName, std::span<const std::int64_t>(piece.ids));
     this->Out.append(
@@ -113,17 +113,6 @@ private:
     this->Out.append(VtkHdfRoot + dataset, std::span(&value, 1));
   }
 
-  void writePoints(const MeshPiece& piece)
-  {
-    if (this->Reader.info().doublePositions)
-    {
-      this->Out.append(VtkHdfRoot + "Points", std::span<const double>(piece.positions));
-      return;
-    }
-    this->Singles.assign(piece.positions.begin(), piece.positions.end());
-    this->Out.append(VtkHdfRoot + "Points", std::span<const float>(this->Singles));
-  }
-
   void writeColumns(const std::vector<std::string>& names, const std::vector<Column>& columns)
   {
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -134,12 +123,12 @@ private:
 
   VsmReader& Reader;
   Hdf5Output Out;
+  FilePositions Positions;
   const std::string PointData = VtkHdfRoot + "PointData", CellData = VtkHdfRoot + "CellData";
   std::vector<std::string> PointNames, CellNames;
   WriteNotes Notes;
   std::vector<std::int64_t> Ends;
   std::vector<std::uint8_t> Bytes;
-  std::vector<float> Singles;
 };
 
 } // namespace
