@@ -7,13 +7,32 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace smg
 {
+
+/** An error in the content of a mesh file: a sentence without full stop and without the place,
+ * which whoever reads the file adds. */
+class SMG_EXPORT MeshError : public std::runtime_error
+{
+public:
+  explicit MeshError(const std::string& sentence, std::int64_t line = 0)
+    : std::runtime_error(sentence)
+    , Line(line)
+  {
+  }
+  /** The line of a text with the error, if it is not that which is read; 0: it is. */
+  std::int64_t line() const { return this->Line; }
+
+private:
+  std::int64_t Line;
+};
 
 /** A file for parsing: a window of it is in memory, which moves to any requested offset. Optimised
  * for sequential reading. */
@@ -69,6 +88,19 @@ private:
   std::atomic<std::size_t> Reached = 0; ///< the same as Begin, for poll()
   std::size_t Passed = 0;
 };
+
+/** Whether `left` bytes of a file can hold `count` items of at least `minBytes` bytes. The last
+ * item of a text needs no line end. */
+inline bool hasRoom(std::int64_t count, std::size_t minBytes, std::size_t left)
+{
+  std::uint64_t bytes = 0;
+  return count >= 0 &&
+         !__builtin_mul_overflow(static_cast<std::uint64_t>(count), minBytes, &bytes) &&
+         bytes <= left + 1;
+}
+
+/** The sentence of an error for a count that is `what`, for which there is no room. */
+std::string sentenceOnRoom(std::int64_t count, const std::string& what, std::size_t left);
 
 /**
  * The file to which a mesh file in `folder` refers as `name`, if it is in this folder or below,

@@ -346,13 +346,7 @@ std::int64_t TextScanner::toInteger(std::string_view token, const char* what) co
 std::int64_t TextScanner::count(const char* what, std::size_t minBytes)
 {
   const std::int64_t value = this->integer(what);
-  // The last item of a file needs no line end.
-  if (value < 0 || static_cast<std::uint64_t>(value) > (this->left() + 1) / minBytes)
-  {
-    this->fail(std::to_string(value) + " cannot be " + what + ": the file has " +
-               std::to_string(this->left()) +
-               " more bytes, it is truncated or the number is wrong");
-  }
+  this->requireRoom(value, minBytes, what);
   return value;
 }
 

@@ -186,6 +186,14 @@ public:
   /** A count of following items, each of at least `minBytes` bytes: an error if it is negative or
    * more than the rest of the file can hold. */
   std::int64_t count(const char* what, std::size_t minBytes);
+  /** The same check of a count that has been read. */
+  void requireRoom(std::int64_t count, std::size_t minBytes, const char* what) const
+  {
+    if (!hasRoom(count, minBytes, this->left()))
+    {
+      this->fail(sentenceOnRoom(count, what, this->left()));
+    }
+  }
 
   /** The offset in the file of the next byte. */
   std::size_t offset() const
@@ -199,6 +207,19 @@ public:
   /** Throws Error: "NAME, line N: SENTENCE". */
   [[noreturn]] void fail(const std::string& sentence) const;
   [[noreturn]] void failAt(std::int64_t line, const std::string& sentence) const;
+  /** Calls `read`; a MeshError gets its line. */
+  template <class Read>
+  void locateErrors(Read&& read) const
+  {
+    try
+    {
+      read();
+    }
+    catch (const MeshError& error)
+    {
+      this->failAt(error.line() > 0 ? error.line() : this->Line, error.what());
+    }
+  }
 
 private:
   void readFrom(std::size_t offset);

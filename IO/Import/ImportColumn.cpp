@@ -100,7 +100,7 @@ void TextColors::append(std::span<const double> numbers)
 
 void TextColors::drop()
 {
-  const bool ofVertices = this->Owners == ImportColumn::Of::Vertices;
+  const bool ofVertices = this->Owners == ColumnOf::Vertices;
   if (this->Column)
   {
     this->Column->drop();

@@ -15,39 +15,44 @@
 namespace smg
 {
 
-/** A column of a parsed mesh, of its vertices or of its elements. */
+/** A column of a parsed mesh, of its vertices or of its elements. It does nothing if the mesh
+ * cannot have it, or was made without one. */
 class ImportColumn
 {
 public:
-  enum class Of : std::uint8_t
-  {
-    Vertices,
-    Elements
-  };
-
-  ImportColumn(RawMeshBuilder& builder, Of of, const ColumnSpec& spec)
-    : Builder(&builder)
-    , Owners(of)
-    , Number(of == Of::Vertices ? builder.addVertexColumn(spec) : builder.addElementColumn(spec))
+  ImportColumn() = default;
+  ImportColumn(RawMeshBuilder& builder, ColumnOf of, const ColumnSpec& spec)
+    : Column(builder.addColumn(of, spec))
   {
   }
 
+  bool exists() const { return this->Column != nullptr; }
   void append(std::span<const std::byte> tuples)
   {
-    this->Owners == Of::Vertices ? this->Builder->vertexTuples(this->Number, tuples)
-                                 : this->Builder->elementTuples(this->Number, tuples);
+    if (this->Column)
+    {
+      this->Column->tuples.append(0, tuples);
+    }
+  }
+  /** After the last tuple, releases the memory of its last chunk. */
+  void close()
+  {
+    if (this->Column)
+    {
+      this->Column->tuples.close();
+    }
   }
   /** Removes the column. */
   void drop()
   {
-    this->Owners == Of::Vertices ? this->Builder->dropVertexColumn(this->Number)
-                                 : this->Builder->dropElementColumn(this->Number);
+    if (this->Column)
+    {
+      this->Column->isDropped = true;
+    }
   }
 
 private:
-  RawMeshBuilder* Builder;
-  Of Owners;
-  int Number;
+  RawMeshBuilder::BuiltColumn* Column = nullptr;
 };
 
 /** Appends a tuple of at most four numbers, as values of T, the type of the column. */
@@ -67,8 +72,7 @@ void appendAs(std::span<const double> numbers, ImportColumn& column)
 class LabelColumn
 {
 public:
-  LabelColumn(
-    RawMeshBuilder& builder, ImportColumn::Of of, const char* name, std::int64_t usual = 0)
+  LabelColumn(RawMeshBuilder& builder, ColumnOf of, const char* name, std::int64_t usual = 0)
     : Column(builder, of, { name, ScalarType::Int64, 1 })
     , Usual(usual)
   {
@@ -103,7 +107,7 @@ private:
 class TextColors
 {
 public:
-  TextColors(RawMeshBuilder& builder, ImportColumn::Of of)
+  TextColors(RawMeshBuilder& builder, ColumnOf of)
     : Builder(builder)
     , Owners(of)
   {
@@ -122,7 +126,7 @@ private:
   void drop();
 
   RawMeshBuilder& Builder;
-  ImportColumn::Of Owners;
+  ColumnOf Owners;
   std::optional<ImportColumn> Column;
   bool Bytes = false;
   std::size_t Components = 0; ///< of the first; 0: none

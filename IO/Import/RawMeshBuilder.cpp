@@ -2,6 +2,7 @@
 #include "IO/Import/RawMeshBuilder.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Import/SolidSplit.h"
 #include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
@@ -14,52 +15,6 @@
 
 namespace smg
 {
-
-namespace
-{
-
-/** Adds a column unless its name is reserved or in use; returns its number or -1. */
-int addColumn(Workspace& space, const ColumnSpec& spec, std::vector<RawColumn>& columns,
-  std::vector<std::uint8_t>& dropped, ImportCounts& counts)
-{
-  const bool taken = std::ranges::any_of(
-    columns, [&spec](const RawColumn& column) { return column.spec.name == spec.name; });
-  if (isReservedColumn(spec.name) || taken || spec.components < 1)
-  {
-    counts.droppedColumns.push_back(spec.name);
-    return -1;
-  }
-  // Many columns, which may be filled concurrently, share the memory of a few.
-  const std::int64_t share = space.available() / 16 / (std::ssize(columns) + 1);
-  columns.push_back({ spec, BucketFile(space, 1, share) });
-  dropped.push_back(0);
-  return static_cast<int>(columns.size()) - 1;
-}
-
-void finishColumns(
-  std::vector<RawColumn>& columns, const std::vector<std::uint8_t>& dropped, std::int64_t tuples)
-{
-  std::vector<RawColumn> kept;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    if (dropped[i])
-    {
-      continue;
-    }
-    const auto bytes = static_cast<std::int64_t>(columns[i].spec.tupleBytes());
-    if (columns[i].tuples.bytes() != bytes * tuples)
-    {
-      throw MeshError("the column " + inQuotes(columns[i].spec.name) + " has " +
-                      std::to_string(columns[i].tuples.bytes() / bytes) + " values, not " +
-                      std::to_string(tuples));
-    }
-    columns[i].tuples.close();
-    kept.push_back(std::move(columns[i]));
-  }
-  columns = std::move(kept);
-}
-
-} // namespace
 
 RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice)
   : Space(workspace)
@@ -74,38 +29,44 @@ RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice)
   }
 }
 
-int RawMeshBuilder::addVertexColumn(const ColumnSpec& spec)
+RawMeshBuilder::BuiltColumn* RawMeshBuilder::addColumn(ColumnOf of, const ColumnSpec& spec)
 {
-  return addColumn(
-    this->Space, spec, this->Mesh.vertexColumns, this->DroppedVertexColumns, this->Mesh.counts);
-}
-
-int RawMeshBuilder::addElementColumn(const ColumnSpec& spec)
-{
-  if (spec.name == CellFlagsName)
+  std::deque<BuiltColumn>& columns = this->Columns[std::size_t(of)];
+  const bool isTaken = std::ranges::any_of(
+    columns, [&spec](const BuiltColumn& column) { return column.spec.name == spec.name; });
+  // Flags of cells are computed; those of a file might be wrong.
+  const bool isReserved =
+    isReservedColumn(spec.name) || (of == ColumnOf::Elements && spec.name == CellFlagsName);
+  if (isReserved || isTaken || spec.components < 1)
   {
-    // The flags are computed; those of a file might be wrong.
     this->Mesh.counts.droppedColumns.push_back(spec.name);
-    return -1;
+    return nullptr;
   }
-  return addColumn(
-    this->Space, spec, this->Mesh.elementColumns, this->DroppedElementColumns, this->Mesh.counts);
+  // Many columns, which may be filled concurrently, share the memory of a few.
+  const std::int64_t share = this->Space.available() / 16 / (std::ssize(columns) + 1);
+  return &columns.emplace_back(RawColumn{ spec, BucketFile(this->Space, 1, share) });
 }
 
-void RawMeshBuilder::dropVertexColumn(int column)
+std::vector<RawColumn> RawMeshBuilder::finishColumns(ColumnOf of, std::int64_t tuples)
 {
-  if (column >= 0)
+  std::vector<RawColumn> kept;
+  for (BuiltColumn& column : this->Columns[std::size_t(of)])
   {
-    this->DroppedVertexColumns[std::size_t(column)] = 1;
+    if (column.isDropped)
+    {
+      continue;
+    }
+    const auto bytes = static_cast<std::int64_t>(column.spec.tupleBytes());
+    if (column.tuples.bytes() != bytes * tuples)
+    {
+      throw MeshError("the column " + inQuotes(column.spec.name) + " has " +
+                      std::to_string(column.tuples.bytes() / bytes) + " values, not " +
+                      std::to_string(tuples));
+    }
+    column.tuples.close();
+    kept.push_back(std::move(column));
   }
-}
-
-void RawMeshBuilder::dropElementColumn(int column)
-{
-  if (column >= 0)
-  {
-    this->DroppedElementColumns[std::size_t(column)] = 1;
-  }
+  return kept;
 }
 
 void RawMeshBuilder::vertex(double x, double y, double z)
@@ -123,7 +84,7 @@ void RawMeshBuilder::vertex(double x, double y, double z)
                       ? "a coordinate is beyond the range of single precision"
                       : "a coordinate is not finite");
   }
-  if (this->Mesh.vertices >= std::int64_t(NoIndex) - 1)
+  if (this->Mesh.vertices >= MaxVertices)
   {
     throw MeshError("the mesh has more than 4294967294 vertices, which are too many");
   }
@@ -146,25 +107,55 @@ bool RawMeshBuilder::wants(CellType type)
   return *this->Kind == type;
 }
 
+void RawMeshBuilder::numberVertices(std::int64_t first, std::int64_t count, std::int64_t base)
+{
+  this->FirstNumber = first;
+  this->NumberCount = std::min(count, MaxVertices);
+  this->BaseVertex = base;
+}
+
 void RawMeshBuilder::cell(std::span<const std::int64_t> corners)
 {
-  std::array<std::uint32_t, 4> numbers{};
+  std::array<std::uint32_t, 4> vertices{};
   for (std::size_t k = 0; k < corners.size(); ++k)
   {
-    const std::int64_t corner = corners[k];
-    if (static_cast<std::uint64_t>(corner) >= NoIndex - 1)
+    // Without overflow: numbers may be any.
+    const std::uint64_t place =
+      static_cast<std::uint64_t>(corners[k]) - static_cast<std::uint64_t>(this->FirstNumber);
+    if (place >= static_cast<std::uint64_t>(this->NumberCount))
     {
-      throw MeshError("the corner " + std::to_string(corner) + " can be no vertex");
+      this->failAtCorner(corners[k], this->NumberCount, 0);
     }
-    if (corner > this->LargestCorner)
+    const std::int64_t vertex = this->BaseVertex + static_cast<std::int64_t>(place);
+    if (vertex > this->LargestCorner)
     {
-      this->LargestCorner = corner;
-      this->LargestElement = this->Mesh.elementCount;
+      this->LargestCorner = vertex;
+      this->LineOfLargest = this->Line;
     }
-    numbers[k] = static_cast<std::uint32_t>(corner);
+    vertices[k] = static_cast<std::uint32_t>(vertex);
   }
-  this->Mesh.corners.put(std::span<const std::uint32_t>(numbers.data(), corners.size()));
+  this->Mesh.corners.put(std::span<const std::uint32_t>(vertices.data(), corners.size()));
   ++this->Mesh.cells;
+}
+
+void RawMeshBuilder::checkCorners() const
+{
+  if (!this->Numbers && this->LargestCorner >= this->Mesh.vertices)
+  {
+    this->failAtCorner(
+      this->LargestCorner + this->FirstNumber, this->Mesh.vertices, this->LineOfLargest);
+  }
+}
+
+void RawMeshBuilder::failAtCorner(std::int64_t number, std::int64_t count, std::int64_t line) const
+{
+  const std::string first = std::to_string(this->FirstNumber);
+  throw MeshError("the corner " + std::to_string(number) + " is not a vertex: " +
+                    (count == 0              ? "there are none"
+                      : count == MaxVertices ? "they count from " + first
+                                             : "they are " + first + " to " +
+                                                 std::to_string(this->FirstNumber + (count - 1))),
+    line);
 }
 
 void RawMeshBuilder::take(CellType type, std::span<const std::int64_t> corners)
@@ -210,55 +201,26 @@ void RawMeshBuilder::noteElements(std::int64_t cells)
 
 void RawMeshBuilder::polygon(std::span<const std::int64_t> corners)
 {
-  if (corners.size() < 3 || !this->wants(CellType::Triangle))
+  for (const std::int64_t corner : corners)
   {
-    this->dropped();
-    return;
+    this->fanCorner(corner);
   }
-  this->Mesh.counts.triangulatedPolygons += corners.size() > 3 ? 1 : 0;
-  for (std::size_t i = 2; i < corners.size(); ++i)
-  {
-    this->cell(std::array<std::int64_t, 3>{ corners[0], corners[i - 1], corners[i] });
-  }
-  this->endElement(static_cast<std::int64_t>(corners.size()) - 2);
+  this->endTriangles();
 }
 
 void RawMeshBuilder::strip(std::span<const std::int64_t> corners)
 {
-  if (!this->wants(CellType::Triangle))
+  for (const std::int64_t corner : corners)
   {
-    this->dropped();
-    return;
+    this->stripCorner(corner);
   }
-  std::int64_t triangles = 0;
-  std::size_t start = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    if (corners[i] == -1)
-    {
-      start = i + 1;
-    }
-    else if (i >= start + 2)
-    {
-      // Every other triangle of a strip is reversed, so that all have the same orientation.
-      const bool odd = (i - start) % 2 != 0;
-      this->cell(std::array<std::int64_t, 3>{
-        corners[i - (odd ? 1 : 2)], corners[i - (odd ? 2 : 1)], corners[i] });
-      ++triangles;
-    }
-  }
-  if (triangles == 0)
-  {
-    this->dropped();
-    return;
-  }
-  this->Mesh.counts.triangulatedPolygons += triangles > 1 ? 1 : 0;
-  this->endElement(triangles);
+  this->endTriangles();
 }
 
 void RawMeshBuilder::endTriangles()
 {
-  const std::int64_t triangles = std::exchange(this->ElementTriangles, 0);
+  this->Corners = 0;
+  const std::int64_t triangles = std::exchange(this->Triangles, 0);
   if (triangles == 0)
   {
     this->dropped();
@@ -305,6 +267,7 @@ RawMesh RawMeshBuilder::finish()
                       ? "the file has no triangles (option --cells)"
                       : "the file has no tetrahedra (option --cells)");
   }
+  this->checkCorners();
   mesh.corners.close();
   if (this->Numbers)
   {
@@ -325,17 +288,11 @@ RawMesh RawMeshBuilder::finish()
     mesh.corners = std::move(corners);
     mesh.corners.close();
   }
-  else if (this->LargestCorner >= mesh.vertices)
-  {
-    throw MeshError("element " + std::to_string(this->LargestElement) + " names vertex " +
-                    std::to_string(this->LargestCorner) + ", counted from 0, but there are only " +
-                    std::to_string(mesh.vertices) + " vertices");
-  }
   // Elements after the last cell need not be stored.
   mesh.positions.close();
   mesh.elements.close();
-  finishColumns(mesh.vertexColumns, this->DroppedVertexColumns, mesh.vertices);
-  finishColumns(mesh.elementColumns, this->DroppedElementColumns, mesh.elementCount);
+  mesh.vertexColumns = this->finishColumns(ColumnOf::Vertices, mesh.vertices);
+  mesh.elementColumns = this->finishColumns(ColumnOf::Elements, mesh.elementCount);
   return std::move(mesh);
 }
 
@@ -348,14 +305,15 @@ RawMesh readStream(MeshSource& source, const std::string& name, Workspace& works
   {
     builder.useSinglePrecision();
   }
-  std::vector<int> vertexColumns, cellColumns;
+  std::vector<ImportColumn> vertexColumns, cellColumns;
   for (const ColumnSpec& spec : info.vertexColumns)
   {
-    vertexColumns.push_back(builder.addVertexColumn(spec));
+    vertexColumns.emplace_back(builder, ColumnOf::Vertices, spec);
   }
   for (const ColumnSpec& spec : info.cellColumns)
   {
-    cellColumns.push_back(spec.name == CellFlagsName ? -1 : builder.addElementColumn(spec));
+    spec.name == CellFlagsName ? cellColumns.emplace_back()
+                               : cellColumns.emplace_back(builder, ColumnOf::Elements, spec);
   }
   try
   {
@@ -367,7 +325,7 @@ RawMesh readStream(MeshSource& source, const std::string& name, Workspace& works
       }
       for (std::size_t c = 0; c < vertexColumns.size(); ++c)
       {
-        builder.vertexTuples(vertexColumns[c], block.vertexColumns[c].bytes);
+        vertexColumns[c].append(block.vertexColumns[c].bytes);
       }
       const std::int64_t* corner = block.corners.data();
       const std::int64_t* const end = corner + block.corners.size();
@@ -378,7 +336,7 @@ RawMesh readStream(MeshSource& source, const std::string& name, Workspace& works
       }
       for (std::size_t c = 0; c < cellColumns.size(); ++c)
       {
-        builder.elementTuples(cellColumns[c], block.cellColumns[c].bytes);
+        cellColumns[c].append(block.cellColumns[c].bytes);
       }
     }
     return builder.finish();

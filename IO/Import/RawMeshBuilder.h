@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/External/Relabelling.h"
+#include "IO/Files/InputFile.h"
 #include "IO/Import/RawMesh.h"
 #include "smg/Convert.h"
 #include "smg/MeshSource.h"
@@ -9,20 +10,20 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace smg
 {
 
-/** An error in a parsed mesh: a sentence without position and full stop. */
-class SMG_EXPORT MeshError : public std::runtime_error
+/** What the tuples of a column of a mesh belong to. */
+enum class ColumnOf : std::uint8_t
 {
-public:
-  using std::runtime_error::runtime_error;
+  Vertices,
+  Elements
 };
 
 /**
@@ -34,6 +35,8 @@ public:
 class RawMeshBuilder
 {
 public:
+  static constexpr std::int64_t MaxVertices = std::int64_t(NoIndex) - 1;
+
   RawMeshBuilder(Workspace& workspace, CellChoice choice);
 
   Workspace& workspace() { return this->Space; }
@@ -41,50 +44,32 @@ public:
   /** To be called before the first vertex if the numbers of the file have single precision. */
   void useSinglePrecision() { this->Mesh.doublePositions = false; }
 
-  /** Adds a column of the vertices and returns its number. Reserved names add no column. */
-  int addVertexColumn(const ColumnSpec& spec);
-  /** The same for the elements, where CellFlags is reserved, too. */
-  int addElementColumn(const ColumnSpec& spec);
-  /** Appends tuples to a column; does nothing if there is no column of this number. */
-  void vertexTuples(int column, std::span<const std::byte> tuples)
+  /** A column of the mesh. */
+  struct BuiltColumn : RawColumn
   {
-    if (column >= 0)
-    {
-      this->Mesh.vertexColumns[std::size_t(column)].tuples.append(0, tuples);
-    }
-  }
-  void elementTuples(int column, std::span<const std::byte> tuples)
-  {
-    if (column >= 0)
-    {
-      this->Mesh.elementColumns[std::size_t(column)].tuples.append(0, tuples);
-    }
-  }
-  /** Declares a column complete and releases the memory of its last chunk. */
-  void endVertexColumn(int column)
-  {
-    if (column >= 0)
-    {
-      this->Mesh.vertexColumns[std::size_t(column)].tuples.close();
-    }
-  }
-  void endElementColumn(int column)
-  {
-    if (column >= 0)
-    {
-      this->Mesh.elementColumns[std::size_t(column)].tuples.close();
-    }
-  }
-  /** Removes a column. The numbers of the others do not change. */
-  void dropVertexColumn(int column);
-  void dropElementColumn(int column);
+    bool isDropped = false;
+  };
+  /** Adds a column; null if its name is reserved or in use. For ImportColumn, through which columns
+   * are filled. */
+  BuiltColumn* addColumn(ColumnOf of, const ColumnSpec& spec);
 
   /** Adds a vertex. Throws MeshError if a coordinate is not finite (or beyond single precision). */
   void vertex(double x, double y, double z);
   std::int64_t vertices() const { return this->Mesh.vertices; }
 
-  // Add an element by its corners: numbers of vertices from 0. Throw MeshError if a corner is not a
-  // valid number of a vertex, or if the file has elements of another kind.
+  /**
+   * Declares the numbers by which corners from now on name vertices: `first` and following, for
+   * `count` vertices from vertex `base` on. Otherwise they are those of all vertices, from 0 on.
+   */
+  void numberVertices(std::int64_t first, std::int64_t count = MaxVertices, std::int64_t base = 0);
+  /** For a file that does not say how many vertices come, the line of the elements from now on:
+   * with it checkCorners() tells of one that names a vertex which did not come. */
+  void setLine(std::int64_t line) { this->Line = line; }
+  /** Throws MeshError if a corner is not a vertex; to be called in the end, as finish() does. */
+  void checkCorners() const;
+
+  // Add an element by its corners: numbers of vertices. Throw MeshError if a corner is not a
+  // vertex, or if the file has elements of another kind.
   void triangle(std::int64_t a, std::int64_t b, std::int64_t c)
   {
     const std::array<std::int64_t, 3> corners{ a, b, c };
@@ -97,20 +82,40 @@ public:
   }
   /** Adds a fan of triangles. With fewer than three corners the element is dropped. */
   void polygon(std::span<const std::int64_t> corners);
-  /** Adds a triangle strip; -1 starts another one. */
+  /** Adds a triangle strip. */
   void strip(std::span<const std::int64_t> corners);
-  /** Adds a triangle of the next element, which may have more: for polygons and strips whose
-   * corners do not fit into memory. endTriangles() completes the element. */
-  void triangleOfElement(std::int64_t a, std::int64_t b, std::int64_t c)
+
+  // The same corner by corner, for elements that do not fit into memory: all corners of a fan or of
+  // strips, then endTriangles().
+  void fanCorner(std::int64_t corner)
   {
-    if (this->wants(CellType::Triangle))
+    if (this->Corners >= 2)
     {
-      this->cell(std::array<std::int64_t, 3>{ a, b, c });
-      ++this->ElementTriangles;
+      this->triangleOfElement(this->First, this->Last, corner);
     }
+    this->First = this->Corners == 0 ? corner : this->First;
+    this->Last = corner;
+    ++this->Corners;
   }
+  void stripCorner(std::int64_t corner)
+  {
+    if (this->Corners >= 2)
+    {
+      // Every other triangle of a strip is reversed, so that all have the same orientation.
+      const bool odd = this->Corners % 2 != 0;
+      this->triangleOfElement(
+        odd ? this->Last : this->First, odd ? this->First : this->Last, corner);
+    }
+    this->First = this->Last;
+    this->Last = corner;
+    ++this->Corners;
+  }
+  /** The next corner begins another strip of the element. */
+  void endStrip() { this->Corners = 0; }
   /** An element without triangles is dropped. */
   void endTriangles();
+  /** The corners so far of the current fan or strip. */
+  std::int64_t corners() const { return this->Corners; }
   /**
    * Splits a hexahedron (8 corners), wedge (6) or pyramid (5), with corners in VTK's order, into
    * tetrahedra. Each face is split along the diagonal of its least corner, so that neighbours
@@ -139,30 +144,47 @@ public:
   std::int64_t elements() const { return this->Mesh.elementCount; }
   std::int64_t cells() const { return this->Mesh.cells; }
 
-  /** Declares that corners were given by other numbers than those of the vertices: `numbers`
-   * contains the vertex of each. Applied by finish(); a corner without a vertex is a MeshError. */
+  /** Declares that vertices have other numbers than those of their corners: `numbers` contains the
+   * vertex of each. Applied by finish(); a corner without a vertex is a MeshError. */
   void relabelCorners(Relabelling numbers) { this->Numbers.emplace(std::move(numbers)); }
 
-  /** Returns the mesh. Throws MeshError if there are no vertices or no cells, a corner is not a
-   * vertex, or a column does not have a tuple for each vertex or element. */
+  /** Returns the mesh. Throws MeshError if there are no cells, a corner is not a vertex, or a
+   * column does not have a tuple for each vertex or element. */
   RawMesh finish();
 
 private:
   void take(CellType type, std::span<const std::int64_t> corners);
   /** Whether elements of this kind are requested. Throws MeshError if the kinds are mixed. */
   bool wants(CellType type);
+  void triangleOfElement(std::int64_t a, std::int64_t b, std::int64_t c)
+  {
+    if (this->wants(CellType::Triangle))
+    {
+      this->cell(std::array<std::int64_t, 3>{ a, b, c });
+      ++this->Triangles;
+    }
+  }
   void cell(std::span<const std::int64_t> corners);
+  [[noreturn]] void failAtCorner(std::int64_t number, std::int64_t count, std::int64_t line) const;
   void endElement(std::int64_t cells);
   void noteElements(std::int64_t cells);
+  std::vector<RawColumn> finishColumns(ColumnOf of, std::int64_t tuples);
 
   Workspace& Space;
   CellChoice Choice;
   RawMesh Mesh;
   std::optional<CellType> Kind; ///< of the cells so far
   bool ElementIsCell = true;    ///< so far
-  std::int64_t ElementTriangles = 0;
-  std::int64_t LargestCorner = -1, LargestElement = -1;
-  std::vector<std::uint8_t> DroppedVertexColumns, DroppedElementColumns;
+
+  std::int64_t FirstNumber = 0, NumberCount = MaxVertices, BaseVertex = 0; ///< see numberVertices()
+  std::int64_t Line = 0;
+  std::int64_t LargestCorner = -1, LineOfLargest = 0; ///< the largest vertex of a cell
+
+  // The current fan or strip; of a strip, First is the corner before the last one.
+  std::int64_t First = 0, Last = 0, Corners = 0;
+  std::int64_t Triangles = 0; ///< of the current element
+
+  std::array<std::deque<BuiltColumn>, 2> Columns; ///< by ColumnOf
   std::optional<Relabelling> Numbers;
 };
 

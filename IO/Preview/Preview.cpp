@@ -3,7 +3,7 @@
 
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
 #include "IO/Preview/StreamPreview.h"
@@ -44,14 +44,14 @@ RawMesh rawMesh(const MeshPiece& piece, bool doublePositions, Workspace& workspa
     // The mesh may itself be a preview, whose StreamIndex refers to another mesh.
     if (column.spec.name != StreamIndexName)
     {
-      builder.vertexTuples(builder.addVertexColumn(column.spec), column.bytes);
+      ImportColumn(builder, ColumnOf::Vertices, column.spec).append(column.bytes);
       original = original || column.spec == OriginalIdSpec;
     }
   }
-  builder.vertexTuples(builder.addVertexColumn(StreamIndexSpec), ids);
+  ImportColumn(builder, ColumnOf::Vertices, StreamIndexSpec).append(ids);
   if (!original)
   {
-    builder.vertexTuples(builder.addVertexColumn(OriginalIdSpec), ids);
+    ImportColumn(builder, ColumnOf::Vertices, OriginalIdSpec).append(ids);
   }
   for (std::size_t i = 0; i < piece.corners.size(); i += 3)
   {

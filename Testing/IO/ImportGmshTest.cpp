@@ -317,9 +317,9 @@ TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
   this->expectRefused(Format2 + "$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "line 6: 'nan' is not finite");
   const auto element = [](const std::string& row)
   { return Format2 + Nodes2 + "$Elements\n1\n" + row + "\n$EndElements\n"; };
-  this->expectRefused(element("1 4 0 1 2 3 5"), "line 13: the element names node 5");
-  this->expectRefused(element("1 4 0 0 2 3 4"), "line 13: the element names node 0");
-  this->expectRefused(element("1 4 0 -1 2 3 4"), "line 13: the element names node -1");
+  this->expectRefused(element("1 4 0 1 2 3 5"), "line 13: the corner 5");
+  this->expectRefused(element("1 4 0 0 2 3 4"), "line 13: the corner 0");
+  this->expectRefused(element("1 4 0 -1 2 3 4"), "line 13: the corner -1");
   this->expectRefused(element("1 34 0 1 2 3"), "line 13: elements of type 34 are not known");
   this->expectRefused(element("1 4 -1 1 2 3 4"), "line 13: -1 cannot be");
   this->expectRefused(
@@ -353,7 +353,7 @@ TEST_F(ImportGmsh, ErrorsOfBinaryFilesNameTheByte)
     GmshWriter wrong(variant);
     wrong.nodes({ 1, 2, 3 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
     wrong.elements({ { 2, { 1, 2, 4 } } });
-    this->expectRefused(wrong.bytes(), "the element names node 4");
+    this->expectRefused(wrong.bytes(), "the corner 4");
     const std::string good = fourSolids(variant, consecutiveTags(1));
     this->expectRefused(good.substr(0, good.size() - 8), "$EndElements");
     this->expectRefused(good.substr(0, good.size() - 40), "the file");

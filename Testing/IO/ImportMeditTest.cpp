@@ -119,9 +119,9 @@ TEST_F(ImportMedit, CellsOfHigherOrderAreNotLostSilently)
 TEST_F(ImportMedit, ErrorsNameTheLine)
 {
   this->expectRefused("MeshVersionFormatted 1\nDimension 4\n", "a.mesh, line 2: the dimension");
-  this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 5 0\n"), "line 11: the element names");
-  this->expectRefused(fourVertices("Tetrahedra\n1\n0 2 3 4 0\n"), "line 11: an element names");
-  this->expectRefused(fourVertices("Tetrahedra\n1\n-1 2 3 4 0\n"), "line 11: an element names");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 5 0\n"), "line 11: the corner 5");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n0 2 3 4 0\n"), "line 11: the corner 0");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n-1 2 3 4 0\n"), "line 11: the corner -1");
   this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 99999999999999999999 0\n"), "line 11");
   this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 9999999999 0\n"), "line 11");
   this->expectRefused(fourVertices("Tetrahedra\n1000000000000\n1 2 3 4 0\n"), "truncated");

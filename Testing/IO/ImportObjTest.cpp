@@ -94,7 +94,7 @@ TEST_F(ImportObj, PolygonsOfAnyLength)
 TEST_F(ImportObj, ErrorsNameFileAndPlace)
 {
   this->expectError("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
-    "a.obj, line 4: the face names vertex 4, but the file has 3");
+    "a.obj, line 4: the corner 4 is not a vertex: they are 1 to 3");
   this->expectError("a.obj", "v 0 0 0\nv 1 x 0\n", "line 2: 'x' is not a number");
   this->expectError("a.obj", "v 0 0 nan\n", "line 1: 'nan' is not finite");
   this->expectError("a.obj", "v 0 0 1e999\n", "not finite");
@@ -102,7 +102,7 @@ TEST_F(ImportObj, ErrorsNameFileAndPlace)
   this->expectError("a.obj", "v 0 0 0\nf 1 -2 1\n", "line 2: a face names vertex -2");
   this->expectError("a.obj", "v 0 0 0\nf 1 0 1\n", "line 2: a face names vertex 0");
   this->expectError("a.obj", "v 0 0 0\nf 1 1\n", "line 2: a face has fewer than three");
-  this->expectError("a.obj", "v 0 0 0\nf 1 1 1 99999999999\n", "line 2: the corner 99999999998");
+  this->expectError("a.obj", "v 0 0 0\nf 1 1 1 99999999999\n", "line 2: the corner 99999999999");
   this->expectError("a.obj", "v 0 0 0\nf 1\\ 1 1\n", "line 2: there is a backslash");
   this->expectError("a.obj", "v 0 0 0\nf 1 1 \\\n x\n", "line 3: 'x' is not an integer");
   this->expectError("a.obj", "v 0 0 0\n", "no triangles");

@@ -108,7 +108,7 @@ TEST_F(ImportOff, MeshesKeepTheirBits)
 TEST_F(ImportOff, ErrorsNameFileAndPlace)
 {
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
-  this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n", "line 6: the corner 3 is none");
+  this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n", "line 6: the corner 3 is not a vertex");
   this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 -1 2\n", "line 6: the corner -1");
   this->expectError("a.off", "OFF\n9999999999 1 0\n0 0 0\n", "line 2: 9999999999 cannot be");
   this->expectError("a.off", "OFF\n-3 1 0\n0 0 0\n", "line 2: -3 cannot be");
@@ -193,20 +193,21 @@ TEST_F(ImportOff, ErrorsOfBinaryFilesNameTheByte)
   const auto expectRefused = [this](const std::string& file, const std::string& part)
   { this->expectError("a.off", file, part); };
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 3, 0 }),
-    "a.off, byte 71: the corner 3 is none of the 3 vertices");
+    "a.off, byte 75: the corner 3 is not a vertex");
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2 }), "byte 75");
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 0, 0 }),
     "more after the last face");
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 5 }), "colour");
-  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ -3, 0, 1, 2, 0 }), "negative");
+  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ -3, 0, 1, 2, 0 }), "-3 cannot be");
   const float nan = std::numeric_limits<float>::quiet_NaN();
   expectRefused(head + integers({ 3, 1, 0 }) + reals({ 0, 0, 0, 1, nan, 0, 0, 1, 0 }) +
                   integers({ 3, 0, 1, 2, 0 }),
     "vertex 1: a coordinate is not finite");
   expectRefused("NOFF BINARY\n" + integers({ 1, 0, 0 }) + reals({ 0, 0, 0, 0, nan, 1 }),
-    "a.off, byte 40: vertex 0: a number behind its coordinates is not finite");
-  expectRefused(head + integers({ 3, 1 << 24, 0 }) + points, "do not fit the size");
-  expectRefused(head + std::string("\3\0\0\0\1\0\0\0\0\0\0\0", 12) + points, "significant byte");
+    "a.off, byte 44: vertex 0: a number behind its coordinates is not finite");
+  expectRefused(head + integers({ 3, 1 << 24, 0 }) + points, "cannot be the number of faces");
+  expectRefused(head + std::string("\3\0\0\0\1\0\0\0\0\0\0\0", 12) + points,
+    "cannot be the number of vertices");
   this->expectDamageIsFound("a.off", binaryOff());
 }
 

@@ -257,19 +257,25 @@ TEST_F(ImportPly, ErrorsNameFileAndPlace)
   this->expectError("a.ply",
     "ply\nformat ascii 1.0\nelement vertex 999999\nproperty float x\nproperty float y\n"
     "property float z\nend_header\n0 0 0\n",
-    "truncated: the header promises 999999 records");
+    "999999 cannot be the number of records of element 'vertex'");
   this->expectError("a.ply", "ply\nformat ascii 1.0\n", "line 3: the file ends in its header");
+  for (const char* cut : { "ply\nformat asc", "ply\nformat ascii 1.0\nelement vertex",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty flo" })
+  {
+    this->expectError("a.ply", cut, "the file ends in its header");
+  }
   this->expectError("a.ply", "ply\nend_header\n", "line 2: the header has no format line");
   this->expectError("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n",
     "line 4: 'real' is not a PLY type");
   this->expectError("a.ply", ThreeVertices + face + ThreePoints + "3 0 1 3\n",
-    "line 13: record 0 of element 'face': the corner 3 is none of the 3 vertices");
+    "line 13: record 0 of element 'face': the corner 3 is not a vertex: they are 0 to 2");
   this->expectError("a.ply", ThreeVertices + face + ThreePoints + "3 0 1 -1\n", "the corner -1");
   this->expectError(
     "a.ply", ThreeVertices + face + ThreePoints + "3 0 1.5 2\n", "range of its type");
   this->expectError("a.ply", ThreeVertices + face + "end_header\n0 0 0\n1 0 inf\n0 1 0\n3 0 1 2\n",
     "line 11: record 1 of element 'vertex': a coordinate is not finite");
-  this->expectError("a.ply", ThreeVertices + face + ThreePoints + "99 0 1 2\n", "list length 99");
+  this->expectError("a.ply", ThreeVertices + face + ThreePoints + "99 0 1 2\n",
+    "99 cannot be the length of a list");
   this->expectError("a.ply", ThreeVertices + ThreePoints, "no triangles");
   this->expectError("a.ply",
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 "
@@ -279,7 +285,8 @@ TEST_F(ImportPly, ErrorsNameFileAndPlace)
     "a.ply", ThreeVertices + "element face 99999999999\n" + ThreePoints, "no triangles");
   std::string truncated = binaryPly(false);
   truncated.resize(truncated.size() - 3);
-  this->expectError("a.ply", truncated, "record 4 of element 'vertex': the file is truncated");
+  this->expectError(
+    "a.ply", truncated, "record 4 of element 'vertex': the file ends where a number should be");
 }
 
 TEST_F(ImportPly, HeadersOfAnyLengthNeedNoMemory)

@@ -361,7 +361,7 @@ TEST_F(ImportVtkHdf, WhatIsWrongIsSaid)
   write({ 4 }, { 3 });
   expectRefused("/VTKHDF/Points' has 3 rows, 4 are needed");
   write({ 2 }, { 3 });
-  expectRefused("names point 2");
+  expectRefused("the corner 2 is not a vertex");
   write({ 3 }, { 4 });
   expectRefused("Connectivity' has 3 rows");
   write({ -3 }, { 3 });

@@ -317,7 +317,7 @@ TEST_F(ImportVtkXml, WhatIsWrongIsSaidWithItsPlace)
     return text.replace(place, from.size(), to);
   };
   const std::vector<std::pair<std::string, std::string>> wrong{
-    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5"), "cell 1: it names point 5" },
+    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5"), "cell 1: the corner 5" },
     { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3"), "fewer numbers" },
     { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4 4"), "more numbers" },
     { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4x"), "'4x'" }, { with("10 10", "10 42"), "type 42" },

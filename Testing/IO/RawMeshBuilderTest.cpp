@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/ImportColumn.h"
 
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -85,8 +86,15 @@ TEST_F(RawMeshBuilderTest, StripsAlternate)
   const ReadMesh mesh = this->built(
     [](RawMeshBuilder& builder)
     {
-      builder.strip(Numbers{ 0, 1, 2, 3, 4, -1, 2, 1, 0 });
-      builder.strip(Numbers{ 0, 1, -1, 2, 3 });
+      const auto twoStrips = [&builder](const Numbers& first, const Numbers& second)
+      {
+        std::ranges::for_each(first, [&](std::int64_t corner) { builder.stripCorner(corner); });
+        builder.endStrip();
+        std::ranges::for_each(second, [&](std::int64_t corner) { builder.stripCorner(corner); });
+        builder.endTriangles();
+      };
+      twoStrips({ 0, 1, 2, 3, 4 }, { 2, 1, 0 });
+      twoStrips({ 0, 1 }, { 2, 3 });
       builder.strip(Numbers{ 4, 3, 2 });
     });
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 2, 1, 3, 2, 3, 4, 2, 1, 0, 4, 3, 2 }));
@@ -150,7 +158,8 @@ TEST_F(RawMeshBuilderTest, CoordinatesAreFiniteInTheirPrecision)
 
 TEST_F(RawMeshBuilderTest, CornersAreVertices)
 {
-  this->expectRefused([](RawMeshBuilder& b) { b.triangle(0, 1, 5); }, "names vertex 5");
+  this->expectRefused(
+    [](RawMeshBuilder& b) { b.triangle(0, 1, 5); }, "the corner 5 is not a vertex");
   this->expectRefused([](RawMeshBuilder& b) { b.triangle(0, -1, 2); }, "the corner -1");
   this->expectRefused([](RawMeshBuilder& b) { b.triangle(0, 1, std::int64_t(1) << 32); }, "corner");
   this->expectRefused([](RawMeshBuilder& b) { b.triangle(0, 1, NoIndex - 1); }, "corner");
@@ -160,6 +169,52 @@ TEST_F(RawMeshBuilderTest, CornersAreVertices)
       b.strip(Numbers{ 0, 1, 2, -5, 0, 1, 2 });
     },
     "the corner -5");
+}
+
+TEST_F(RawMeshBuilderTest, CornersAreNumbersOfTheFile)
+{
+  const ReadMesh mesh = this->built(
+    [](RawMeshBuilder& builder)
+    {
+      builder.numberVertices(7, 3);
+      builder.triangle(7, 8, 9);
+      builder.numberVertices(-1, 3, 2);
+      builder.triangle(-1, 0, 1);
+    });
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 2, 3, 4 }));
+  const auto triangle = [](std::int64_t corner)
+  {
+    return [corner](RawMeshBuilder& builder)
+    {
+      builder.numberVertices(7, 3);
+      builder.triangle(7, 8, corner);
+    };
+  };
+  constexpr std::int64_t Least = std::numeric_limits<std::int64_t>::min();
+  for (const std::int64_t corner : { std::int64_t(6), std::int64_t(10), Least, -(Least + 1) })
+  {
+    this->expectRefused(
+      triangle(corner), "corner " + std::to_string(corner) + " is not a vertex: they are 7 to 9");
+  }
+  try
+  {
+    this->built(
+      [](RawMeshBuilder& builder)
+      {
+        builder.numberVertices(1);
+        builder.setLine(12);
+        builder.triangle(1, 2, 6);
+        builder.setLine(13);
+        builder.triangle(1, 2, 3);
+        builder.checkCorners();
+      });
+    FAIL() << "not refused";
+  }
+  catch (const MeshError& error)
+  {
+    EXPECT_STREQ(error.what(), "the corner 6 is not a vertex: they are 1 to 5");
+    EXPECT_EQ(error.line(), 12);
+  }
 }
 
 TEST_F(RawMeshBuilderTest, CellsOfTheKindThatIsWantedMustBeThere)
@@ -189,9 +244,11 @@ TEST_F(RawMeshBuilderTest, CellsOfTheKindThatIsWantedMustBeThere)
 TEST_F(RawMeshBuilderTest, TheFlagsOfCellsAreNoColumn)
 {
   RawMeshBuilder builder(this->Space, CellChoice::Only);
-  EXPECT_EQ(builder.addElementColumn({ CellFlagsName, ScalarType::UInt8, 1 }), -1);
-  EXPECT_EQ(builder.addVertexColumn({ CellFlagsName, ScalarType::UInt8, 1 }), 0);
-  builder.dropVertexColumn(0);
+  const ColumnSpec flags{ CellFlagsName, ScalarType::UInt8, 1 };
+  EXPECT_FALSE(ImportColumn(builder, ColumnOf::Elements, flags).exists());
+  ImportColumn column(builder, ColumnOf::Vertices, flags);
+  EXPECT_TRUE(column.exists());
+  column.drop();
   for (int i = 0; i < 3; ++i)
   {
     builder.vertex(i, 0, 0);
@@ -227,19 +284,21 @@ TEST_F(RawMeshBuilderTest, ColumnsHaveATupleForEachVertexAndElement)
   {
     return [=, &spec, &tuples](RawMeshBuilder& builder)
     {
-      const int other = builder.addVertexColumn({ "other", ScalarType::Float64, 1 });
-      const int column = builder.addVertexColumn(spec);
-      const int elementColumn = builder.addElementColumn(spec);
-      EXPECT_EQ(builder.addVertexColumn({ "Position", ScalarType::Float64, 3 }), -1);
-      EXPECT_EQ(builder.addVertexColumn(spec), -1) << "a name that is taken";
-      builder.vertexTuples(-1, std::as_bytes(std::span(tuples)));
-      builder.vertexTuples(column, std::as_bytes(std::span(tuples).first(2 * vertexTuples)));
-      builder.elementTuples(
-        elementColumn, std::as_bytes(std::span(tuples).first(2 * elementTuples)));
-      builder.dropVertexColumn(other);
+      const auto column = [&builder](ColumnOf of, const ColumnSpec& added)
+      { return ImportColumn(builder, of, added); };
+      ImportColumn other = column(ColumnOf::Vertices, { "other", ScalarType::Float64, 1 });
+      ImportColumn ofVertices = column(ColumnOf::Vertices, spec);
+      ImportColumn ofElements = column(ColumnOf::Elements, spec);
+      ImportColumn none = column(ColumnOf::Vertices, { "Position", ScalarType::Float64, 3 });
+      EXPECT_FALSE(none.exists());
+      EXPECT_FALSE(column(ColumnOf::Vertices, spec).exists()) << "a name that is taken";
+      none.append(std::as_bytes(std::span(tuples)));
+      ofVertices.append(std::as_bytes(std::span(tuples).first(2 * vertexTuples)));
+      ofElements.append(std::as_bytes(std::span(tuples).first(2 * elementTuples)));
+      other.drop();
       if (drop)
       {
-        builder.dropElementColumn(elementColumn);
+        ofElements.drop();
       }
       builder.triangle(0, 1, 2);
       builder.dropped();

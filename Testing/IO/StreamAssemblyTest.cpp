@@ -2,7 +2,7 @@
 #include "IO/Order/Assembly/StreamAssembly.h"
 
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/Search/FileOrder.h"
 #include "Testing/Support/RawMeshReading.h"
@@ -217,17 +217,17 @@ TEST_F(StreamAssembly, FiledCellsKeepTheirOrder)
 TEST_F(StreamAssembly, ColumnsFollowTheirVerticesAndElements)
 {
   RawMeshBuilder builder(this->Space, CellChoice::Only);
-  const int colour = builder.addVertexColumn({ "Colour", ScalarType::UInt8, 3 });
-  const int label = builder.addVertexColumn({ "Label", ScalarType::Int64, 1 });
-  const int part = builder.addElementColumn({ "Part", ScalarType::Int32, 1 });
+  ImportColumn colour(builder, ColumnOf::Vertices, { "Colour", ScalarType::UInt8, 3 });
+  ImportColumn label(builder, ColumnOf::Vertices, { "Label", ScalarType::Int64, 1 });
+  ImportColumn part(builder, ColumnOf::Elements, { "Part", ScalarType::Int32, 1 });
   constexpr int Side = 150;
   for (int i = 0; i < Side * Side; ++i)
   {
     builder.vertex(i % Side, i / Side, 0);
     const std::array<std::uint8_t, 3> rgb{ std::uint8_t(i), std::uint8_t(i >> 8), 7 };
     const std::int64_t number = std::int64_t(i) * i;
-    builder.vertexTuples(colour, std::as_bytes(std::span(rgb)));
-    builder.vertexTuples(label, std::as_bytes(std::span(&number, 1)));
+    colour.append(std::as_bytes(std::span(rgb)));
+    label.append(std::as_bytes(std::span(&number, 1)));
   }
   std::vector<int> squares((Side - 1) * (Side - 1));
   std::iota(squares.begin(), squares.end(), 0);
@@ -237,7 +237,7 @@ TEST_F(StreamAssembly, ColumnsFollowTheirVerticesAndElements)
     const std::int64_t a = square / (Side - 1) * Side + square % (Side - 1);
     builder.polygon(std::array<std::int64_t, 4>{ a, a + 1, a + Side + 1, a + Side });
     const std::int32_t value = square * 3;
-    builder.elementTuples(part, std::as_bytes(std::span(&value, 1)));
+    part.append(std::as_bytes(std::span(&value, 1)));
   }
   const RawMesh mesh = builder.finish();
   const StreamLayout layout =
@@ -330,9 +330,11 @@ TEST_F(StreamAssembly, ManyColumnsFitTheLeastMemory)
   RawMeshBuilder builder(space, CellChoice::Only);
   constexpr int Columns = 600;
   constexpr int Vertices = 3000;
+  std::vector<ImportColumn> columns;
   for (int c = 0; c < Columns; ++c)
   {
-    builder.addVertexColumn({ "c" + std::to_string(c), ScalarType::Int32, 1 });
+    columns.emplace_back(
+      builder, ColumnOf::Vertices, ColumnSpec{ "c" + std::to_string(c), ScalarType::Int32, 1 });
   }
   for (std::int32_t i = 0; i < Vertices; ++i)
   {
@@ -340,7 +342,7 @@ TEST_F(StreamAssembly, ManyColumnsFitTheLeastMemory)
     for (std::int32_t c = 0; c < Columns; ++c)
     {
       const std::int32_t value = i * Columns + c;
-      builder.vertexTuples(c, std::as_bytes(std::span(&value, 1)));
+      columns[std::size_t(c)].append(std::as_bytes(std::span(&value, 1)));
     }
   }
   for (int i = 1; i + 2 < Vertices; ++i)

@@ -154,7 +154,8 @@ TEST_F(StreamFormatsErrors, RefusesWrongElements)
   this->expectRefusal("a.smb", changed(41, 0x57), "element 0 at byte 41: the block that begins");
   this->expectRefusal("a.smb", good + "x", "element 0 at byte 41: the block that begins");
   this->expectRefusal("a.smb", good.substr(0, 3), "byte 3: the file ends in its header");
-  this->expectRefusal("a.smb", good.substr(0, 30), "byte 4: the header makes no sense");
+  this->expectRefusal("a.smb", good.substr(0, 30), "byte 30: the file ends in its header");
+  this->expectRefusal("a.smb", good.substr(0, 44), "byte 41: the file ends too early");
   this->expectRefusal("a.smb", changed(4, 77777), "byte 4: the header makes no sense");
   this->expectRefusal("a.smb", changed(0, 0x70000), "byte 1: the header of");
   std::string tets = twoTetsBinary();

@@ -94,10 +94,7 @@ private:
     this->HasNodes = true;
     this->Input.hasBlocks() ? this->readNodeBlocks() : this->readNodes();
     this->Nodes.finish();
-    if (auto numbers = this->Nodes.takeNumbers())
-    {
-      this->Builder.relabelCorners(std::move(*numbers));
-    }
+    this->Nodes.numberCorners(this->Builder);
   }
 
   void readElementSection()
@@ -200,8 +197,8 @@ private:
       const GmshElementType type = this->readType();
       const std::int64_t group = this->Input.integer("the number of elements of a group");
       const std::int64_t tags = this->Input.integer("the number of tags");
-      this->Input.checkCount(tags, "the number of tags", sizeof(std::int32_t));
-      this->Input.checkCount(group, "the number of elements of a group",
+      this->Input.requireRoom(tags, "the number of tags", sizeof(std::int32_t));
+      this->Input.requireRoom(group, "the number of elements of a group",
         sizeof(std::int32_t) * static_cast<std::size_t>(1 + tags + type.nodes));
       if (group < 1 || group > elements - done)
       {
@@ -278,12 +275,7 @@ private:
       const std::int64_t tag = readTag();
       if (k < count)
       {
-        corners[k] = this->Nodes.corner(tag);
-        if (corners[k] < 0)
-        {
-          this->Input.fail(
-            "the element names node " + std::to_string(tag) + ", which is not there");
-        }
+        corners[k] = tag;
       }
     }
     addGmshElement(this->Builder, type, std::span(corners).first(count));

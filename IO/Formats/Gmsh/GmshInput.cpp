@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Gmsh/GmshInput.h"
 
-#include <charconv>
+#include <optional>
 #include <string_view>
 
 namespace smg
@@ -32,9 +32,9 @@ void GmshInput::readFormat()
     }
     this->Binary = true;
     this->beginNumbers();
-    const auto one = this->binary<std::uint32_t>("the number one");
+    const auto one = this->Numbers.take<std::uint32_t>("the number one");
     const bool isOther = one == 0x01000000U;
-    this->Order = isOther ? OtherByteOrder : std::endian::native;
+    this->Numbers.setByteOrder(isOther ? OtherByteOrder : std::endian::native);
     if (one != 1 && !isOther)
     {
       this->fail("the byte order is not known: the number one should be here");
@@ -111,14 +111,13 @@ std::int64_t GmshInput::lineCount(const char* what, std::size_t minText, std::si
     return this->Scanner.count(what, minText);
   }
   const std::string_view token = this->Scanner.token();
-  std::int64_t count = 0;
-  const auto result = std::from_chars(token.data(), token.data() + token.size(), count);
-  if (token.empty() || result.ec != std::errc() || result.ptr != token.data() + token.size())
+  const std::optional<std::int64_t> count = parseInteger(token);
+  if (!count)
   {
     this->fail(inQuotes(token) + " is not an integer, where " + what + " should be");
   }
-  this->checkCount(count, what, minBinary);
-  return count;
+  this->requireRoom(*count, what, minBinary);
+  return *count;
 }
 
 void GmshInput::beginNumbers()
@@ -126,7 +125,7 @@ void GmshInput::beginNumbers()
   if (this->Binary)
   {
     this->Scanner.skipLine();
-    this->Offset = this->Scanner.offset();
+    this->Numbers.moveTo(this->Scanner.offset());
     this->InNumbers = true;
   }
 }
@@ -135,7 +134,7 @@ void GmshInput::endNumbers()
 {
   if (this->Binary)
   {
-    this->Scanner.moveTo(this->Offset);
+    this->Scanner.moveTo(this->Numbers.offset());
     this->InNumbers = false;
   }
 }
@@ -146,27 +145,16 @@ std::int64_t GmshInput::count(const char* what, std::size_t minText, std::size_t
   {
     return this->Scanner.count(what, minText);
   }
-  const auto count = this->binary<std::int64_t>(what);
-  this->checkCount(count, what, minBinary);
+  const auto count = this->Numbers.take<std::int64_t>(what);
+  this->requireRoom(count, what, minBinary);
   return count;
-}
-
-void GmshInput::checkCount(std::int64_t count, const char* what, std::size_t minBytes) const
-{
-  const std::size_t offset = this->InNumbers ? this->Offset : this->Scanner.offset();
-  const std::size_t left = this->File.size() - std::min(offset, this->File.size());
-  if (count < 0 || static_cast<std::uint64_t>(count) > left / minBytes)
-  {
-    this->fail(std::to_string(count) + " cannot be " + what + ": the file has " +
-               std::to_string(left) + " more bytes, it is truncated or the number is wrong");
-  }
 }
 
 void GmshInput::fail(const std::string& sentence) const
 {
   if (this->Binary)
   {
-    this->File.fail(this->InNumbers ? this->Offset : this->Scanner.offset(), sentence);
+    this->File.fail(this->InNumbers ? this->Numbers.offset() : this->Scanner.offset(), sentence);
   }
   this->Scanner.fail(sentence);
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/ByteOrder.h"
-#include "IO/Files/InputFile.h"
+#include "IO/Files/BinaryInput.h"
 #include "IO/Files/TextScanner.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -22,6 +20,7 @@ public:
   GmshInput(InputFile& file, Workspace* helpers)
     : File(file)
     , Scanner(file, '\0', helpers)
+    , Numbers(file, 0, std::endian::native)
   {
   }
 
@@ -49,44 +48,37 @@ public:
   // The next number: 32 bits, 64 bits or double precision in a binary file.
   std::int64_t integer(const char* what)
   {
-    return this->Binary ? this->binary<std::int32_t>(what) : this->Scanner.integer(what);
+    return this->Binary ? this->Numbers.take<std::int32_t>(what) : this->Scanner.integer(what);
   }
   std::int64_t longInteger(const char* what)
   {
-    return this->Binary ? this->binary<std::int64_t>(what) : this->Scanner.integer(what);
+    return this->Binary ? this->Numbers.take<std::int64_t>(what) : this->Scanner.integer(what);
   }
   double number(const char* what)
   {
-    return this->Binary ? this->binary<double>(what) : this->Scanner.number(what);
+    return this->Binary ? this->Numbers.take<double>(what) : this->Scanner.number(what);
   }
   /** A count of following items, 64 bits, refused if the file cannot hold them. */
   std::int64_t count(const char* what, std::size_t minText, std::size_t minBinary);
-  /** The same check for a number of any kind that has been read. */
-  void checkCount(std::int64_t count, const char* what, std::size_t minBytes) const;
+  /** The same check for a number of any kind of a binary file that has been read. */
+  void requireRoom(std::int64_t count, const char* what, std::size_t minBytes) const
+  {
+    const std::size_t left = this->InNumbers ? this->Numbers.left() : this->Scanner.left();
+    if (!hasRoom(count, minBytes, left))
+    {
+      this->fail(sentenceOnRoom(count, what, left));
+    }
+  }
 
-  /** Throws Error with the position. */
+  /** Throws Error with the place, which MeshErrors lack. */
   [[noreturn]] void fail(const std::string& sentence) const;
 
 private:
-  template <class T>
-  T binary(const char* what)
-  {
-    const std::string_view bytes =
-      this->File.at(std::min(this->Offset, this->File.size()), sizeof(T));
-    if (bytes.size() < sizeof(T))
-    {
-      this->fail(std::string("the file ends where ") + what + " should be");
-    }
-    this->Offset += sizeof(T);
-    return numberAt<T>(bytes.data(), this->Order);
-  }
-
   InputFile& File;
   TextScanner Scanner;
-  std::size_t Offset = 0; ///< of the next binary number
-  int Version = 0;        ///< 2 or 4; 0: unknown yet
+  BinaryInput Numbers; ///< of a binary file
+  int Version = 0;     ///< 2 or 4; 0: unknown yet
   bool Binary = false;
-  std::endian Order = std::endian::native;
   bool InNumbers = false; ///< of a binary file
 };
 

@@ -166,6 +166,15 @@ void GmshNodes::finish()
   this->number();
 }
 
+void GmshNodes::numberCorners(RawMeshBuilder& builder)
+{
+  builder.numberVertices(this->First, static_cast<std::int64_t>(this->Range));
+  if (this->Numbers)
+  {
+    builder.relabelCorners(std::move(*this->Numbers));
+  }
+}
+
 void GmshNodes::number()
 {
   this->Tags->sort();
@@ -186,8 +195,8 @@ void GmshNodes::number()
 }
 
 GmshTags::GmshTags(RawMeshBuilder& builder)
-  : Physical(builder, ImportColumn::Of::Elements, PhysicalTagName, NoGroup)
-  , Geometrical(builder, ImportColumn::Of::Elements, GeometricalTagName, FirstEntity)
+  : Physical(builder, ColumnOf::Elements, PhysicalTagName, NoGroup)
+  , Geometrical(builder, ColumnOf::Elements, GeometricalTagName, FirstEntity)
   , GroupMemory(builder.workspace().pool())
 {
 }

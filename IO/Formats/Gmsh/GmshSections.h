@@ -77,15 +77,8 @@ public:
    * range of the tags exceeds 32 bits. */
   void finish();
 
-  /** The number of the corner with this tag; -1 if no node can have the tag. */
-  std::int64_t corner(std::int64_t tag) const
-  {
-    const std::uint64_t place = this->distance(tag);
-    return place < this->Range ? static_cast<std::int64_t>(place) : -1;
-  }
-
-  /** Returns the vertices of the corners; nothing if corners are vertices. */
-  std::optional<Relabelling> takeNumbers() { return std::move(this->Numbers); }
+  /** After finish(): passes what the tags are as corners to the builder. */
+  void numberCorners(RawMeshBuilder& builder);
 
 private:
   struct Tag

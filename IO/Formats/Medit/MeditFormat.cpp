@@ -52,33 +52,39 @@ public:
   MeditReader(InputFile& file, RawMeshBuilder& builder)
     : Scanner(file, '#', &builder.workspace())
     , Builder(builder)
-    , VertexReferences(builder, ImportColumn::Of::Vertices, ReferenceName)
-    , ElementReferences(builder, ImportColumn::Of::Elements, ReferenceName)
+    , VertexReferences(builder, ColumnOf::Vertices, ReferenceName)
+    , ElementReferences(builder, ColumnOf::Elements, ReferenceName)
   {
   }
 
   void read()
   {
-    try
-    {
-      while (!this->Scanner.atEnd())
+    // The vertices may come after the elements.
+    this->Builder.numberVertices(1);
+    this->Scanner.locateErrors(
+      [this]
       {
-        const std::string keyword(this->Scanner.token());
-        if (keyword == "End")
-        {
-          break;
-        }
-        this->readSection(keyword);
-      }
-    }
-    catch (const MeshError& error)
-    {
-      this->Scanner.fail(error.what());
-    }
-    this->finish();
+        this->readSections();
+        this->Builder.checkCorners();
+      });
+    this->VertexReferences.finish();
+    this->ElementReferences.finish();
   }
 
 private:
+  void readSections()
+  {
+    while (!this->Scanner.atEnd())
+    {
+      const std::string keyword(this->Scanner.token());
+      if (keyword == "End")
+      {
+        break;
+      }
+      this->readSection(keyword);
+    }
+  }
+
   void readSection(const std::string& keyword)
   {
     if (keyword == "MeshVersionFormatted")
@@ -165,8 +171,9 @@ private:
     {
       for (std::int64_t& corner : corners)
       {
-        corner = this->corner();
+        corner = this->Scanner.integer("a vertex of an element");
       }
+      this->Builder.setLine(this->Scanner.line());
       this->add(section, corners);
       this->ElementReferences.add(this->reference());
     }
@@ -189,22 +196,6 @@ private:
     }
   }
 
-  std::int64_t corner()
-  {
-    const std::int64_t number = this->Scanner.integer("a vertex of an element");
-    if (number < 1)
-    {
-      this->Scanner.fail(
-        "an element names vertex " + std::to_string(number) + ", they count from 1");
-    }
-    if (number > this->LargestCorner)
-    {
-      this->LargestCorner = number;
-      this->LargestLine = this->Scanner.line();
-    }
-    return number - 1;
-  }
-
   /** The label at the end of the line of an entry; some writers omit it. */
   std::int64_t reference()
   {
@@ -212,25 +203,10 @@ private:
     return token.empty() ? 0 : this->Scanner.toInteger(token, "a label");
   }
 
-  void finish()
-  {
-    // Not before, since the vertices may come after the elements.
-    if (this->LargestCorner > this->Builder.vertices())
-    {
-      this->Scanner.failAt(
-        this->LargestLine, "the element names vertex " + std::to_string(this->LargestCorner) +
-                             ", but the file has " + std::to_string(this->Builder.vertices()));
-    }
-    this->VertexReferences.finish();
-    this->ElementReferences.finish();
-  }
-
   TextScanner Scanner;
   RawMeshBuilder& Builder;
   LabelColumn VertexReferences, ElementReferences;
   std::int64_t Dimension = 3;
-  std::int64_t LargestCorner = 0;
-  std::int64_t LargestLine = 0;
 };
 
 } // namespace

@@ -8,7 +8,6 @@
 #include "IO/Files/TextScanner.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
-#include "IO/Import/TriangleRuns.h"
 #include "IO/Mesh/Columns.h"
 
 #include <algorithm>
@@ -30,44 +29,13 @@ public:
   ObjReader(InputFile& file, RawMeshBuilder& builder)
     : Scanner(file, '#', &builder.workspace())
     , Builder(builder)
-    , Fan(builder)
-    , Colors(builder, ImportColumn::Of::Vertices)
+    , Colors(builder, ColumnOf::Vertices)
   {
   }
 
   void read()
   {
-    try
-    {
-      while (!this->Scanner.atEnd())
-      {
-        const std::string_view keyword = this->Scanner.tokenInLine();
-        if (keyword == "v")
-        {
-          this->readVertex();
-        }
-        else if (keyword == "f")
-        {
-          this->readFace();
-        }
-        else if (keyword == "vn" || keyword == "vt")
-        {
-          this->HasCornerAttributes = true;
-        }
-        this->Scanner.skipLine();
-      }
-      this->Colors.finish();
-    }
-    catch (const MeshError& error)
-    {
-      this->Scanner.fail(error.what());
-    }
-    if (this->LargestCorner >= this->Builder.vertices())
-    {
-      this->Scanner.failAt(
-        this->LargestLine, "the face names vertex " + std::to_string(this->LargestCorner + 1) +
-                             ", but the file has " + std::to_string(this->Builder.vertices()));
-    }
+    this->Scanner.locateErrors([this] { this->readLines(); });
     if (this->HasCornerAttributes)
     {
       this->Builder.note("Normals and texture coordinates are left out, since in OBJ files they "
@@ -77,6 +45,30 @@ public:
   }
 
 private:
+  void readLines()
+  {
+    this->Builder.numberVertices(1);
+    while (!this->Scanner.atEnd())
+    {
+      const std::string_view keyword = this->Scanner.tokenInLine();
+      if (keyword == "v")
+      {
+        this->readVertex();
+      }
+      else if (keyword == "f")
+      {
+        this->readFace();
+      }
+      else if (keyword == "vn" || keyword == "vt")
+      {
+        this->HasCornerAttributes = true;
+      }
+      this->Scanner.skipLine();
+    }
+    this->Colors.finish();
+    this->Builder.checkCorners();
+  }
+
   /** A token of a line; a backslash at the end of a line continues it. */
   std::string_view nextToken()
   {
@@ -125,45 +117,37 @@ private:
 
   void readFace()
   {
+    this->Builder.setLine(this->Scanner.line());
     for (std::string_view token = this->nextToken(); !token.empty(); token = this->nextToken())
     {
-      this->Fan.corner(this->corner(token));
+      this->Builder.fanCorner(this->corner(token));
     }
-    if (this->Fan.corners() < 3)
+    if (this->Builder.corners() < 3)
     {
       this->Scanner.fail("a face has fewer than three vertices");
     }
-    this->Fan.end();
+    this->Builder.endTriangles();
   }
 
-  /** The vertex in a token such as 7, 7/1, 7//2 or -1/2/3. */
+  /** The number of the vertex in a token such as 7, 7/1, 7//2 or -1/2/3. */
   std::int64_t corner(std::string_view token)
   {
     const std::int64_t vertices = this->Builder.vertices();
     const std::int64_t number =
       this->Scanner.toInteger(token.substr(0, token.find('/')), "a vertex of a face");
-    const std::int64_t corner = number < 0 ? vertices + number : number - 1;
-    if (number == 0 || corner < 0)
+    if (number == 0 || number < -vertices)
     {
       this->Scanner.fail("a face names vertex " + std::to_string(number) + ", where " +
                          std::to_string(vertices) + " vertices have come so far");
     }
-    if (corner > this->LargestCorner)
-    {
-      this->LargestCorner = corner;
-      this->LargestLine = this->Scanner.line();
-    }
-    return corner;
+    return number < 0 ? vertices + number + 1 : number;
   }
 
   TextScanner Scanner;
   RawMeshBuilder& Builder;
-  TriangleFan Fan;
   TextColors Colors;
   bool HasCornerAttributes = false;
   bool Continues = false; ///< whether the next line continues this one
-  std::int64_t LargestCorner = -1;
-  std::int64_t LargestLine = 0;
 };
 
 } // namespace

@@ -80,7 +80,7 @@ public:
   OffAttributes(const OffHeader& header, RawMeshBuilder& builder)
     : Header(header)
     , Builder(builder)
-    , Colors(builder, ImportColumn::Of::Vertices)
+    , Colors(builder, ColumnOf::Vertices)
   {
   }
 
@@ -139,12 +139,12 @@ private:
     this->Used = numbers;
     if (this->Header.normals)
     {
-      this->Normals.emplace(this->Builder, ImportColumn::Of::Vertices,
-        ColumnSpec{ NormalsName, ScalarType::Float32, 3 });
+      this->Normals.emplace(
+        this->Builder, ColumnOf::Vertices, ColumnSpec{ NormalsName, ScalarType::Float32, 3 });
     }
     if (this->Header.textureCoordinates)
     {
-      this->Texture.emplace(this->Builder, ImportColumn::Of::Vertices,
+      this->Texture.emplace(this->Builder, ColumnOf::Vertices,
         ColumnSpec{ TextureCoordinatesName, ScalarType::Float32, 2 });
     }
   }

@@ -9,7 +9,6 @@
 #include "IO/Formats/Off/BinaryOff.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
-#include "IO/Import/TriangleRuns.h"
 #include "IO/Mesh/Columns.h"
 
 #include <cmath>
@@ -66,26 +65,18 @@ void readVertices(TextScanner& scanner, const OffHeader& header, RawMeshBuilder&
   attributes.finish();
 }
 
-void readFaces(
-  TextScanner& scanner, std::int64_t faces, std::int64_t vertices, RawMeshBuilder& builder)
+void readFaces(TextScanner& scanner, std::int64_t faces, RawMeshBuilder& builder)
 {
-  TriangleFan fan(builder);
-  TextColors colors(builder, ImportColumn::Of::Elements);
+  TextColors colors(builder, ColumnOf::Elements);
   LineNumbers numbers;
   for (std::int64_t i = 0; i < faces; ++i)
   {
     const std::int64_t corners = scanner.count("the number of corners of a face", 2);
     for (std::int64_t k = 0; k < corners; ++k)
     {
-      const std::int64_t corner = scanner.integer("a corner of a face");
-      if (corner < 0 || corner >= vertices)
-      {
-        scanner.fail("the corner " + std::to_string(corner) + " is none of the " +
-                     std::to_string(vertices) + " vertices");
-      }
-      fan.corner(corner);
+      builder.fanCorner(scanner.integer("a corner of a face"));
     }
-    fan.end();
+    builder.endTriangles();
     numbers.read(scanner);
     colors.add(numbers.all());
     scanner.skipLine();
@@ -114,24 +105,22 @@ void importOff(InputFile& file, RawMeshBuilder& builder)
 {
   TextScanner scanner(file, '#', &builder.workspace());
   const OffHeader header = readOffHeader(file, scanner);
+  builder.numberVertices(0, header.vertices);
   if (header.binary)
   {
     readBinaryOff(file, header, builder);
     return;
   }
-  try
-  {
-    readVertices(scanner, header, builder);
-    readFaces(scanner, header.faces, header.vertices, builder);
-    if (!scanner.atEnd())
+  scanner.locateErrors(
+    [&]
     {
-      scanner.fail("there is more after the last face: the counts at the beginning are wrong");
-    }
-  }
-  catch (const MeshError& error)
-  {
-    scanner.fail(error.what());
-  }
+      readVertices(scanner, header, builder);
+      readFaces(scanner, header.faces, builder);
+      if (!scanner.atEnd())
+      {
+        throw MeshError("there is more after the last face: the counts at the beginning are wrong");
+      }
+    });
 }
 
 namespace

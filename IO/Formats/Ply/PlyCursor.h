@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/ByteOrder.h"
-#include "IO/Files/InputFile.h"
+#include "IO/Files/BinaryInput.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Ply/PlyHeader.h"
 #include "smg/Column.h"
@@ -17,48 +16,34 @@ namespace smg
 {
 
 /** The current record of a PLY file, for errors. */
-struct PlyPlace
+class PlyRecord
 {
-  const std::string* element = nullptr;
-  std::int64_t record = 0;
+public:
+  /** Begins record `number` of the element `element`, a string that must outlive the record. */
+  void begin(const std::string& element, std::int64_t number)
+  {
+    this->Element = &element;
+    this->Number = number;
+  }
 
   /** The sentence, preceded by the record. */
-  std::string with(const std::string& sentence) const
+  std::string inRecord(const std::string& sentence) const
   {
-    return this->element ? "record " + std::to_string(this->record) + " of element " +
-                             inQuotes(*this->element) + ": " + sentence
+    return this->Element ? "record " + std::to_string(this->Number) + " of element " +
+                             inQuotes(*this->Element) + ": " + sentence
                          : sentence;
   }
+
+private:
+  const std::string* Element = nullptr;
+  std::int64_t Number = 0;
 };
 
 /** Reads the numbers of a binary PLY body. */
-template <std::endian Order>
-class PlyBinaryCursor
+class PlyBinaryCursor : public BinaryInput, public PlyRecord
 {
 public:
-  PlyBinaryCursor(InputFile& file, std::size_t offset)
-    : File(file)
-    , EndOffset(offset)
-  {
-  }
-
-  /** Begins record `record` of the element `element`, a string that must outlive the record. */
-  void begin(const std::string& element, std::int64_t record)
-  {
-    this->Place = { &element, record };
-  }
-
-  /** The next number, of type T in the file. */
-  template <class T>
-  T take()
-  {
-    if (static_cast<std::size_t>(this->End - this->At) < sizeof(T))
-    {
-      this->moveTo(this->offset(), sizeof(T));
-    }
-    this->At += sizeof(T);
-    return numberAt<T>(this->At - sizeof(T), Order);
-  }
+  using BinaryInput::BinaryInput;
 
   double read(ScalarType type)
   {
@@ -68,87 +53,36 @@ public:
   /** Skips `count` numbers. */
   void skip(ScalarType type, std::int64_t count)
   {
-    const std::size_t bytes = sizeOf(type) * static_cast<std::size_t>(count);
-    if (bytes > static_cast<std::size_t>(this->End - this->At))
-    {
-      // Checks that the last of them exists.
-      this->moveTo(this->offset() + bytes - 1, 1);
-      ++this->At;
-      return;
-    }
-    this->At += bytes;
+    this->BinaryInput::skip(sizeOf(type) * static_cast<std::size_t>(count));
   }
 
-  /** Whether `count` numbers can follow. */
-  bool holds(ScalarType type, std::int64_t count) const
+  /** Throws MeshError if the rest of the file cannot hold a list of this length. */
+  void requireRoom(ScalarType type, std::int64_t length) const
   {
-    return static_cast<std::size_t>(count) <= this->left() / sizeOf(type);
+    this->BinaryInput::requireRoom(length, sizeOf(type), "the length of a list");
   }
-
-  std::size_t left() const { return this->File.size() - this->offset(); }
 
   /** Whether only blanks and zeros remain, which some programs write at the end. */
   bool atEnd()
   {
     constexpr std::string_view Filling("\0 \t\r\n", 5);
-    for (; this->left() > 0; ++this->At)
+    bool isFilling = true;
+    while (isFilling && this->left() > 0)
     {
-      if (this->At == this->End)
-      {
-        this->moveTo(this->offset(), 1);
-      }
-      if (Filling.find(*this->At) == std::string_view::npos)
-      {
-        return false;
-      }
+      isFilling = Filling.find(this->take<char>()) != std::string_view::npos;
     }
-    return true;
+    return isFilling;
   }
-
-  [[noreturn]] void fail(const std::string& sentence) const
-  {
-    this->File.fail(this->offset(), this->Place.with(sentence));
-  }
-
-private:
-  std::size_t offset() const
-  {
-    return this->EndOffset - static_cast<std::size_t>(this->End - this->At);
-  }
-
-  /** Loads at least `least` bytes from `offset` on. */
-  void moveTo(std::size_t offset, std::size_t least)
-  {
-    if (offset > this->File.size() || this->File.size() - offset < least)
-    {
-      this->fail("the file is truncated");
-    }
-    const std::string_view bytes = this->File.at(offset, least);
-    this->At = bytes.data();
-    this->End = bytes.data() + bytes.size();
-    this->EndOffset = offset + bytes.size();
-  }
-
-  InputFile& File;
-  const char* At = nullptr;
-  const char* End = nullptr;
-  std::size_t EndOffset; ///< position of the end in the file
-  PlyPlace Place;
 };
 
 /** Reads the numbers of a PLY body in text. */
-class PlyTextCursor
+class PlyTextCursor : public PlyRecord
 {
 public:
   /** `helpers`: see TextScanner. */
   PlyTextCursor(InputFile& file, Workspace* helpers, std::size_t offset, std::int64_t line)
     : Scanner(file, '\0', helpers, offset, line)
   {
-  }
-
-  void begin(const std::string& element, std::int64_t record)
-  {
-    this->Place = { &element, record };
   }
 
   template <class T>
@@ -161,7 +95,7 @@ public:
           value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
           value > static_cast<double>(std::numeric_limits<T>::max()))
       {
-        this->fail(
+        throw MeshError(
           "a number is out of the range of its type " + std::string(nameOf(scalarTypeOf<T>())));
       }
     }
@@ -179,44 +113,58 @@ public:
     {
       if (this->Scanner.token().empty())
       {
-        this->fail("the file is truncated");
+        throw MeshError("the file ends where a number should be");
       }
     }
   }
 
-  bool holds(ScalarType, std::int64_t count) const
+  void requireRoom(ScalarType, std::int64_t length) const
   {
-    return static_cast<std::size_t>(count) <= (this->left() + 1) / 2;
+    constexpr std::size_t MinBytes = 2; // a digit and a blank
+    this->Scanner.requireRoom(length, MinBytes, "the length of a list");
   }
-
-  std::size_t left() const { return this->Scanner.left(); }
 
   /** Whether only blanks remain. */
   bool atEnd() { return this->Scanner.atEnd(); }
 
-  [[noreturn]] void fail(const std::string& sentence) const
-  {
-    this->Scanner.fail(this->Place.with(sentence));
-  }
+  [[noreturn]] void fail(const std::string& sentence) const { this->Scanner.fail(sentence); }
 
 private:
   TextScanner Scanner;
-  PlyPlace Place;
 };
 
-/** Calls f with a cursor at the beginning of the body. `helpers`: see TextScanner. */
-template <class F>
-decltype(auto) withPlyBody(InputFile& file, const PlyHeader& header, Workspace* helpers, F&& f)
+/** Calls f with a cursor at the beginning of the body; a MeshError gets its place. `helpers`: see
+ * TextScanner. */
+void withPlyBody(InputFile& file, const PlyHeader& header, Workspace* helpers, const auto& f)
 {
+  const auto locating = [&f](auto cursor)
+  {
+    try
+    {
+      f(cursor);
+    }
+    catch (const MeshError& error)
+    {
+      cursor.fail(cursor.inRecord(error.what()));
+    }
+  };
   if (header.encoding == PlyEncoding::Ascii)
   {
-    return f(PlyTextCursor(file, helpers, header.bodyOffset, header.bodyLine));
+    locating(PlyTextCursor(file, helpers, header.bodyOffset, header.bodyLine));
+    return;
   }
-  if (header.encoding == PlyEncoding::BigEndian)
-  {
-    return f(PlyBinaryCursor<std::endian::big>(file, header.bodyOffset));
-  }
-  return f(PlyBinaryCursor<std::endian::little>(file, header.bodyOffset));
+  const bool isBig = header.encoding == PlyEncoding::BigEndian;
+  locating(
+    PlyBinaryCursor(file, header.bodyOffset, isBig ? std::endian::big : std::endian::little));
+}
+
+/** Reads the length of a list of numbers of this type. Throws MeshError if the file cannot hold it.
+ */
+std::int64_t readPlyLength(auto& cursor, ScalarType lengthType, ScalarType type)
+{
+  const auto length = static_cast<std::int64_t>(cursor.read(lengthType));
+  cursor.requireRoom(type, length);
+  return length;
 }
 
 } // namespace smg

@@ -3,6 +3,7 @@
 
 #include "IO/Files/TextScanner.h"
 #include "IO/Mesh/Columns.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>
@@ -121,31 +122,14 @@ bool isMisspelt(std::string_view word)
     keywords, [&](std::string_view keyword) { return std::ranges::equal(word, keyword, same); });
 }
 
-} // namespace
-
-std::size_t PlyElement::minBytes(bool ascii) const
+/** Reads the lines after the first one. */
+PlyHeader readLines(TextScanner& scanner)
 {
-  std::size_t bytes = 0;
-  for (const PlyProperty& property : this->properties)
-  {
-    // A number in text and the blank or line end after it.
-    bytes += ascii ? 2 : sizeOf(property.list ? property.lengthType : property.type);
-  }
-  return bytes;
-}
-
-PlyHeader readPlyHeader(InputFile& file)
-{
-  TextScanner scanner(file);
   PlyHeader header;
   // A header is held in memory, with its comments where the file is written anew.
   constexpr int MaxLines = 4096;
   constexpr std::size_t MaxBytes = std::size_t(1) << 20;
   int lines = 0;
-  if (scanner.tokenInLine() != "ply")
-  {
-    scanner.fail("a PLY file must begin with the line 'ply'");
-  }
   bool formatKnown = false;
   // An unknown line; with properties it is a misspelt element.
   std::int64_t unknownLine = 0;
@@ -187,7 +171,7 @@ PlyHeader readPlyHeader(InputFile& file)
       PlyProperty property = readProperty(scanner, header.elements);
       header.elements.back().properties.push_back(std::move(property));
     }
-    else if (scanner.offset() >= file.size())
+    else if (scanner.left() == 0)
     {
       scanner.fail("the file ends in its header");
     }
@@ -215,6 +199,41 @@ PlyHeader readPlyHeader(InputFile& file)
   header.bodyOffset = scanner.offset();
   header.bodyLine = scanner.line();
   return header;
+}
+
+} // namespace
+
+std::size_t PlyElement::minBytes(bool ascii) const
+{
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : this->properties)
+  {
+    // A number in text and the blank or line end after it.
+    bytes += ascii ? 2 : sizeOf(property.list ? property.lengthType : property.type);
+  }
+  return bytes;
+}
+
+PlyHeader readPlyHeader(InputFile& file)
+{
+  TextScanner scanner(file);
+  if (scanner.tokenInLine() != "ply")
+  {
+    scanner.fail("a PLY file must begin with the line 'ply'");
+  }
+  try
+  {
+    return readLines(scanner);
+  }
+  catch (const Error&)
+  {
+    // What is wrong with the last line of the file is that it is cut.
+    if (scanner.left() > 0)
+    {
+      throw;
+    }
+    scanner.fail("the file ends in its header");
+  }
 }
 
 namespace

@@ -4,6 +4,7 @@
 #include "IO/Files/InputFile.h"
 #include "smg/Column.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -58,6 +59,12 @@ struct PlyHeader
   std::vector<std::string> unknown;
   std::size_t bodyOffset = 0;
   std::int64_t bodyLine = 1;
+
+  std::int64_t vertices() const
+  {
+    const auto vertex = std::ranges::find(this->elements, "vertex", &PlyElement::name);
+    return vertex == this->elements.end() ? 0 : vertex->count;
+  }
 };
 
 /** Reads and checks the header. Throws Error naming the line. */

@@ -3,9 +3,8 @@
 #include "IO/Formats/Ply/PlyCursor.h"
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyHeader.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
-#include "IO/Import/TriangleRuns.h"
-#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>
@@ -27,39 +26,29 @@ template <class Cursor>
 class BodyReader
 {
 public:
-  BodyReader(const PlyHeader& header, Cursor cursor, RawMeshBuilder& builder)
+  BodyReader(const PlyHeader& header, Cursor& cursor, RawMeshBuilder& builder)
     : Header(header)
-    , In(std::move(cursor))
+    , In(cursor)
     , Builder(builder)
-    , Fan(builder)
-    , Strip(builder)
   {
-    for (const PlyElement& element : header.elements)
-    {
-      this->Vertices = element.name == "vertex" ? element.count : this->Vertices;
-    }
   }
 
   void read()
   {
-    try
+    this->Builder.numberVertices(0, this->Header.vertices());
+    for (const PlyElement& element : this->Header.elements)
     {
-      for (const PlyElement& element : this->Header.elements)
-      {
-        this->readElement(element);
-      }
-      if (!this->In.atEnd())
-      {
-        this->In.fail("there is more after the last record: the counts of the header are wrong");
-      }
+      this->readElement(element);
     }
-    catch (const MeshError& error)
+    if (!this->In.atEnd())
     {
-      this->In.fail(error.what());
+      throw MeshError("there is more after the last record: the counts of the header are wrong");
     }
   }
 
 private:
+  using Columns = std::vector<ImportColumn>;
+
   void readElement(const PlyElement& element)
   {
     if (element.name == "vertex")
@@ -72,15 +61,15 @@ private:
     }
     else if (element.name == "face")
     {
-      this->readCells(element, this->Fan);
+      this->readCells<false>(element);
     }
     else if (element.name == "tristrips")
     {
-      this->readCells(element, this->Strip);
+      this->readCells<true>(element);
     }
     else
     {
-      this->readRecords(element, planOf(element, PlyRole::Others), this->Fan, [] {});
+      this->readRecords<false>(element, planOf(element, PlyRole::Others), [] {});
     }
   }
 
@@ -90,8 +79,8 @@ private:
       findNumber(element, "z") };
     if (!axes[0] || !axes[1] || !axes[2] || this->HasVertices)
     {
-      this->In.fail(this->HasVertices ? "there are two elements 'vertex'"
-                                      : "the vertices have no properties x, y and z");
+      throw MeshError(this->HasVertices ? "there are two elements 'vertex'"
+                                        : "the vertices have no properties x, y and z");
     }
     this->HasVertices = true;
     bool single = true;
@@ -104,22 +93,19 @@ private:
     {
       this->Builder.useSinglePrecision();
     }
+    Columns columns;
     const PlyPlan plan = planOf(element, PlyRole::Vertices,
-      [this](const ColumnSpec& spec) { return this->Builder.addVertexColumn(spec); });
-    this->readRecords(element, plan, this->Fan,
-      [this, &plan]
+      [&](const ColumnSpec& spec) { return this->add(columns, ColumnOf::Vertices, spec); });
+    this->readRecords<false>(element, plan,
+      [this, &plan, &columns]
       {
         this->Builder.vertex(this->Position[0], this->Position[1], this->Position[2]);
-        for (const PlyTuple& tuple : plan.tuples)
-        {
-          this->Builder.vertexTuples(tuple.column, this->bytesOf(tuple));
-        }
+        this->append(plan, columns);
       });
   }
 
-  /** `run` converts the corners of a cell to triangles. */
-  template <class Run>
-  void readCells(const PlyElement& element, Run& run)
+  template <bool IsStrip>
+  void readCells(const PlyElement& element)
   {
     // Attributes would be required for both faces and strips.
     const bool alone = !std::exchange(this->HasCells, true);
@@ -128,46 +114,51 @@ private:
       {
         if (!alone)
         {
-          this->CellColumns.push_back(-1);
+          this->CellColumns.emplace_back();
           return -1;
         }
-        this->CellColumns.push_back(this->Builder.addElementColumn(spec));
-        return this->CellColumns.back();
+        return this->add(this->CellColumns, ColumnOf::Elements, spec);
       });
     if (!alone && !this->CellColumns.empty())
     {
       this->Builder.note("The attributes of the faces are left out, since the file has several "
                          "elements of cells, which do not share them.");
-      for (const int column : this->CellColumns)
-      {
-        this->Builder.dropElementColumn(column);
-      }
+      std::ranges::for_each(this->CellColumns, &ImportColumn::drop);
       this->CellColumns.clear();
     }
     const bool hasCorners =
       std::ranges::any_of(plan.steps, [](auto& step) { return step.kind == PlyStep::Corners; });
-    this->readRecords(element, plan, run,
+    this->readRecords<IsStrip>(element, plan,
       [this, &plan, hasCorners]
       {
         if (!hasCorners)
         {
           this->Builder.dropped();
         }
-        for (const PlyTuple& tuple : plan.tuples)
-        {
-          this->Builder.elementTuples(tuple.column, this->bytesOf(tuple));
-        }
+        this->append(plan, this->CellColumns);
       });
   }
 
-  std::span<const std::byte> bytesOf(const PlyTuple& tuple) const
+  /** The number of a new column among `columns`; -1 if the mesh cannot have it. */
+  int add(Columns& columns, ColumnOf of, const ColumnSpec& spec)
   {
-    return { this->Attributes.data() + tuple.begin, tuple.bytes };
+    columns.emplace_back(this->Builder, of, spec);
+    return columns.back().exists() ? static_cast<int>(columns.size()) - 1 : -1;
+  }
+
+  /** Appends the attributes of a record. */
+  void append(const PlyPlan& plan, Columns& columns) const
+  {
+    for (const PlyTuple& tuple : plan.tuples)
+    {
+      columns[std::size_t(tuple.column)].append(
+        std::span(this->Attributes).subspan(tuple.begin, tuple.bytes));
+    }
   }
 
   /** Calls `take` after each record. */
-  template <class Run, class Take>
-  void readRecords(const PlyElement& element, const PlyPlan& plan, Run& run, Take&& take)
+  template <bool IsStrip, class Take>
+  void readRecords(const PlyElement& element, const PlyPlan& plan, Take&& take)
   {
     this->Attributes.resize(plan.attributeBytes);
     for (std::int64_t i = 0; i < element.count; ++i)
@@ -175,14 +166,14 @@ private:
       this->In.begin(element.name, i);
       for (const PlyStep& step : plan.steps)
       {
-        this->doStep(step, run);
+        this->doStep<IsStrip>(step);
       }
       take();
     }
   }
 
-  template <class Run>
-  void doStep(const PlyStep& step, Run& run)
+  template <bool IsStrip>
+  void doStep(const PlyStep& step)
   {
     switch (step.kind)
     {
@@ -201,46 +192,42 @@ private:
         this->In.skip(step.type, step.count);
         break;
       case PlyStep::SkipList:
-        this->In.skip(step.type, this->readLength(step));
+        this->In.skip(step.type, readPlyLength(this->In, step.lengthType, step.type));
         break;
       case PlyStep::Corners:
-        dispatch(step.type, [this, length = this->readLength(step), &run]<class T>(T)
-          { this->template readCorners<T>(length, run); });
+        dispatch(step.type,
+          [this, length = readPlyLength(this->In, step.lengthType, step.type)]<class T>(T)
+          { this->readCorners<T, IsStrip>(length); });
         break;
     }
   }
 
-  std::int64_t readLength(const PlyStep& step)
+  template <class T, bool IsStrip>
+  void readCorners(std::int64_t length)
   {
-    const auto length = static_cast<std::int64_t>(this->In.read(step.lengthType));
-    if (length < 0 || !this->In.holds(step.type, length))
+    if (!IsStrip && length == 3)
     {
-      this->In.fail(length < 0 ? "a list has a negative length"
-                               : "the file is truncated, or the list length " +
-                                   std::to_string(length) + " is wrong");
-    }
-    return length;
-  }
-
-  template <class T, class Run>
-  void readCorners(std::int64_t length, Run& run)
-  {
-    constexpr bool strip = std::is_same_v<Run, TriangleStrip>;
-    if (!strip && length == 3)
-    {
-      const std::int64_t a = this->template readCorner<T, strip>();
-      const std::int64_t b = this->template readCorner<T, strip>();
-      this->Builder.triangle(a, b, this->template readCorner<T, strip>());
+      const std::int64_t a = this->readCorner<T>();
+      const std::int64_t b = this->readCorner<T>();
+      this->Builder.triangle(a, b, this->readCorner<T>());
       return;
     }
     for (std::int64_t i = 0; i < length; ++i)
     {
-      run.corner(this->template readCorner<T, strip>());
+      const std::int64_t corner = this->readCorner<T>();
+      if (!IsStrip)
+      {
+        this->Builder.fanCorner(corner);
+      }
+      else
+      {
+        corner == -1 ? this->Builder.endStrip() : this->Builder.stripCorner(corner);
+      }
     }
-    run.end();
+    this->Builder.endTriangles();
   }
 
-  template <class T, bool IsStrip>
+  template <class T>
   std::int64_t readCorner()
   {
     const T value = this->In.template take<T>();
@@ -248,27 +235,17 @@ private:
     {
       if (!(std::abs(value) < T(9e15)) || value != std::floor(value))
       {
-        this->In.fail("a corner is not an integer");
+        throw MeshError("a corner is not an integer");
       }
     }
-    const auto corner = static_cast<std::int64_t>(value);
-    const bool exists = corner >= 0 && corner < this->Vertices;
-    if (!exists && !(IsStrip && corner == -1))
-    {
-      this->In.fail("the corner " + std::to_string(corner) + " is none of the " +
-                    std::to_string(this->Vertices) + " vertices");
-    }
-    return corner;
+    return static_cast<std::int64_t>(value);
   }
 
   const PlyHeader& Header;
-  Cursor In;
+  Cursor& In;
   RawMeshBuilder& Builder;
-  TriangleFan Fan;
-  TriangleStrip Strip;
-  std::int64_t Vertices = 0;
   bool HasVertices = false, HasCells = false;
-  std::vector<int> CellColumns;
+  Columns CellColumns;
   std::array<double, 3> Position{};
   std::vector<std::byte> Attributes; ///< of a record
 };
@@ -276,20 +253,17 @@ private:
 /** Refuses counts that exceed the rest of the file. */
 void checkLength(const InputFile& file, const PlyHeader& header)
 {
-  const bool ascii = header.encoding == PlyEncoding::Ascii;
-  // The last number of a text may lack a line end.
-  std::uint64_t left = file.size() - header.bodyOffset + (ascii ? 1 : 0);
+  std::size_t left = file.size() - header.bodyOffset;
   for (const PlyElement& element : header.elements)
   {
-    const std::size_t least = element.minBytes(ascii);
-    if (least > 0 && static_cast<std::uint64_t>(element.count) > left / least)
+    const std::size_t least = element.minBytes(header.encoding == PlyEncoding::Ascii);
+    if (!hasRoom(element.count, least, left))
     {
-      throw Error(file.name() + ": the file is truncated: the header promises " +
-                  std::to_string(element.count) + " records of element " + inQuotes(element.name) +
-                  ", for which the file of " + std::to_string(file.size()) +
-                  " bytes is too short.");
+      file.fail(
+        header.bodyOffset, sentenceOnRoom(element.count,
+                             "the number of records of element " + inQuotes(element.name), left));
     }
-    left -= static_cast<std::uint64_t>(element.count) * least;
+    left -= std::min(left, static_cast<std::size_t>(element.count) * least);
   }
 }
 
@@ -305,7 +279,7 @@ void importPly(InputFile& file, RawMeshBuilder& builder)
                  " is none of PLY and is left out.");
   }
   withPlyBody(file, header, &builder.workspace(),
-    [&](auto cursor) { BodyReader(header, std::move(cursor), builder).read(); });
+    [&](auto& cursor) { BodyReader(header, cursor, builder).read(); });
 }
 
 } // namespace smg

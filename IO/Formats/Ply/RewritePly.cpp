@@ -125,8 +125,8 @@ template <class Cursor>
 class BodyCopier
 {
 public:
-  BodyCopier(Cursor cursor, MovedVertices& moved, SequentialOutput& out)
-    : In(std::move(cursor))
+  BodyCopier(Cursor& cursor, MovedVertices& moved, SequentialOutput& out)
+    : In(cursor)
     , Moved(moved)
     , Out(out)
   {
@@ -174,12 +174,7 @@ private:
 
   void copyList(const PlyProperty& property, const Fate& fate)
   {
-    const auto length = static_cast<std::int64_t>(this->In.read(property.lengthType));
-    if (length < 0 || !this->In.holds(property.type, length))
-    {
-      this->In.fail(
-        "the file is truncated, or the list length " + std::to_string(length) + " is wrong");
-    }
+    const std::int64_t length = readPlyLength(this->In, property.lengthType, property.type);
     this->add(static_cast<double>(length), property.lengthType);
     for (std::int64_t i = 0; i < length; ++i)
     {
@@ -198,22 +193,12 @@ private:
       });
   }
 
-  Cursor In;
+  Cursor& In;
   MovedVertices& Moved;
   SequentialOutput& Out;
   bool HasMoved = false; ///< the current vertex
   std::vector<std::byte> Record;
 };
-
-std::int64_t verticesOf(const PlyHeader& header)
-{
-  std::int64_t vertices = 0;
-  for (const PlyElement& element : header.elements)
-  {
-    vertices = element.name == "vertex" ? element.count : vertices;
-  }
-  return vertices;
-}
 
 } // namespace
 
@@ -222,7 +207,7 @@ void rewritePly(const std::filesystem::path& in, const std::filesystem::path& ou
 {
   InputFile file(in, progress);
   const PlyHeader header = readPlyHeader(file);
-  moved.check(verticesOf(header), in.string());
+  moved.check(header.vertices(), in.string());
   std::vector<std::vector<Fate>> fates;
   for (const PlyElement& element : header.elements)
   {
@@ -231,9 +216,9 @@ void rewritePly(const std::filesystem::path& in, const std::filesystem::path& ou
   SequentialOutput output(out);
   output.put(newHeader(file.at(0, header.bodyOffset).substr(0, header.bodyOffset), header, fates));
   withPlyBody(file, header, nullptr,
-    [&](auto cursor)
+    [&](auto& cursor)
     {
-      BodyCopier copier(std::move(cursor), moved, output);
+      BodyCopier copier(cursor, moved, output);
       for (std::size_t e = 0; e < header.elements.size(); ++e)
       {
         copier.copy(header.elements[e], fates[e]);

@@ -4,13 +4,12 @@
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/External/ExternalSort.h"
+#include "IO/Files/BinaryInput.h"
 #include "IO/Files/ByteOrder.h"
-#include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Import/CornerWelder.h"
 #include "IO/Import/RawMeshBuilder.h"
-#include "IO/Import/TriangleRuns.h"
 #include "Solver/Core/Vector.h"
 #include "smg/Error.h"
 
@@ -57,15 +56,14 @@ public:
     this->Sizes.close();
     this->Builder.useSinglePrecision();
     this->Welder.makeVertices();
-    TriangleFan fan(this->Builder);
     RecordFile<std::uint32_t>::Reader sizes(this->Sizes);
     for (std::uint32_t size = 0; sizes.next(size);)
     {
       for (std::uint32_t k = 0; k < size; ++k)
       {
-        fan.corner(this->Welder.next());
+        this->Builder.fanCorner(this->Welder.next());
       }
-      fan.end();
+      this->Builder.endTriangles();
     }
   }
 
@@ -92,30 +90,31 @@ void readBinary(InputFile& file, FacetCollector& facets)
     file.fail(end, "there is more after the last of " + std::to_string(triangles) +
                      " triangles: their number at the beginning is wrong");
   }
-  constexpr std::size_t normalBytes = 3 * sizeof(float);
-  for (std::size_t offset = StlHeaderBytes; offset < end; offset += StlTriangleBytes)
+  constexpr std::size_t NormalBytes = 3 * sizeof(float), AttributeBytes = 2;
+  BinaryInput input(file, StlHeaderBytes, std::endian::little);
+  std::uint32_t triangle = 0;
+  try
   {
-    const char* at = file.at(offset, StlTriangleBytes).data() + normalBytes;
-    for (int k = 0; k < 3; ++k)
+    for (; triangle < triangles; ++triangle)
     {
-      CornerWelder::Point point;
-      for (float& coordinate : point)
+      input.skip(NormalBytes);
+      for (int k = 0; k < 3; ++k)
       {
-        coordinate = numberAt<float>(at, std::endian::little);
-        at += sizeof(float);
-      }
-      try
-      {
+        CornerWelder::Point point;
+        for (float& coordinate : point)
+        {
+          coordinate = input.take<float>();
+        }
         facets.corner(point);
       }
-      catch (const MeshError& error)
-      {
-        file.fail(offset, "triangle " +
-                            std::to_string((offset - StlHeaderBytes) / StlTriangleBytes) + ": " +
-                            error.what());
-      }
+      input.skip(AttributeBytes);
+      facets.endFacet();
     }
-    facets.endFacet();
+  }
+  catch (const MeshError& error)
+  {
+    file.fail(StlHeaderBytes + StlTriangleBytes * std::size_t(triangle),
+      "triangle " + std::to_string(triangle) + ": " + error.what());
   }
 }
 

@@ -138,6 +138,20 @@ class TooLong : public Nonsense
 {
 };
 
+/** The same, since the file ends before what it says. */
+class TooShort : public Nonsense
+{
+public:
+  explicit TooShort(std::string sentence)
+    : Sentence(std::move(sentence))
+  {
+  }
+  const std::string& sentence() const { return this->Sentence; }
+
+private:
+  std::string Sentence;
+};
+
 /** Reads numbers from a file in one byte order. */
 class Cursor
 {
@@ -170,7 +184,7 @@ public:
 
   std::string takeText(std::int32_t length)
   {
-    if (length < 0 || length > this->File.size() - this->Offset)
+    if (length < 0)
     {
       throw Nonsense();
     }
@@ -178,6 +192,10 @@ public:
     if (this->TextBytes > StreamFileHeader::MaxCommentBytes)
     {
       throw TooLong();
+    }
+    if (length > this->File.size() - this->Offset)
+    {
+      this->failAtEnd();
     }
     std::string text(length, '\0');
     this->bytes(std::as_writable_bytes(std::span(text)));
@@ -188,11 +206,16 @@ public:
   std::int64_t offset() const { return this->Offset; }
 
 private:
+  [[noreturn]] void failAtEnd() const
+  {
+    throw TooShort("byte " + std::to_string(this->File.size()) + ": the file ends in its header.");
+  }
+
   void bytes(std::span<std::byte> to)
   {
     if (this->File.readSome(this->Offset, to) != to.size())
     {
-      throw Nonsense();
+      this->failAtEnd();
     }
     this->Offset += static_cast<std::int64_t>(to.size());
   }
@@ -259,9 +282,16 @@ BinaryStreamHeader readAs(const FileDescriptor& file, StreamFormat format, std::
   }
   const std::int64_t elementBytes = 4 * cornersOf(cellTypeOf(format));
   const std::int64_t most = (file.size() - cursor.offset()) / elementBytes;
-  if (header.vertices < -1 || header.cells < -1 || header.vertices > most || header.cells > most)
+  if (header.vertices < -1 || header.cells < -1)
   {
     throw Nonsense();
+  }
+  if (header.vertices > most || header.cells > most)
+  {
+    throw TooShort("byte " + std::to_string(cursor.offset()) +
+                   ": the file ends too early for the counts of its header, " +
+                   std::to_string(header.vertices) + " vertices and " +
+                   std::to_string(header.cells) + " cells: it is truncated or damaged.");
   }
   result.bodyOffset = cursor.offset();
   return result;
@@ -325,6 +355,7 @@ BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamForm
   const bool saysBig = first[1] == std::byte{ 1 };
   std::vector<BinaryStreamHeader> candidates;
   bool isTooLong = false;
+  std::string sentenceOnEnd; // in the order that the file says
   for (const bool isBig : { saysBig, !saysBig })
   {
     try
@@ -335,6 +366,10 @@ BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamForm
     {
       isTooLong = true;
     }
+    catch (const TooShort& end)
+    {
+      sentenceOnEnd = isBig == saysBig ? end.sentence() : sentenceOnEnd;
+    }
     catch (const Nonsense&)
     {
     }
@@ -343,6 +378,10 @@ BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamForm
   {
     throw Error(name + ": byte 4: the comments of the header have more than 1 MiB, which is more "
                        "than is read: remove some of them, if the file is not damaged.");
+  }
+  if (candidates.empty() && !sentenceOnEnd.empty())
+  {
+    throw Error(name + ": " + sentenceOnEnd);
   }
   if (candidates.empty())
   {

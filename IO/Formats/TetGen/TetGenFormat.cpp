@@ -8,6 +8,7 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
@@ -42,7 +43,7 @@ public:
   void readNodes(InputFile& file)
   {
     TextScanner scanner(file, '#', &this->Builder.workspace());
-    this->guarded(scanner,
+    scanner.locateErrors(
       [&]
       {
         const std::int64_t count = scanner.count("the number of nodes", 6);
@@ -51,22 +52,26 @@ public:
         {
           scanner.fail("the dimension must be 2 or 3");
         }
-        this->beginAttributes(scanner, &RawMeshBuilder::addVertexColumn);
+        this->beginAttributes(scanner, ColumnOf::Vertices);
         const std::int64_t markers = numberInLine(scanner, "the number of boundary markers");
         if (markers != 0 && markers != 1)
         {
           scanner.fail("the number of boundary markers must be 0 or 1");
         }
-        const int markerColumn =
-          markers ? this->Builder.addVertexColumn({ MarkerName, ScalarType::Int64, 1 }) : -1;
+        ImportColumn markerColumn;
+        if (markers)
+        {
+          markerColumn =
+            ImportColumn(this->Builder, ColumnOf::Vertices, { MarkerName, ScalarType::Int64, 1 });
+        }
         for (std::int64_t i = 0; i < count; ++i)
         {
           this->readNode(scanner, i, static_cast<std::size_t>(dimension));
-          this->Builder.vertexTuples(this->Column, this->readAttributes(scanner));
+          this->Column.append(this->readAttributes(scanner));
           if (markers)
           {
             const std::int64_t marker = scanner.integer("the boundary marker of a node");
-            this->Builder.vertexTuples(markerColumn, std::as_bytes(std::span(&marker, 1)));
+            markerColumn.append(std::as_bytes(std::span(&marker, 1)));
           }
         }
         checkEnd(scanner);
@@ -76,7 +81,7 @@ public:
   void readElements(InputFile& file)
   {
     TextScanner scanner(file, '#', &this->Builder.workspace());
-    this->guarded(scanner,
+    scanner.locateErrors(
       [&]
       {
         const std::int64_t count = scanner.count("the number of elements", 8);
@@ -86,30 +91,19 @@ public:
           scanner.fail("elements of " + std::to_string(nodes) +
                        " nodes are not read, only tetrahedra of 4 or 10 and triangles of 3 or 6");
         }
-        this->beginAttributes(scanner, &RawMeshBuilder::addElementColumn);
+        this->beginAttributes(scanner, ColumnOf::Elements);
+        this->Builder.numberVertices(this->First, this->Builder.vertices());
         for (std::int64_t i = 0; i < count; ++i)
         {
           this->readIndex(scanner, i, "an element");
           this->readElement(scanner, static_cast<std::size_t>(nodes));
-          this->Builder.elementTuples(this->Column, this->readAttributes(scanner));
+          this->Column.append(this->readAttributes(scanner));
         }
         checkEnd(scanner);
       });
   }
 
 private:
-  static void guarded(TextScanner& scanner, const auto& read)
-  {
-    try
-    {
-      read();
-    }
-    catch (const MeshError& error)
-    {
-      scanner.fail(error.what());
-    }
-  }
-
   /** A number at the end of a first line; 0 if missing. */
   static std::int64_t numberInLine(TextScanner& scanner, const char* what)
   {
@@ -126,7 +120,7 @@ private:
     }
   }
 
-  void beginAttributes(TextScanner& scanner, int (RawMeshBuilder::*addColumn)(const ColumnSpec&))
+  void beginAttributes(TextScanner& scanner, ColumnOf of)
   {
     const std::int64_t attributes = numberInLine(scanner, "the number of attributes");
     if (attributes < 0 || attributes > MaxAttributes)
@@ -135,9 +129,10 @@ private:
                    ", not " + std::to_string(attributes));
     }
     this->Attributes.resize(static_cast<std::size_t>(attributes));
-    this->Column = attributes == 0 ? -1
-                                   : (this->Builder.*addColumn)({ AttributeName,
-                                       ScalarType::Float64, static_cast<int>(attributes) });
+    this->Column = attributes == 0
+                     ? ImportColumn()
+                     : ImportColumn(this->Builder, of,
+                         { AttributeName, ScalarType::Float64, static_cast<int>(attributes) });
   }
 
   std::span<const std::byte> readAttributes(TextScanner& scanner)
@@ -182,14 +177,7 @@ private:
     std::array<std::int64_t, 10> corners{};
     for (std::int64_t& corner : std::span(corners).first(nodes))
     {
-      const std::int64_t index = scanner.integer("a node of an element");
-      const std::int64_t end = this->First + this->Builder.vertices();
-      if (index < this->First || index >= end)
-      {
-        scanner.fail("the element names node " + std::to_string(index) + ", but the nodes are " +
-                     std::to_string(this->First) + " to " + std::to_string(end - 1));
-      }
-      corner = index - this->First;
+      corner = scanner.integer("a node of an element");
     }
     const bool flat = nodes == 3 || nodes == 6;
     const std::int64_t before = this->Builder.cells();
@@ -203,7 +191,7 @@ private:
 
   RawMeshBuilder& Builder;
   std::int64_t First = 1; ///< number of the first node and element
-  int Column = -1;        ///< of the attributes
+  ImportColumn Column;    ///< of the attributes
   std::vector<double> Attributes;
 };
 

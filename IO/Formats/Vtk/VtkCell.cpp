@@ -217,6 +217,7 @@ VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, CellChoice cho
   {
     builder.vertex(0.0, 0.0, 0.0);
   }
+  builder.numberVertices(0, points);
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
     try

@@ -6,6 +6,7 @@
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/Formats/Vtk/VtkCellReader.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Memory/Pool.h"
 
@@ -199,29 +200,17 @@ private:
     const std::int64_t first = cellsBefore(piece, list);
     VtkCellReader reader(this->Files, piece.file, cells, this->Space);
     OwnCells own = this->ownCells(piece, first);
-    std::vector<std::int64_t> corners;
+    this->Builder.numberVertices(0, piece.points, base);
     std::int64_t cell = 0;
     try
     {
       for (; cell < cells.cells; ++cell)
       {
         const std::span<const std::int64_t> points = reader.next();
-        corners.resize(points.size());
-        for (std::size_t k = 0; k < points.size(); ++k)
+        if (own.next())
         {
-          if (static_cast<std::uint64_t>(points[k]) >= static_cast<std::uint64_t>(piece.points))
-          {
-            throw MeshError("it names point " + std::to_string(points[k]) +
-                            ", counted from 0, but there are only " + std::to_string(piece.points) +
-                            " points");
-          }
-          corners[k] = points[k] + base;
+          takeVtkCell(reader.type(), points, this->Builder);
         }
-        if (!own.next())
-        {
-          continue;
-        }
-        takeVtkCell(reader.type(), corners, this->Builder);
       }
     }
     catch (const MeshError& error)
@@ -273,8 +262,13 @@ private:
       const std::string name =
         columnName(array, (*full).*arrays, ofPoints ? (*full).pointNormals : (*full).cellNormals);
       const ColumnSpec spec{ name, array.columnType, array.components };
-      ofPoints ? this->readPointColumn(array.name, this->Builder.addVertexColumn(spec))
-               : this->readCellColumn(array.name, this->Builder.addElementColumn(spec));
+      ImportColumn column(this->Builder, ofPoints ? ColumnOf::Vertices : ColumnOf::Elements, spec);
+      if (column.exists())
+      {
+        ofPoints ? this->readPointColumn(array.name, column)
+                 : this->readCellColumn(array.name, column);
+        column.close();
+      }
     }
   }
 
@@ -291,12 +285,8 @@ private:
     }
   }
 
-  void readPointColumn(const std::string& name, int column)
+  void readPointColumn(const std::string& name, ImportColumn& column)
   {
-    if (column < 0)
-    {
-      return;
-    }
     std::optional<VtkPointMerger::Walk> walk;
     if (this->Merger)
     {
@@ -311,18 +301,13 @@ private:
       VtkArrayReader reader(this->open(piece), *find(piece.pointArrays, name), this->Space);
       copyVtkTuples(
         reader, piece.points, [&walk] { return walk->next(); }, !walk,
-        [&](std::span<const std::byte> tuples) { this->Builder.vertexTuples(column, tuples); });
+        [&](std::span<const std::byte> tuples) { column.append(tuples); });
       this->advance();
     }
-    this->Builder.endVertexColumn(column);
   }
 
-  void readCellColumn(const std::string& name, int column)
+  void readCellColumn(const std::string& name, ImportColumn& column)
   {
-    if (column < 0)
-    {
-      return;
-    }
     for (std::size_t list = 0; list < this->lists(); ++list)
     {
       for (const VtkPiece& piece : this->Layout.pieces)
@@ -338,11 +323,10 @@ private:
         OwnCells own = this->ownCells(piece, first);
         copyVtkTuples(
           reader, piece.lists[list].cells, [&own] { return own.next(); }, own.areAll(),
-          [&](std::span<const std::byte> tuples) { this->Builder.elementTuples(column, tuples); });
+          [&](std::span<const std::byte> tuples) { column.append(tuples); });
         this->advance();
       }
     }
-    this->Builder.endElementColumn(column);
   }
 
   VtkFiles& Files;
