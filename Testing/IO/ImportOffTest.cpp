@@ -108,7 +108,8 @@ TEST_F(ImportOff, MeshesKeepTheirBits)
 TEST_F(ImportOff, ErrorsNameFileAndPlace)
 {
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
-  this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n", "line 6: the corner 3 is not a vertex");
+  this->expectError(
+    "a.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n", "line 6: the corner 3 is not a vertex");
   this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 -1 2\n", "line 6: the corner -1");
   this->expectError("a.off", "OFF\n9999999999 1 0\n0 0 0\n", "line 2: 9999999999 cannot be");
   this->expectError("a.off", "OFF\n-3 1 0\n0 0 0\n", "line 2: -3 cannot be");
@@ -198,7 +199,8 @@ TEST_F(ImportOff, ErrorsOfBinaryFilesNameTheByte)
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 0, 0 }),
     "more after the last face");
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 5 }), "colour");
-  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ -3, 0, 1, 2, 0 }), "-3 cannot be");
+  expectRefused(
+    head + integers({ 3, 1, 0 }) + points + integers({ -3, 0, 1, 2, 0 }), "-3 cannot be");
   const float nan = std::numeric_limits<float>::quiet_NaN();
   expectRefused(head + integers({ 3, 1, 0 }) + reals({ 0, 0, 0, 1, nan, 0, 0, 1, 0 }) +
                   integers({ 3, 0, 1, 2, 0 }),
