@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Shi2006/Shi2006.h"
-#include "Testing/Solver/MemoryLimits.h"
 #include "Testing/Solver/Shi2006Testing.h"
 #include "Testing/Support/ArrayHandles.h"
 #include "smg/Deform.h"
@@ -108,19 +107,6 @@ TEST(Shi2006Solve, InitialValuesThatAreTheSolutionAreLeftAlone)
   EXPECT_GT(report.residual(), 100.0);
 }
 
-TEST(Shi2006Solve, BlocksThreadsAndPiecesDoNotMatter)
-{
-  const StreamMesh mesh = toStream(torus(60, 30, 0.3));
-  ArrayProblem problem = deformed(mesh);
-  SolveOptions options = literal();
-  const Solved whole = solveMesh(mesh, problem, options);
-  options.threads = 2;
-  options.blockNodes = 7;
-  options.coreNodes = 0;
-  EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, 1).values, whole.values));
-  EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, 37).values, whole.values));
-}
-
 TEST(Shi2006Solve, ComponentsWithoutConstraintKeepTheirMean)
 {
   const StreamMesh mesh =
@@ -200,23 +186,6 @@ TEST(Shi2006Solve, ATornHierarchyIsTold)
   }
 }
 
-TEST(Shi2006Solve, RangesOfVerticesAreThoseOfTheWhole)
-{
-  const StreamMesh mesh = toStream(torus(60, 30, 0.3));
-  ArrayProblem problem = deformed(mesh);
-  MemorySource source(mesh);
-  const auto solution = solve(source, problem, literal());
-  const Eigen::MatrixXd all = valuesOf(*solution);
-  std::vector<double> part(3 * 100);
-  solution->read(517, 100, part);
-  for (int i = 0; i < 100; ++i)
-  {
-    EXPECT_EQ(part[3 * i + 2], all(517 + i, 2));
-  }
-  expectError([&] { solution->read(mesh.vertices() - 99, 100, part); }, "1800");
-  expectError([&] { solution->read(0, 101, part); }, "room");
-}
-
 TEST(Shi2006Solve, IsRefusedOutOfCore)
 {
   const StreamMesh mesh = toStream(torus(10, 10));
@@ -228,6 +197,16 @@ TEST(Shi2006Solve, IsRefusedOutOfCore)
   expectError([&] { solveMesh(mesh, problem, options); }, "use extended or shi2006");
 }
 
+TEST(Shi2006Solve, ItsMemoryIsEstimated)
+{
+  const StreamMesh mesh = toStream(torus(200, 100, 0.3));
+  ArrayProblem problem = deformed(mesh);
+  const std::int64_t need = solveMesh(mesh, problem, literal()).report.pool_bytes_peak;
+  const std::int64_t estimate = Shi2006::estimateMemory(MemorySource(mesh).info(), 3);
+  EXPECT_LT(estimate, need);
+  EXPECT_GT(estimate, 0.6 * static_cast<double>(need));
+}
+
 TEST(Shi2006Solve, IsRefusedForADeformation)
 {
   for (const bool inCore : { false, true })
@@ -236,50 +215,6 @@ TEST(Shi2006Solve, IsRefusedForADeformation)
     options.operators = "shi2006";
     options.inCore = inCore;
     expectError([&] { checkOptions(options); }, "deformation");
-  }
-}
-
-TEST(Shi2006Solve, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
-{
-  const StreamMesh mesh = toStream(torus(200, 100, 0.3));
-  ArrayProblem problem = deformed(mesh);
-  SolveOptions options = literal();
-  const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
-  options.memoryLimit = need / 2;
-  expectLimitRefused(mesh, options,
-    [&](MeshSource& source, const SolveOptions& limited) { solve(source, problem, limited); });
-  MemorySource source(mesh);
-  const std::int64_t estimate = Shi2006::estimateMemory(source.info(), 3);
-  EXPECT_LT(estimate, need);
-  EXPECT_GT(estimate, 0.6 * static_cast<double>(need));
-}
-
-TEST(Shi2006Solve, TheMemoryLimitIsKept)
-{
-  const StreamMesh mesh = toStream(tetBox(16, 16, 16, 0.15));
-  ArrayProblem problem = deformed(mesh, 1);
-  expectLimitsKept(literal(), 1 << 26,
-    [&](const SolveOptions& limited) { return solveMesh(mesh, problem, limited).report; });
-}
-
-TEST(Shi2006Solve, CanBeCancelledAtAnyTime)
-{
-  const StreamMesh mesh = toStream(torus(60, 30, 0.3));
-  ArrayProblem problem = deformed(mesh);
-  SolveOptions options = literal();
-  std::vector<double> seen;
-  options.progress = [&](double done)
-  {
-    seen.push_back(done);
-    return true;
-  };
-  solveMesh(mesh, problem, options);
-  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
-  EXPECT_EQ(seen.back(), 1.0);
-  for (const double at : { 0.1, 0.41, 0.9 })
-  {
-    options.progress = [at](double done) { return done < at; };
-    EXPECT_THROW(solveMesh(mesh, problem, options), Cancelled);
   }
 }
 
