@@ -70,26 +70,18 @@ def test_rigid_motions():
     write_torus("torus.obj", 120, 60)
     run("convert", "torus.obj", "torus.vsm", "--quiet")
     rest = arrays("torus.vsm")
-    fixed = {"fixed": True}
-    moved = {"translate": [1, -2, 0.5]}
     turned = {"rotate": {"axis": [0, 0, -2], "degrees": 200, "center": [1, 0, 0]}, "scale": 2,
               "translate": [0, 0, 3]}
     cos, sin = math.cos(math.radians(-200)), math.sin(math.radians(-200))
-    for motion, where in (
-            (fixed, lambda x, y, z: (x, y, z)),
-            (moved, lambda x, y, z: (x + 1, y - 2, z + 0.5)),
-            (turned, lambda x, y, z: (1 + 2 * (cos * (x - 1) - sin * y),
-                                      2 * (sin * (x - 1) + cos * y), 2 * z + 3))):
-        for weights in ("uniform", "clamped", "cotangent"):
-            handles({"region": RIGHT, **motion}, {"region": LEFT, **motion}, weights=weights,
-                    tolerance=1e-9)
-            done = deform("torus.vsm", "out.vsm", "--report", "report.json")
-            report = load("report.json")
-            assert report["converged"] and done.stderr == "", done.stderr
-            result = arrays("out.vsm")
-            error = distance(result.pop("Points"), [where(*point) for point in rest["Points"]])
-            assert error < (1e-9 if motion is fixed else 1e-7), (motion, weights, error)
-            assert result == {name: rest[name] for name in rest if name != "Points"}
+    handles({"region": RIGHT, **turned}, {"region": LEFT, **turned}, weights="uniform", tolerance=1e-9)
+    done = deform("torus.vsm", "out.vsm", "--report", "report.json")
+    assert load("report.json")["converged"] and done.stderr == "", done.stderr
+    result = arrays("out.vsm")
+    error = distance(result.pop("Points"), [(1 + 2 * (cos * (x - 1) - sin * y),
+                                             2 * (sin * (x - 1) + cos * y), 2 * z + 3)
+                                            for x, y, z in rest["Points"]])
+    assert error < 1e-7, error
+    assert result == {name: rest[name] for name in rest if name != "Points"}
 
 
 def test_report_and_options():

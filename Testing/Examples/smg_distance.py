@@ -53,14 +53,6 @@ def test_sources_add_up():
     assert both[7] == both[900] == both[33] == 0
 
 
-def test_the_same_for_any_memory():
-    write_torus("torus.obj", 300, 200)
-    run("convert", "torus.obj", "torus.vsm", "--quiet")
-    results = [distances("torus.vsm", "torus.vtp", "--from", '{"vertices": [1]}', *memory)
-               for memory in ((), ("--memory", "16"))]
-    assert results[0]["Distance"] == results[1]["Distance"]
-
-
 def test_walls_of_a_box():
     points, cells = tetrahedra(5)
     write_medit("box.mesh", points, cells)
@@ -128,8 +120,7 @@ def test_errors():
     assert "cannot hold a distance" in error, error
 
 
-for each in (test_columns_in_the_order_of_the_file, test_sources_add_up,
-             test_the_same_for_any_memory, test_walls_of_a_box,
+for each in (test_columns_in_the_order_of_the_file, test_sources_add_up, test_walls_of_a_box,
              test_vertices_of_no_cell_are_not_reached, test_errors):
     each()
     print("passed", each.__name__)

@@ -72,31 +72,6 @@ TEST(Acceleration, TheReportedResidualIsTheTrueOne)
   }
 }
 
-TEST(Acceleration, StreamingEqualsInCoreBitForBit)
-{
-  for (const int columns : { 1, 3, 5 })
-  {
-    auto [mesh, problem] = slowTask(columns != 1, columns);
-    for (const AccelerationKind kind : Kinds)
-    {
-      SolveOptions options = oneSweep(kind, 1e-12);
-      options.maxCycles = 7;
-      options.inCore = true;
-      const Solved expected = solveMesh(mesh, problem, options);
-      options.inCore = false;
-      for (const auto& [threads, blockNodes] : { std::pair{ 1, 64 }, std::pair{ 2, 1000 } })
-      {
-        options.threads = threads;
-        options.blockNodes = blockNodes;
-        options.coreNodes = 300;
-        const Solved solved = solveMesh(mesh, problem, options);
-        EXPECT_TRUE(sameBits(solved.values, expected.values));
-        EXPECT_EQ(solved.report.residuals, expected.report.residuals);
-      }
-    }
-  }
-}
-
 TEST(Acceleration, NeedsFewerPassesWhereVCyclesAreSlow)
 {
   // Elongated tetrahedra, many of them flat.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/BlendTesting.h"
 #include "Testing/Support/ErrorMessage.h"
-#include "Testing/Support/ProgressRecord.h"
 
 #include <gtest/gtest.h>
 
@@ -80,30 +79,6 @@ TEST(BlendErrors, OfPatchesAndValues)
   EXPECT_TRUE(
     contains(blendErrorOf(blendOf({ "large" })), "'large' has an integer of 2^53 or more"))
     << blendErrorOf(blendOf({ "large" }));
-}
-
-TEST(BlendErrors, ProgressRisesAndCancels)
-{
-  const MemoryMesh mesh(meshOfErrors(), 2);
-  BlendDescription description = blendOf({ "c" });
-  SolveOptions options;
-  for (const SeamGradient seam : { SeamGradient::Zero, SeamGradient::Average })
-  {
-    description.seam = seam;
-    for (const bool inCore : { false, true })
-    {
-      options.inCore = inCore;
-      ProgressRecord record;
-      options.progress = record.function();
-      blend(mesh, description, options);
-      record.expectRise(0.4);
-      for (const double end : { 0.0, 0.05, 0.1, 0.5, 0.95, 1.0 })
-      {
-        options.progress = [end](double done) { return done < end; };
-        EXPECT_THROW(blend(mesh, description, options), Cancelled) << end;
-      }
-    }
-  }
 }
 
 TEST(BlendErrors, AMeshWithoutExtentStays)

@@ -263,43 +263,4 @@ TEST(Blend, LabelsOfCellsLeaveTheVerticesBetweenThemWithoutPatch)
   EXPECT_GT(blended->report().seams.at(0).before, 1.0);
 }
 
-TEST(Blend, DoesNotDependOnBlocksThreadsAndMemory)
-{
-  const StreamMesh mesh = patched(bumpySurface());
-  const auto expected = blend(MemoryMesh(mesh), blendOf({ "c" }));
-  SolveOptions inCore;
-  inCore.inCore = true;
-  inCore.threads = 1;
-  SolveOptions streamed;
-  streamed.coreNodes = 0;
-  streamed.blockNodes = 100;
-  streamed.threads = 3;
-  for (const SolveOptions& options : { inCore, streamed })
-  {
-    for (const std::int64_t cells : { 1, 77 })
-    {
-      const auto blended = blend(MemoryMesh(mesh, cells), blendOf({ "c" }), options);
-      EXPECT_TRUE(sameBits(valuesOf(*blended), valuesOf(*expected)));
-      EXPECT_LE(blended->report().pool_bytes_peak, options.memoryLimit);
-    }
-  }
-}
-
-TEST(Blend, ValuesAreReadInAnyRange)
-{
-  const StreamMesh mesh = patched(toStream(torus(80, 40)));
-  const auto blended = blend(MemoryMesh(mesh), blendOf({ "c" }));
-  const Eigen::MatrixXd all = valuesOf(*blended);
-  for (const auto& [first, count] : { std::pair{ 3000, 200 }, { 1000, 1100 }, { 5, 0 }, { 0, 1 } })
-  {
-    std::vector<double> values(2 * static_cast<std::size_t>(count));
-    blended->read(first, count, values);
-    for (int i = 0; i < count; ++i)
-    {
-      EXPECT_EQ(values[2 * i], all(first + i, 0));
-      EXPECT_EQ(values[2 * i + 1], all(first + i, 1));
-    }
-  }
-}
-
 } // namespace smg::testing

@@ -3,9 +3,7 @@
 #include "Testing/Solver/DeformationTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/NotNumbers.h"
-#include "Testing/Support/ProgressRecord.h"
 #include "Testing/Support/ScratchError.h"
-#include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -122,18 +120,6 @@ TEST(DeformationErrors, TargetsBeyondReason)
   EXPECT_TRUE(contains(errorOfDeform(mesh, handles, withCycles(2)), "range of numbers"));
 }
 
-TEST(DeformationErrors, PointsThatAreNotFinite)
-{
-  const StreamMesh mesh = testMesh();
-  ArrayHandles handles = figureHandles(mesh);
-  for (const std::int64_t vertex : { std::int64_t(0), std::int64_t(333), mesh.vertices() - 1 })
-  {
-    StreamMesh broken = mesh;
-    broken.positions[3 * vertex + 2] = NotANumber;
-    EXPECT_TRUE(contains(errorOfDeform(broken, handles, withCycles(2)), "finite"));
-  }
-}
-
 TEST(DeformationErrors, OptionsOutOfRange)
 {
   const StreamMesh mesh = testMesh();
@@ -208,38 +194,6 @@ TEST(DeformationErrors, HandlesOfAnotherSize)
     Resizing handles(size);
     EXPECT_TRUE(
       contains(errorOfDeform(mesh, handles), "handles of " + std::to_string(size) + " vertices"));
-  }
-}
-
-TEST(DeformationErrors, CancellingAnywhereLeavesNoScratchFile)
-{
-  const TemporaryFolder folder;
-  const StreamMesh mesh = toStream(torus(120, 60, 0.3));
-  ArrayHandles handles = figureHandles(mesh);
-  for (const double limit : { 0.0, 0.15, 0.3, 0.45, 0.5, 0.55, 0.7, 0.9, 1.0 })
-  {
-    DeformOptions options = withCycles(3);
-    options.scratch = folder.path();
-    options.coreNodes = 500;
-    options.progress = [&](double fraction) { return fraction < limit; };
-    EXPECT_THROW(deformMesh(mesh, handles, options, 200), Cancelled) << "at " << limit;
-    EXPECT_EQ(folder.entries(), 0) << "cancelled at " << limit;
-  }
-}
-
-TEST(DeformationErrors, ProgressRisesEvenlyToOne)
-{
-  const StreamMesh mesh = toStream(torus(120, 60, 0.3));
-  ArrayHandles handles = figureHandles(mesh);
-  for (const bool core : { false, true })
-  {
-    ProgressRecord record;
-    DeformOptions options = withCycles(3);
-    options.inCore = core;
-    options.blockNodes = options.coreNodes = 500;
-    options.progress = record.function();
-    deformMesh(mesh, handles, options, 200);
-    record.expectRise(0.3);
   }
 }
 

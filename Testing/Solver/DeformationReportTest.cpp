@@ -177,4 +177,16 @@ TEST(DeformationReport, HasTheStepsInJson)
   }
 }
 
+TEST(DeformationReport, MemoryDoesNotGrowWithTheNumberOfCycles)
+{
+  const StreamMesh mesh = toStream(torus(316, 158, 0.3));
+  ArrayHandles handles = figureHandles(mesh);
+  DeformOptions options = withCycles(2);
+  options.coreNodes = 1000;
+  const Report few = deformMesh(mesh, handles, options).report;
+  options.cycles = 6;
+  const Report many = deformMesh(mesh, handles, options).report;
+  EXPECT_LE(static_cast<double>(many.pool_bytes_peak), 1.02 * few.pool_bytes_peak);
+}
+
 } // namespace smg::testing

@@ -2,7 +2,6 @@
 #include "Testing/Solver/DistanceTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/NotNumbers.h"
-#include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -184,20 +183,6 @@ TEST(DistanceErrors, MeshesAreChecked)
     StreamMesh mesh = toStream(unitSquare(4));
     std::ranges::for_each(mesh.positions, [scale](double& x) { x *= scale; });
     expectError([&] { measure(MemoryMesh(mesh), fromVertices({ 0 })); }, "extent of the mesh");
-  }
-}
-
-TEST(DistanceErrors, CancellingLeavesNothing)
-{
-  const MemoryMesh mesh(toStream(unitSquare(20)));
-  const TemporaryFolder scratch;
-  DistanceOptions options;
-  options.scratch = scratch.path();
-  for (const double end : { 0.01, 0.2, 0.5 })
-  {
-    options.progress = [end](double done) { return done < end; };
-    EXPECT_THROW(measure(mesh, fromVertices({ 0 }), options), Cancelled);
-    EXPECT_EQ(scratch.entries(), 0);
   }
 }
 

@@ -1,47 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/DistanceTesting.h"
-#include "Testing/Solver/MemoryGrowth.h"
-#include "Testing/Solver/MemoryLimits.h"
-#include "Testing/Support/SolutionRanges.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-// The distances do not depend on blocks, memory or, up to the tolerance, the window; memory grows
-// with the width of the stream.
+// The distances depend on the window by the tolerance alone.
 
 namespace smg::testing
 {
-namespace
-{
-
-DistanceDescription allOf(std::vector<std::int64_t> sources)
-{
-  DistanceDescription description = fromVertices(std::move(sources));
-  description.source = description.direction = true;
-  return description;
-}
-
-} // namespace
-
-TEST(DistanceStreaming, DoesNotDependOnBlocksAndMemory)
-{
-  for (const IndexedTestMesh& indexed : { torus(200, 120, 0.1), unitCube(12) })
-  {
-    const StreamMesh stream = toStream(indexed);
-    const DistanceDescription description = allOf({ 5, 6, 1500 });
-    const Solved whole = measure(MemoryMesh(stream), description);
-    for (const std::int64_t blockCells : { 37, 100000000 })
-    {
-      const MemoryMesh mesh(stream, blockCells);
-      EXPECT_TRUE(sameBits(measure(mesh, description).values, whole.values));
-    }
-    DistanceOptions options;
-    options.memoryLimit = whole.report.pool_bytes_peak;
-    EXPECT_TRUE(sameBits(measure(MemoryMesh(stream), description, options).values, whole.values));
-  }
-}
 
 TEST(DistanceStreaming, DependsOnTheWindowByTheTolerance)
 {
@@ -83,14 +50,6 @@ TEST(DistanceStreaming, DoesNotReadWhatCannotChange)
   EXPECT_LT(solved.report.distance->mesh_readings, 1.2);
 }
 
-TEST(DistanceStreaming, AnswersRanges)
-{
-  const MemoryMesh mesh(toStream(torus(60, 40)));
-  const auto solution = pathDistance(
-    mesh, allOf({ 11 }), std::make_unique<DistanceRun>(DistanceOptions()), "distance", 200);
-  expectRangesOfTheWhole(*solution);
-}
-
 TEST(DistanceStreaming, MeasuresASpanThatIsNotKnown)
 {
   MemoryMesh mesh(toStream(torus(60, 40)));
@@ -100,39 +59,6 @@ TEST(DistanceStreaming, MeasuresASpanThatIsNotKnown)
   EXPECT_TRUE(sameBits(measure(mesh, fromVertices({ 11 })).values, known.values));
   EXPECT_EQ(readings, 1);
   EXPECT_EQ(mesh.readings(), 3);
-}
-
-TEST(DistanceStreaming, MemoryOfASurfaceIsTheSquareRoot)
-{
-  // The chunks of these sizes follow from the span.
-  const auto run = [](const StreamMesh& mesh)
-  {
-    const MemoryMesh stored(mesh);
-    return measureInChunks(stored, fromVertices({ 0 }), 4 * stored.info().span).report;
-  };
-  expectGrowth(run, { toStream(torus(316, 158)), toStream(torus(632, 316)) }, 2.2, 2.4);
-}
-
-TEST(DistanceStreaming, StaysWithinItsLimit)
-{
-  const MemoryMesh mesh(toStream(torus(300, 200)));
-  DistanceOptions options;
-  options.memoryLimit = 1;
-  expectLimitsKept(options, 1 << 25,
-    [&](const DistanceOptions& limited)
-    { return measureInChunks(mesh, allOf({ 7 }), 4000, limited).report; });
-}
-
-TEST(DistanceStreaming, RefusesALimitBeforeItReads)
-{
-  const MemoryMesh mesh(toStream(torus(300, 200)));
-  DistanceOptions options;
-  options.memoryLimit = 1 << 20;
-  const std::string sentence = scratchErrorOf(
-    options, [&](const DistanceOptions& limited) { distance(mesh, fromVertices({ 7 }), limited); });
-  EXPECT_TRUE(contains(sentence, "a distance needs at least")) << sentence;
-  EXPECT_TRUE(contains(sentence, "(1048576 bytes)")) << sentence;
-  EXPECT_EQ(mesh.readings(), 0);
 }
 
 TEST(DistanceStreaming, ReportsWhatIsNotSettled)

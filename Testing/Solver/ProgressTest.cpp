@@ -2,24 +2,13 @@
 #include "Solver/Core/Progress.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ProgressRecord.h"
-#include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
 #include <vector>
 
 namespace smg::testing
 {
-namespace
-{
-
-StreamMesh someTorus()
-{
-  return toStream(torus(120, 60, 0.3));
-}
-
-} // namespace
 
 TEST(Progress, NeverDecreasesAndStopsWhenRefused)
 {
@@ -40,7 +29,7 @@ TEST(Progress, NeverDecreasesAndStopsWhenRefused)
 
 TEST(Progress, OfASolveRisesFromNearZeroToOne)
 {
-  const StreamMesh mesh = someTorus();
+  const StreamMesh mesh = toStream(torus(120, 60, 0.3));
   ArrayProblem problem = fixedEnds(mesh);
   for (const bool core : { false, true })
   {
@@ -57,42 +46,6 @@ TEST(Progress, OfASolveRisesFromNearZeroToOne)
       record.expectRise(maxCycles == 50 ? 0.3 : 0.7);
     }
   }
-}
-
-TEST(Progress, CancellingAnywhereLeavesNoScratchFile)
-{
-  const TemporaryFolder folder;
-  const StreamMesh mesh = someTorus();
-  ArrayProblem problem = fixedEnds(mesh);
-  for (const double limit : { 0.0, 0.05, 0.15, 0.3, 0.39, 0.45, 0.55, 0.7, 0.9, 1.0 })
-  {
-    SolveOptions options = accurate();
-    options.scratch = folder.path();
-    options.coreNodes = 500;
-    bool refused = false;
-    options.progress = [&](double fraction)
-    {
-      EXPECT_FALSE(refused);
-      refused = fraction >= limit;
-      return !refused;
-    };
-    EXPECT_THROW(solveMesh(mesh, problem, options, 200), Cancelled) << "at " << limit;
-    EXPECT_TRUE(refused);
-    EXPECT_EQ(folder.entries(), 0) << "cancelled at " << limit;
-  }
-}
-
-TEST(Progress, AnExceptionOfTheCallbackPassesThrough)
-{
-  const TemporaryFolder folder;
-  const StreamMesh mesh = someTorus();
-  ArrayProblem problem = fixedEnds(mesh);
-  SolveOptions options;
-  options.scratch = folder.path();
-  options.progress = [](double fraction) -> bool
-  { return fraction < 0.5 ? true : throw std::runtime_error("the caller's own"); };
-  EXPECT_THROW(solveMesh(mesh, problem, options), std::runtime_error);
-  EXPECT_EQ(folder.entries(), 0);
 }
 
 } // namespace smg::testing

@@ -136,38 +136,4 @@ TEST(SmoothErrors, EdgesOfMeshesWithSlivers)
   }
 }
 
-TEST(SmoothErrors, CancelledByTheProgressCallback)
-{
-  const MemoryMesh mesh(toStream(grid(30, 20)), 50);
-  for (const double until : { 0.0, 0.1, 0.5, 0.95 })
-  {
-    Smoothing options;
-    options.steps = 2;
-    options.keepEdges = 30.0;
-    options.hold = { Region::Sphere{ {}, 5 } };
-    double last = 0.0;
-    options.progress = [&](double done)
-    {
-      EXPECT_GE(done, last - 1e-12);
-      EXPECT_LE(done, 1.0);
-      last = std::max(last, done);
-      return done <= until;
-    };
-    EXPECT_THROW(smooth(mesh, options, options), Cancelled);
-  }
-}
-
-TEST(SmoothErrors, MemoryIsAccountedAndWithinTheLimit)
-{
-  const StreamMesh mesh = noisy(toStream(grid(150, 100)), 0.1);
-  Smoothing options;
-  options.coreNodes = 500;
-  const std::int64_t need = smoothed(mesh, options).report.pool_bytes_peak;
-  options.memoryLimit = need + need / 10;
-  const Solved again = smoothed(mesh, options);
-  EXPECT_LE(again.report.pool_bytes_peak, options.memoryLimit);
-  options.memoryLimit = need / 4;
-  EXPECT_SAYS(messageOf([&] { smoothed(mesh, options); }), "memory");
-}
-
 } // namespace smg::testing

@@ -337,28 +337,6 @@ TEST(Smooth, SizesAreInTheUnitOfTheMeshInEdgesOrInDiagonals)
   EXPECT_LT(farthest(smoothed(Torus, options).values, expected), 1e-12);
 }
 
-TEST(Smooth, TheResultHasTheSameBitsForAllBlocksThreadsAndInCore)
-{
-  Smoothing options;
-  options.steps = 2;
-  options.coreNodes = 50;
-  for (const bool edges : { false, true })
-  {
-    options.keepEdges = edges ? std::optional(30.0) : std::nullopt;
-    for (const StreamMesh* mesh : { &Torus, &Sheet })
-    {
-      options.inCore = false;
-      options.threads = 1;
-      const Eigen::MatrixXd expected = smoothed(*mesh, options, 100000).values;
-      options.threads = 3;
-      options.blockNodes = 17;
-      EXPECT_TRUE(sameBits(smoothed(*mesh, options, 13).values, expected));
-      options.inCore = true;
-      EXPECT_TRUE(sameBits(smoothed(*mesh, options, 100).values, expected));
-    }
-  }
-}
-
 TEST(Smooth, CellsWithoutAreaAndDuplicatesDoNoHarm)
 {
   StreamMesh mesh = Torus;

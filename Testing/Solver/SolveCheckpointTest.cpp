@@ -75,34 +75,6 @@ void expectSameInParts(const StreamMesh& mesh, const ArrayProblem& problem, Solv
 
 } // namespace
 
-TEST(SolveCheckpoint, SurfaceInPartsHasTheSameBits)
-{
-  const TemporaryFolder folder;
-  const StreamMesh mesh = toStream(shuffled(torus(110, 60, 0.4)), TestOrder::BreadthFirst);
-  SolveOptions options = streamed(folder / "ck");
-  options.acceleration = AccelerationKind::ConjugateGradients;
-  expectSameInParts(mesh, heldEnds(mesh, 3, Weights::Cotangent), options);
-}
-
-TEST(SolveCheckpoint, FreeComponentsInPartsHaveTheSameBits)
-{
-  const TemporaryFolder folder;
-  const StreamMesh mesh =
-    toStream(shuffled(disjointUnion(torus(60, 40, 0.4), torus(50, 40, 0.3), { 9, 0, 0 })),
-      TestOrder::BreadthFirst);
-  ArrayProblem problem;
-  problem.Columns = 2;
-  Random random(3);
-  for (std::int64_t i = 0; i < 2 * mesh.vertices(); ++i)
-  {
-    problem.Source.push_back(random.uniform(-1.0, 1.0));
-    problem.Value.push_back(random.uniform(-1.0, 1.0));
-  }
-  SolveOptions options = streamed(folder / "ck");
-  options.acceleration = AccelerationKind::Chebyshev;
-  expectSameInParts(mesh, problem, options);
-}
-
 TEST(SolveCheckpoint, WhatNothingDeterminesInPartsIsNoNumber)
 {
   const TemporaryFolder folder;

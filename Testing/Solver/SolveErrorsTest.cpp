@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Testing/Solver/MemoryLimits.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/NotNumbers.h"
@@ -183,27 +182,6 @@ TEST(SolveErrors, FinalVerticesThatBecomeFewer)
   EXPECT_TRUE(contains(errorOfBlocks(blocks), "does not decrease"));
 }
 
-TEST(SolveErrors, OfTheSourcePassThrough)
-{
-  /** A truncated file. */
-  class Truncated : public MemorySource
-  {
-  public:
-    using MemorySource::MemorySource;
-    bool next(MeshBlock& block) override
-    {
-      return ++this->Calls <= 20 ? MemorySource::next(block) : throw Error("the file is truncated");
-    }
-
-  private:
-    int Calls = 0;
-  };
-  const StreamMesh mesh = toStream(torus(60, 40));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
-  Truncated source(mesh, 100);
-  EXPECT_EQ(errorOfSolve(source, problem), "the file is truncated");
-}
-
 TEST(SolveErrors, AMeshWithoutVertices)
 {
   EXPECT_TRUE(contains(errorOfBlocks({}), "no vertices"));
@@ -240,38 +218,6 @@ TEST(SolveErrors, OptionsOutOfRange)
   problem.Columns = 1;
   problem.Screening = -1.0;
   EXPECT_NE(errorOfSolve(mesh, problem), "");
-}
-
-TEST(SolveErrors, AScratchFolderThatDoesNotExist)
-{
-  const StreamMesh mesh = toStream(torus(10, 10));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
-  SolveOptions options;
-  options.scratch = "/nowhere/at/all";
-  EXPECT_TRUE(contains(messageOf([&] { solveMesh(mesh, problem, options); }), "/nowhere/at/all"));
-}
-
-TEST(SolveErrors, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
-{
-  const StreamMesh mesh = toStream(torus(300, 150, 0.3));
-  ArrayProblem problem = heldEnds(mesh, 3, Weights::Clamped);
-  SolveOptions options;
-  options.coreNodes = 1000;
-  options.maxCycles = 1;
-  const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
-  options.memoryLimit = need / 4;
-  expectLimitRefused(mesh, options,
-    [&](MeshSource& source, const SolveOptions& limited) { solve(source, problem, limited); });
-}
-
-TEST(SolveErrors, TheMemoryLimitIsKept)
-{
-  const StreamMesh mesh = toStream(torus(200, 100, 0.3));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
-  SolveOptions options;
-  options.maxCycles = 2;
-  expectLimitsKept(options, 1 << 26,
-    [&](const SolveOptions& limited) { return solveMesh(mesh, problem, limited).report; });
 }
 
 } // namespace smg::testing

@@ -112,7 +112,13 @@ std::unique_ptr<Solution> MeshFairing::run()
     const double steps = this->Options.steps;
     this->step(k, Part{ surveyed, 1.0 }.of(k / steps, (k + 1) / steps));
   }
-  return this->finish();
+  std::unique_ptr<Solution> result = this->finish();
+  // The last step may cancel like any other.
+  if (this->Options.progress && !this->Options.progress(1.0))
+  {
+    throw Cancelled();
+  }
+  return result;
 }
 
 /** Reads the mesh once, and counts the pass. */

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/Shi2006/Shi2006.h"
 #include "Testing/Benchmarks/Shi2006/Shi2006Testing.h"
-#include "Testing/Solver/MemoryLimits.h"
 
 #include <gtest/gtest.h>
 
@@ -225,28 +224,14 @@ TEST(Shi2006Solve, IsNoOperatorSetOfTheLibrary)
   expectError([&] { solveByPaper(mesh, problem, options); }, "no automatic tolerance");
 }
 
-TEST(Shi2006Solve, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
+TEST(Shi2006Solve, ItsMemoryIsEstimated)
 {
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
   ArrayProblem problem = deformed(mesh);
-  SolveOptions options = literal();
-  const std::int64_t need = solveByPaper(mesh, problem, options).report.pool_bytes_peak;
-  options.memoryLimit = need / 2;
-  expectLimitRefused(mesh, options,
-    [&](MeshSource& source, const SolveOptions& limited)
-    { Shi2006(problem.columns(), limited).solve(source, problem); });
-  MemorySource source(mesh);
-  const std::int64_t estimate = Shi2006::estimateMemory(source.info(), 3);
+  const std::int64_t need = solveByPaper(mesh, problem, literal()).report.pool_bytes_peak;
+  const std::int64_t estimate = Shi2006::estimateMemory(MemorySource(mesh).info(), 3);
   EXPECT_LT(estimate, need);
   EXPECT_GT(estimate, 0.6 * static_cast<double>(need));
-}
-
-TEST(Shi2006Solve, TheMemoryLimitIsKept)
-{
-  const StreamMesh mesh = toStream(tetBox(16, 16, 16, 0.15));
-  ArrayProblem problem = deformed(mesh, 1);
-  expectLimitsKept(literal(), 1 << 26,
-    [&](const SolveOptions& limited) { return solveByPaper(mesh, problem, limited).report; });
 }
 
 TEST(Shi2006Solve, CanBeCancelledAtAnyTime)
