@@ -105,8 +105,13 @@ calculator.UpdatePipeline()
 # Every other writer that ParaView has for it is named in BigMeshWriter.xml.
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
 suffixes = re.findall(r"\*\.(\w+)", factory.GetSupportedFileTypes(calculator.SMProxy, 0))
-written = {"vsm", "sma", "smb", "sva", "svb", "ply", "vtp", "vtu", "vtkhdf", "pvtp", "pvtu"}
+written = {"vsm", "sma", "smb", "sva", "svb", "ply", "obj", "stl", "vtk", "vtp", "vtu", "vtkhdf", "pvtp", "pvtu"}
 assert "stl" in suffixes and "csv" in suffixes, suffixes
+whole = os.path.join(folder, "whole.obj")
+SaveData(whole, proxy=calculator)
+with open(whole, encoding="ascii") as file:
+    assert sum(line.startswith("v ") for line in file) == 34834, "not the mesh but its preview"
+said()
 for name in ("shown." + suffix for suffix in sorted(set(suffixes) - written)):
     SaveData(os.path.join(folder, name), proxy=calculator)
     text = said()

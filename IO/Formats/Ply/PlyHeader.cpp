@@ -227,7 +227,7 @@ PlyHeader readPlyHeader(InputFile& file)
   }
   catch (const Error&)
   {
-    // What is wrong with the last line of the file is that it is cut.
+    // An error in the last line of the file means that the file is cut.
     if (scanner.left() > 0)
     {
       throw;

@@ -47,7 +47,7 @@ private:
 void convertVtkScalars(
   const VtkArray& array, const std::byte* from, std::size_t count, std::byte* to);
 
-/** Reads tuples of a column in chunks and gives those to `take` of which `stays` says so. */
+/** Reads tuples of a column in chunks and passes those for which `stays` is true to `take`. */
 void copyVtkTuples(
   VtkArrayReader& reader, std::int64_t tuples, const auto& stays, bool allStay, const auto& take)
 {

@@ -156,7 +156,7 @@ private:
     }
   }
 
-  /** Puts an array to where its section wants it. */
+  /** Stores an array according to its section. */
   void addArray(const XmlTag& tag)
   {
     const std::string type = tag.value("type");
@@ -315,7 +315,7 @@ private:
   std::int64_t product(const XmlTag& tag, std::int64_t count, std::int64_t components)
   {
     std::int64_t values = 0;
-    // The array in bytes shall be a number, too.
+    // The size in bytes must not overflow either.
     if (__builtin_mul_overflow(count, components * 8, &values))
     {
       this->File.fail(tag.begin, "the array here cannot have " + std::to_string(count) + " tuples");
@@ -344,7 +344,7 @@ namespace
 {
 
 /** No file has more points, cells or bytes. */
-constexpr std::int64_t MaxThings = std::int64_t(1) << 48;
+constexpr std::int64_t MaxCount = std::int64_t(1) << 48;
 
 } // namespace
 
@@ -412,7 +412,7 @@ std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* n
   std::int64_t value = -1;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
-      value > MaxThings)
+      value > MaxCount)
   {
     file.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
   }

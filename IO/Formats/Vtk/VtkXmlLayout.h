@@ -20,7 +20,7 @@ namespace smg
  */
 void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t maxBytes);
 
-/** How the arrays of a file are written that are no text, as its root says. */
+/** How a file stores its arrays that are not text, as its root element declares. */
 struct VtkXmlEncoding
 {
   std::endian byteOrder = std::endian::little;
@@ -33,12 +33,13 @@ VtkXmlEncoding vtkXmlEncoding(const InputFile& file, const XmlTag& root);
 
 /**
  * The array of a tag <DataArray>; how many values it has is not known yet. One that is appended has
- * the encoding Raw and begins so many bytes behind the appended data's first. Throws Error.
+ * the encoding Raw, and its begin is an offset from the first byte of the appended data. Throws
+ * Error.
  */
 VtkArray vtkXmlArray(
   const InputFile& file, const XmlTag& tag, ScalarType type, const VtkXmlEncoding& encoding);
 
-/** The count that an attribute of a tag is, 0 if it is missing. Throws Error if it is none. */
+/** The value of an attribute as a count; 0 if it is missing. Throws Error if it is not a count. */
 std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* name);
 
 /**

@@ -201,7 +201,7 @@ void Level<Real>::restrict(bool follows)
  * x and b of a coarse node are used by two V-cycles in one pass: first as correction of the V-cycle
  * that ends, then as residual equation of the one that begins. One pair of vectors suffices, since
  * the second use begins only when the first one has ended for the node: when the last sweep has
- * passed its neighbours, which read x, and the finer level has prolongated to all its children.
+ * passed its neighbours, which read x, and the finer level has prolonged to all its children.
  */
 template <class Real>
 bool Level<Real>::prepare(std::int64_t node)

@@ -10,9 +10,9 @@
 #include <type_traits>
 
 // The transfer between a level and the next coarser one, by the rows of P that blocks contain:
-// kernels for LevelWindow::forColumns(). Parents of a block are relative to one of them,
-// parentBase. A ring is contiguous around any item in memory, so a pointer to that one reaches all
-// of them.
+// kernels for LevelWindow::forColumns(), which the stages of a pass (LevelStages.cpp) and the
+// levels in memory (VCycle.h) apply. Parents of a block are relative to one of them, parentBase. A
+// ring is contiguous around any item in memory, so a pointer to that one reaches all of them.
 
 namespace smg
 {

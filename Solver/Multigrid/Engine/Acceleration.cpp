@@ -46,7 +46,7 @@ const char* Acceleration::nameOf(AccelerationKind kind)
 }
 
 Acceleration::Acceleration(AccelerationKind wanted, const Convergence& convergence)
-  : Watched(convergence)
+  : StoppingRule(convergence)
   // Automatic is for solves that stop at a tolerance: a method that saves V-cycles saves nothing if
   // their number is fixed.
   , Wanted(wanted == AccelerationKind::Automatic && convergence.fixed() ? AccelerationKind::None
@@ -60,8 +60,9 @@ bool Acceleration::pays() const
 {
   // A factor of 1 or more is no estimate of the remaining V-cycles, but acceleration is most needed
   // then.
-  const double factor = this->Watched.cycles() == 0 ? UsualFactor : this->Watched.factor();
-  return factor >= 1.0 || this->Watched.cyclesLeft(factor) >= WorthwhileCycles;
+  const double factor =
+    this->StoppingRule.cycles() == 0 ? UsualFactor : this->StoppingRule.factor();
+  return factor >= 1.0 || this->StoppingRule.cyclesLeft(factor) >= WorthwhileCycles;
 }
 
 /** Starts the wanted method if it is time: conjugate residuals at once (Automatic: if they pay),
@@ -73,11 +74,11 @@ void Acceleration::begin()
     case AccelerationKind::None:
       return;
     case AccelerationKind::Chebyshev:
-      if (this->Watched.cycles() < Settling)
+      if (this->StoppingRule.cycles() < Settling)
       {
         return;
       }
-      this->Bound = boundFrom(this->Watched.factor());
+      this->Bound = boundFrom(this->StoppingRule.factor());
       this->Polynomial.emplace(this->Bound);
       this->Kind = AccelerationKind::Chebyshev;
       break;
@@ -91,7 +92,7 @@ void Acceleration::begin()
       this->Kind = AccelerationKind::ConjugateGradients;
       break;
   }
-  this->Begun = this->Watched.cycles();
+  this->Begun = this->StoppingRule.cycles();
 }
 
 void Acceleration::decide()
@@ -102,8 +103,8 @@ void Acceleration::decide()
     return;
   }
   // Conjugate residuals minimise what they measure and are left alone.
-  const std::vector<double>& r = this->Watched.residuals();
-  const int since = this->Watched.cycles() - this->Begun;
+  const std::vector<double>& r = this->StoppingRule.residuals();
+  const int since = this->StoppingRule.cycles() - this->Begun;
   if (this->Polynomial && since > Trial && r.back() >= r[r.size() - 1 - Trial])
   {
     this->giveUp("it did not make the residual smaller");
@@ -122,8 +123,8 @@ void Acceleration::watchPolynomial()
 {
   // Less is within the fluctuation of single steps.
   constexpr double Tolerated = 1.2;
-  const std::vector<double>& r = this->Watched.residuals();
-  if (this->Watched.cycles() - this->Begun <= Settling)
+  const std::vector<double>& r = this->StoppingRule.residuals();
+  if (this->StoppingRule.cycles() - this->Begun <= Settling)
   {
     return;
   }
@@ -135,7 +136,7 @@ void Acceleration::watchPolynomial()
   {
     this->Bound = boundFrom(b * (growth + 1 / growth) / 2);
     this->Polynomial.emplace(this->Bound);
-    this->Begun = this->Watched.cycles();
+    this->Begun = this->StoppingRule.cycles();
   }
 }
 
@@ -163,7 +164,7 @@ void Acceleration::saveMemory()
 void Acceleration::giveUp(const std::string& reason)
 {
   this->Note = std::string("acceleration (") + nameOf(this->Kind) + ") was given up after " +
-               std::to_string(this->Watched.cycles()) + " V-cycles: " + reason;
+               std::to_string(this->StoppingRule.cycles()) + " V-cycles: " + reason;
   this->Wanted = this->Kind = AccelerationKind::None;
 }
 

@@ -130,7 +130,7 @@ private:
   void watchPolynomial();
   void giveUp(const std::string& reason);
 
-  const Convergence& Watched;
+  const Convergence& StoppingRule;
   AccelerationKind Wanted;
   AccelerationKind Kind = AccelerationKind::None;
   std::optional<Chebyshev> Polynomial;

@@ -11,40 +11,41 @@ namespace smg
 void Iteration::operator()(bool spareLast)
 {
   Pass pass(this->Run, this->Levels);
-  while (!this->Watched.done() && !(spareLast && this->Watched.isLast()))
+  while (!this->StoppingRule.done() && !(spareLast && this->StoppingRule.isLast()))
   {
     const bool measures = this->measuresMemory();
     if (!measures)
     {
-      this->Faster.decide();
+      this->Accelerator.decide();
       this->addHistory();
     }
     if (this->History)
     {
-      this->History->startPass(this->Faster.next(this->History->products()));
+      this->History->startPass(this->Accelerator.next(this->History->products()));
     }
     // The peak of this pass alone, should it be the one that measures.
     this->Run.pool.restartPeak();
-    pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
+    pass(
+      this->StoppingRule.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
     if (measures)
     {
       this->Run.plainPassPeak = this->Run.pool.recentPeak();
       this->Run.valueNodes = this->Levels.window().x().capacity();
     }
-    this->Watched.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
+    this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
     if (this->Balance && this->Balance->add(this->Run.energy->value(),
-                           this->Watched.residuals().back(), this->Watched.factor()))
+                           this->StoppingRule.residuals().back(), this->StoppingRule.factor()))
     {
-      this->Watched.end();
+      this->StoppingRule.end();
     }
-    this->Run.progress.endCycle(this->Watched.cycles(), this->Watched.residuals().back());
-    this->Run.endPass(this->Watched.residuals().back());
+    this->Run.progress.endCycle(this->StoppingRule.cycles(), this->StoppingRule.residuals().back());
+    this->Run.endPass(this->StoppingRule.residuals().back());
   }
-  if (this->Faster.used() != std::string("none"))
+  if (this->Accelerator.used() != std::string("none"))
   {
-    this->Run.report.acceleration = this->Faster.used();
+    this->Run.report.acceleration = this->Accelerator.used();
   }
-  this->Faster.addNotes(this->Run.report.notes, this->What);
+  this->Accelerator.addNotes(this->Run.report.notes, this->NotePrefix);
   // Its memory is free for the results, or for the next problem.
   this->History.reset();
 }
@@ -61,17 +62,17 @@ bool Iteration::measuresMemory() const
   {
     return false;
   }
-  return this->Faster.isWanted() && !this->hasRoom(KeptResiduals::All);
+  return this->Accelerator.isWanted() && !this->hasRoom(KeptResiduals::All);
 }
 
 /** Creates the history that the next V-cycle needs, or releases one that it does not need. */
 void Iteration::addHistory()
 {
-  if (this->Faster.kind() != AccelerationKind::None && !this->History)
+  if (this->Accelerator.kind() != AccelerationKind::None && !this->History)
   {
     this->emplaceHistoryWithRoom();
   }
-  if (this->Faster.kind() == AccelerationKind::None)
+  if (this->Accelerator.kind() == AccelerationKind::None)
   {
     this->History.reset();
   }
@@ -84,7 +85,7 @@ void Iteration::emplaceHistoryWithRoom()
   // The slowest errors may be local to a few vertices of slivers, too few of which are in a sample.
   // So it is on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample
   // suffices.
-  const KeptResiduals residuals = this->Faster.kind() != AccelerationKind::ConjugateGradients
+  const KeptResiduals residuals = this->Accelerator.kind() != AccelerationKind::ConjugateGradients
                                     ? KeptResiduals::None
                                   : this->Levels.slowestAtSlivers() ? KeptResiduals::All
                                                                     : KeptResiduals::Sampled;
@@ -98,7 +99,7 @@ void Iteration::emplaceHistoryWithRoom()
   }
   else
   {
-    this->Faster.saveMemory();
+    this->Accelerator.saveMemory();
   }
 }
 
@@ -126,7 +127,7 @@ bool Iteration::hasRoom(KeptResiduals residuals) const
 void Iteration::emplaceHistory(KeptResiduals residuals)
 {
   LevelWindow<double>& window = this->Levels.window();
-  this->Kept = residuals;
+  this->ResidualStorage = residuals;
   this->History.emplace(this->Run.pool, window.nodes(), window.columns(), residuals);
   if (this->Run.scratch)
   {
@@ -138,7 +139,7 @@ void Iteration::save(StateWriter& state)
 {
   state.part("iteration");
   const bool accelerated = this->History.has_value();
-  state(this->Faster, this->Kept, accelerated);
+  state(this->Accelerator, this->ResidualStorage, accelerated);
   if (accelerated)
   {
     state(*this->History);
@@ -149,13 +150,13 @@ void Iteration::load(StateReader& state)
 {
   state.part("iteration");
   bool accelerated = false;
-  state(this->Faster, this->Kept, accelerated);
+  state(this->Accelerator, this->ResidualStorage, accelerated);
   if (accelerated)
   {
-    this->emplaceHistory(this->Kept);
+    this->emplaceHistory(this->ResidualStorage);
     state(*this->History);
   }
-  this->Run.progress.repeat(this->Watched.residuals());
+  this->Run.progress.repeat(this->StoppingRule.residuals());
 }
 
 } // namespace smg

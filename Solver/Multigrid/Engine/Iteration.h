@@ -29,10 +29,10 @@ public:
     std::string what = "", ErrorBalance* balance = nullptr)
     : Run(run)
     , Levels(hierarchy)
-    , Watched(convergence)
-    , What(std::move(what))
+    , StoppingRule(convergence)
+    , NotePrefix(std::move(what))
     , Balance(balance)
-    , Faster(run.options.acceleration, convergence)
+    , Accelerator(run.options.acceleration, convergence)
   {
   }
 
@@ -54,11 +54,11 @@ private:
 
   SolveContext& Run;
   Hierarchy& Levels;
-  Convergence& Watched;
-  std::string What;
+  Convergence& StoppingRule;
+  std::string NotePrefix;
   ErrorBalance* Balance;
-  Acceleration Faster;
-  KeptResiduals Kept = KeptResiduals::None; // by the history, for a checkpoint
+  Acceleration Accelerator;
+  KeptResiduals ResidualStorage = KeptResiduals::None; // by the history, for a checkpoint
   std::optional<IterateHistory> History;
 };
 

@@ -13,7 +13,7 @@ namespace smg
 
 /**
  * A pass over the levels, which finishes a V-cycle and begins the next one. k V-cycles take k + 1
- * passes with the first one, as in the paper.
+ * passes, counting the first, as in the paper.
  *
  * The pass moves over the finest level in steps. In each step load() makes available what the
  * upward part needs up to the end of the step, the chains of stages and the files advance as tasks

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <span>
 
-// The interpolation of the default operator set, in the three steps of OperatorSet: initial() makes
-// P0, relax() improves it by Gauss-Seidel on the rows of P instead of on unknowns, append() rounds
-// it and links the entries by column. Interpolation.h has the equations.
+// The interpolation of the default operator set, in the first two of three steps: initial() makes
+// P0, relax() improves it by Gauss-Seidel on the rows of P instead of on unknowns; appendRounded()
+// in InterpolationRow.h rounds the rows and links their entries by column. Interpolation.h has the
+// equations.
 //
 // The sum of each row of P is carried along by itself: row j sums to 1 minus its deficit, and the
 // deficit is the row sum of A plus the weighted deficits of the neighbours, over what the responses
