@@ -70,10 +70,14 @@ private:
     std::exception_ptr failure;
   };
 
-  /** In the memory of the last block but one. */
+  /** In the memory of the last block but one. Behind its end the mesh is not asked again. */
   Read next()
   {
     Read read{ std::move(this->Spare), true, nullptr };
+    if (this->Ended)
+    {
+      return read;
+    }
     try
     {
       read.ended = !this->Mesh.next(read.block);
