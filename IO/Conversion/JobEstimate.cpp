@@ -129,6 +129,25 @@ std::int64_t fileBytes(const ResultMesh& result, const std::filesystem::path& ou
            : vsm;
 }
 
+/** The files of a RowSort: none for rows that fit into its memory with the keys and their places.
+ */
+std::int64_t sortBytes(std::int64_t rows, std::int64_t bytes, std::int64_t memory)
+{
+  constexpr std::int64_t KeyBytes = 8, PlaceBytes = 8;
+  return rows * (KeyBytes + PlaceBytes + bytes) > memory ? rows * (KeyBytes + bytes) : 0;
+}
+
+/** What a format of triangles without vertices takes, as StlWriter: the corners are sorted by
+ * vertices, then with coordinates by triangles. */
+std::int64_t triangleBytes(std::int64_t corners, std::int64_t memory, std::string_view suffix)
+{
+  constexpr std::int64_t NumbersBytes = 2 * sizeof(std::uint32_t);
+  constexpr std::int64_t PositionBytes = 3 * sizeof(double);
+  return suffix == ".stl" ? sortBytes(corners, NumbersBytes, memory / 3) +
+                              sortBytes(corners, PositionBytes, memory / 3)
+                          : 0;
+}
+
 /** The most scratch files at once while the result is written. */
 std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& written)
 {
@@ -154,7 +173,9 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
   }
   const Format* const format = formatOfSuffix(suffix);
   const bool readsAgain = format && (format->writeVsm || !format->isStreamed());
-  return normals + (readsAgain ? result.bytes(Codec::Lz4) : 0);
+  constexpr std::int64_t Memory = std::int64_t(64) << 20; // of a file in stream order
+  return normals + (readsAgain ? result.bytes(Codec::Lz4) : 0) +
+         triangleBytes(result.mesh.cells * cornersOf(result.mesh.cellType), Memory, suffix);
 }
 
 } // namespace
@@ -293,19 +314,6 @@ std::string JobEstimate::json(int indent) const
   return json.dump(indent);
 }
 
-namespace
-{
-
-/** The files of a RowSort: none for rows that fit into its memory with the keys and their places.
- */
-std::int64_t sortBytes(std::int64_t rows, std::int64_t bytes, std::int64_t memory)
-{
-  constexpr std::int64_t KeyBytes = 8, PlaceBytes = 8;
-  return rows * (KeyBytes + PlaceBytes + bytes) > memory ? rows * (KeyBytes + bytes) : 0;
-}
-
-} // namespace
-
 std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix)
 {
   constexpr std::int64_t Number = sizeof(std::uint32_t);
@@ -319,12 +327,7 @@ std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::stri
     sortBytes(mesh.cells, element, memory / 3);
   const std::int64_t numbers = mesh.vertices * 2 * Number + corners * Number;
   const std::int64_t elements = mesh.cells * (Number + element);
-  // As TrianglePositions: the corners are sorted by vertices, then with coordinates by triangles.
-  constexpr std::int64_t PositionBytes = 3 * sizeof(double);
-  const std::int64_t triangles = suffix == ".stl" ? sortBytes(corners, 2 * Number, memory / 3) +
-                                                      sortBytes(corners, PositionBytes, memory / 3)
-                                                  : 0;
-  return sorted + std::max(numbers, elements + triangles);
+  return sorted + std::max(numbers, elements + triangleBytes(corners, memory, suffix));
 }
 
 } // namespace smg

@@ -19,8 +19,9 @@ namespace smg
  * of the workspace, and reports its progress.
  *
  * The suffix selects the format: .ply, .vtp, .vtu and .vtk with all columns; .obj, .off, .mesh,
- * .msh and .node with .ele with the columns that they support (see AttributeNames.h); .stl without.
- * Tetrahedra require .vtu, .vtk, .mesh, .msh or .node with .ele. Numbers in text read back exactly.
+ * .msh and .node with .ele with the columns that they support (see IO/Mesh/Columns.h); .stl
+ * without. Tetrahedra require .vtu, .vtk, .mesh, .msh or .node with .ele. Numbers in text read back
+ * exactly.
  * @return a note for each part of the mesh that the file cannot represent exactly
  * @throws Error if checkRestoredPath() does, the original order is unknown (see RestoredMesh), or a
  * file cannot be read or written; Cancelled. No part of the output is left then.

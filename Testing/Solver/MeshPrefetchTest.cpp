@@ -93,6 +93,11 @@ TEST(MeshPrefetch, DeliversTheBlocksOfTheStreamInOrder)
     }
     EXPECT_EQ(vertices, source.info().vertices);
     EXPECT_EQ(cells, source.info().cells);
+    for (int k = 0; k < 3; ++k)
+    {
+      stream.advance();
+      stream.read();
+    }
     EXPECT_EQ(source.Asked, blocks + 1); // not again after the end
   }
 }
