@@ -344,7 +344,7 @@ namespace
 {
 
 /** No file has more points, cells or bytes. */
-constexpr std::int64_t MaxCount = std::int64_t(1) << 48;
+constexpr std::int64_t MaxXmlCount = std::int64_t(1) << 48;
 
 } // namespace
 
@@ -412,7 +412,7 @@ std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* n
   std::int64_t value = -1;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
-      value > MaxCount)
+      value > MaxXmlCount)
   {
     file.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
   }
