@@ -87,7 +87,8 @@ TEST_F(ImportTetGen, ErrorsNameFileAndLine)
     PlainNodes, "1 4 0\n1 1 2 3 5\n", "a.1.ele, line 2: the corner 5 is not a vertex");
   this->expectRefused(
     PlainNodes, "1 4 0\n1 0 2 3 4\n", "a.1.ele, line 2: the corner 0 is not a vertex");
-  this->expectRefused(PlainNodes, "1 4 0\n1 -1 2 3 4\n", "a.1.ele, line 2: the element names");
+  this->expectRefused(
+    PlainNodes, "1 4 0\n1 -1 2 3 4\n", "a.1.ele, line 2: the corner -1 is not a vertex");
   this->expectRefused(PlainNodes, "1 4 0\n2 1 2 3 4\n", "line 2: an element has the number 2");
   this->expectRefused(PlainNodes, "1 5 0\n1 1 2 3 4 1\n", "elements of 5 nodes");
   this->expectRefused(PlainNodes, "2 4 0\n1 1 2 3 4\n2 1 2 3", "line 3");
