@@ -3,10 +3,12 @@
 
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Export/RestoredMesh.h"
+#include "IO/External/ExternalSort.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmFile.h"
+#include "IO/Formats/WriteFiles.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Mesh/Format.h"
 #include "Solver/Core/Text.h"
@@ -129,23 +131,30 @@ std::int64_t fileBytes(const ResultMesh& result, const std::filesystem::path& ou
            : vsm;
 }
 
-/** The files of a RowSort: none for rows that fit into its memory with the keys and their places.
- */
-std::int64_t sortBytes(std::int64_t rows, std::int64_t bytes, std::int64_t memory)
+/** The scratch files of the writer of a file of this suffix. */
+std::int64_t writerBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix)
 {
-  constexpr std::int64_t KeyBytes = 8, PlaceBytes = 8;
-  return rows * (KeyBytes + PlaceBytes + bytes) > memory ? rows * (KeyBytes + bytes) : 0;
+  const Format* const format = formatOfSuffix(suffix);
+  return format && format->scratch ? format->scratch(mesh, memory) : 0;
 }
 
-/** What a format of triangles without vertices takes, as StlWriter: the corners are sorted by
- * vertices, then with coordinates by triangles. */
-std::int64_t triangleBytes(std::int64_t corners, std::int64_t memory, std::string_view suffix)
+/** About the most bytes of scratch files at once while RestoredMesh sorts the mesh of a .vsm file
+ * in a workspace of `memory` bytes, and a file of this suffix is written of it. `mesh` has the
+ * columns of that file. */
+std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix)
 {
-  constexpr std::int64_t NumbersBytes = 2 * sizeof(std::uint32_t);
-  constexpr std::int64_t PositionBytes = 3 * sizeof(double);
-  return suffix == ".stl" ? sortBytes(corners, NumbersBytes, memory / 3) +
-                              sortBytes(corners, PositionBytes, memory / 3)
-                          : 0;
+  constexpr std::int64_t Number = sizeof(std::uint32_t);
+  const std::int64_t corners = mesh.cells * cornersOf(mesh.cellType);
+  const std::int64_t element =
+    rowBytes(mesh.cellColumns, cornersOf(mesh.cellType) * Number); // with the columns
+  // As RestoredMesh: vertices and elements are sorted; the stream's corners and the pairs of
+  // numbers give way to the elements with their sizes.
+  const std::int64_t sorted =
+    rowSortBytes(mesh.vertices, rowBytes(mesh.vertexColumns, positionBytes(mesh)), memory / 4) +
+    rowSortBytes(mesh.cells, element, memory / 3);
+  const std::int64_t numbers = mesh.vertices * 2 * Number + corners * Number;
+  const std::int64_t elements = mesh.cells * (Number + element);
+  return sorted + std::max(numbers, elements + writerBytes(mesh, memory, suffix));
 }
 
 /** The most scratch files at once while the result is written. */
@@ -173,9 +182,8 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
   }
   const Format* const format = formatOfSuffix(suffix);
   const bool readsAgain = format && (format->writeVsm || !format->isStreamed());
-  constexpr std::int64_t Memory = std::int64_t(64) << 20; // of a file in stream order
   return normals + (readsAgain ? result.bytes(Codec::Lz4) : 0) +
-         triangleBytes(result.mesh.cells * cornersOf(result.mesh.cellType), Memory, suffix);
+         writerBytes(result.mesh, StreamOrderMemory, suffix);
 }
 
 } // namespace
@@ -312,22 +320,6 @@ std::string JobEstimate::json(int indent) const
   }
   json["cpu_seconds"] = this->cpu_seconds;
   return json.dump(indent);
-}
-
-std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix)
-{
-  constexpr std::int64_t Number = sizeof(std::uint32_t);
-  const std::int64_t corners = mesh.cells * cornersOf(mesh.cellType);
-  const std::int64_t element =
-    rowBytes(mesh.cellColumns, cornersOf(mesh.cellType) * Number); // with the columns
-  // As RestoredMesh: vertices and elements are sorted; the stream's corners and the pairs of
-  // numbers give way to the elements with their sizes.
-  const std::int64_t sorted =
-    sortBytes(mesh.vertices, rowBytes(mesh.vertexColumns, positionBytes(mesh)), memory / 4) +
-    sortBytes(mesh.cells, element, memory / 3);
-  const std::int64_t numbers = mesh.vertices * 2 * Number + corners * Number;
-  const std::int64_t elements = mesh.cells * (Number + element);
-  return sorted + std::max(numbers, elements + triangleBytes(corners, memory, suffix));
 }
 
 } // namespace smg

@@ -96,9 +96,4 @@ struct SMG_EXPORT JobEstimate
   std::string json(int indent = 2) const;
 };
 
-/** About the most bytes of scratch files at once while RestoredMesh sorts the mesh of a .vsm file
- * in a workspace of `memory` bytes, and a file of this suffix is written of it. `mesh` has the
- * columns of that file. */
-std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix);
-
 } // namespace smg

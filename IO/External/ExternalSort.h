@@ -195,4 +195,12 @@ private:
 /** Sorts rows of bytes by a number; stable for equal numbers. */
 using RowSort = MergeSort<KeyedRows>;
 
+/** Bytes of the files of a RowSort of this many rows: none if they fit into its memory with their
+ * keys and places. */
+inline std::int64_t rowSortBytes(std::int64_t rows, std::int64_t rowBytes, std::int64_t memory)
+{
+  constexpr std::int64_t KeyBytes = sizeof(KeyedRows::Key), PlaceBytes = sizeof(std::uint64_t);
+  return rows * (KeyBytes + PlaceBytes + rowBytes) > memory ? rows * (KeyBytes + rowBytes) : 0;
+}
+
 } // namespace smg

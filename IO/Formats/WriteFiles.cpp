@@ -207,8 +207,7 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
   {
     return format.writeVsm(vsm, path, options);
   }
-  constexpr std::int64_t Memory = std::int64_t(64) << 20; // only for PartTurn::ElementsFirst
-  Workspace space(options.scratch, Memory);
+  Workspace space(options.scratch, StreamOrderMemory);
   StreamedMesh mesh(vsm, options.progress);
   return writeParts(mesh, format, path, space);
 }

@@ -5,12 +5,16 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace smg
 {
+
+/** Memory of a writer that sorts (Format::scratch) for a file in stream order, bytes. */
+inline constexpr std::int64_t StreamOrderMemory = std::int64_t(64) << 20;
 
 /**
  * Writes a .vsm file in the order of its original file, according to its columns OriginalId and

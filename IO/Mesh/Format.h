@@ -149,6 +149,9 @@ struct Format
   /** Begins a file of an indexed mesh, in the order of its original file or of a mesh stream. */
   MeshFileFunction* writer = nullptr;
   PartTurn turn = PartTurn::VerticesFirst;
+  /** The scratch files of this writer in a workspace of `memory` bytes, bytes; null: it has none.
+   */
+  std::int64_t (*scratch)(const StreamInfo& mesh, std::int64_t memory) = nullptr;
   /**
    * Whether a mesh stream is written as such: in its order, with all columns, also those of a
    * conversion (OriginalId ...). Other files are like an original: in its order if that is known,

@@ -379,6 +379,15 @@ std::unique_ptr<MeshFileWriter> makeStlWriter(
   return std::make_unique<StlWriter>(path, info, *space);
 }
 
+/** The corners are sorted by vertices, then with coordinates by triangles. */
+std::int64_t scratchOfStl(const StreamInfo& mesh, std::int64_t memory)
+{
+  constexpr std::int64_t NumbersBytes = 2 * sizeof(std::uint32_t);
+  const std::int64_t corners = mesh.cells * cornersOf(mesh.cellType);
+  return rowSortBytes(corners, NumbersBytes, memory / 3) +
+         rowSortBytes(corners, sizeof(Position), memory / 3);
+}
+
 std::int64_t bytesOfStl(const MeshToWrite& written)
 {
   const StreamInfo& mesh = written.mesh;
@@ -419,6 +428,7 @@ const Format StlFormat{
   .bytes = bytesOfStl,
   .writer = makeStlWriter,
   .turn = PartTurn::ElementsFirst,
+  .scratch = scratchOfStl,
   .maxCorners = 3,
 };
 
