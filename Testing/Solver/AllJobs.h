@@ -159,6 +159,7 @@ inline const Job AllJobs[] = {
   { .name = "SolveForOneColumn",
     .on = [](StreamMesh& mesh)
     { return solving(heldEnds(mesh, 1, Weights::Cotangent), fewCycles()); },
+    .hasWindow = true,
     .hasCheckpoints = true,
     .isVariant = true },
   { .name = "SolveWithUniformWeights",
@@ -196,6 +197,7 @@ inline const Job AllJobs[] = {
     .refusesBeforeItReads = false },
   { .name = "Deform",
     .on = [](StreamMesh& mesh) { return deforming(mesh, withCycles(2)); },
+    .hasWindow = true,
     .hasCheckpoints = true },
   { .name = "DeformWithUniformWeights",
     .on = [](StreamMesh& mesh) { return deforming(mesh, withCycles(3, Weights::Uniform)); },
@@ -236,22 +238,35 @@ inline const Job AllJobs[] = {
   { .name = "DistanceInChunks",
     .on = [](StreamMesh& mesh) { return measuringInChunks(mesh); },
     .inCore = false,
+    .hasWindow = true,
     .isVariant = true },
   { .name = "WallDistance",
     .on = [](StreamMesh& mesh) { return measuring(mesh, true); },
     .ofSurfaces = false,
     .inCore = false,
+    .hasScratchFiles = false,
     .refusesBeforeItReads = false },
 };
 
-/** Those without variants. */
+/** The jobs of which this is true. */
+inline std::vector<Job> jobsWith(bool (*is)(const Job& job))
+{
+  std::vector<Job> jobs;
+  std::ranges::copy_if(AllJobs, std::back_inserter(jobs), is);
+  return jobs;
+}
+
 inline std::vector<Job> kindsOfJobs()
 {
-  std::vector<Job> kinds;
-  std::ranges::copy_if(
-    AllJobs, std::back_inserter(kinds), [](const Job& job) { return !job.isVariant; });
-  return kinds;
+  return jobsWith([](const Job& job) { return !job.isVariant; });
 }
+
+/** A test of one of the jobs. */
+class JobTest : public ::testing::TestWithParam<Job>
+{
+protected:
+  const Job& job() const { return this->GetParam(); }
+};
 
 inline std::ostream& operator<<(std::ostream& out, const Job& job)
 {

@@ -23,11 +23,9 @@ namespace smg::testing
 namespace
 {
 
-class JobLaws : public ::testing::TestWithParam<Job>
+class JobLaws : public JobTest
 {
 protected:
-  const Job& job() const { return this->GetParam(); }
-
   /** A surface, or a solid if the job is one of solids alone, of some thousand vertices. */
   JobOnMesh onSomeMesh() const
   {
@@ -75,9 +73,6 @@ protected:
     }
     return ways;
   }
-
-  /** Skips a law of scratch files where the job has none. */
-  bool hasScratchFiles() const { return std::string(this->job().name) != "WallDistance"; }
 };
 
 /** The laws of all variants of the jobs. */
@@ -245,7 +240,7 @@ TEST_P(JobLaws, KeepsTheLimitOfScratchFiles)
     way.scratchLimit = 1;
     EXPECT_EQ(run(way).report.scratch_bytes_peak, 0) << "nothing to limit";
   }
-  if (!this->hasScratchFiles())
+  if (!this->job().hasScratchFiles)
   {
     return;
   }

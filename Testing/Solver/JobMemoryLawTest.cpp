@@ -18,11 +18,9 @@ namespace smg::testing
 namespace
 {
 
-class JobMemory : public ::testing::TestWithParam<Job>
+class JobMemory : public JobTest
 {
 protected:
-  const Job& job() const { return this->GetParam(); }
-
   StreamMesh someMesh() const
   {
     return toStream(this->job().ofSurfaces ? torus(200, 100, 0.3) : tetBox(27, 27, 27, 0.15));
@@ -143,24 +141,8 @@ TEST_P(JobMemoryLaw, OfAStripIsItsWidth)
   }
 }
 
-/** Those that were seen to keep it. */
-std::vector<Job> windowedJobs()
-{
-  std::vector<Job> jobs;
-  for (const Job& job : AllJobs)
-  {
-    for (const std::string name : { "SolveForOneColumn", "Deform", "DistanceInChunks" })
-    {
-      if (name == job.name)
-      {
-        jobs.push_back(job);
-      }
-    }
-  }
-  return jobs;
-}
-
 INSTANTIATE_TEST_SUITE_P(Of, JobMemory, ::testing::ValuesIn(kindsOfJobs()), nameOf);
-INSTANTIATE_TEST_SUITE_P(Of, JobMemoryLaw, ::testing::ValuesIn(windowedJobs()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Of, JobMemoryLaw,
+  ::testing::ValuesIn(jobsWith([](const Job& job) { return job.hasWindow; })), nameOf);
 
 } // namespace smg::testing

@@ -64,6 +64,8 @@ struct Job
   JobRun (*on)(StreamMesh& mesh);
   bool ofSurfaces = true, ofSolids = true;
   bool inCore = true;               ///< it can have all in memory
+  bool hasScratchFiles = true;      ///< if it does not have all in memory
+  bool hasWindow = false;           ///< its memory follows the width of the stream
   bool hasCheckpoints = false;      ///< it continues after it was killed
   bool refusesBeforeItReads = true; ///< it knows from the counts that a memory limit is too low
   double largestStep = 0.3;         ///< of the progress that it reports
