@@ -107,18 +107,19 @@ std::unique_ptr<Solution> MeshFairing::run()
   // Shares of the progress: the survey reads the mesh once, a step about ten times.
   const double surveyed = 1.0 / (1.0 + 10.0 * this->Options.steps);
   this->survey({ 0.0, surveyed });
-  for (int k = 0; k<this->Options.steps&& this->Result->vertices()> 0; ++k)
+  const int steps = this->Result->vertices() > 0 ? this->Options.steps : 0;
+  for (int k = 0; k < steps; ++k)
   {
-    const double steps = this->Options.steps;
-    this->step(k, Part{ surveyed, 1.0 }.of(k / steps, (k + 1) / steps));
+    const double all = steps;
+    this->step(k, Part{ surveyed, 1.0 }.of(k / all, (k + 1) / all));
   }
-  std::unique_ptr<Solution> result = this->finish();
-  // The last step may cancel like any other.
+  // The last step may cancel like any other; what is taken from the pool of the result must end
+  // before the result does.
   if (this->Options.progress && !this->Options.progress(1.0))
   {
     throw Cancelled();
   }
-  return result;
+  return this->finish();
 }
 
 /** Reads the mesh once, and counts the pass. */
