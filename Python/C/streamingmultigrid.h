@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * Streaming Multigrid for any language: elliptic problems on meshes too large for memory.
+ *
+ *   smg_mesh* mesh = NULL;
+ *   smg_field* field = NULL;
+ *   if (smg_open("bunny.ply", NULL, NULL, NULL, &mesh) ||
+ *       smg_run(mesh, "solve", problem, NULL, NULL, &field) ||
+ *       smg_save(field, "bunny.vtu", NULL, NULL, NULL, NULL))
+ *     fprintf(stderr, "%s\n", smg_error());
+ *   smg_close_field(field);
+ *   smg_close_mesh(mesh);
+ *
+ * Functions that can fail return a status; smg_error() then has the sentence for the user. What to
+ * compute, and how, are JSON texts: NULL or "" is {}. Keys that do not exist are errors.
+ *
+ * Vertices and cells have two orders. The *original* one is that of the file or of the arrays, with
+ * the vertices of no cell; the *stream* order is that in which a mesh is read. Numbers in JSON, rows
+ * of arrays that are given, and smg_read() refer to the original order; blocks come in stream order.
+ *
+ * A handle may be used by one thread at a time, different handles by different threads. A field, its
+ * blocks and a solver keep what they need of their mesh: handles may be closed in any order.
+ */
+#ifndef STREAMINGMULTIGRID_H
+#define STREAMINGMULTIGRID_H
+
+#include <stdint.h>
+
+#ifndef SMG_C_EXPORT
+#define SMG_C_EXPORT
+#endif
+
+#ifdef __cplusplus
+extern "C"
+{
+#endif
+
+  typedef struct smg_mesh smg_mesh;     /* a mesh, on disk */
+  typedef struct smg_field smg_field;   /* what a job found: values at the vertices, on disk */
+  typedef struct smg_blocks smg_blocks; /* a mesh or a field, block after block */
+  typedef struct smg_solver smg_solver; /* equations with their hierarchy, in memory */
+
+  typedef enum smg_status
+  {
+    SMG_OK = 0,
+    SMG_FAILED = 1,    /* the mesh, a file, the disk, or the system */
+    SMG_INVALID = 2,   /* a wrong argument: a text, an option, the shape or type of an array */
+    SMG_MEMORY = 3,    /* a memory limit is too low, or there is no memory */
+    SMG_CANCELLED = 4  /* the progress function said so; nothing half-done is left */
+  } smg_status;
+
+  typedef enum smg_type
+  {
+    SMG_INT8 = 0,
+    SMG_UINT8 = 1,
+    SMG_INT16 = 2,
+    SMG_UINT16 = 3,
+    SMG_INT32 = 4,
+    SMG_UINT32 = 5,
+    SMG_INT64 = 6,
+    SMG_UINT64 = 7,
+    SMG_FLOAT32 = 8,
+    SMG_FLOAT64 = 9
+  } smg_type;
+
+  /* A table of numbers that belongs to somebody else. Strides are in bytes, and may be negative. */
+  typedef struct smg_array
+  {
+    const void* data;
+    smg_type type;
+    int64_t rows, columns;
+    int64_t row_stride, column_stride;
+  } smg_array;
+
+  /* Takes the part that is done, from 0 to 1; returns 0 to go on, anything else to cancel. It is
+   * called on the thread that called the function. */
+  typedef int (*smg_progress)(double done, void* user);
+
+  /* The version of the library, for example "0.3.0". */
+  SMG_C_EXPORT const char* smg_version(void);
+
+  /* What the last function that failed on this thread has to say. */
+  SMG_C_EXPORT const char* smg_error(void);
+
+  /* Opens a mesh file of any format; one that is no .vsm is converted to a scratch file.
+   * options: "memory" (bytes, or a text as "1GB"), "cells" ("triangles", "tets"), "weld" (distance),
+   * "time_step", "partition", "order" ("bfs", "spectral", "axis", "keep"), "threads", "scratch"
+   * (folder), "scratch_limit" (bytes, or a text), "checkpoint" (folder). */
+  SMG_C_EXPORT smg_status smg_open(const char* path, const char* options, smg_progress progress,
+    void* user, smg_mesh** mesh);
+
+  /* A mesh of arrays, which are read during the call: points (n x 3) of any type, and cells (m x 3:
+   * triangles, m x 4: tetrahedra), rows of `points`, of any integer type. options as of smg_open(),
+   * without those of files. */
+  SMG_C_EXPORT smg_status smg_open_arrays(const smg_array* points, const smg_array* cells,
+    const char* options, smg_progress progress, void* user, smg_mesh** mesh);
+
+  /* Adds a column to the vertices (cells = 0) or cells (1), a row for each in the original order, in
+   * place of one of this name. The array is not copied: it must not change or go as long as the mesh
+   * and what was made from it are open. */
+  SMG_C_EXPORT smg_status smg_add_column(
+    smg_mesh* mesh, const char* name, int cells, const smg_array* values);
+
+  /* What is known of a mesh: the JSON of `smg info --report`; with `full` that of `smg info --full`,
+   * which reads the mesh. The text is valid until the next call with this mesh. */
+  SMG_C_EXPORT smg_status smg_info(
+    smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json);
+
+  /* The numbers of vertices and cells in the original order. */
+  SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
+
+  /* What a job is expected to cost, before it starts: the JSON of `--dry-run --report`. `path`: where
+   * the result is to be written; NULL: nowhere. The text as that of smg_info(). */
+  SMG_C_EXPORT smg_status smg_estimate(smg_mesh* mesh, const char* job, const char* description,
+    const char* path, const char** json);
+
+  /* Does a job. description:
+   *   "solve"     "problem" (as a problem file: docs/problem.md), "tolerance" (a number or "auto"),
+   *               "acceleration" ("automatic", "none", "chebyshev", "cg")
+   *   "deform"    "handles" (as a handle file: docs/deform.md), "cycles", "weights", "tolerance",
+   *               "normals" ("recompute", "drop")
+   *   "smooth"    "size" (a number, in the unit of the mesh, or a text as "4edges", "1%"), "steps",
+   *               "hold" (WHERE or a list), "boundary" ("smooth", "fixed", "free"), "keep_volume",
+   *               "keep_edges" (degrees), "column", "tolerance", "normals"
+   *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
+   *   "distance"  "from" (WHERE or a list), "wall", "source", "direction", "max_passes"
+   * and of all of them "memory", "threads", "scratch", "scratch_limit"; of all that solve "sweeps",
+   * "max_cycles", "in_core"; of solve and deform "checkpoint". They mean what the options of the
+   * command line of these names mean, and have their defaults. */
+  SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
+    smg_progress progress, void* user, smg_field** field);
+
+  /* Writes the simplified surface. description: "vertices", "error", "memory", "threads", "scratch",
+   * "checkpoint". The report is that of `smg simplify --report`; its text as that of smg_info(). */
+  SMG_C_EXPORT smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* path,
+    smg_progress progress, void* user, const char** report);
+
+  /* Converts a file: options as of smg_open(), and "codec" ("none", "lz4", "zstd"), "restore" (true:
+   * in the order of the original file). The report is that of `smg convert --report`, valid until
+   * the next call on this thread; it may be NULL. */
+  SMG_C_EXPORT smg_status smg_convert(const char* in, const char* out, const char* options,
+    smg_progress progress, void* user, const char** report);
+
+  /* The report of a job (docs: Report.h), with what follows from its result: conditions, energy,
+   * means, inverted cells, for which the mesh is read once the first time. The text is valid until
+   * the next call with this field. */
+  SMG_C_EXPORT smg_status smg_report(
+    smg_field* field, smg_progress progress, void* user, const char** json);
+
+  /* The number of vertices in the original order, and of values at each. */
+  SMG_C_EXPORT smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns);
+
+  /* Writes the mesh with the result, in the format of the suffix and in the order of the command
+   * line. options: "memory", "threads", "scratch". The report is that of smg_report(), with notes on
+   * what the format cannot hold; it may be NULL. */
+  SMG_C_EXPORT smg_status smg_save(smg_field* field, const char* path, const char* options,
+    smg_progress progress, void* user, const char** report);
+
+  /* Writes a mesh with the columns that were added, likewise. */
+  SMG_C_EXPORT smg_status smg_save_mesh(smg_mesh* mesh, const char* path, const char* options,
+    smg_progress progress, void* user);
+
+  /* The columns of a mesh, or of a field with its mesh: a JSON object with the lists "vertices" and
+   * "cells" of { "name", "type", "components" }. Either handle may be NULL, not both. A field has
+   * the columns of its result, for example Solution; of moved points "Position". */
+  SMG_C_EXPORT smg_status smg_columns(smg_mesh* mesh, smg_field* field, const char** json);
+
+  /* Reads a whole column of the vertices (cells = 0) or cells (1) of a mesh or of a field, in the
+   * original order, into room for all rows, C-contiguous, of the type of the column. Columns that
+   * every mesh has: "Position" of the vertices (3 x float64), "Corners" of the cells (int64). Rows
+   * of vertices of no cell have what the mesh has there; of a solution NaN. */
+  SMG_C_EXPORT smg_status smg_read(smg_mesh* mesh, smg_field* field, const char* name, int cells,
+    smg_progress progress, void* user, void* values);
+
+  /* Reads a mesh, or a field with its mesh, in blocks of consecutive cells with all their vertices.
+   * options: "points" (the most vertices of a block; 1,000,000 by default), "columns" (names of
+   * columns of the vertices), "cell_columns" (of the cells); by default all. */
+  SMG_C_EXPORT smg_status smg_open_blocks(
+    smg_mesh* mesh, smg_field* field, const char* options, smg_blocks** blocks);
+
+  /* Goes to the next block; `cells` is 0 at the end. */
+  SMG_C_EXPORT smg_status smg_next_block(smg_blocks* blocks, int64_t* vertices, int64_t* cells);
+
+  /* An array of the block, valid until the next call of smg_next_block(). Vertices (cells = 0):
+   * "Position", "OriginalId" (the numbers in the original order), "Ghost" (uint8; 1: an earlier
+   * block has the vertex, too), and columns; cells (1): "Corners" (int64, rows of this block),
+   * "OriginalCellId", and columns. */
+  SMG_C_EXPORT smg_status smg_block_array(
+    smg_blocks* blocks, const char* name, int cells, smg_array* array);
+
+  /* The equations A x = b of a problem ("problem") with their hierarchy, in memory: A is the
+   * stiffness with screening and Robin terms; at vertices with a Dirichlet condition its rows are
+   * those of the identity. options: "problem", "sweeps", "memory", "threads". Rows of vectors are
+   * vertices in the original order; those of vertices of no cell are rows of the identity, too. */
+  SMG_C_EXPORT smg_status smg_open_solver(smg_mesh* mesh, const char* options,
+    smg_progress progress, void* user, smg_solver** solver);
+
+  /* Solves A x = b for all columns of b, one after the other or together, beginning with what `x`
+   * has (C-contiguous, of the shape of b). options: "tolerance" (||b - A x|| / ||b - A x_0||),
+   * "max_cycles". The report is as that of a solve; it may be NULL, and is valid until the next call
+   * with this solver. */
+  SMG_C_EXPORT smg_status smg_solver_solve(smg_solver* solver, const smg_array* b, double* x,
+    const char* options, smg_progress progress, void* user, const char** report);
+
+  /* z = M r: one V-cycle, a symmetric positive definite approximation of the inverse; on rows of
+   * the identity z = r. Vectors of one number for each vertex. */
+  SMG_C_EXPORT smg_status smg_solver_precondition(smg_solver* solver, const double* r, double* z);
+
+  /* y = A x. */
+  SMG_C_EXPORT smg_status smg_solver_multiply(smg_solver* solver, const double* x, double* y);
+
+  /* Close a handle and remove its scratch files; NULL is nothing. */
+  SMG_C_EXPORT void smg_close_mesh(smg_mesh* mesh);
+  SMG_C_EXPORT void smg_close_field(smg_field* field);
+  SMG_C_EXPORT void smg_close_blocks(smg_blocks* blocks);
+  SMG_C_EXPORT void smg_close_solver(smg_solver* solver);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
