@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 // What holds for every job, however it runs: the bits of its result, what it leaves, and how it
@@ -115,9 +116,7 @@ TEST_P(JobBits, BlocksThreadsAndMemoryDoNotMatter)
     Way plain;
     plain.inCore = this->job().inCore;
     plain.coreNodes = 50000;
-    const Solved expected = run(plain);
-    EXPECT_EQ(expected.report.vertices, mesh.vertices());
-    EXPECT_TRUE(!plain.inCore || expected.report.bytes_written == 0);
+    std::optional<Solved> expected;
     for (int k = 0; k < WaysOfAMesh; ++k)
     {
       Way way = wayOf(next++);
@@ -126,11 +125,17 @@ TEST_P(JobBits, BlocksThreadsAndMemoryDoNotMatter)
       {
         continue;
       }
+      if (!expected)
+      {
+        expected = run(plain);
+        EXPECT_EQ(expected->report.vertices, mesh.vertices());
+        EXPECT_TRUE(!plain.inCore || expected->report.bytes_written == 0);
+      }
       SCOPED_TRACE(textOf(way));
       const Solved solved = run(way);
-      EXPECT_TRUE(sameBits(solved.values, expected.values)) << mesh.vertices() << " vertices";
-      EXPECT_EQ(solved.report.residuals, expected.report.residuals);
-      EXPECT_EQ(solved.report.passes, expected.report.passes);
+      EXPECT_TRUE(sameBits(solved.values, expected->values)) << mesh.vertices() << " vertices";
+      EXPECT_EQ(solved.report.residuals, expected->report.residuals);
+      EXPECT_EQ(solved.report.passes, expected->report.passes);
       EXPECT_LE(solved.report.threads, std::max(way.threads, 1));
     }
   }
