@@ -222,7 +222,6 @@ std::vector<std::string> writeRestored(
   std::vector<std::string> notes = mesh.notes();
   const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace);
   notes.insert(notes.end(), more.begin(), more.end());
-  workspace.tell(1.0);
   return notes;
 }
 
@@ -242,7 +241,7 @@ std::vector<std::string> writeMesh(
     {
       if (!options.isolatedFrom.empty())
       {
-        copyIsolated(options.isolatedFrom, source.info(), writer);
+        copyIsolated(options.isolatedFrom, source.info(), writer, options.completeIsolated);
       }
     };
     writeVsm(source, path,
