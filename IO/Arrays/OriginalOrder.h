@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Convert.h"
+#include "smg/Error.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** The rows of the vertices, or of the cells, of a mesh stream in their original order. */
+struct OriginalRows
+{
+  std::int64_t count = 0;          ///< number of rows
+  std::string column;              ///< the int64 column that says the rows; empty: none
+  std::vector<std::int64_t> table; ///< without a column: by stream index; empty: that is the row
+
+  /** The column, if there is one: to be read with those whose rows are wanted. */
+  std::vector<std::string> columns() const
+  {
+    return this->column.empty() ? std::vector<std::string>{} : std::vector{ this->column };
+  }
+  /** The row of tuple `i` of a block whose first one has the stream index `first`. `numbers`: the
+   * column of the block; null if there is none. */
+  std::int64_t row(std::int64_t first, const Column* numbers, std::size_t i) const
+  {
+    if (numbers)
+    {
+      return numbers->as<std::int64_t>()[i];
+    }
+    const std::int64_t index = first + static_cast<std::int64_t>(i);
+    return this->table.empty() ? index : this->table[static_cast<std::size_t>(index)];
+  }
+};
+
+/**
+ * The original order of a mesh, in which arrays have a row for each vertex or cell: that of the
+ * file or of the arrays it was made of, by the columns OriginalId and OriginalCellId.
+ *
+ * Vertices include those of no cell; points that were merged with others have rows without a
+ * vertex. Triangles or tetrahedra that were a single cell of the file follow each other, in stream
+ * order, and nothing stands for cells that were left out. Where a column is missing, or has other
+ * numbers (as that of a simplified surface, which names vertices of another mesh), the order is
+ * that of the stream, before the vertices of no cell.
+ */
+class SMG_EXPORT OriginalOrder
+{
+public:
+  /**
+   * Reads the numbers, unless the conversion tells all of them.
+   * @param mesh a mesh with a StoredMesh::file()
+   * @param conversion that has made the mesh; null: not known
+   * @throws Error if the file cannot be read; Cancelled
+   */
+  explicit OriginalOrder(const StoredMesh& mesh, const ConversionReport* conversion = nullptr,
+    const ProgressFunction& progress = {});
+
+  const OriginalRows& vertices() const { return this->Vertices; }
+  const OriginalRows& cells() const { return this->Cells; }
+  /** The row of vertex `number` of those of no cell, in the order of the file, whose place is `id`.
+   */
+  std::int64_t isolatedRow(std::int64_t number, std::int64_t id) const
+  {
+    return this->Vertices.column.empty() ? this->StreamVertices + number : id;
+  }
+
+private:
+  void readVertices(const StoredMesh& mesh, const ProgressFunction& progress);
+  void readCells(const StoredMesh& mesh, const ProgressFunction& progress);
+
+  OriginalRows Vertices, Cells;
+  std::int64_t StreamVertices = 0;
+};
+
+} // namespace smg

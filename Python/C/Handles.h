@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Arrays/AddedColumns.h"
+#include "IO/Arrays/OriginalOrder.h"
+#include "smg/Convert.h"
+#include "smg/Error.h"
+#include "smg/MeshSource.h"
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace smg
+{
+
+/** An open mesh, which its handle shares with those that were made from it. Its functions may be
+ * called on several threads. */
+class SharedMesh
+{
+public:
+  /** `name`: the file, or empty for arrays. */
+  SharedMesh(std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, ConversionOptions options)
+    : Mesh(std::move(mesh))
+    , Name(std::move(name))
+    , Options(std::move(options))
+  {
+  }
+
+  /** The mesh without added columns. */
+  const OpenedMesh& mesh() const { return *this->Mesh; }
+  /** The file that was opened; empty: the mesh was made of arrays. */
+  const std::filesystem::path& name() const { return this->Name; }
+  /** How it was opened, without the progress function. */
+  const ConversionOptions& options() const { return this->Options; }
+  /** The original order, found when it is first asked for. Throws Error; Cancelled. */
+  std::shared_ptr<const OriginalOrder> order(const ProgressFunction& progress = {})
+  {
+    const std::lock_guard lock(this->Mutex);
+    if (!this->Order)
+    {
+      this->Order =
+        std::make_shared<const OriginalOrder>(*this->Mesh, this->Mesh->conversion(), progress);
+    }
+    return this->Order;
+  }
+
+private:
+  std::unique_ptr<OpenedMesh> Mesh;
+  std::filesystem::path Name;
+  ConversionOptions Options;
+  std::mutex Mutex;
+  std::shared_ptr<const OriginalOrder> Order;
+};
+
+} // namespace smg
+
+/** A mesh. The added columns are never changed, but replaced: others go on using the old ones. */
+struct smg_mesh
+{
+  std::shared_ptr<smg::SharedMesh> shared;
+  std::shared_ptr<const smg::AddedColumns> added; ///< null: none
+  std::string text;                               ///< the one last returned
+
+  /** The mesh with its added columns. */
+  const smg::StoredMesh& stored() const
+  {
+    return this->added ? static_cast<const smg::StoredMesh&>(*this->added) : this->shared->mesh();
+  }
+};
