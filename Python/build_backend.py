@@ -6,7 +6,7 @@ C++; it serves every Python 3, and systems whose C library is not older than tha
 built it. Nothing is downloaded: ``pip install --no-index --no-build-isolation .`` needs the packages of
 `smg_build_packages` in cmake/packages.sh.
 
-Config settings (``pip wheel . -C build-dir=build``):
+Config settings (``pip wheel --config-settings build-dir=build .``):
   build-dir   a build folder of this tree, in which the libraries are brought up to date; default:
               build-wheel, which is made and kept
   jobs        parallel compilations; default: as many as the generator likes
@@ -36,7 +36,6 @@ except ImportError:  # Python before 3.11
 
 _TREE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 _PACKAGE = "streamingmultigrid"
-_OWN = ("libstreamingmultigrid.so", "libsmgSolver.so", "libsmgIOCore.so", "libsmgVtkHdf.so")
 # Of the C and C++ libraries, which every Linux with Python has.
 _SYSTEM = re.compile(r"(linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so)")
 
@@ -113,16 +112,16 @@ def _build(settings):
     return folder
 
 
-def _installed_libraries(build, prefix):
-    """Own libraries, as {path in the wheel: file}: in the folder, and that for newer processors."""
-    _run("cmake", "--install", build, "--component", "libraries", "--prefix", prefix, "--strip")
+def _installed(build, prefix):
+    """The files of the package with its libraries, as {path in the wheel: file}."""
+    _run("cmake", "--install", build, "--component", "wheel", "--prefix", prefix, "--strip")
     found = {}
     for folder, _, names in os.walk(prefix):
-        # A wheel has no links: each library once, by the name that others ask for.
         for name in names:
-            if re.fullmatch(r"(%s)\.[0-9]+" % "|".join(map(re.escape, _OWN)), name):
-                inside = "glibc-hwcaps" + folder.split("glibc-hwcaps")[1] if "hwcaps" in folder else ""
-                found[os.path.join(inside, name)] = os.path.join(folder, name)
+            # A wheel has no links: each library is there once, by the name that others ask for.
+            if not re.search(r"\.so\.[0-9]+\.[0-9.]+$", name):
+                path = os.path.join(folder, name)
+                found[os.path.relpath(path, prefix)] = path
     return found
 
 
@@ -136,7 +135,7 @@ def _needed(library):
     return {
         name: os.path.realpath(path)
         for name, path in pairs
-        if not _SYSTEM.match(name) and not name.startswith(tuple(_OWN))
+        if not _SYSTEM.match(name) and not name.startswith("libsmg")
     }
 
 
@@ -151,16 +150,6 @@ def _licences(files):
             if package and os.path.exists(path):
                 found[package] = path
     return found
-
-
-def _python_files():
-    root = os.path.join(_TREE, "Python", _PACKAGE)
-    for folder, _, names in os.walk(root):
-        if os.path.basename(folder) in ("__pycache__", "vtk"):  # vtk: of the Debian package alone
-            continue
-        for name in sorted(names):
-            path = os.path.join(folder, name)
-            yield os.path.join(_PACKAGE, os.path.relpath(path, root)), path
 
 
 class _Wheel:
@@ -215,15 +204,14 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     build = _build(config_settings or {})
     name = "%s-%s-%s.whl" % (_PACKAGE, _version(), _tag())
     path = os.path.join(wheel_directory, name)
+    wheel = _Wheel(path)
     with tempfile.TemporaryDirectory() as prefix:
-        libraries = _installed_libraries(build, prefix)
-        main = next(file for inside, file in libraries.items() if inside.startswith(_OWN[0]))
-        needed = _needed(main)
-        wheel = _Wheel(path)
-        for inside, file in _python_files():
-            wheel.add_file(inside, file)
-        for inside, file in sorted({**libraries, **needed}.items()):
-            wheel.add_file("%s/lib/%s" % (_PACKAGE, inside), file, executable=True)
+        files = _installed(build, prefix)
+        library = next(file for file in files.values() if "/libstreamingmultigrid.so" in file)
+        needed = _needed(library)
+        files.update(("%s/lib/%s" % (_PACKAGE, soname), file) for soname, file in needed.items())
+        for inside, file in sorted(files.items()):
+            wheel.add_file(inside, file, executable=".so" in inside)
     licences = _dist_info() + "/licenses/"
     wheel.add_file(licences + "LICENSE", os.path.join(_TREE, "LICENSE"))
     for package, file in sorted(_licences(needed.values()).items()):
