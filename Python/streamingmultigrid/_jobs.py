@@ -49,7 +49,7 @@ def solve(
 ) -> _Description:
     """Solves -div(K grad u - q) + s u = f by linear finite elements, as ``smg solve``.
 
-    A value is a number (for all right-hand sides); a list of k numbers, one for each right-hand side;
+    A value is a number (for all right-hand sides); a list of k numbers, one for each right-hand side (an array of these with `columns`);
     an array with a row for each vertex, (n,) or (n, k); the name of a column of the mesh; or
     "position". With a region it is written ``region >> value``; of several, in a list, later ones take
     precedence. Without any flux or Robin condition, the boundary is insulated.

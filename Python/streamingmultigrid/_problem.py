@@ -16,6 +16,7 @@ from ._regions import Placed, Region, as_region, everywhere, vertices
 
 #: More values of single vertices than this become a column.
 _FEW = 64
+_MOST_COLUMNS = 64
 
 _Entry = Tuple[Region, Any]
 
@@ -58,7 +59,8 @@ class _Data:
         ids = self._ids(region)
         if self.columns.rows(array, None) is not None or ids is not None and len(array) == len(ids):
             return 1  # a row for each vertex, cell, or vertex of the region
-        return len(array)
+        # An array of another length is more likely a mistake than a number for each right-hand side.
+        return len(array) if isinstance(value, (list, tuple)) and len(array) <= _MOST_COLUMNS else None
 
     def value(self, value: Any, what: str, cells: Optional[bool] = None) -> Any:
         """A value everywhere in a region: a number for each component, or the name of a column."""
