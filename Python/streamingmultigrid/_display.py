@@ -112,23 +112,73 @@ def mesh_html(title: str, rows: Iterable[Tuple[str, str]], picture: str) -> str:
     return _block(title, _table(rows), picture)
 
 
-def _range(values: Any) -> str:
-    pairs = values if values and isinstance(values[0], (list, tuple)) else [values]
-    return ", ".join("[%s]" % ", ".join("%g" % v if v is not None else "nan" for v in p) for p in pairs)
+def _values(column: Any) -> str:
+    """The range of a column of a description, and its tags."""
+
+    def number(value: Any) -> str:
+        return "nan" if value is None else "%.6g" % value
+
+    ranges = zip(column.get("minimum") or [], column.get("maximum") or [])
+    words = ", ".join("[%s, %s]" % (number(low), number(high)) for low, high in ranges)
+    if column.get("not_finite"):
+        words += ", {:,} not finite".format(column["not_finite"])
+    tags = column.get("tags")
+    if tags:
+        shown = ["%s (%s)" % (tag, format(count, ",")) for tag, count in list(tags.items())[:8]]
+        words += "; " + ", ".join(shown) + (", ..." if len(tags) > len(shown) else "")
+    return words
+
+
+def _topology(found: Any) -> List[Tuple[str, str]]:
+    """Bodies, boundary and cells of a description; what it does not have is left out."""
+
+    def count(key: str, noun: str) -> List[str]:
+        return ["{:,} {}".format(found[key], noun)] if found.get(key) else []
+
+    boundary = [
+        *count("boundary_edges", "edges"),
+        *count("boundary_loops", "loops"),
+        *count("boundary_faces", "faces"),
+        *count("boundary_surfaces", "surfaces"),
+    ]
+    flaws = [
+        *count("nonmanifold_edges", "non-manifold edges"),
+        *count("nonmanifold_vertices", "non-manifold vertices"),
+        *count("nonmanifold_faces", "faces of more than two cells"),
+        *count("turned_edges", "edges wound against each other"),
+        *count("inverted_cells", "inverted cells"),
+        *count("degenerate_cells", "degenerate cells"),
+        *count("duplicate_cells", "duplicate cells"),
+    ]
+    lines = []
+    if "bodies" in found:
+        lines.append(("bodies", "{:,}".format(found["bodies"])))
+        lines.append(("boundary", ", ".join(boundary) or "none"))
+        lines.append(("flaws", ", ".join(flaws) or "none"))
+    for key, words in (("edge_length", "edges"), ("quality", "quality")):
+        if key in found:
+            low, mean = found[key].get("minimum"), found[key].get("mean")
+            lines.append((words, "at least %.4g, mean %.4g" % (low or 0, mean or 0)))
+    return lines
 
 
 def mesh_lines(info: Any) -> List[Tuple[str, str]]:
     """What is known of a mesh, for people: names and values. `info`: the JSON of smg_info()."""
     kind = "triangles" if info["cell_type"] == "triangle" else "tetrahedra"
+    bounds = info["bounds"]
     lines = [
         ("vertices", "{:,} ({})".format(info["vertices"], info["positions"])),
         ("cells", "{:,} {}".format(info["cells"], kind)),
-        ("bounds", " x ".join("[%g, %g]" % pair for pair in zip(info["bounds"][::2], info["bounds"][1::2]))),
+        ("bounds", " x ".join("[%g, %g]" % pair for pair in zip(bounds[::2], bounds[1::2]))),
     ]
     if info.get("isolated_vertices"):
         lines.append(("isolated", "{:,} vertices of no cell".format(info["isolated_vertices"])))
+    description = info.get("description") or {}
+    lines += _topology(description)
+    columns = description.get("columns") or info["columns"]
     for place in ("vertices", "cells"):
-        for column in info["columns"][place]:
-            words = "of the %s, %s x %d" % (place, column["type"], column["components"])
-            lines.append((column["name"], words))
-    return lines
+        for column in columns[place]:
+            words = "%s x %d, of the %s" % (column["type"], column["components"], place)
+            values = _values(column)
+            lines.append((column["name"], words + (": " + values if values else "")))
+    return lines + [("note", note) for note in description.get("notes") or []]

@@ -18,7 +18,7 @@ from . import _jobs as jobs
 from ._arrays import points_and_cells, table
 from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
-from ._errors import InputError, NotConverged
+from ._errors import Error, InputError, NotConverged
 from ._field import Block, Field, read_blocks, read_column, read_columns
 from ._library import Handle, call, call_reporting, json_text, parse, text, version
 from .progress import part, reporting
@@ -165,7 +165,7 @@ class Mesh:
         """
         if not isinstance(name, str) or name.startswith("#"):
             raise InputError("%r: a name is a text that does not begin with #." % (name,))
-        column = Columns(self).add(values, name, cells)
+        column = Columns(self).add(values, name, cells, name=name)
         with self._handle() as mesh:
             self._set_column(mesh, column, byref(table(column.values)))
             self._own[name, column.cells] = column.values
@@ -368,11 +368,14 @@ class Mesh:
         return mesh_html(self.name, rows, self.preview_svg())
 
     def preview_svg(self, field: Optional[Field] = None) -> str:
-        """A picture of the mesh as SVG, coloured by a field; empty if the mesh is large."""
+        """A picture of the mesh as SVG, coloured by a field; empty if the mesh is large or has none."""
         if self.n_vertices > _PICTURE_VERTICES:
             return ""
-        with self.simplify(1500) as small:
-            points, cells, ids = small.points, small.cells, small["OriginalId"]
+        try:
+            with self.simplify(1500) as small:
+                points, cells, ids = small.points, small.cells, small["OriginalId"]
+        except Error:
+            return ""
         values = None
         if field is not None:
             found = field.to_numpy()
