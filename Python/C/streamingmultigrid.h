@@ -97,7 +97,9 @@ extern "C"
 
   /* Adds a column to the vertices (cells = 0) or cells (1), a row for each in the original order, in
    * place of one of this name. The array is not copied: it must not change or go as long as the mesh
-   * and what was made from it are open. */
+   * has it, and fields, blocks and solvers are open that were made until then. `values` NULL takes an
+   * added column away. One whose name begins with # is an argument of jobs alone: files, blocks and
+   * smg_columns() do not have it. */
   SMG_C_EXPORT smg_status smg_add_column(
     smg_mesh* mesh, const char* name, int cells, const smg_array* values);
 
@@ -141,11 +143,11 @@ extern "C"
   SMG_C_EXPORT smg_status smg_convert(const char* in, const char* out, const char* options,
     smg_progress progress, void* user, const char** report);
 
-  /* The report of a job (docs: Report.h), with what follows from its result: conditions, energy,
-   * means, inverted cells, for which the mesh is read once the first time. The text is valid until
-   * the next call with this field. */
+  /* The report of a job (docs: Report.h); with `full` what follows from its result, too: conditions,
+   * energy, means, inverted cells, for which the mesh is read once the first time. The text is valid
+   * until the next call with this field. */
   SMG_C_EXPORT smg_status smg_report(
-    smg_field* field, smg_progress progress, void* user, const char** json);
+    smg_field* field, int full, smg_progress progress, void* user, const char** json);
 
   /* The number of vertices in the original order, and of values at each. */
   SMG_C_EXPORT smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns);
