@@ -2,11 +2,8 @@
 #include "SolvingCommand.h"
 
 #include "IO/Formats/FormatTable.h"
+#include "IO/Jobs/BlendJob.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "smg/Blend.h"
-#include "smg/SolvedMesh.h"
-
-#include <algorithm>
 
 namespace
 {
@@ -27,10 +24,10 @@ public:
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded; "
         "and .obj and .off, for Colors alone",
-      this->Solve);
-    addTolerance(command, this->Solve.tolerance)->capture_default_str();
+      this->Job.solving);
+    addTolerance(command, this->Job.solving.tolerance)->capture_default_str();
     command
-      .add_option("--patch", this->Description.patch,
+      .add_option("--patch", this->Job.description.patch,
         "Column of one component with the patch of each vertex, or of each cell")
       ->required()
       ->type_name("COLUMN");
@@ -43,7 +40,7 @@ public:
       ->type_name("COLUMN,...");
     this->Hold.addTo(command, "A part of the mesh that keeps its values");
     command
-      .add_option("--anchor", this->Description.anchor,
+      .add_option("--anchor", this->Job.description.anchor,
         "How strongly all values are pulled towards the original ones: corrections over less than "
         "1 / sqrt(anchor) diagonals of the bounding box are hardly pulled; 0: not at all")
       ->check(numberFromZero)
@@ -53,7 +50,7 @@ public:
         "--seam",
         [this](const std::string& name)
         {
-          this->Description.seam =
+          this->Job.description.seam =
             name == "average" ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
         },
         "Gradients between patches: zero, or the average of those on both sides")
@@ -63,53 +60,12 @@ public:
                    "gradients are kept. docs/blend.md explains it");
   }
 
-  void checkUsage() const override { smg::checkOptions(this->Solve); }
+  void checkUsage() const override { smg::checkOptions(this->Job.solving); }
 
 protected:
-  std::string resultColumns() const override { return "these columns of vertices"; }
+  smg::BlendJob& job() override { return this->Job; }
 
-  std::vector<std::string> changedColumns() const override { return this->Description.columns; }
-
-  void readTask() override { this->Description.hold = this->Hold.places(); }
-
-  smg::Costs costsOn(const smg::StreamInfo& info) const override
-  {
-    // The columns of a mesh file that is not a .vsm are not known before it is read.
-    constexpr int Usual = 3;
-    int components = 0;
-    for (const std::string& name : this->Description.columns)
-    {
-      components += smg::expectedComponents(info, name, Usual);
-    }
-    return smg::blendCosts(info, components, this->Description.seam, this->withCommon(this->Solve));
-  }
-
-  smg::AddedValues addedTo(const smg::StreamInfo& info) const override
-  {
-    return replacedIn(info, this->Description.columns);
-  }
-
-  std::unique_ptr<smg::Solution> solveOn(
-    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
-  {
-    this->applyTo(this->Solve, std::move(progress));
-    return smg::blend(mesh, this->Description, this->Solve);
-  }
-
-  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
-  {
-    smg::ReplacedColumns source(
-      mesh, solution, smg::blendedColumns(mesh.info(), this->Description));
-    write(source, progress);
-  }
-
-  std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const override
-  {
-    return vertices == 1 ? "keeps its values." : "keep their values.";
-  }
-
-  const smg::SolveOptions& solveOptions() const override { return this->Solve; }
+  void readTask() override { this->Job.description.hold = this->Hold.places(); }
 
 private:
   void readColumns(const std::vector<std::string>& lists)
@@ -123,14 +79,13 @@ private:
           throw CLI::ValidationError(
             "--columns", '\'' + list + "' has an empty name: give names with a comma between them");
         }
-        this->Description.columns.push_back(name);
+        this->Job.description.columns.push_back(name);
       }
     }
   }
 
-  smg::BlendDescription Description;
   PlacesOption Hold{ "--hold" };
-  smg::SolveOptions Solve;
+  smg::BlendJob Job;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "CommonOptions.h"
 
 #include "IO/Conversion/JobEstimate.h"
+#include "IO/Description/Sizes.h"
 #include "IO/Files/FileNames.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Files/FileDescriptor.h"
@@ -9,7 +10,6 @@
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -17,41 +17,26 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <string_view>
 #include <utility>
 
 namespace
 {
 
-/** Replaces a size with a unit, as 512M, 1.5GiB or 2GB, by whole MiB; a plain number is in MiB. K,
- * M, G and T are powers of 1024, and so with iB; KB, MB, GB and TB powers of 1000. */
+/** Replaces a size with a unit by whole MiB; a plain number is in MiB. */
 std::string toMebibytes(std::string& text)
 {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  std::string unit = end;
-  unit.erase(0, unit.find_first_not_of(' '));
-  if (end == text.c_str() || unit.empty())
+  try
   {
+    if (const std::optional<double> bytes = smg::bytesOf(text))
+    {
+      text = std::to_string(static_cast<std::int64_t>(*bytes / (1 << 20)));
+    }
     return {};
   }
-  std::ranges::transform(
-    unit, unit.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::string_view Prefixes = "kmgt";
-  const std::size_t power = Prefixes.find(unit.front());
-  const std::string rest = unit.substr(1);
-  if (power == std::string_view::npos || !(rest.empty() || rest == "ib" || rest == "b"))
+  catch (const smg::Error& error)
   {
-    return '\'' + text + "' has another unit than K, M, G, T, KiB to TiB and KB to TB";
+    return error.what();
   }
-  const double bytes = number * std::pow(rest == "b" ? 1000.0 : 1024.0, power + 1.0);
-  constexpr double Mebibyte = 1 << 20, Most = 1LL << 52;
-  if (!(bytes >= Mebibyte && bytes <= Most * Mebibyte))
-  {
-    return '\'' + text + "' is not a size of at least 1 MiB";
-  }
-  text = std::to_string(static_cast<std::int64_t>(bytes / Mebibyte));
-  return {};
 }
 
 } // namespace

@@ -2,13 +2,10 @@
 #include "EngineCommand.h"
 
 #include "IO/Description/ParseWhere.h"
-#include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
-#include "smg/Deform.h"
-#include "smg/DescribedHandles.h"
+#include "IO/Jobs/DeformJob.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
-#include "smg/MovedMesh.h"
 
 #include <cstdio>
 #include <optional>
@@ -31,7 +28,7 @@ public:
         " in stream order; of a mesh file IN, " + smg::suffixList(smg::FormatUse::Restore, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded. From .vsm, "
         "and from a streaming format to a streaming format, the order is kept",
-      this->Deform);
+      this->Job.deforming);
     command.get_option("--max-cycles")
       ->description("Maximum number of V-cycles of each of the two steps");
     this->addEngineTo(command);
@@ -68,9 +65,9 @@ protected:
     deformation.read = [this]
     {
       this->readTask();
-      this->Description.weights = this->Deform.weights;
-      this->Description.tolerance = this->Deform.tolerance;
-      return this->Description;
+      this->Job.description.weights = this->Job.deforming.weights;
+      this->Job.description.tolerance = this->Job.deforming.tolerance;
+      return this->Job.description;
     };
     deformation.normals = this->movedNormals();
     return engine.deform(job, deformation);
@@ -78,62 +75,22 @@ protected:
 
   void checkForProcesses() const override
   {
-    if (this->Deform.cycles > 0)
+    if (this->Job.deforming.cycles > 0)
     {
       throw smg::Error("--engine hypre has no V-cycles to count: give a tolerance, in " +
                        this->File.string() + " or by --tolerance, instead of cycles.");
     }
   }
 
-  std::string resultColumns() const override { return {}; }
+  smg::DeformJob& job() override { return this->Job; }
 
   void readTask() override
   {
-    this->Description = smg::readHandleText(this->readText(), this->File.string());
-    this->Description.applyTo(this->Deform);
+    this->Job.description = smg::readHandleText(this->readText(), this->File.string());
+    this->Job.description.applyTo(this->Job.deforming);
     this->applyCommandLine();
+    this->Job.normals = this->movedNormals();
     this->announceCheckpoint("pass");
-  }
-
-  smg::Costs costsOn(const smg::StreamInfo& info) const override
-  {
-    // Those of the other engine are past when this one's result is written.
-    return this->hasWholeSolution() ? smg::Costs{}
-                                    : smg::deformCosts(info, this->withCommon(this->Deform));
-  }
-
-  smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
-  {
-    return { {}, {}, true };
-  }
-
-  std::unique_ptr<smg::Solution> solveOn(
-    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
-  {
-    if (auto whole = this->wholeSolution())
-    {
-      return whole;
-    }
-    smg::DescribedHandles handles(this->Description, mesh.info(), this->File.string());
-    const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
-    handles.prepare(*source(), this->scratch, this->withCommon(this->Deform).memoryLimit);
-    this->applyTo(this->Deform, std::move(progress));
-    this->applyCheckpoint(this->Deform, mesh);
-    auto positions = smg::deform(*source(), handles, this->Deform);
-    this->Notes = handles.notes();
-    return positions;
-  }
-
-  void writeResult(const smg::VsmReader& mesh, smg::Solution& positions, const Writer& write,
-    smg::Report& report, const smg::ProgressFunction& progress) const override
-  {
-    smg::NormalsOptions normals;
-    normals.scratch = this->scratch;
-    normals.memory = this->writerMemory();
-    normals.progress = smg::partOf(progress, 0.0, 0.3);
-    const smg::MovedMesh moved(mesh, positions, this->movedNormals(), normals);
-    write(*moved.source(&report), smg::partOf(progress, 0.3, 1.0));
-    report.notes.insert(report.notes.end(), this->Notes.begin(), this->Notes.end());
   }
 
   void warn(const smg::Report& report) const override
@@ -149,10 +106,9 @@ protected:
     }
   }
 
-  const smg::SolveOptions& solveOptions() const override { return this->Deform; }
   double tolerance() const override
   {
-    return this->Deform.cycles > 0 ? 0.0 : this->Deform.tolerance;
+    return this->Job.deforming.cycles > 0 ? 0.0 : this->Job.deforming.tolerance;
   }
 
 private:
@@ -166,26 +122,24 @@ private:
   {
     if (!this->Weights.empty())
     {
-      this->Deform.weights = *smg::weightsOfName(this->Weights);
+      this->Job.deforming.weights = *smg::weightsOfName(this->Weights);
     }
     if (this->Cycles)
     {
-      this->Deform.cycles = *this->Cycles;
+      this->Job.deforming.cycles = *this->Cycles;
     }
     if (this->Tolerance)
     {
-      this->Deform.cycles = 0;
-      this->Deform.tolerance = *this->Tolerance;
+      this->Job.deforming.cycles = 0;
+      this->Job.deforming.tolerance = *this->Tolerance;
     }
   }
 
-  smg::DeformationDescription Description; ///< from the handle file
-  std::string Weights;                     ///< empty: those of the file
+  std::string Weights; ///< empty: those of the file
   std::optional<int> Cycles;
   std::optional<double> Tolerance;
   std::string Normals = "recompute";
-  std::vector<std::string> Notes; ///< on the handles
-  smg::DeformOptions Deform;
+  smg::DeformJob Job;
 };
 
 } // namespace

@@ -3,11 +3,8 @@
 
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "smg/Distance.h"
-#include "smg/SolvedMesh.h"
-
+#include "IO/Jobs/DistanceJob.h"
 #include <cstdio>
-#include <utility>
 
 namespace
 {
@@ -29,17 +26,18 @@ public:
         " in the order of IN, unless that has a column OriginalId or points are welded");
     this->From.addTo(
       command, "The sources, or with --wall the wall, which is the whole boundary by default");
-    command.add_flag("--wall", this->Description.wall,
+    command.add_flag("--wall", this->Job.description.wall,
       "Of tetrahedra: the Euclidean distance to the boundary instead of that along paths");
-    command.add_flag("--source", this->Description.source,
+    command.add_flag("--source", this->Job.description.source,
       "Add the column DistanceSource: the number of the nearest source vertex");
-    command.add_flag("--direction", this->Description.direction,
+    command.add_flag("--direction", this->Job.description.direction,
       "Add the column DistanceDirection: the unit gradient of the distance");
     command
-      .add_option("--max-passes", this->Options.maxPasses, "Maximum number of passes over the mesh")
+      .add_option(
+        "--max-passes", this->Job.options.maxPasses, "Maximum number of passes over the mesh")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-    this->addInputAndCommon(command, this->Options.memoryLimit);
+    this->addInputAndCommon(command, this->Job.options.memoryLimit);
     command.footer(
       "WHERE is one of {\"vertices\": [numbers]}, {\"nearest\": [[x, y, z], ...]}, "
       "{\"boundary\": true}, {\"sphere\": [x, y, z, r]}, {\"box\": [x0, y0, z0, x1, y1, z1]}, "
@@ -48,14 +46,14 @@ public:
 
   void checkUsage() const override
   {
-    if (this->From.given().empty() && !this->Description.wall)
+    if (this->From.given().empty() && !this->Job.description.wall)
     {
       throw CLI::RequiredError("--from or --wall");
     }
   }
 
 protected:
-  std::string resultColumns() const override { return "a distance"; }
+  smg::DistanceJob& job() override { return this->Job; }
 
   void readTask() override
   {
@@ -63,44 +61,9 @@ protected:
     {
       smg::checkIsNotInput(from, this->Out, "the file that says where the distance is 0");
     }
-    this->Description.from = this->From.places();
+    this->Job.description.from = this->From.places();
+    this->Job.name = "--from";
   }
-
-  smg::Costs costsOn(const smg::StreamInfo& info) const override
-  {
-    return smg::distanceCosts(info, this->Description);
-  }
-
-  smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
-  {
-    return { smg::distanceColumns(this->Description), {} };
-  }
-
-  std::unique_ptr<smg::Solution> solveOn(
-    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
-  {
-    this->Options.memoryLimit = this->memoryBytes(this->Options.memoryLimit);
-    this->Options.threads = this->threads;
-    this->Options.scratch = this->scratch;
-    this->Options.progress = std::move(progress);
-    return smg::distance(mesh, this->Description, this->Options, "--from");
-  }
-
-  std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const override
-  {
-    return vertices == 1 ? "is not reached." : "are not reached.";
-  }
-
-  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
-  {
-    // Sources and directions of other distances would be taken for those of these.
-    smg::ReplacedColumns result(mesh, solution, smg::distanceColumns(this->Description),
-      { smg::DistanceSourceName, smg::DistanceDirectionName });
-    write(result, progress);
-  }
-
-  std::int64_t memoryLimit() const override { return this->Options.memoryLimit; }
 
   void warn(const smg::Report& report) const override
   {
@@ -117,7 +80,7 @@ protected:
   void print(const smg::Report& report) const override
   {
     const smg::Report::Distance& found = *report.distance;
-    const std::string sources = this->Description.wall ? "wall face" : "source";
+    const std::string sources = this->Job.description.wall ? "wall face" : "source";
     std::printf("%lld vertices, %lld cells, %lld %s, %d pass%s (the mesh read %.2f times)\n",
       static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
       static_cast<long long>(found.sources), (found.sources == 1 ? sources : sources + "s").c_str(),
@@ -132,8 +95,7 @@ protected:
 
 private:
   PlacesOption From{ "--from" };
-  smg::DistanceDescription Description;
-  smg::DistanceOptions Options;
+  smg::DistanceJob Job;
 };
 
 } // namespace

@@ -98,9 +98,15 @@ void EngineCommand::print(const smg::Report& report) const
   }
 }
 
-std::unique_ptr<smg::Solution> EngineCommand::wholeSolution() const
+std::unique_ptr<smg::Solution> EngineCommand::solveOn(
+  const smg::StoredMesh& mesh, const smg::ProgressFunction& progress)
 {
-  return this->Whole ? std::make_unique<BorrowedSolution>(*this->Whole) : nullptr;
+  if (!this->Whole)
+  {
+    return this->SolvingCommand::solveOn(mesh, progress);
+  }
+  this->job().prepareOn(mesh);
+  return std::make_unique<BorrowedSolution>(*this->Whole);
 }
 
 /** With hypre, the first process writes and reports as ever, or reports on the pieces of all. */

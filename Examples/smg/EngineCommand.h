@@ -26,9 +26,13 @@ protected:
   /** After readTask(): throws smg::Error for what the processes of mpiexec do not do. */
   virtual void checkForProcesses() const {}
 
-  /** Null, or the solution of the processes of mpiexec, which the first one writes. */
-  std::unique_ptr<smg::Solution> wholeSolution() const;
-  bool hasWholeSolution() const { return this->Whole != nullptr; }
+  /** Those of the other engine are past when this one's result is written. */
+  smg::Costs costsOn(const smg::StreamInfo& info) const override
+  {
+    return this->Whole ? smg::Costs{} : this->SolvingCommand::costsOn(info);
+  }
+  std::unique_ptr<smg::Solution> solveOn(
+    const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override;
 
 private:
   void checkDistributed();
@@ -36,5 +40,6 @@ private:
   std::string Engine = "streaming";
   bool Explain = false;
   CLI::Option* MaxCycles = nullptr;
+  /** The solution of the processes of mpiexec, which the first one writes. */
   smg::Solution* Whole = nullptr;
 };

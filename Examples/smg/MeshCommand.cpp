@@ -5,12 +5,9 @@
 #include "ProgressBar.h"
 
 #include "IO/External/Workspace.h"
-#include "IO/Files/FileNames.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Files/ScratchAccount.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "smg/DescriptionFiles.h"
 
 #include <algorithm>
@@ -104,30 +101,21 @@ void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
   command.add_flag("--dry-run", this->DryRun, "Only estimate the cost; IN is not read");
 }
 
-smg::AddedValues MeshCommand::replacedIn(
-  const smg::StreamInfo& info, const std::vector<std::string>& columns)
-{
-  smg::AddedValues added;
-  std::ranges::copy_if(info.vertexColumns, std::back_inserter(added.ofVertices),
-    [&columns](const smg::ColumnSpec& column)
-    { return std::ranges::find(columns, column.name) != columns.end(); });
-  return added;
-}
-
-smg::JobEstimate MeshCommand::estimate(const ResultFile& out) const
+smg::JobEstimate MeshCommand::estimate(const smg::ResultFile& out) const
 {
   smg::ConversionOptions conversion = this->inputOptions();
   conversion.scratch = this->scratchPlace();
   const smg::EstimatedInput in(this->In, conversion);
   smg::JobEstimate estimate(in,
-    { this->Out, this->addedTo(in.info), out.expectedOrder(in.info), this->writerMemory() },
+    { this->Out, this->job().addedTo(in.info), out.expectedOrder(in.info),
+      this->job().writerMemory() },
     this->costsOn(in.info), conversion);
-  estimate.memory_limit = this->memoryBytes(this->memoryLimit());
+  estimate.memory_limit = this->job().memoryLimit();
   return estimate;
 }
 
 /** Rejects what certainly does not fit on the disks, if IN says its counts. */
-void MeshCommand::checkRoom(const ResultFile& out) const
+void MeshCommand::checkRoom(const smg::ResultFile& out) const
 {
   if (smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
   {
@@ -156,15 +144,19 @@ int MeshCommand::run()
   return this->Converged ? 0 : NotConverged;
 }
 
-ResultFile MeshCommand::checkFiles()
+smg::ResultFile MeshCommand::checkFiles()
 {
-  ResultFile out({ this->In, this->Out, this->scratch, this->input.weld.has_value(),
-    this->resultColumns(), this->changedColumns(), this->threads });
+  smg::ResultFile out(this->job(), { .in = this->In,
+                                     .out = this->Out,
+                                     .scratch = this->scratch,
+                                     .welds = this->input.weld.has_value(),
+                                     .threads = this->threads });
   smg::checkIsNotInput(this->In, this->Out);
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });
   this->checkCheckpoint({ this->Out, this->report });
   this->readTask();
+  this->job().setLimits({ this->memoryBytes(0), this->threads, this->scratch });
   return out;
 }
 
@@ -191,7 +183,7 @@ void MeshCommand::compute()
 {
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
-  ResultFile out = this->checkFiles();
+  smg::ResultFile out = this->checkFiles();
   if (this->DryRun)
   {
     const smg::JobEstimate estimate = this->estimate(out);
@@ -212,16 +204,16 @@ void MeshCommand::compute()
     }
     const double convertSeconds = this->Conversion ? secondsSince(this->Start) : 0.0;
     const double begin = this->Conversion ? 0.2 : 0.0;
-    out.chooseOrder(mesh->reader(), mesh->conversion());
+    out.chooseOrder(mesh->info(), mesh->conversion());
     const double end = this->reportsPage() ? 0.95 : 1.0;
-    report = this->solveAndWrite(mesh->reader(), out, smg::partOf(bar.function(), begin, end));
+    report = this->solveAndWrite(*mesh, out, smg::partOf(bar.function(), begin, end));
     if (this->reportsPage())
     {
-      drawn = this->draw(mesh->reader(), report, smg::partOf(bar.function(), end, 1.0));
+      drawn = this->draw(*mesh, report, smg::partOf(bar.function(), end, 1.0));
     }
     if (this->Conversion)
     {
-      const std::vector<std::string> more = this->notesOn(*this->Conversion, out);
+      const std::vector<std::string> more = out.notesOn(*this->Conversion, this->job());
       report.notes.insert(report.notes.end(), more.begin(), more.end());
     }
     report.seconds.convert = convertSeconds;
@@ -236,16 +228,23 @@ void MeshCommand::compute()
   this->tell(report);
 }
 
+std::unique_ptr<smg::Solution> MeshCommand::solveOn(
+  const smg::StoredMesh& mesh, const smg::ProgressFunction& progress)
+{
+  this->job().prepareOn(mesh);
+  return this->job().solveOn(mesh, progress);
+}
+
 smg::Report MeshCommand::solveAndWrite(
-  const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress)
+  const smg::StoredMesh& mesh, const smg::ResultFile& out, const smg::ProgressFunction& progress)
 {
   this->Solution = this->solveOn(mesh, smg::partOf(progress, 0.0, 0.9));
   smg::Report report = this->Solution->report();
   std::vector<std::string> notes;
-  this->writeResult(
+  this->job().passResult(
     mesh, *this->Solution,
     [&](smg::MeshSource& result, const smg::ProgressFunction& writing)
-    { notes = out.write(mesh, result, this->writerMemory(), writing); },
+    { notes = out.write(mesh, result, this->job().writerMemory(), writing); },
     report, smg::partOf(progress, 0.9, 1.0));
   report.notes.insert(report.notes.end(), notes.begin(), notes.end());
   return report;
@@ -259,66 +258,29 @@ const std::string& MeshCommand::text() const
 
 html::PageFacts MeshCommand::pageFacts() const
 {
-  return { this->In, this->memoryLimit(), this->tolerance(), this->text(), this->File };
+  return { this->In, this->job().memoryLimit(), this->tolerance(), this->text(), this->File };
 }
 
 html::ResultSurface MeshCommand::draw(
-  const smg::VsmReader& mesh, const smg::Report& report, const smg::ProgressFunction& progress)
+  const smg::StoredMesh& mesh, const smg::Report& report, const smg::ProgressFunction& progress)
 {
   std::vector<std::string> names;
-  for (const smg::ColumnSpec& column : this->addedTo(mesh.info()).ofVertices)
+  for (const smg::ColumnSpec& column : this->job().addedTo(mesh.info()).ofVertices)
   {
     names.push_back(column.name);
   }
-  const std::int64_t memory = std::max(this->memoryLimit(), smg::Workspace::MinMemory);
+  const std::int64_t memory = std::max(this->job().memoryLimit(), smg::Workspace::MinMemory);
   return drawnBy(
     [&]
     {
       html::ResultSurface drawn;
       // What the stream adds to the report is there already.
       smg::Report again = report;
-      this->writeResult(
+      this->job().passResult(
         mesh, *this->Solution,
         [&](smg::MeshSource& result, const smg::ProgressFunction& reading)
         { drawn = html::resultSurface(result, names, memory, reading); },
         again, progress);
       return drawn;
     });
-}
-
-std::int64_t MeshCommand::writerMemory() const
-{
-  constexpr std::int64_t MaxMemory = std::int64_t(64) << 20;
-  return std::clamp(this->memoryLimit() / 4, smg::Workspace::MinMemory, MaxMemory);
-}
-
-std::vector<std::string> MeshCommand::notesOn(
-  const smg::ConversionReport& conversion, const ResultFile& out) const
-{
-  const bool ordered = out.keepsOrder();
-  const bool whole = ordered || smg::kindOfOutput(this->Out) == smg::MeshFileKind::Vsm;
-  std::vector<std::string> notes;
-  if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
-  {
-    notes.push_back(
-      std::to_string(isolated) +
-      (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
-      (whole            ? this->fateOfIsolated(isolated, ordered)
-        : isolated == 1 ? "is left out."
-                        : "are left out."));
-  }
-  if (!out.rewritesInput())
-  {
-    notes.insert(notes.end(), conversion.notes.begin(), conversion.notes.end());
-  }
-  if (!ordered && smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed)
-  {
-    const smg::Format& format = *smg::formatOfSuffix(smg::lowerSuffix(this->Out));
-    const bool hasIds = format.holdsColumns() && format.isStreamed() && !conversion.keeps_numbers;
-    notes.push_back(hasIds
-                      ? std::string("The vertices are in stream order; ") + smg::OriginalIdName +
-                          " names their places in " + this->In.string() + '.'
-                      : "The vertices are in stream order.");
-  }
-  return notes;
 }

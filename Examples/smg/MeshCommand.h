@@ -2,16 +2,16 @@
 #pragma once
 
 #include "CommonOptions.h"
-#include "ResultFile.h"
 
 #include "IO/Conversion/JobEstimate.h"
+#include "IO/Jobs/MeshJob.h"
+#include "IO/Jobs/ResultFile.h"
 #include "smg/Convert.h"
+#include "smg/MeshSource.h"
 #include "smg/Region.h"
 #include "smg/Solve.h"
-#include "smg/VsmReader.h"
 
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,14 +73,13 @@ protected:
 
   /** Whether the processes of mpiexec work together, instead of each for itself. */
   virtual bool isForProcesses() const { return false; }
-  /** The columns of the result, as ResultFile::Options::columns. */
-  virtual std::string resultColumns() const = 0;
-  /** The names of these columns if IN has them, as ResultFile::Options::changed. */
-  virtual std::vector<std::string> changedColumns() const { return {}; }
+  /** What is computed; the options fill it. */
+  virtual smg::MeshJob& job() = 0;
+  const smg::MeshJob& job() const { return const_cast<MeshCommand*>(this)->job(); }
   /** Does what run() does, without the end of a cancelled command. */
   virtual void compute();
   /** Checks the files and reads the task. */
-  ResultFile checkFiles();
+  smg::ResultFile checkFiles();
   /** Prints what the user is to know at the end. */
   void tell(const smg::Report& report);
   bool isDryRun() const { return this->DryRun; }
@@ -88,28 +87,13 @@ protected:
   /** Reads the task file, before the mesh is read. */
   virtual void readTask() = 0;
   /** What the computation is expected to cost on such a mesh. */
-  virtual smg::Costs costsOn(const smg::StreamInfo& info) const = 0;
-  /** The values that the result has besides the mesh, or in place of its own. */
-  virtual smg::AddedValues addedTo(const smg::StreamInfo& info) const = 0;
-  /** Those of a result that has these columns of the vertices with other values. */
-  static smg::AddedValues replacedIn(
-    const smg::StreamInfo& info, const std::vector<std::string>& columns);
+  virtual smg::Costs costsOn(const smg::StreamInfo& info) const
+  {
+    return this->job().costsOn(info);
+  }
   /** Computes the result; foreseeable failures are reported first. */
   virtual std::unique_ptr<smg::Solution> solveOn(
-    const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
-  /** The treatment of this many isolated vertices in an output with all of IN, as the end of a
-   * sentence. `ordered`: the output has the order of the mesh file IN. */
-  virtual std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const
-  {
-    return vertices == 1 ? "stays where it is." : "stay where they are.";
-  }
-  /** Writes a mesh stream, which it reads to its end, as OUT. */
-  using Writer = std::function<void(smg::MeshSource& result, const smg::ProgressFunction&)>;
-  /** Passes the mesh with the result, as a stream, to `write`. May add to the report. */
-  virtual void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& report, const smg::ProgressFunction& progress) const = 0;
-  /** The memory limit of solveOn(), bytes. */
-  virtual std::int64_t memoryLimit() const = 0;
+    const smg::StoredMesh& mesh, const smg::ProgressFunction& progress);
   /** The relative residual to stop at; 0: there is none. */
   virtual double tolerance() const { return 0.0; }
   /** What `File` holds; empty: there is none. */
@@ -120,9 +104,6 @@ protected:
   virtual void print(const smg::Report& report) const = 0;
   /** Of a report as a page, without what it draws. */
   html::PageFacts pageFacts() const;
-  /** Bytes for the buffers of a writer while the solution holds its memory. */
-  std::int64_t writerMemory() const;
-
   std::filesystem::path In, Out;
   std::filesystem::path File; ///< the task: problem or handles
   /** The report on the conversion of IN; none if IN is a .vsm file. */
@@ -130,17 +111,14 @@ protected:
 
 private:
   /** The costs of the command, before it starts. */
-  smg::JobEstimate estimate(const ResultFile& out) const;
-  void checkRoom(const ResultFile& out) const;
+  smg::JobEstimate estimate(const smg::ResultFile& out) const;
+  void checkRoom(const smg::ResultFile& out) const;
   /** Computes, writes OUT and returns the report. */
   smg::Report solveAndWrite(
-    const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress);
+    const smg::StoredMesh& mesh, const smg::ResultFile& out, const smg::ProgressFunction& progress);
   /** Reads the mesh with its result once more, for the page of the report. */
   html::ResultSurface draw(
-    const smg::VsmReader& mesh, const smg::Report& report, const smg::ProgressFunction& progress);
-  /** Notes for the user on the conversion of IN. */
-  std::vector<std::string> notesOn(
-    const smg::ConversionReport& conversion, const ResultFile& out) const;
+    const smg::StoredMesh& mesh, const smg::Report& report, const smg::ProgressFunction& progress);
 
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   std::string Title;

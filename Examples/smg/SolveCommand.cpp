@@ -2,13 +2,11 @@
 #include "EngineCommand.h"
 
 #include "IO/Formats/FormatTable.h"
+#include "IO/Jobs/SolveJob.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "Solver/Problem/ComposeDescriptions.h"
 #include "Solver/Problem/ProblemData.h"
-#include "smg/DescribedProblem.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
-#include "smg/SolvedMesh.h"
 
 #include <algorithm>
 
@@ -49,13 +47,13 @@ public:
         " in stream order; of a mesh file IN, " +
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded",
-      this->Solve);
+      this->Job.solving);
     command
       .add_option_function<std::string>(
         "--tolerance",
         [this](const std::string& given)
         {
-          this->Solve.tolerance =
+          this->Job.solving.tolerance =
             given == Automatic ? smg::SolveOptions::AutomaticTolerance : std::stod(given);
         },
         "Relative residual to stop at, between 0 and 1; auto: until the algebraic error is below a "
@@ -63,7 +61,7 @@ public:
       ->check([](const std::string& given)
         { return given == Automatic ? std::string() : checkTolerance(given); })
       ->type_name("FLOAT|auto")
-      ->default_str(CLI::detail::to_string(this->Solve.tolerance));
+      ->default_str(CLI::detail::to_string(this->Job.solving.tolerance));
     this->addCheckpointTo(command);
     command
       .add_option_function<std::string>(
@@ -71,7 +69,7 @@ public:
         [this](const std::string& name)
         {
           const auto place = std::find(Accelerations.begin(), Accelerations.end(), name);
-          this->Solve.acceleration =
+          this->Job.solving.acceleration =
             static_cast<smg::AccelerationKind>(place - Accelerations.begin());
         },
         "Acceleration of the V-cycles: automatic, none, chebyshev or cg")
@@ -86,14 +84,14 @@ public:
 
   void checkUsage() const override
   {
-    smg::checkOptions(this->Solve);
-    smg::checkOperators(this->Solve);
+    smg::checkOptions(this->Job.solving);
+    smg::checkOperators(this->Job.solving);
   }
 
 protected:
   void computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
-    if (this->Solve.tolerance == smg::SolveOptions::AutomaticTolerance)
+    if (this->Job.solving.tolerance == smg::SolveOptions::AutomaticTolerance)
     {
       throw smg::Error("--tolerance auto is for --engine streaming: give a number");
     }
@@ -101,89 +99,23 @@ protected:
     solve.read = [this]
     {
       this->readTask();
-      return this->Description;
+      return this->Job.description;
     };
-    solve.tolerance = this->Solve.tolerance;
+    solve.tolerance = this->Job.solving.tolerance;
     return engine.solve(job, solve);
   }
 
-  std::string resultColumns() const override { return "a solution"; }
+  smg::SolveJob& job() override { return this->Job; }
 
   void readTask() override
   {
-    this->Description = smg::readProblemText(this->readText(), this->File.string());
-    if (!smg::isPosed(this->Description))
-    {
-      throw smg::Error(this->File.string() +
-                       ": says nothing to solve for: give it dirichlet, source, flux, robin, soft, "
-                       "field or initial.");
-    }
-    smg::checkAutomaticTolerance(this->Solve, this->Description.weights);
+    this->Job.description = smg::readProblemText(this->readText(), this->File.string());
+    this->Job.check();
     this->announceCheckpoint("pass");
   }
 
-  smg::Costs costsOn(const smg::StreamInfo& info) const override
-  {
-    // Those of the other engine are past when this one's result is written.
-    return this->hasWholeSolution() ? smg::Costs{}
-                                    : smg::solveCosts(info, this->Description.columns,
-                                        this->Description.weights, this->withCommon(this->Solve));
-  }
-
-  smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
-  {
-    return smg::solvedValues(
-      this->Description.columns, this->Description.gradientOutput, this->Description.fluxOutput);
-  }
-
-  std::unique_ptr<smg::Solution> solveOn(
-    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
-  {
-    this->Problem =
-      std::make_unique<smg::DescribedProblem>(this->Description, mesh.info(), this->File.string());
-    this->Problem->prepare(
-      *this->sourceOf(mesh), this->scratch, this->withCommon(this->Solve).memoryLimit);
-    if (auto whole = this->wholeSolution())
-    {
-      return whole;
-    }
-    this->applyTo(this->Solve, std::move(progress));
-    this->Solve.again = [this, &mesh] { return this->sourceOf(mesh); };
-    this->applyCheckpoint(this->Solve, mesh);
-    return smg::solve(*this->sourceOf(mesh), *this->Problem, this->Solve);
-  }
-
-  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& report, const smg::ProgressFunction& progress) const override
-  {
-    smg::ResultOptions results;
-    results.gradient = this->Description.gradientOutput;
-    results.flux = this->Description.fluxOutput;
-    results.memoryLimit = this->Solve.memoryLimit;
-    results.threads = this->Solve.threads;
-    smg::SolvedMesh source(mesh, *this->Problem, solution, results);
-    write(source, progress);
-    source.finish(report);
-  }
-
-  std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override
-  {
-    return ordered ? vertices == 1 ? "has no Solution (NaN)." : "have no Solution (NaN)."
-                   : this->SolvingCommand::fateOfIsolated(vertices, ordered);
-  }
-
-  const smg::SolveOptions& solveOptions() const override { return this->Solve; }
-
 private:
-  /** The mesh with the columns of the problem. */
-  std::unique_ptr<smg::MeshSource> sourceOf(const smg::VsmReader& mesh) const
-  {
-    return mesh.source(this->Problem->vertexColumns(), this->Problem->cellColumns());
-  }
-
-  smg::ProblemDescription Description; ///< from the problem file
-  std::unique_ptr<smg::DescribedProblem> Problem;
-  smg::SolveOptions Solve;
+  smg::SolveJob Job;
 };
 
 } // namespace

@@ -43,23 +43,11 @@ void SolvingCommand::addSolverOptions(
 
 const std::string& SolvingCommand::readText()
 {
-  return this->Text = smg::jsonFileText(this->File.string());
-}
-
-void SolvingCommand::applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const
-{
-  if (!this->checkpoint.empty())
-  {
-    options.checkpoint = { this->checkpoint, mesh.fingerprint(), this->Text };
-  }
-}
-
-void SolvingCommand::applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const
-{
-  options.memoryLimit = this->memoryBytes(options.memoryLimit);
-  options.threads = this->threads;
-  options.scratch = this->scratch;
-  options.progress = std::move(progress);
+  this->Text = smg::jsonFileText(this->File.string());
+  this->job().name = this->File.string();
+  this->job().text = this->Text;
+  this->job().options().checkpoint.folder = this->checkpoint;
+  return this->Text;
 }
 
 namespace

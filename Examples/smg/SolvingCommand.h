@@ -3,7 +3,7 @@
 
 #include "MeshCommand.h"
 
-#include "smg/SolvedMesh.h"
+#include "smg/Solve.h"
 
 #include <string>
 #include <vector>
@@ -36,23 +36,12 @@ protected:
   /** The same, when it has been read. */
   const std::string& text() const override { return this->Text; }
   double tolerance() const override { return this->solveOptions().tolerance; }
-  /** Applies --checkpoint, for a solve on this mesh. */
-  void applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const;
 
-  /** Applies the common options. */
-  void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;
-  /** The same on a copy, for an estimate. */
-  template <class Options>
-  Options withCommon(Options options) const
+  smg::SolvingJob& job() override = 0;
+  const smg::SolveOptions& solveOptions() const
   {
-    this->applyTo(options, {});
-    options.checkpoint.folder = this->checkpoint;
-    return options;
+    return const_cast<SolvingCommand*>(this)->job().options();
   }
-
-  /** The options last used by solveOn(). */
-  virtual const smg::SolveOptions& solveOptions() const = 0;
-  std::int64_t memoryLimit() const override { return this->solveOptions().memoryLimit; }
   void warn(const smg::Report& report) const override;
   void print(const smg::Report& report) const override;
 

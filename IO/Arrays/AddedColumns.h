@@ -21,12 +21,15 @@ class SMG_EXPORT AddedColumns : public StoredMesh
 {
 public:
   /** A mesh with a StoredMesh::file(), and its order. */
-  AddedColumns(
-    std::shared_ptr<const StoredMesh> mesh, std::shared_ptr<const OriginalOrder> order);
+  AddedColumns(std::shared_ptr<const StoredMesh> mesh, std::shared_ptr<const OriginalOrder> order);
 
   /** Adds a column, in place of one of this name. Throws ArgumentError if the array has another
    * number of rows or the name is one that the library gives a meaning of its own. */
   void add(bool ofCells, const std::string& name, const ArrayView& values);
+
+  /** Takes an added column away, if there is one of this name. */
+  void remove(bool ofCells, const std::string& name);
+  bool isEmpty() const { return this->OfVertices.empty() && this->OfCells.empty(); }
 
   const StreamInfo& info() const override { return this->Info; }
   std::unique_ptr<MeshSource> source(
@@ -34,7 +37,10 @@ public:
   /** That of the mesh, and of the numbers of all arrays. */
   std::string fingerprint() const override;
   std::filesystem::path file() const override { return this->Mesh->file(); }
-  void completeIsolated(std::int64_t first, IsolatedVertices& vertices) const override;
+
+  /** Adds the added columns to vertices of no cell that were read from the file(), in place of
+   * those of the same names; `first` is the number of the first one. */
+  void completeIsolated(std::int64_t first, IsolatedVertices& vertices) const;
 
   /** An added column. */
   struct Added
@@ -47,6 +53,8 @@ public:
   const OriginalOrder& order() const { return *this->Order; }
 
 private:
+  void setInfo();
+
   std::shared_ptr<const StoredMesh> Mesh;
   std::shared_ptr<const OriginalOrder> Order;
   StreamInfo Info;

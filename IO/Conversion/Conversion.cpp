@@ -40,19 +40,37 @@ Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::p
   , From(kindOfInput(in))
   , To(kindOfOutput(out))
 {
+  this->checkOptions();
+}
+
+Conversion::Conversion(MeshImporter importer, const std::filesystem::path& name,
+  const std::filesystem::path& out, const ConversionOptions& options)
+  : In(name)
+  , Out(out)
+  , Options(options)
+  , Memory(options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory)
+  , Importer(std::move(importer))
+  , From(MeshFileKind::Indexed)
+  , To(kindOfOutput(out))
+{
+  this->checkOptions();
+}
+
+void Conversion::checkOptions() const
+{
   if (this->Memory < Workspace::MinMemory)
   {
-    throw Error(in.string() + ": a conversion needs a memory limit of at least " +
+    throw Error(this->In.string() + ": a conversion needs a memory limit of at least " +
                 std::to_string(Workspace::MinMemory >> 20) + " MiB, but it is " +
                 std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
   }
-  if (options.scratchLimit < 0)
+  if (this->Options.scratchLimit < 0)
   {
-    throw Error(in.string() + ": the limit of scratch files must not be negative.");
+    throw Error(this->In.string() + ": the limit of scratch files must not be negative.");
   }
-  if (options.weld)
+  if (this->Options.weld)
   {
-    checkWeldDistance(*options.weld);
+    checkWeldDistance(*this->Options.weld);
   }
 }
 

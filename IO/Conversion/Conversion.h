@@ -18,6 +18,9 @@
 namespace smg
 {
 
+/** Brings a mesh that is in no file into scratch files. Reports its progress, from 0 to 1. */
+using MeshImporter = std::function<RawMesh(Workspace&, const ProgressFunction&)>;
+
 /** The common state of all conversions: files, options, memory, and the report. */
 class Conversion
 {
@@ -25,6 +28,9 @@ public:
   /** Keeps references. Throws Error if the options are invalid for any mesh. */
   Conversion(const std::filesystem::path& in, const std::filesystem::path& out,
     const ConversionOptions& options);
+  /** The same of a mesh that is in no file; `name` is what errors call it. */
+  Conversion(MeshImporter importer, const std::filesystem::path& name,
+    const std::filesystem::path& out, const ConversionOptions& options);
 
   /** Whether such a conversion has stages, from which it can continue with a checkpoint. */
   static bool hasStages(const std::filesystem::path& in, const ConversionOptions& options);
@@ -47,6 +53,8 @@ public:
   ProgressFunction progress();
 
   MeshFileKind inputKind() const { return this->From; }
+  /** Of a mesh that is in no file; else empty. */
+  const MeshImporter& importer() const { return this->Importer; }
   /** Whether the input already has a stream order. */
   bool isStream() const;
   /** Whether the cells are only copied. */
@@ -65,6 +73,7 @@ public:
   double lap();
 
 private:
+  void checkOptions() const;
   std::filesystem::path importStream();
   void checkCells(const StreamInfo& info) const;
 
@@ -72,13 +81,17 @@ private:
   const std::filesystem::path& Out;
   const ConversionOptions& Options;
   const std::int64_t Memory;
-  const MeshFileKind From, To;
+  MeshImporter Importer;
+  MeshFileKind From, To;
   std::optional<ScratchFolder> Kept;
   std::optional<Workspace> Space; // in the kept folder, if there is one
   std::optional<VsmReader> Stream;
   std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
   ConversionReport Report;
 };
+
+/** Runs the stages of convert() and completes the report. */
+ConversionReport runConversion(Conversion& conversion);
 
 /** Whether the file is a stream compressed by gzip, according to its first bytes and its name. */
 bool isCompressedStream(const std::filesystem::path& path);

@@ -135,9 +135,14 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   {
     return convertCompressedStream(in, out, options);
   }
+  Conversion conversion(in, out, options);
+  return runConversion(conversion);
+}
+
+ConversionReport runConversion(Conversion& conversion)
+{
   const Timer timer;
   const double cpu = processSeconds();
-  Conversion conversion(in, out, options);
   run(conversion);
   Workspace& space = conversion.workspace();
   ConversionReport report = conversion.report();
@@ -161,7 +166,7 @@ constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
  */
 void checkSaidRoom(const Conversion& conversion)
 {
-  if (conversion.inputKind() == MeshFileKind::Unknown)
+  if (conversion.inputKind() == MeshFileKind::Unknown || conversion.importer())
   {
     return;
   }
@@ -197,6 +202,10 @@ RawMesh readInput(Conversion& conversion)
 {
   Workspace& space = conversion.workspace();
   space.beginPart(0.15, Unknown);
+  if (conversion.importer())
+  {
+    return conversion.importer()(space, conversion.progress());
+  }
   if (!conversion.isStream())
   {
     return importMesh(conversion.in(), space,

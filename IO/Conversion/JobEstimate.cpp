@@ -249,10 +249,11 @@ JobEstimate::JobEstimate(const EstimatedInput& in, const EstimatedResult& result
   , passes(costs.passes)
 {
   const ResultMesh mesh(in, result.added);
-  this->output_bytes = fileBytes(mesh, result.out, result.order);
+  this->output_bytes = result.out.empty() ? 0 : fileBytes(mesh, result.out, result.order);
   const std::int64_t stream = in.converts ? in.streamBytes : 0;
   this->scratch_bytes = std::max(in.conversionScratch,
-    stream + std::max(costs.scratch, costs.kept + writingBytes(mesh, result)));
+    stream +
+      std::max(costs.scratch, costs.kept + (result.out.empty() ? 0 : writingBytes(mesh, result))));
   constexpr double SecondsOfByte = 40e-9; // compressed
   this->cpu_seconds =
     in.conversionSeconds + costs.seconds + SecondsOfByte * static_cast<double>(this->output_bytes);

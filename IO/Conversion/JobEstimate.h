@@ -59,7 +59,7 @@ enum class WrittenOrder
 /** The result of a computation, as a file. */
 struct EstimatedResult
 {
-  std::filesystem::path out;
+  std::filesystem::path out; ///< empty: it is not written
   AddedValues added;
   WrittenOrder order = WrittenOrder::Stream;
   std::int64_t memory = 0; ///< bytes for the sorts of the orders of a file

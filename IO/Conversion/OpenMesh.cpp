@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
 
+#include "IO/Arrays/ImportArrays.h"
 #include "IO/Conversion/ConversionStages.h"
+#include "IO/Conversion/OpenArrays.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Files/ScratchFolder.h"
@@ -99,6 +101,25 @@ std::unique_ptr<OpenedMesh> openMesh(
   conversion.scratch = mesh.scratch->path();
   const std::filesystem::path converted = mesh.scratch->path() / "mesh.vsm";
   mesh.conversion = convert(path, converted, conversion);
+  mesh.conversion->scratch_bytes_peak = mesh.scratch->account().peak();
+  mesh.reader.emplace(converted);
+  return opened;
+}
+
+std::unique_ptr<OpenedMesh> openArrays(
+  const ArrayView& points, const ArrayView& cells, const ConversionOptions& options)
+{
+  checkArrays(points, cells);
+  std::unique_ptr<OpenedMesh> opened(new OpenedMesh);
+  OpenedMesh::Implementation& mesh = *opened->Self;
+  mesh.scratch.emplace(options.scratch, options.scratchLimit);
+  ConversionOptions conversion = options;
+  conversion.scratch = mesh.scratch->path();
+  const std::filesystem::path name("the mesh"), converted = mesh.scratch->path() / "mesh.vsm";
+  Conversion converting([&](Workspace& space, const ProgressFunction& progress)
+    { return importArrays(points, cells, space, progress); },
+    name, converted, conversion);
+  mesh.conversion = runConversion(converting);
   mesh.conversion->scratch_bytes_peak = mesh.scratch->account().peak();
   mesh.reader.emplace(converted);
   return opened;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescriptionFiles.h"
 
+#include "IO/Description/ParseDescriptions.h"
 #include "IO/Description/ParseWhere.h"
 
 #include <algorithm>
@@ -189,6 +190,8 @@ HandleDescription parseHandle(const JsonNode& handle)
   return { where, parseValues(handle) };
 }
 
+} // namespace
+
 DeformationDescription parseDeformation(const JsonNode& node)
 {
   node.requireObject({ "handles", "weights", "cycles", "tolerance" });
@@ -222,8 +225,6 @@ DeformationDescription parseDeformation(const JsonNode& node)
   }
   return data;
 }
-
-} // namespace
 
 DeformationDescription readHandleFile(const std::filesystem::path& path)
 {

@@ -17,7 +17,7 @@ namespace smg
 
 /** A value of a JSON file with its place, so that every error message names the file and the place,
  * for example `problem.json: dirichlet[1].box: must be 6 numbers.` */
-class JsonNode
+class SMG_EXPORT JsonNode
 {
 public:
   /** The value of the whole file, which must outlive the nodes. */
@@ -75,6 +75,6 @@ SMG_EXPORT std::string jsonFileText(const std::string& path);
 /** Reads a JSON file; throws Error with file, line and column if it is invalid. */
 nlohmann::json readJsonFile(const std::string& path);
 /** The same for a string, named `name` in error messages. */
-nlohmann::json readJsonText(const std::string& text, const std::string& name);
+SMG_EXPORT nlohmann::json readJsonText(const std::string& text, const std::string& name);
 
 } // namespace smg

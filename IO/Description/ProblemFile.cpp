@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Description/ParseDescriptions.h"
 #include "IO/Description/ParseWhere.h"
 #include "Solver/Problem/ProblemData.h"
 #include "smg/DescriptionFiles.h"
@@ -113,8 +114,11 @@ void parseOutputs(const JsonNode& node, ProblemDescription& problem)
   }
 }
 
-ProblemDescription parseProblem(const JsonNode& node, ProblemDescription problem)
+} // namespace
+
+ProblemDescription parseProblem(const JsonNode& node, const ProblemDescription& defaults)
 {
+  ProblemDescription problem = defaults;
   node.requireObject(ProblemKeys);
   problem.weights = parseWeights(node).value_or(problem.weights);
   if (node.has("columns"))
@@ -136,8 +140,6 @@ ProblemDescription parseProblem(const JsonNode& node, ProblemDescription problem
   return problem;
 }
 
-} // namespace
-
 ProblemDescription readProblemFile(
   const std::filesystem::path& path, const ProblemDescription& defaults)
 {
@@ -152,9 +154,6 @@ ProblemDescription readProblemText(
   return parseProblem(JsonNode(json, name), defaults);
 }
 
-namespace
-{
-
 std::vector<Where> parsePlaces(const JsonNode& node)
 {
   std::vector<Where> places;
@@ -167,8 +166,6 @@ std::vector<Where> parsePlaces(const JsonNode& node)
   }
   return places;
 }
-
-} // namespace
 
 std::vector<Where> readPlacesFile(const std::filesystem::path& path)
 {

@@ -242,7 +242,7 @@ std::vector<std::string> writeMesh(
     {
       if (!options.isolatedFrom.empty())
       {
-        copyIsolated(options.isolatedFrom, source.info(), writer);
+        copyIsolated(options.isolatedFrom, source.info(), writer, options.completeIsolated);
       }
     };
     writeVsm(source, path,

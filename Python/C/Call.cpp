@@ -58,8 +58,8 @@ smg_status failed() noexcept
   }
   catch (const std::bad_alloc&)
   {
-    return failedWith(SMG_MEMORY,
-      "the system is out of memory: lower the memory limit or close other programs");
+    return failedWith(
+      SMG_MEMORY, "the system is out of memory: lower the memory limit or close other programs");
   }
   catch (const std::exception& error)
   {
@@ -80,8 +80,8 @@ ArrayView viewOf(const smg_array* array, const char* name)
   }
   if (given.rows < 0 || given.columns < 1 || (given.rows > 0 && !given.data))
   {
-    throw ArgumentError(std::string(name) +
-                        ": must have a number of rows from 0 on, one or more columns, and data.");
+    throw ArgumentError(
+      std::string(name) + ": must have a number of rows from 0 on, one or more columns, and data.");
   }
   return { given.data, static_cast<ScalarType>(given.type), given.rows, given.columns,
     given.row_stride, given.column_stride };

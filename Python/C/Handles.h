@@ -22,7 +22,8 @@ class SharedMesh
 {
 public:
   /** `name`: the file, or empty for arrays. */
-  SharedMesh(std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, ConversionOptions options)
+  SharedMesh(
+    std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, ConversionOptions options)
     : Mesh(std::move(mesh))
     , Name(std::move(name))
     , Options(std::move(options))

@@ -36,7 +36,8 @@ void fill(Column& column, double value)
 
 } // namespace
 
-void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer)
+void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer,
+  const CompleteIsolated& complete)
 {
   VsmReader reader(from);
   IsolatedVertices chunk;
@@ -44,6 +45,10 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
   {
     reader.readIsolated(
       first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    if (complete)
+    {
+      complete(first, chunk);
+    }
     if (!info.doublePositions)
     {
       roundToSingle(chunk.positions);

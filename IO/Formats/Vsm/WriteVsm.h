@@ -7,6 +7,7 @@
 #include "Solver/Core/Progress.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/WriteMesh.h"
 
 #include <filesystem>
 #include <functional>
@@ -50,10 +51,10 @@ WrittenVsm writeVsm(
 /**
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
  * stream like `info`, since a stream made from a .vsm file does not contain them. Columns with a
- * value ColumnSpec::isolated get that.
+ * value ColumnSpec::isolated get that. `complete` adds columns to those of the file.
  */
-SMG_EXPORT void copyIsolated(
-  const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);
+SMG_EXPORT void copyIsolated(const std::filesystem::path& from, const StreamInfo& info,
+  VsmWriter& writer, const CompleteIsolated& complete = {});
 
 /** The container of this library. */
 extern const Format VsmFileFormat;

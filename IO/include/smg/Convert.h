@@ -17,6 +17,8 @@
 namespace smg
 {
 
+struct ArrayView;
+
 /** The stream orders that a conversion makes: see docs/convert.md. */
 enum class StreamOrder
 {
@@ -184,6 +186,8 @@ public:
 private:
   friend std::unique_ptr<OpenedMesh> openMesh(
     const std::filesystem::path& path, const ConversionOptions& options);
+  friend std::unique_ptr<OpenedMesh> openArrays(
+    const ArrayView& points, const ArrayView& cells, const ConversionOptions& options);
   OpenedMesh();
 
   struct Implementation;

@@ -8,11 +8,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace smg
 {
+
+struct IsolatedVertices;
+
+/** Adds columns to vertices of no cell, of which the first one has this number among them, in place
+ * of those of the same names; empty: none. */
+using CompleteIsolated = std::function<void(std::int64_t first, IsolatedVertices& vertices)>;
 
 /** How to write a mesh. */
 struct WriteMeshOptions
@@ -24,6 +31,8 @@ struct WriteMeshOptions
   /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
    * .vsm file; empty: none. */
   std::filesystem::path isolatedFrom{};
+  /** Adds to these vertices columns that the .vsm file does not have. */
+  CompleteIsolated completeIsolated{};
   /** Threads that compress the blocks of a .vsm file; 0: one per core. The file does not depend on
    * them. */
   int threads = 0;

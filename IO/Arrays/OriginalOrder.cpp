@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Arrays/OriginalOrder.h"
+
+#include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "smg/VsmReader.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace smg
+{
+namespace
+{
+
+/** Numbers of vertices, each of which should occur once. */
+class SeenNumbers
+{
+public:
+  /** Of `count` numbers; as many again may be missing. */
+  explicit SeenNumbers(std::int64_t count)
+    : Seen(static_cast<std::size_t>(2 * count))
+  {
+  }
+
+  void add(std::span<const std::int64_t> numbers)
+  {
+    for (const std::int64_t number : numbers)
+    {
+      const auto place = static_cast<std::size_t>(number);
+      if (number < 0 || place >= this->Seen.size() || this->Seen[place])
+      {
+        this->AreRows = false;
+        return;
+      }
+      this->Seen[place] = true;
+      this->End = std::max(this->End, number + 1);
+    }
+  }
+  bool areRows() const { return this->AreRows; }
+  std::int64_t end() const { return this->End; }
+
+private:
+  std::vector<bool> Seen;
+  bool AreRows = true;
+  std::int64_t End = 0;
+};
+
+/** The places of these numbers in ascending order, equal ones in their own order. */
+std::vector<std::int64_t> ranksOf(const std::vector<std::int64_t>& numbers)
+{
+  std::vector<std::int64_t> order(numbers.size()), ranks(numbers.size());
+  std::iota(order.begin(), order.end(), std::int64_t(0));
+  std::ranges::stable_sort(order, {}, [&numbers](std::int64_t index) { return numbers[index]; });
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+  {
+    ranks[static_cast<std::size_t>(order[rank])] = static_cast<std::int64_t>(rank);
+  }
+  return ranks;
+}
+
+/** Whether they are 0, 1, ... in any order. */
+bool areRows(const std::vector<std::int64_t>& numbers)
+{
+  std::vector<bool> seen(numbers.size());
+  for (const std::int64_t number : numbers)
+  {
+    const auto place = static_cast<std::size_t>(number);
+    if (number < 0 || place >= seen.size() || seen[place])
+    {
+      return false;
+    }
+    seen[place] = true;
+  }
+  return true;
+}
+
+} // namespace
+
+OriginalOrder::OriginalOrder(
+  const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
+  : StreamVertices(mesh.info().vertices)
+{
+  const VsmReader reader(mesh.file());
+  this->Vertices.count = this->StreamVertices + reader.isolatedVertices();
+  this->Cells.count = mesh.info().cells;
+  const bool isTold = conversion && !conversion->keeps_numbers;
+  if (isTold && findColumn(mesh.info().vertexColumns, OriginalIdSpec) >= 0)
+  {
+    this->Vertices.column = OriginalIdName;
+    this->Vertices.count += conversion->merged_points;
+  }
+  else
+  {
+    this->readVertices(mesh, partOf(progress, 0.0, 0.5));
+  }
+  if (isTold && conversion->dropped_cells == 0 && conversion->triangulated_polygons == 0 &&
+      conversion->split_cells == 0 && findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0)
+  {
+    this->Cells.column = OriginalCellIdName;
+  }
+  else
+  {
+    this->readCells(mesh, partOf(progress, 0.5, 1.0));
+  }
+}
+
+void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction& progress)
+{
+  if (findColumn(mesh.info().vertexColumns, OriginalIdSpec) < 0)
+  {
+    return;
+  }
+  SeenNumbers seen(this->Vertices.count);
+  visitBlocks(*mesh.source({ OriginalIdName }, {}), progress, 0.0, 1.0,
+    [&seen](const MeshBlock& block) { seen.add(block.vertexColumns[0].as<std::int64_t>()); });
+  VsmReader reader(mesh.file());
+  IsolatedVertices chunk;
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += VsmFormat::BlockRows)
+  {
+    reader.readIsolated(
+      first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    seen.add(chunk.ids);
+  }
+  if (seen.areRows())
+  {
+    this->Vertices.column = OriginalIdName;
+    this->Vertices.count = std::max(this->Vertices.count, seen.end());
+  }
+}
+
+void OriginalOrder::readCells(const StoredMesh& mesh, const ProgressFunction& progress)
+{
+  if (findColumn(mesh.info().cellColumns, OriginalCellIdSpec) < 0)
+  {
+    return;
+  }
+  std::vector<std::int64_t> numbers;
+  numbers.reserve(static_cast<std::size_t>(this->Cells.count));
+  visitBlocks(*mesh.source({}, { OriginalCellIdName }), progress, 0.0, 1.0,
+    [&numbers](const MeshBlock& block)
+    {
+      const auto own = block.cellColumns[0].as<std::int64_t>();
+      numbers.insert(numbers.end(), own.begin(), own.end());
+    });
+  if (areRows(numbers))
+  {
+    this->Cells.column = OriginalCellIdName;
+  }
+  else if (!std::ranges::is_sorted(numbers))
+  {
+    this->Cells.table = ranksOf(numbers);
+  }
+}
+
+} // namespace smg

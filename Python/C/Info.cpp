@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Arrays/ArgumentColumns.h"
+#include "IO/Conversion/JobEstimate.h"
+#include "Python/C/Call.h"
+#include "Python/C/Field.h"
+#include "Python/C/JobText.h"
+#include "Python/C/Options.h"
+#include "smg/VsmReader.h"
+
+#include <nlohmann/json.hpp>
+
+namespace smg
+{
+namespace
+{
+
+nlohmann::ordered_json columnsText(const std::vector<ColumnSpec>& specs)
+{
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  for (const ColumnSpec& spec : specs)
+  {
+    columns.push_back({ { "name", spec.name }, { "type", std::string(nameOf(spec.type)) },
+      { "components", spec.components } });
+  }
+  return columns;
+}
+
+std::string textOfJson(const nlohmann::ordered_json& json)
+{
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string columnsText(const StreamInfo& info)
+{
+  return textOfJson({ { "vertices", columnsText(info.vertexColumns) },
+    { "cells", columnsText(info.cellColumns) } });
+}
+
+std::string infoText(const smg_mesh& mesh)
+{
+  const StreamInfo info = withoutArguments(mesh.stored().info());
+  nlohmann::ordered_json json;
+  json["file"] = mesh.shared->name().string();
+  json["cell_type"] = info.cellType == CellType::Triangle ? "triangle" : "tetrahedron";
+  json["vertices"] = info.vertices;
+  json["cells"] = info.cells;
+  json["isolated_vertices"] = VsmReader(mesh.stored().file()).isolatedVertices();
+  json["bounds"] = info.bounds;
+  json["positions"] = info.doublePositions ? "float64" : "float32";
+  json["width"] = info.width;
+  json["span"] = info.span;
+  json["columns"] = { { "vertices", columnsText(info.vertexColumns) },
+    { "cells", columnsText(info.cellColumns) } };
+  return textOfJson(json);
+}
+
+std::string estimateText(
+  const smg_mesh& mesh, const char* kind, const char* description, const char* path)
+{
+  const std::unique_ptr<MeshJob> job = jobOf(kind, description, limitsOf(mesh.shared->options()));
+  const StoredMesh& stored = mesh.stored();
+  ConversionOptions options;
+  options.scratch = mesh.shared->options().scratch;
+  EstimatedInput in(stored.file(), options);
+  in.info = withoutArguments(stored.info());
+  EstimatedResult result{ path ? path : "", job->addedTo(in.info) };
+  result.memory = job->writerMemory();
+  if (path)
+  {
+    result.order =
+      resultFile(*mesh.shared, mesh.added, job.get(), path, limitsOf(mesh.shared->options()))
+        .expectedOrder(in.info);
+  }
+  JobEstimate estimate(in, result, job->costsOn(stored.info()), options);
+  estimate.memory_limit = job->memoryLimit();
+  return estimate.json();
+}
+
+} // namespace
+} // namespace smg
+
+smg_status smg_info(
+  smg_mesh* mesh, int /*full*/, smg_progress /*progress*/, void* /*user*/, const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(json, "json") = nullptr;
+      smg_mesh& given = smg::required(mesh, "mesh");
+      given.text = smg::infoText(given);
+      *json = given.text.c_str();
+    });
+}
+
+smg_status smg_estimate(
+  smg_mesh* mesh, const char* job, const char* description, const char* path, const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(json, "json") = nullptr;
+      smg_mesh& given = smg::required(mesh, "mesh");
+      given.text = smg::estimateText(given, &smg::required(job, "job"), description, path);
+      *json = given.text.c_str();
+    });
+}
+
+smg_status smg_columns(smg_mesh* mesh, smg_field* field, const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(json, "json") = nullptr;
+      if (field)
+      {
+        field->text =
+          smg::columnsText(smg::withoutArguments(field->job->resultOn(field->stored().info())));
+        *json = field->text.c_str();
+        return;
+      }
+      smg_mesh& given = smg::required(mesh, "mesh and field");
+      given.text = smg::columnsText(smg::withoutArguments(given.stored().info()));
+      *json = given.text.c_str();
+    });
+}

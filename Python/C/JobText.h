@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Jobs/MeshJob.h"
+
+#include <memory>
+#include <string>
+
+namespace smg
+{
+
+/** The job "solve", "deform", "smooth", "blend" or "distance" of a description in JSON, checked as
+ * far as that is possible without the mesh. Limits that it does not have are `defaults`. Throws
+ * ArgumentError with the place in the description. */
+std::unique_ptr<MeshJob> jobOf(
+  const std::string& kind, const char* description, const JobLimits& defaults);
+
+} // namespace smg

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Python/C/Options.h"
+
+#include "IO/Description/Sizes.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace smg
+{
+namespace
+{
+
+constexpr std::int64_t MinBytes = std::int64_t(1) << 20, MaxBytes = std::int64_t(1) << 50;
+
+std::string folderIn(const JsonNode& node)
+{
+  const std::string folder = node.string();
+  if (folder.empty())
+  {
+    node.fail("must be the name of a folder");
+  }
+  return folder;
+}
+
+} // namespace
+
+std::int64_t bytesIn(const JsonNode& node)
+{
+  if (!node.isString())
+  {
+    return node.integer(MinBytes, MaxBytes);
+  }
+  std::optional<double> bytes;
+  try
+  {
+    bytes = bytesOf(node.string());
+  }
+  catch (const Error& error)
+  {
+    node.fail(error.what());
+  }
+  if (!bytes || *bytes > static_cast<double>(MaxBytes))
+  {
+    node.fail("must be a number of bytes, or a text with a unit, as 512M, 1.5GiB or 2GB");
+  }
+  return static_cast<std::int64_t>(*bytes);
+}
+
+std::size_t choiceIn(const JsonNode& node, std::initializer_list<const char*> choices)
+{
+  const std::string given = node.string();
+  const auto found = std::find(choices.begin(), choices.end(), given);
+  if (found == choices.end())
+  {
+    std::string names;
+    for (const char* choice : choices)
+    {
+      names += (names.empty() ? "" : ", ") + std::string(choice);
+    }
+    node.fail("must be one of " + names);
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+bool flagIn(const JsonNode& node)
+{
+  if (!node.value().is_boolean())
+  {
+    node.fail("must be true or false");
+  }
+  return node.isTrue();
+}
+
+JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults)
+{
+  constexpr std::int64_t MaxThreads = 1024;
+  JobLimits limits = defaults;
+  if (object.has("memory"))
+  {
+    limits.memory = bytesIn(object.member("memory"));
+  }
+  if (object.has("threads"))
+  {
+    limits.threads = static_cast<int>(object.member("threads").integer(0, MaxThreads));
+  }
+  if (object.has("scratch"))
+  {
+    limits.scratch = folderIn(object.member("scratch"));
+  }
+  if (object.has("scratch_limit"))
+  {
+    limits.scratchLimit = bytesIn(object.member("scratch_limit"));
+  }
+  return limits;
+}
+
+ConversionOptions conversionIn(
+  const JsonNode& object, bool isFile, std::initializer_list<const char*> more)
+{
+  constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
+  std::vector<const char*> keys{ "weld", "order" };
+  keys.insert(keys.end(), LimitKeys);
+  if (isFile)
+  {
+    keys.insert(keys.end(), { "cells", "time_step", "partition", "checkpoint" });
+  }
+  keys.insert(keys.end(), more);
+  object.requireObject(keys);
+  ConversionOptions options;
+  options.codec = Codec::Lz4;
+  apply(limitsIn(object), options);
+  if (object.has("weld"))
+  {
+    options.weld = object.member("weld").number();
+    if (*options.weld < 0.0)
+    {
+      object.member("weld").fail("must be a distance from 0 on");
+    }
+  }
+  if (object.has("order"))
+  {
+    options.order = static_cast<StreamOrder>(
+      choiceIn(object.member("order"), { "bfs", "axis", "keep", "spectral" }));
+  }
+  if (object.has("cells"))
+  {
+    options.cells = choiceIn(object.member("cells"), { "triangles", "tets" }) == 0
+                      ? CellChoice::Triangles
+                      : CellChoice::Tetrahedra;
+  }
+  if (object.has("time_step"))
+  {
+    options.timeStep = object.member("time_step").integer(0, Most);
+  }
+  if (object.has("partition"))
+  {
+    options.partition = object.member("partition").integer(0, Most);
+  }
+  if (object.has("checkpoint"))
+  {
+    options.checkpoint = folderIn(object.member("checkpoint"));
+  }
+  return options;
+}
+
+void apply(const JobLimits& limits, ConversionOptions& options)
+{
+  options.memoryLimit = limits.memory;
+  options.threads = limits.threads;
+  options.scratch = limits.scratch;
+  options.scratchLimit = limits.scratchLimit;
+}
+
+JobLimits limitsOf(const ConversionOptions& options)
+{
+  return { options.memoryLimit, options.threads, options.scratch, options.scratchLimit };
+}
+
+} // namespace smg
