@@ -34,6 +34,6 @@ void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> 
 SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
 
 /** The member `weights` of an object, if any. Throws Error. */
-std::optional<Weights> parseWeights(const JsonNode& object);
+SMG_EXPORT std::optional<Weights> parseWeights(const JsonNode& object);
 
 } // namespace smg
