@@ -15,11 +15,12 @@
  * compute, and how, are JSON texts: NULL or "" is {}. Keys that do not exist are errors.
  *
  * Vertices and cells have two orders. The *original* one is that of the file or of the arrays, with
- * the vertices of no cell; the *stream* order is that in which a mesh is read. Numbers in JSON, rows
- * of arrays that are given, and smg_read() refer to the original order; blocks come in stream order.
+ * the vertices of no cell; the *stream* order is that in which a mesh is read. Numbers in JSON,
+ * rows of arrays that are given, and smg_read() refer to the original order; blocks come in stream
+ * order.
  *
- * A handle may be used by one thread at a time, different handles by different threads. A field, its
- * blocks and a solver keep what they need of their mesh: handles may be closed in any order.
+ * A handle may be used by one thread at a time, different handles by different threads. A field,
+ * its blocks and a solver keep what they need of their mesh: handles may be closed in any order.
  */
 #ifndef STREAMINGMULTIGRID_H
 #define STREAMINGMULTIGRID_H
@@ -43,10 +44,10 @@ extern "C"
   typedef enum smg_status
   {
     SMG_OK = 0,
-    SMG_FAILED = 1,    /* the mesh, a file, the disk, or the system */
-    SMG_INVALID = 2,   /* a wrong argument: a text, an option, the shape or type of an array */
-    SMG_MEMORY = 3,    /* a memory limit is too low, or there is no memory */
-    SMG_CANCELLED = 4  /* the progress function said so; nothing half-done is left */
+    SMG_FAILED = 1,   /* the mesh, a file, the disk, or the system */
+    SMG_INVALID = 2,  /* a wrong argument: a text, an option, the shape or type of an array */
+    SMG_MEMORY = 3,   /* a memory limit is too low, or there is no memory */
+    SMG_CANCELLED = 4 /* the progress function said so; nothing half-done is left */
   } smg_status;
 
   typedef enum smg_type
@@ -83,11 +84,11 @@ extern "C"
   SMG_C_EXPORT const char* smg_error(void);
 
   /* Opens a mesh file of any format; one that is no .vsm is converted to a scratch file.
-   * options: "memory" (bytes, or a text as "1GB"), "cells" ("triangles", "tets"), "weld" (distance),
-   * "time_step", "partition", "order" ("bfs", "spectral", "axis", "keep"), "threads", "scratch"
-   * (folder), "scratch_limit" (bytes, or a text), "checkpoint" (folder). */
-  SMG_C_EXPORT smg_status smg_open(const char* path, const char* options, smg_progress progress,
-    void* user, smg_mesh** mesh);
+   * options: "memory" (bytes, or a text as "1GB"), "cells" ("triangles", "tets"), "weld"
+   * (distance), "time_step", "partition", "order" ("bfs", "spectral", "axis", "keep"), "threads",
+   * "scratch" (folder), "scratch_limit" (bytes, or a text), "checkpoint" (folder). */
+  SMG_C_EXPORT smg_status smg_open(
+    const char* path, const char* options, smg_progress progress, void* user, smg_mesh** mesh);
 
   /* A mesh of arrays, which are read during the call: points (n x 3) of any type, and cells (m x 3:
    * triangles, m x 4: tetrahedra), rows of `points`, of any integer type. options as of smg_open(),
@@ -95,26 +96,26 @@ extern "C"
   SMG_C_EXPORT smg_status smg_open_arrays(const smg_array* points, const smg_array* cells,
     const char* options, smg_progress progress, void* user, smg_mesh** mesh);
 
-  /* Adds a column to the vertices (cells = 0) or cells (1), a row for each in the original order, in
-   * place of one of this name. The array is not copied: it must not change or go as long as the mesh
-   * has it, and fields, blocks and solvers are open that were made until then. `values` NULL takes an
-   * added column away. One whose name begins with # is an argument of jobs alone: files, blocks and
-   * smg_columns() do not have it. */
+  /* Adds a column to the vertices (cells = 0) or cells (1), a row for each in the original order,
+   * in place of one of this name. The array is not copied: it must not change or go as long as the
+   * mesh has it, and fields, blocks and solvers are open that were made until then. `values` NULL
+   * takes an added column away. One whose name begins with # is an argument of jobs alone: files,
+   * blocks and smg_columns() do not have it. */
   SMG_C_EXPORT smg_status smg_add_column(
     smg_mesh* mesh, const char* name, int cells, const smg_array* values);
 
-  /* What is known of a mesh: the JSON of `smg info --report`; with `full` that of `smg info --full`,
-   * which reads the mesh. The text is valid until the next call with this mesh. */
+  /* What is known of a mesh: the JSON of `smg info --report`; with `full` that of `smg info
+   * --full`, which reads the mesh. The text is valid until the next call with this mesh. */
   SMG_C_EXPORT smg_status smg_info(
     smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json);
 
   /* The numbers of vertices and cells in the original order. */
   SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
 
-  /* What a job is expected to cost, before it starts: the JSON of `--dry-run --report`. `path`: where
-   * the result is to be written; NULL: nowhere. The text as that of smg_info(). */
-  SMG_C_EXPORT smg_status smg_estimate(smg_mesh* mesh, const char* job, const char* description,
-    const char* path, const char** json);
+  /* What a job is expected to cost, before it starts: the JSON of `--dry-run --report`. `path`:
+   * where the result is to be written; NULL: nowhere. The text as that of smg_info(). */
+  SMG_C_EXPORT smg_status smg_estimate(
+    smg_mesh* mesh, const char* job, const char* description, const char* path, const char** json);
 
   /* Does a job. description:
    *   "solve"     "problem" (as a problem file: docs/problem.md), "tolerance" (a number or "auto"),
@@ -132,20 +133,21 @@ extern "C"
   SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
     smg_progress progress, void* user, smg_field** field);
 
-  /* Writes the simplified surface. description: "vertices", "error", "memory", "threads", "scratch",
-   * "checkpoint". The report is that of `smg simplify --report`; its text as that of smg_info(). */
+  /* Writes the simplified surface. description: "vertices", "error", "memory", "threads",
+   * "scratch", "checkpoint". The report is that of `smg simplify --report`; its text as that of
+   * smg_info(). */
   SMG_C_EXPORT smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* path,
     smg_progress progress, void* user, const char** report);
 
-  /* Converts a file: options as of smg_open(), and "codec" ("none", "lz4", "zstd"), "restore" (true:
-   * in the order of the original file). The report is that of `smg convert --report`, valid until
-   * the next call on this thread; it may be NULL. */
+  /* Converts a file: options as of smg_open(), and "codec" ("none", "lz4", "zstd"), "restore"
+   * (true: in the order of the original file). The report is that of `smg convert --report`, valid
+   * until the next call on this thread; it may be NULL. */
   SMG_C_EXPORT smg_status smg_convert(const char* in, const char* out, const char* options,
     smg_progress progress, void* user, const char** report);
 
-  /* The report of a job (docs: Report.h); with `full` what follows from its result, too: conditions,
-   * energy, means, inverted cells, for which the mesh is read once the first time. The text is valid
-   * until the next call with this field. */
+  /* The report of a job (docs: Report.h); with `full` what follows from its result, too:
+   * conditions, energy, means, inverted cells, for which the mesh is read once the first time. The
+   * text is valid until the next call with this field. */
   SMG_C_EXPORT smg_status smg_report(
     smg_field* field, int full, smg_progress progress, void* user, const char** json);
 
@@ -153,14 +155,14 @@ extern "C"
   SMG_C_EXPORT smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns);
 
   /* Writes the mesh with the result, in the format of the suffix and in the order of the command
-   * line. options: "memory", "threads", "scratch". The report is that of smg_report(), with notes on
-   * what the format cannot hold; it may be NULL. */
+   * line. options: "memory", "threads", "scratch". The report is that of smg_report(), with notes
+   * on what the format cannot hold; it may be NULL. */
   SMG_C_EXPORT smg_status smg_save(smg_field* field, const char* path, const char* options,
     smg_progress progress, void* user, const char** report);
 
   /* Writes a mesh with the columns that were added, likewise. */
-  SMG_C_EXPORT smg_status smg_save_mesh(smg_mesh* mesh, const char* path, const char* options,
-    smg_progress progress, void* user);
+  SMG_C_EXPORT smg_status smg_save_mesh(
+    smg_mesh* mesh, const char* path, const char* options, smg_progress progress, void* user);
 
   /* The columns of a mesh, or of a field with its mesh: a JSON object with the lists "vertices" and
    * "cells" of { "name", "type", "components" }. Either handle may be NULL, not both. A field has
@@ -194,13 +196,13 @@ extern "C"
    * stiffness with screening and Robin terms; at vertices with a Dirichlet condition its rows are
    * those of the identity. options: "problem", "sweeps", "memory", "threads". Rows of vectors are
    * vertices in the original order; those of vertices of no cell are rows of the identity, too. */
-  SMG_C_EXPORT smg_status smg_open_solver(smg_mesh* mesh, const char* options,
-    smg_progress progress, void* user, smg_solver** solver);
+  SMG_C_EXPORT smg_status smg_open_solver(
+    smg_mesh* mesh, const char* options, smg_progress progress, void* user, smg_solver** solver);
 
   /* Solves A x = b for all columns of b, one after the other or together, beginning with what `x`
    * has (C-contiguous, of the shape of b). options: "tolerance" (||b - A x|| / ||b - A x_0||),
-   * "max_cycles". The report is as that of a solve; it may be NULL, and is valid until the next call
-   * with this solver. */
+   * "max_cycles". The report is as that of a solve; it may be NULL, and is valid until the next
+   * call with this solver. */
   SMG_C_EXPORT smg_status smg_solver_solve(smg_solver* solver, const smg_array* b, double* x,
     const char* options, smg_progress progress, void* user, const char** report);
 
