@@ -163,14 +163,20 @@ class Field:
 
     Attributes:
         mesh: the mesh that the job was done on.
-        name: the name of the values, for example "Solution"; that of moved points is "Position".
+        names: the columns of the result; first that of the values, for example "Solution"; that of
+            moved points is "Position".
     """
 
-    def __init__(self, mesh: Any, handle: Handle, job: str, name: str) -> None:
-        self.mesh, self.name, self._job = mesh, name, job
+    def __init__(self, mesh: Any, handle: Handle, job: str, names: Sequence[str]) -> None:
+        self.mesh, self.names, self._job = mesh, tuple(names), job
         self._handle = handle
         self._said: set = set()
         self._report: Optional[Report] = None
+
+    @property
+    def name(self) -> str:
+        """The name of the values: the first of `names`."""
+        return self.names[0]
 
     @property
     def shape(self) -> tuple:
@@ -182,7 +188,7 @@ class Field:
 
     @property
     def columns(self) -> Dict[str, Dict[str, Any]]:
-        """The columns of the result: {"vertices": {name: {"type", "components"}}, "cells": ...}."""
+        """The columns of the result with its mesh, as `Mesh.columns`."""
         with self._handle as field:
             return read_columns(None, field)
 
@@ -203,23 +209,23 @@ class Field:
             call_reporting("smg_report", (field, int(full)), None, byref(result))
             return Report(parse(result))
 
-    def to_numpy(self, name: Optional[str] = None, progress: Any = None) -> np.ndarray:
+    def to_numpy(self) -> np.ndarray:
         """The values at the vertices, in the order of the file or of the arrays.
-
-        Args:
-            name: another column of the result, or of the mesh with it.
-            progress: see `help(streamingmultigrid.progress)`.
 
         Returns:
             (n,), or (n, k) of k right-hand sides or components; at vertices of no cell a solution is
             NaN.
         """
+        return self.read(self.name)
+
+    def read(self, name: str, cells: Optional[bool] = None, progress: Any = None) -> np.ndarray:
+        """A whole column of the result or of its mesh, as `Mesh.read`."""
         with reporting(progress, "reading") as report, self._handle as field:
             return read_column(
                 None,
                 field,
-                name or self.name,
-                None,
+                name,
+                cells,
                 read_columns(None, field),
                 (self.mesh.n_vertices, self.mesh.n_cells),
                 self.mesh.n_corners,
@@ -233,7 +239,7 @@ class Field:
         return values if dtype is None else values.astype(dtype, copy=False)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self.to_numpy(name)
+        return self.read(name)
 
     def blocks(
         self, max_points: int = 1_000_000, columns: Optional[Sequence[str]] = None

@@ -21,10 +21,9 @@ def _opened(points: Any, cells: Any, options: Dict[str, Any]) -> Mesh:
 
 def _read(field: Any) -> _Values:
     """The values; of several columns all, by their names."""
-    names = [name for place in field.columns.values() for name in place]
-    if len(names) <= 1:
+    if len(field.names) == 1:
         return field.to_numpy()
-    return {name: field.to_numpy(name) for name in names}
+    return {name: field.read(name) for name in field.names}
 
 
 @jobs.with_arguments_of("solve", ("points", "cells"))

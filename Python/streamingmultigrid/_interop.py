@@ -165,11 +165,9 @@ def to_pyvista(source: Mesh, field: Any = None) -> Any:
         made = pyvista.PolyData(points, counted)
     else:
         made = pyvista.UnstructuredGrid(counted, np.full(len(cells), _TETRA, np.uint8), points)
-    for holder in [source] if field is None else [source, field]:
-        for place, data in (("vertices", made.point_data), ("cells", made.cell_data)):
-            for name in holder.columns[place]:
-                if name != "Position":
-                    data[name] = (
-                        holder.read(name, place == "cells") if holder is source else holder[name]
-                    )
+    holder = field or source
+    for place, data in (("vertices", made.point_data), ("cells", made.cell_data)):
+        for name in holder.columns[place]:
+            if name != "Position":
+                data[name] = holder.read(name, cells=place == "cells")
     return made

@@ -6,14 +6,14 @@ The functions here describe; `Mesh` and the functions on arrays have their argum
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from . import _problem as problems
 from ._columns import Columns
 from ._errors import InputError
 from ._regions import as_regions
 
-_Description = Tuple[Dict[str, Any], str]  # for smg_run(), and the name of the result
+_Description = Tuple[Dict[str, Any], List[str]]  # for smg_run(), and the columns of the result
 
 
 def _where(added: Columns, regions: Any) -> Any:
@@ -111,8 +111,10 @@ def solve(
         "columns": columns,
         "problem": problem,
     }
+    described = problems.problem(added, given)
+    names = ["Solution", *(name.capitalize() for name in described.get("outputs", []))]
     return {
-        "problem": problems.problem(added, given),
+        "problem": described,
         "tolerance": tolerance,
         "acceleration": acceleration,
         "max_cycles": max_cycles,
@@ -123,7 +125,7 @@ def solve(
         "scratch": scratch,
         "scratch_limit": scratch_limit,
         "checkpoint": checkpoint,
-    }, "Solution"
+    }, names
 
 
 def deform(
@@ -172,7 +174,7 @@ def deform(
         "scratch": scratch,
         "scratch_limit": scratch_limit,
         "checkpoint": checkpoint,
-    }, "Position"
+    }, ["Position"]
 
 
 def smooth(
@@ -237,7 +239,7 @@ def smooth(
         "threads": threads,
         "scratch": scratch,
         "scratch_limit": scratch_limit,
-    }, name or "Position"
+    }, [name or "Position"]
 
 
 def blend(
@@ -290,7 +292,7 @@ def blend(
         "threads": threads,
         "scratch": scratch,
         "scratch_limit": scratch_limit,
-    }, names[0]
+    }, names
 
 
 def distance(
@@ -323,6 +325,7 @@ def distance(
     """
     if sources is None and not wall:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
+    names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceDirection"] * bool(direction)
     return {
         "from": _where(added, sources),
         "wall": wall,
@@ -333,7 +336,7 @@ def distance(
         "threads": threads,
         "scratch": scratch,
         "scratch_limit": scratch_limit,
-    }, "Distance"
+    }, names
 
 
 def simplify(
@@ -355,7 +358,7 @@ def simplify(
         "threads": threads,
         "scratch": scratch,
         "checkpoint": checkpoint,
-    }, "Position"
+    }, ["Position"]
 
 
 #: By the names that the library knows them by.

@@ -245,7 +245,7 @@ class Mesh:
         with reporting(progress, job) as report:
             opening = 0.0 if self._opened else 0.3
             self._handle(part(report, 0, opening))
-            described, name = jobs.DESCRIPTIONS[job](columns, *arguments, **options)
+            described, names = jobs.DESCRIPTIONS[job](columns, *arguments, **options)
             description = json_text(self._with_defaults(job, described))
             arrays = [*self._own.values(), *(column.values for column in columns.added)]
             handle = Handle("field", *arrays)
@@ -256,7 +256,7 @@ class Mesh:
                     part(report, opening, 1),
                     byref(handle.pointer),
                 )
-        field = Field(self, handle, job, name)
+        field = Field(self, handle, job, names)
         found = field._read_report(False)
         if strict and not found.get("converged", True):
             raise NotConverged(not_converged(found), field)
@@ -432,7 +432,7 @@ def open(  # noqa: A001, the word of the trade
         order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
         cache: a folder for conversions; True: ~/.cache/streamingmultigrid; "beside": the folder of the
             file. From a cached conversion, results are written in the order of the file, but with
-            polygons cut into triangles.
+            polygons cut into triangles; with `weld` it has an order of its own.
         progress: of the conversion, see `help(streamingmultigrid.progress)`.
 
     Raises:

@@ -109,8 +109,8 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.solve(), smg.Error, "."),
             (lambda: mesh.solve(dirichlet={0: np.nan}), smg.Error, "."),
             (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1 furlong"), smg.Error, "furlong"),
-            (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1KB"), smg.MemoryLimitError, "limit"),
-            (lambda: mesh.smooth(size="wide"), smg.Error, "wide"),
+            (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1KB"), smg.InputError, "1KB"),
+            (lambda: mesh.smooth(size="wide"), smg.InputError, "size"),
             (lambda: mesh.distance(), smg.InputError, "sources"),
             (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.Error, "."),
             (lambda: mesh.blend("Light", patch="scan"), smg.Error, "scan|Light"),
@@ -129,6 +129,12 @@ class ErrorsTest(unittest.TestCase):
         np.testing.assert_allclose(mesh.solve(dirichlet=smg.mask(held) >> values), 1)
         with self.assertRaisesRegex(smg.Error, "NaN|nan|finite|not a number"):
             mesh.solve(dirichlet=smg.mask(points[:, 2] > 0.4) >> values)
+
+    def test_memory(self):
+        mesh = smg.mesh(*sphere(6))
+        with self.assertRaisesRegex(smg.MemoryLimitError, "limit.*MiB") as caught:
+            mesh.solve(dirichlet={0: 1.0, 1: 2.0}, memory="1MiB")
+        self.assertIsInstance(caught.exception, MemoryError)
 
     def test_a_column_of_cells_for_vertices(self):
         points, cells = cube(2)

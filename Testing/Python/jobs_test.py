@@ -49,6 +49,8 @@ class CommandLineTest(unittest.TestCase):
             smg.handle(smg.sphere((-0.068, 0.134, 0.027), 0.034),
                        rotate={"axis": [0, 1, 0], "degrees": 70, "center": [-0.065, 0.11, 0.01]},
                        scale=1.3, translate=[-0.015, 0.012, 0.01]),
+            smg.handle(smg.sphere((-0.068, 0.175, -0.055), 0.025), rotate=((-0.4, 0.8, 0.45), 90),
+                       center=(-0.065, 0.152, -0.008), scale=1.3, translate=(-0.037, 0.025, 0.02)),
         ], weights="clamped", tolerance=1e-6)  # fmt: skip
         two = mesh.deform(file)
         expected = file_result("deformed.vsm", "Position")
@@ -112,6 +114,11 @@ class CommandLineTest(unittest.TestCase):
         self.assertLessEqual(small.n_vertices, 2000)
         self.assertEqual(small.report.vertices, small.n_vertices)
         self.assertEqual(bits(small.points), bits(smg.open(BUNNY).points[small["OriginalId"]]))
+        points, cells = sphere(4)
+        for vertices in (100, 2000):
+            small = smg.mesh(points, cells).simplify(vertices)
+            self.assertEqual(bits(small.points), bits(points[small["OriginalId"]]))
+            self.assertTrue(np.isfinite(small.points).all())
 
 
 class ArraysTest(unittest.TestCase):
@@ -195,7 +202,8 @@ class ResultTest(unittest.TestCase):
         before = u.report["conditions"]
         mesh.solve(source=-points[:, 0], dirichlet=smg.mask(points[:, 2] < -0.9) >> 0)
         self.assertEqual(u.report["conditions"], before)
-        self.assertEqual(set(u.columns["vertices"]), {"Solution"})
+        self.assertEqual(u.names, ("Solution",))
+        self.assertEqual(set(u.columns["vertices"]) - {"OriginalId"}, {"Height", "Solution"})
 
     def test_not_converged(self):
         points, cells = sphere(4)

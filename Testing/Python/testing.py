@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes, reference solutions and the program smg, for the scripts of this folder."""
 
+import atexit
 import importlib
 import json
 import os
+import shutil
 import subprocess
 import sys
+import tempfile
 
 SOURCE = os.environ["SMG_SOURCE_DIR"]
 BUNNY = os.path.join(SOURCE, "Examples", "Data", "bunny.smb")
 SINK = os.path.join(SOURCE, "Examples", "Data", "heat_sink.vtk")
+
+# Each run begins with an empty folder.
+_FOLDER = tempfile.mkdtemp(dir=".")
+atexit.register(shutil.rmtree, os.path.abspath(_FOLDER), True)
+os.chdir(_FOLDER)
 
 
 def need(*modules):
@@ -120,10 +128,10 @@ def write_off(name, points, cells):
     return name
 
 
-def file_result(name, column, cells=False):
+def file_result(name, column):
     """A column of a file that smg has written, in the original order."""
     with smg.open(name) as mesh:
-        return mesh.points if column == "Position" else mesh.read(column, cells)
+        return mesh.read(column)
 
 
 def bits(values):
