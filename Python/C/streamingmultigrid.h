@@ -193,24 +193,31 @@ extern "C"
     smg_blocks* blocks, const char* name, int cells, smg_array* array);
 
   /* The equations A x = b of a problem ("problem") with their hierarchy, in memory: A is the
-   * stiffness with screening and Robin terms; at vertices with a Dirichlet condition its rows are
-   * those of the identity. options: "problem", "sweeps", "memory", "threads". Rows of vectors are
-   * vertices in the original order; those of vertices of no cell are rows of the identity, too. */
+   * stiffness with screening, Robin and soft terms. Rows of vectors are vertices in the original
+   * order. At fixed vertices, which have a Dirichlet condition, or no cell with a weight, the rows
+   * of A are those of the identity; rows of others have entries for fixed neighbours, and the part
+   * of A on the others is symmetric. So b has the load of each free vertex and the value of each
+   * fixed one; sources, fluxes and values of the problem have no part in it. options: "problem",
+   * "sweeps", "memory", "threads". */
   SMG_C_EXPORT smg_status smg_open_solver(
     smg_mesh* mesh, const char* options, smg_progress progress, void* user, smg_solver** solver);
 
-  /* Solves A x = b for all columns of b, one after the other or together, beginning with what `x`
-   * has (C-contiguous, of the shape of b). options: "tolerance" (||b - A x|| / ||b - A x_0||),
-   * "max_cycles". The report is as that of a solve; it may be NULL, and is valid until the next
-   * call with this solver. */
+  /* Solves A x = b for all columns of b, as many together as the problem has, beginning with what
+   * `x` has (C-contiguous, of the shape of b; it must not overlap b, and is unchanged after an
+   * error). At fixed vertices x = b. On a component without any condition, where A is singular, the
+   * mean is taken from b, and x keeps its mean. options: "tolerance" (||b - A x|| / ||b - A x_0||,
+   * 1e-8 by default), "max_cycles" (50 by default). The report is as that of a solve, with a step
+   * for each group of columns; it may be NULL, and is valid until the next call with this solver.
+   */
   SMG_C_EXPORT smg_status smg_solver_solve(smg_solver* solver, const smg_array* b, double* x,
     const char* options, smg_progress progress, void* user, const char** report);
 
-  /* z = M r: one V-cycle, a symmetric positive definite approximation of the inverse; on rows of
-   * the identity z = r. Vectors of one number for each vertex. */
+  /* z = M r: one V-cycle, a symmetric positive definite approximation of the inverse on free
+   * vertices, up to the rounding of single precision; at fixed vertices z = r, without effect on
+   * others. Vectors of one number for each vertex; z may be r. */
   SMG_C_EXPORT smg_status smg_solver_precondition(smg_solver* solver, const double* r, double* z);
 
-  /* y = A x. */
+  /* y = A x; y may be x. Conjugate gradients need a first guess with x = b at fixed vertices. */
   SMG_C_EXPORT smg_status smg_solver_multiply(smg_solver* solver, const double* x, double* y);
 
   /* Close a handle and remove its scratch files; NULL is nothing. */

@@ -133,6 +133,12 @@ void Components::count(
   }
 }
 
+void Components::restartCounts()
+{
+  std::ranges::fill(this->Counted, Unknowns{});
+  std::ranges::fill(this->Summed, Sums{});
+}
+
 void Components::settle()
 {
   this->extendCounts(this->Of.size());

@@ -47,6 +47,8 @@ public:
    * initial value and residual b - A x0, `columns` numbers each, and its mass. */
   void count(
     std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
+  /** Forgets what was counted, for another right-hand side. */
+  void restartCounts();
   /** Marks the component as constrained. */
   void anchor(std::int32_t label) { this->Of[static_cast<std::size_t>(label)].anchored = true; }
 

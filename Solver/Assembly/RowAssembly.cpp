@@ -29,42 +29,6 @@
 namespace smg
 {
 
-std::span<const double> InitialResidual::add(
-  const AssembledRow& row, std::span<const double> b, double share)
-{
-  const std::int64_t i = row.vertex;
-  const double* x = this->Values.at(i);
-  double squares = 0.0, termSquares = 0.0;
-  withColumns(static_cast<int>(b.size()),
-    [&](auto columns)
-    {
-      double* sum = this->OfRow.data();
-      for (int k = 0; k < columns; ++k)
-      {
-        sum[k] = b[static_cast<std::size_t>(k)] - row.diagonal * x[k];
-      }
-      for (std::size_t e = 0; e < row.weights.size(); ++e)
-      {
-        // Values of consecutive vertices are contiguous in the ring: neighbours are found by their
-        // distance.
-        const double* other = x + std::ptrdiff_t(columns) * row.entries[e].delta();
-        for (int k = 0; k < columns; ++k)
-        {
-          sum[k] += row.weights[e] * other[k];
-        }
-      }
-      for (int k = 0; k < columns; ++k)
-      {
-        const double own = b[static_cast<std::size_t>(k)];
-        squares += sum[k] * sum[k];
-        termSquares += own * own + row.diagonal * row.diagonal * x[k] * x[k];
-      }
-    });
-  this->Squares += share * share * squares;
-  this->TermSquares += termSquares;
-  return this->OfRow;
-}
-
 namespace
 {
 
@@ -95,7 +59,7 @@ RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& p
   , Listener(listener)
   , B(this->Columns)
   , Constraint(this->Columns)
-  , Residual(vertices.values)
+  , Residual(problem.columns())
 {
 }
 
@@ -279,7 +243,7 @@ void RowAssembly::addKnown(
   }
   if (this->Listener)
   {
-    this->Listener->link(delta, static_cast<float>(neighbour.weight));
+    this->Listener->link(delta, weight);
   }
 }
 
@@ -323,11 +287,12 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   // What is beyond the ordinary weights: the share of screening and the like, and the excess of
   // slivers.
   const double share = commonShare(vertex.rowSum + (this->Edges - this->Ordinary), this->Ordinary);
-  const AssembledRow row{ i, this->Row, this->weights(),
+  const AssembledRow row{ this->Row, this->weights(),
     nonZeroDiagonal(
       std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->RowSum)) };
-  const std::span<const double> residual = this->Residual.add(row, this->B, share);
   const double* x = this->Vertices.values.at(i);
+  const std::span<const double> residual =
+    this->Residual.add(row, x, this->B.data(), static_cast<std::int64_t>(this->Columns), share);
   if (this->Raise > 0.0)
   {
     // What keeps the vertex near its initial value is not part of the problem, nor of the condition
@@ -340,6 +305,10 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   if (vertex.label >= 0)
   {
     this->Parts.count(vertex.label, this->B.data(), x, residual.data(), vertex.mass);
+  }
+  if (this->Listener)
+  {
+    this->Listener->unknown(share, vertex.label);
   }
 }
 

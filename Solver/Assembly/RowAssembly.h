@@ -104,26 +104,32 @@ public:
 /** A completed row of the finest level. */
 struct AssembledRow
 {
-  std::int64_t vertex;
   const RowEntry* entries;
   std::span<const double> weights; ///< of the entries
   double diagonal;
+
+  std::int64_t size() const { return static_cast<std::int64_t>(this->weights.size()); }
+  double weight(std::int64_t e) const { return this->weights[static_cast<std::size_t>(e)]; }
+  std::int64_t delta(std::int64_t e) const { return this->entries[e].delta(); }
 };
 
 /** The residual b - A x_0 of the initial values, summed up row by row. */
 class InitialResidual
 {
 public:
-  /** `values`: x_0 of a vertex and its neighbours when its row is added. */
-  explicit InitialResidual(const Ring<double>& values)
-    : Values(values)
-    , OfRow(static_cast<std::size_t>(values.lanes()))
+  explicit InitialResidual(int columns)
+    : OfRow(static_cast<std::size_t>(columns))
   {
   }
 
-  /** Adds a row, whose residual counts as `share` (see commonShare()); returns its residual, a
-   * number per column. */
-  std::span<const double> add(const AssembledRow& row, std::span<const double> b, double share);
+  /**
+   * Adds a row, for instance an AssembledRow, whose residual counts as `share` (see commonShare()).
+   * `x` and `b` are those of its vertex; the values of neighbours lie `stride` numbers per vertex
+   * from `x`. Returns the residual of the row, a number per column.
+   */
+  template <class Row>
+  std::span<const double> add(
+    const Row& row, const double* x, const double* b, std::int64_t stride, double share);
 
   /** ||b - A x_0||^2 with the shares. */
   double squares() const { return this->Squares; }
@@ -131,10 +137,43 @@ public:
   double termSquares() const { return this->TermSquares; }
 
 private:
-  const Ring<double>& Values;
   std::vector<double> OfRow;
   double Squares = 0.0, TermSquares = 0.0;
 };
+
+template <class Row>
+std::span<const double> InitialResidual::add(
+  const Row& row, const double* x, const double* b, std::int64_t stride, double share)
+{
+  double squares = 0.0, termSquares = 0.0;
+  withColumns(static_cast<int>(this->OfRow.size()),
+    [&](auto columns)
+    {
+      double* sum = this->OfRow.data();
+      for (int k = 0; k < columns; ++k)
+      {
+        sum[k] = b[k] - row.diagonal * x[k];
+      }
+      for (std::int64_t e = 0; e < row.size(); ++e)
+      {
+        // Values of consecutive vertices are contiguous in the ring: neighbours are found by their
+        // distance.
+        const double* other = x + stride * row.delta(e);
+        for (int k = 0; k < columns; ++k)
+        {
+          sum[k] += row.weight(e) * other[k];
+        }
+      }
+      for (int k = 0; k < columns; ++k)
+      {
+        squares += sum[k] * sum[k];
+        termSquares += b[k] * b[k] + row.diagonal * row.diagonal * x[k] * x[k];
+      }
+    });
+  this->Squares += share * share * squares;
+  this->TermSquares += termSquares;
+  return this->OfRow;
+}
 
 /**
  * Receives, vertex by vertex, the data of the mesh that the rows of the finest level do not store.
@@ -148,7 +187,10 @@ public:
    * on another thread while the rows arrive, but not during this call. */
   virtual void begin() {}
   /** The next vertex, which is free, has an edge to the constrained vertex index + delta. */
-  virtual void link(std::int32_t delta, float weight) = 0;
+  virtual void link(std::int32_t delta, double weight) = 0;
+  /** The next vertex is an unknown, whose initial residual counts as `share` (see commonShare());
+   * label: see FinalVertices. */
+  virtual void unknown(double /*share*/, std::int32_t /*label*/) {}
   /** The target d_ij of the next edge in the row of the next vertex, one value per column. Called
    * only if the problem has edge targets; `target` is valid during the call. */
   virtual void target(const double* /*target*/) {}

@@ -241,7 +241,8 @@ std::vector<double> DistributedRun::values() const
 void DistributedRun::finish()
 {
   Report& r = this->report;
-  addAssemblyNotes(r, this->LeavesUndetermined);
+  addAssemblyNotes(
+    r, this->LeavesUndetermined ? UndeterminedValues::NotNumbers : UndeterminedValues::Stay);
   r.seconds.total = this->Wall.seconds();
   Team& team = this->Processes;
   // The slowest process counts; all time that is not assembly is the solve.

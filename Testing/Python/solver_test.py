@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Solutions and solvers against SciPy's direct solve."""
 
+import inspect
 import unittest
 
 from testing import bits, cube, need, np, smg, sphere, stiffness_and_mass
@@ -14,60 +15,67 @@ STIFFNESS, MASS = stiffness_and_mass(POINTS, TRIANGLES)
 HELD = POINTS[:, 2] > 0.9
 
 
-def with_dirichlet(matrix, right, values):
-    """The equations with the rows of held vertices replaced by those of the identity."""
-    free = diags((~HELD).astype(float))
-    return (free @ matrix + diags(HELD.astype(float))).tocsc(), np.where(HELD, values, right)
+def with_dirichlet(matrix, held):
+    """The matrix with the rows of held vertices replaced by those of the identity."""
+    return (diags((~held).astype(float)) @ matrix + diags(held.astype(float))).tocsc()
 
 
 class SolveTest(unittest.TestCase):
+    """On 40,962 vertices. The weights of edges are in single precision, whose errors cancel."""
+
+    points, triangles = sphere(6)
+
     def close(self, found, expected):
         self.assertLess(np.abs(found - expected).max(), 1e-9 * np.ptp(expected))
 
     def test_poisson(self):
-        source = POINTS[:, 0] * POINTS[:, 1]
-        values = POINTS[:, 1]
-        found = smg.solve(POINTS, TRIANGLES, source=source, dirichlet=smg.mask(HELD) >> values,
+        stiffness, mass = stiffness_and_mass(self.points, self.triangles)
+        x, y, z = self.points.T
+        found = smg.solve(self.points, self.triangles, source=x * y, dirichlet=smg.above(z=0.9) >> y,
                           tolerance=1e-10)
-        self.close(found, spsolve(*with_dirichlet(STIFFNESS, MASS * source, values)))
+        matrix = with_dirichlet(stiffness, z >= 0.9)
+        self.close(found, spsolve(matrix, np.where(z >= 0.9, y, mass * x * y)))
 
     def test_screened(self):
-        source = np.sin(5 * POINTS[:, 0])
-        screening = 1 + POINTS[:, 2] ** 2
-        found = smg.solve(POINTS, TRIANGLES, source=source, screening=screening, tolerance=1e-10)
-        self.close(found, spsolve((STIFFNESS + diags(MASS * screening)).tocsc(), MASS * source))
+        stiffness, mass = stiffness_and_mass(self.points, self.triangles)
+        source = np.sin(5 * self.points[:, 0])
+        screening = 1 + self.points[:, 2] ** 2
+        found = smg.solve(self.points, self.triangles, source=source, screening=screening,
+                          tolerance=1e-10)
+        self.close(found, spsolve((stiffness + diags(mass * screening)).tocsc(), mass * source))
 
 
 class SolverTest(unittest.TestCase):
     def setUp(self):
-        self.matrix, _ = with_dirichlet(STIFFNESS + 2 * diags(MASS), MASS, MASS)
+        self.matrix = with_dirichlet(STIFFNESS + 2 * diags(MASS), HELD)
         self.solver = smg.solver(POINTS, TRIANGLES, screening=2, dirichlet=smg.mask(HELD) >> 0)
         self.b = np.random.default_rng(0).standard_normal((len(POINTS), 3)) * MASS[:, None]
 
     def test_multiply(self):
         for x in (self.b[:, 0], self.b, self.b.astype(np.float32), np.asfortranarray(self.b)):
-            np.testing.assert_allclose(self.solver @ x, self.matrix @ x, atol=1e-12)
+            error = np.abs(self.solver @ x - self.matrix @ x)
+            self.assertTrue((error <= 2e-7 * (abs(self.matrix) @ np.abs(x))).all())  # of single precision
             self.assertEqual((self.solver @ x).shape, x.shape)
 
     def test_solve(self):
         expected = spsolve(self.matrix, self.b)
         x = self.solver.solve(self.b, tol=1e-11)
-        self.assertLess(np.abs(x - expected).max(), 1e-9 * np.ptp(expected))
+        self.assertLess(np.abs(x - expected).max(), 3e-9 * np.ptp(expected))
         one = self.solver.solve(self.b[:, 1], tol=1e-11)
         self.assertEqual(one.shape, (len(POINTS),))
-        self.assertLess(np.abs(one - expected[:, 1]).max(), 1e-9 * np.ptp(expected))
+        self.assertLess(np.abs(one - expected[:, 1]).max(), 3e-9 * np.ptp(expected))
         self.assertTrue(self.solver.report.converged)
         np.testing.assert_array_equal(x[HELD], self.b[HELD])
         # From the solution it has nothing to do.
         again = self.solver.solve(self.b, x0=expected, tol=0.5)
-        self.assertLess(np.abs(again - expected).max(), 1e-9 * np.ptp(expected))
+        self.assertLess(np.abs(again - expected).max(), 3e-9 * np.ptp(expected))
 
     def test_preconditioner(self):
         iterations = []
         b = self.b[:, 0] * ~HELD
-        x, info = cg(self.solver.A, b, M=self.solver.aspreconditioner(), tol=1e-10,
-                     callback=iterations.append) if "tol" in cg.__code__.co_varnames else cg(
-            self.solver.A, b, M=self.solver.aspreconditioner(), rtol=1e-10, callback=iterations.append)
+        tolerance = "rtol" if "rtol" in inspect.signature(cg).parameters else "tol"
+        x, info = cg(self.solver.A, b, M=self.solver.aspreconditioner(), atol=0,
+                     callback=iterations.append, **{tolerance: 1e-10})
         self.assertEqual(info, 0)
         self.assertLess(len(iterations), 25)
         expected = spsolve(self.matrix, b)
@@ -77,7 +85,7 @@ class SolverTest(unittest.TestCase):
         r = self.b * ~HELD[:, None]
         z = self.solver.precondition(r)
         gram = r.T @ z
-        np.testing.assert_allclose(gram, gram.T, atol=1e-12 * np.abs(gram).max())
+        np.testing.assert_allclose(gram, gram.T, rtol=0, atol=1e-7 * np.abs(gram).max())
         self.assertGreater(np.linalg.eigvalsh(gram).min(), 0)
         np.testing.assert_array_equal(self.solver.precondition(self.b)[HELD], self.b[HELD])
         self.assertEqual(bits(z[:, 1]), bits(self.solver.precondition(r[:, 1])))

@@ -78,7 +78,6 @@ private:
   bool resume(Step& rotations, Step& positions, bool& rotated);
   void beginPositions(Step& rotations, Step& positions);
   double sharedPass(PositionStep& step);
-  void addStep(const char* name, const Convergence& convergence);
   double positionScale() const;
 
   SolveContext& Run;
@@ -107,8 +106,8 @@ inline void DeformationSteps::solve(const std::function<FirstResidual()>& build)
     this->Run.endPass(rotations.convergence.residuals().back());
   }
   positions.iteration(false);
-  this->addStep("position", positions.convergence);
   Report& r = this->Run.report;
+  positions.convergence.addStep(r, "position", "position step: ");
   r.converged = rotations.convergence.converged() && positions.convergence.converged();
   r.seconds.solve = this->Run.seconds() - r.seconds.build;
   addDeformationNotes(r);
@@ -148,7 +147,7 @@ inline void DeformationSteps::beginPositions(Step& rotations, Step& positions)
   const double norm = this->sharedPass(step);
   checkMotions(step.termSquares());
   rotations.convergence.add(std::sqrt(step.rotationSquares()));
-  this->addStep("rotation", rotations.convergence);
+  rotations.convergence.addStep(this->Run.report, "rotation", "rotation step: ");
   this->Run.progress.begin(this->stopping(), Share, 1.0, false);
   positions.convergence = Convergence(
     this->stopping(), { std::sqrt(step.initialSquares()), roundingOf(step.termSquares()) });
@@ -180,18 +179,6 @@ inline double DeformationSteps::positionScale() const
   const bool lengths =
     this->Cells == CellType::Tetrahedron && this->EdgeWeights == Weights::Clamped;
   return lengths ? extent * extent : extent;
-}
-
-inline void DeformationSteps::addStep(const char* name, const Convergence& convergence)
-{
-  Report& r = this->Run.report;
-  r.cycles += convergence.cycles();
-  r.residuals.insert(
-    r.residuals.end(), convergence.residuals().begin(), convergence.residuals().end());
-  r.steps.push_back({ name, convergence.cycles(),
-    convergence.residuals().empty() ? 0.0 : convergence.residuals().back(),
-    convergence.converged() });
-  convergence.addNotes(r.notes, std::string(name) + " step: ");
 }
 
 /** The result of a deformation: the solution, which consists of displacements, plus the positions

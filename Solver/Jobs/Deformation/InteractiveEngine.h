@@ -42,7 +42,6 @@ private:
   bool holdsTheSame(const VertexHandles& handles);
   void take(const VertexHandles& handles);
   FirstResidual findRightSide();
-  void addLinks(const RestBlock& block, double& squares);
 
   DeformationEngine First;
   /** Whether an update ended with an exception. */
@@ -52,9 +51,7 @@ private:
 inline bool InteractiveEngine::deformAgain(const VertexHandles& handles)
 {
   SolveContext& run = this->First.run();
-  Report& r = run.report;
-  run.beginReport();
-  checkSize(handles, r.vertices);
+  checkSize(handles, run.report.vertices);
   if (!this->holdsTheSame(handles))
   {
     return false;
@@ -62,14 +59,8 @@ inline bool InteractiveEngine::deformAgain(const VertexHandles& handles)
   this->forHeld([&](const RestBlock::Held&, std::size_t i)
     { checkHeld(handles, i, static_cast<std::int64_t>(i)); });
   this->Broken = true;
+  run.beginAgain();
   this->take(handles);
-  r.passes = r.cycles = 0;
-  r.seconds = {};
-  r.residuals.clear();
-  r.by_pass.clear();
-  r.steps.clear();
-  r.notes.clear();
-  r.warnings.clear();
   this->First.steps().begin(false);
   this->First.steps().solve(
     [&]
@@ -145,38 +136,21 @@ inline FirstResidual InteractiveEngine::findRightSide()
   LevelWindow<double>& window = this->First.levels().window();
   std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
   double squares = 0.0;
-  for (const RestBlock& block : this->First.rest().blocks())
+  const auto addSquares = [&](std::int64_t i)
   {
-    this->addLinks(block, squares);
-  }
-  return { std::sqrt(squares), roundingOf(squares) };
-}
-
-/** Adds the contributions of the held neighbours to the vertices of a block, and the squares of the
- * result to `squares`. */
-inline void InteractiveEngine::addLinks(const RestBlock& block, double& squares)
-{
-  const Ring<double>& x = this->First.levels().window().x();
-  const Ring<double>& b = this->First.levels().window().b();
-  const std::span<const RestBlock::Link> links = block.links();
-  for (std::size_t l = 0; l < links.size();)
-  {
-    const std::int32_t node = links[l].node;
-    const std::int64_t i = block.first() + node;
-    for (; l < links.size() && links[l].node == node; ++l)
-    {
-      for (int c = 0; c < RotationProblem::Columns; ++c)
-      {
-        b.at(i)[c] += static_cast<double>(links[l].weight) * x.at(i + links[l].delta)[c];
-      }
-    }
     double own = 0.0;
     for (int c = 0; c < RotationProblem::Columns; ++c)
     {
-      own += b.at(i)[c] * b.at(i)[c];
+      own += window.b().at(i)[c] * window.b().at(i)[c];
     }
     squares += own;
+  };
+  for (const RestBlock& block : this->First.rest().blocks())
+  {
+    addKnownValues(block.first(), std::span<const RestBlock::Link>(block.links()),
+      RotationProblem::Columns, window.x(), window.b(), addSquares);
   }
+  return { std::sqrt(squares), roundingOf(squares) };
 }
 
 } // namespace smg

@@ -36,9 +36,9 @@ void RestShape::begin()
 
 /** An edge to a held neighbour; called before close() of its vertex, which is the next one of the
  * open block. */
-void RestShape::link(std::int32_t delta, float weight)
+void RestShape::link(std::int32_t delta, double weight)
 {
-  this->Links.push_back({ this->Open.nodes, delta, weight });
+  this->Links.push_back({ this->Open.nodes, delta, static_cast<float>(weight) });
 }
 
 /** Adds a vertex to the open block, with its target if it is held. */

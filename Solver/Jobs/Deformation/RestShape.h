@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/KnownLinks.h"
 #include "Solver/Assembly/RowAssembly.h"
 #include "Solver/Files/ScratchStream.h"
 #include "Solver/Multigrid/Cycle/RowBlock.h"
@@ -38,12 +39,7 @@ public:
     std::int64_t node; ///< counted from the first node of the block
   };
   /** An edge from a free node to a held neighbour. */
-  struct Link
-  {
-    std::int32_t node;  ///< counted from the first node of the block
-    std::int32_t delta; ///< the neighbour minus the node
-    float weight;
-  };
+  using Link = KnownLink<float>;
 
   explicit RestBlock(Buffer buffer)
     : Bytes(std::move(buffer))
@@ -114,7 +110,7 @@ public:
    * comes between it and close() of the vertex. */
   void hold(std::int64_t i, const double* target);
   void begin() override;
-  void link(std::int32_t delta, float weight) override;
+  void link(std::int32_t delta, double weight) override;
   void close(const double* point, std::int64_t reach) override;
   void finish();
 

@@ -143,29 +143,38 @@ Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
   return sparse;
 }
 
-/** Subtracts from b its mean over each floating component, the part outside the range of the
- * matrix, and sets b to zero at pinned nodes. The sums run in node order. */
-void CoarsestFactor::project(Eigen::MatrixXd& b) const
+/** The sums run in node order. */
+void CoarsestFactor::subtractMeans(Eigen::MatrixXd& values) const
 {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(b.rows(), b.cols());
-  Eigen::VectorXd counts = Eigen::VectorXd::Zero(b.rows());
-  for (Eigen::Index i = 0; i < b.rows(); ++i)
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(values.rows(), values.cols());
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(values.rows());
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
   {
     if (const Eigen::Index first = this->Floating[static_cast<std::size_t>(i)]; first >= 0)
     {
-      sums.row(first) += b.row(i);
+      sums.row(first) += values.row(i);
       counts(first) += 1.0;
     }
   }
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+  {
+    if (const Eigen::Index first = this->Floating[static_cast<std::size_t>(i)]; first >= 0)
+    {
+      values.row(i) -= sums.row(first) / counts(first);
+    }
+  }
+}
+
+/** Subtracts from b its means, the part outside the range of the matrix, and sets b to zero at
+ * pinned nodes. */
+void CoarsestFactor::project(Eigen::MatrixXd& b) const
+{
+  this->subtractMeans(b);
   for (Eigen::Index i = 0; i < b.rows(); ++i)
   {
     if (this->pinned(i))
     {
       b.row(i).setZero();
-    }
-    else if (const Eigen::Index first = this->Floating[static_cast<std::size_t>(i)]; first >= 0)
-    {
-      b.row(i) -= sums.row(first) / counts(first);
     }
   }
 }

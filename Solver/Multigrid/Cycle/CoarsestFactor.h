@@ -42,14 +42,16 @@ public:
   void factorize(const CoarsestMatrix& matrix, Pool& pool);
   /** Solves for each column of b. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
+  /** Subtracts the mean of each column over each component without an anchored node. */
+  void subtractMeans(Eigen::MatrixXd& values) const;
   /** The number of components without an anchored node. */
   std::int64_t floatingComponents() const;
 
 private:
   void findFloating(const CoarsestMatrix& matrix);
   Eigen::SparseMatrix<double> stiffened(const CoarsestMatrix& matrix, double share) const;
-  bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
   void project(Eigen::MatrixXd& b) const;
+  bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
 
   std::optional<Reservation> Memory;
   Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;

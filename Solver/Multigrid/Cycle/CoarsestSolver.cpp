@@ -77,6 +77,16 @@ void CoarsestSolver::factorize(LevelWindow<float>& level)
 
 void CoarsestSolver::solve(LevelWindow<float>& level) const
 {
+  this->solve(level, false);
+}
+
+void CoarsestSolver::solveSymmetric(LevelWindow<float>& level) const
+{
+  this->solve(level, true);
+}
+
+void CoarsestSolver::solve(LevelWindow<float>& level, bool isSymmetric) const
+{
   const int stride = level.stride();
   Eigen::MatrixXd b(static_cast<Eigen::Index>(level.nodes()), stride);
   for (Eigen::Index i = 0; i < b.rows(); ++i)
@@ -88,7 +98,11 @@ void CoarsestSolver::solve(LevelWindow<float>& level) const
       b(i, lane) = from[lane];
     }
   }
-  const Eigen::MatrixXd x = this->Self->factor.solve(std::move(b));
+  Eigen::MatrixXd x = this->Self->factor.solve(std::move(b));
+  if (isSymmetric)
+  {
+    this->Self->factor.subtractMeans(x);
+  }
   for (Eigen::Index i = 0; i < x.rows(); ++i)
   {
     float* to = level.x().at(i);

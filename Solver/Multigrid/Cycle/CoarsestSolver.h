@@ -27,8 +27,13 @@ public:
   void factorize(LevelWindow<float>& level);
   /** x = A^-1 b on the factorised level, in the precision of its weights. */
   void solve(LevelWindow<float>& level) const;
+  /** The same by a symmetric matrix: the constants of components without a constraint are those
+   * with which x has mean 0 there. */
+  void solveSymmetric(LevelWindow<float>& level) const;
 
 private:
+  void solve(LevelWindow<float>& level, bool isSymmetric) const;
+
   struct Implementation;
   std::unique_ptr<Implementation> Self;
 };

@@ -9,6 +9,7 @@
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,15 @@
 
 namespace smg
 {
+
+/** The power of two that scales numbers of this size to about 1, so that nothing is rounded; 1 if
+ * the size is not a usable number. */
+inline double scaleFor(double typical)
+{
+  const bool isUsable =
+    typical > std::numeric_limits<double>::min() && typical < std::numeric_limits<double>::max();
+  return isUsable ? std::exp2(-std::ilogb(typical)) : 1.0;
+}
 
 /**
  * A level in a pass: its window and its stages. Real is double on the finest level and float on the
@@ -252,23 +262,26 @@ public:
     return std::span(this->Squares).subspan(this->lanes());
   }
 
-  // A whole core level at once, with the same kernels.
+  // A whole level in memory at once, with the same kernels.
 
   void relaxDown()
   {
     for (std::size_t s = 0; s < this->sweeps(); ++s)
     {
       // The first sweep starts from x = 0, which need not be stored first.
-      this->relax(0, this->Window.nodes(), this->Window.down(), s == 0, s == 0);
+      this->relax(0, this->Window.nodes(), this->Window.down(), s == 0,
+        s == 0 ? SweepKind::LowerOnly : SweepKind::Forward);
     }
   }
   void relaxUp()
   {
     for (std::size_t s = 0; s < this->sweeps(); ++s)
     {
-      this->relax(0, this->Window.nodes(), this->Window.up(), s == 0, false);
+      this->relax(0, this->Window.nodes(), this->Window.up(), s == 0, SweepKind::Forward);
     }
   }
+  /** The transpose of relaxDown(): its sweeps backwards, in the opposite order. */
+  void relaxUpBackward();
   /** Stores b - A x, with the stride of the window. */
   void residualAll(Real* residual)
   {
@@ -318,7 +331,7 @@ private:
   using State = typename LevelWindow<Real>::State;
   /** One sweep over [begin, end). */
   void relax(
-    std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, bool lowerOnly);
+    std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, SweepKind sweep);
   Prolongation<Real> prolongation() { return { this->Coarse->window().x(), this->Unscale }; }
   Restriction<Real> restriction()
   {

@@ -15,14 +15,31 @@ namespace smg
 
 template <class Real>
 void Level<Real>::relax(
-  std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, bool lowerOnly)
+  std::int64_t begin, std::int64_t end, State& state, bool relaxesPatches, SweepKind sweep)
 {
   const PatchRelaxation<Real> patches(this->Window, state.x, state.b);
   while (begin < end)
   {
     const BlockPart<Real> part = this->Window.partFrom(begin, end, state);
-    this->Relax(part, relaxesPatches ? &patches : nullptr, lowerOnly);
+    this->Relax(part, relaxesPatches ? &patches : nullptr, sweep);
     begin = part.block.end();
+  }
+}
+
+template <class Real>
+void Level<Real>::relaxUpBackward()
+{
+  LevelWindow<Real>& window = this->Window;
+  const PatchRelaxation<Real> patches(window, window.x(), window.b());
+  for (std::size_t s = this->sweeps(); s-- > 0;)
+  {
+    for (std::int64_t end = window.nodes(); end > 0;)
+    {
+      const std::int64_t begin = (end - 1) / RowBlock::Nodes * RowBlock::Nodes;
+      this->Relax(
+        window.partFrom(begin, end, window.up()), s == 0 ? &patches : nullptr, SweepKind::Backward);
+      end = begin;
+    }
   }
 }
 
@@ -115,7 +132,7 @@ void Level<Real>::postSweep(std::size_t s, bool follows)
     s == 0 ? this->Window.reachable(cursor, this->At.prolonged.seen(follows), false)
            : this->reachable(cursor, this->At.postSweep, s - 1, follows);
   const std::int64_t end = std::min(ready, this->At.wanted[s + 1]);
-  this->relax(cursor, end, this->Window.up(), s == 0, false);
+  this->relax(cursor, end, this->Window.up(), s == 0, SweepKind::Forward);
   cursor = end;
 }
 
@@ -127,7 +144,8 @@ void Level<Real>::preSweep(std::size_t s, bool follows)
                                   : this->reachable(cursor, this->At.preSweep, s - 1, follows);
   // On coarse levels x starts from zero: the first sweep reads the nodes below only, which it has
   // set itself.
-  this->relax(cursor, end, this->Window.down(), s == 0, s == 0 && this->Fine);
+  this->relax(cursor, end, this->Window.down(), s == 0,
+    s == 0 && this->Fine ? SweepKind::LowerOnly : SweepKind::Forward);
   cursor = end;
 }
 

@@ -4,6 +4,7 @@
 #include "Solver/Multigrid/Cycle/GaussSeidel.h"
 
 #include <cstdint>
+#include <type_traits>
 
 namespace smg
 {
@@ -58,22 +59,52 @@ struct ResidualOfDifferences
   }
 };
 
-/** Stores the plain residual of each node, with the stride of the level: a kernel for
+/** Calls f(residual, rows, nodes) for runs of nodes of a part, with the residual that is theirs and
+ * the arrays of their rows: on the finest level special nodes get the residual by differences, all
+ * others the plain one. */
+template <class Real, class Arrays, class F>
+[[gnu::always_inline]] inline void forResiduals(
+  const Arrays& a, const BlockPart<Real>& part, const F& f)
+{
+  if constexpr (std::is_same_v<Real, double>)
+  {
+    for (NodeRuns runs(part.header(), a, part.nodes); runs.next();)
+    {
+      if (!runs.special())
+      {
+        f(PlainResidual(), a, runs.nodes());
+        continue;
+      }
+      visitSpecial<Real>(part.header(), a, *runs.special(),
+        [&](const auto& row) { f(ResidualOfDifferences(), row, runs.nodes()); });
+    }
+  }
+  else
+  {
+    f(PlainResidual(), a, part.nodes);
+  }
+}
+
+/** Stores the residual of each node, with the stride of the level: a kernel for
  * LevelWindow::forColumns(). */
 template <class Real>
 struct StoreResidual
 {
-  Real* residual; ///< of node 0 of the level
+  Real* residual; ///< of node 0 of the level; may be b
 
   template <class Arrays, class Vectors>
   void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
   {
     const std::int64_t stride = Vectors::count == 1 ? 1 : part.stride;
-    for (std::int64_t k = part.nodes.begin; k < part.nodes.end; ++k)
-    {
-      Vectors::store(this->residual + (part.header().first + k) * stride + part.lane,
-        PlainResidual::of<Vectors>(part.header(), a, k, stride, part.x, part.b));
-    }
+    forResiduals(a, part,
+      [&](auto kind, const auto& rows, BlockRange nodes)
+      {
+        for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+        {
+          Vectors::store(this->residual + (part.header().first + k) * stride + part.lane,
+            decltype(kind)::template of<Vectors>(part.header(), rows, k, stride, part.x, part.b));
+        }
+      });
   }
 };
 

@@ -49,21 +49,89 @@ private:
 extern template class PatchRelaxation<double>;
 extern template class PatchRelaxation<float>;
 
+/** A sweep forwards, in the order of the stream; the same with x taken as zero above each node (see
+ * Relaxation); or backwards, the transpose of a sweep forwards, for which all nodes must be in
+ * memory. */
+enum class SweepKind
+{
+  Forward,
+  LowerOnly,
+  Backward
+};
+
+/** Relaxes a special node: alone, by its precise weights if it has some; or, with `patches`, with
+ * its patch if it is the last member of that. */
+template <class Relaxation, bool LowerOnly, class Vectors, class Real, class Arrays>
+void relaxSpecial(const BlockPart<Real>& part, const Arrays& a, const RowBlock::Special& node,
+  std::int64_t stride, const PatchRelaxation<Real>* patches)
+{
+  const RowBlock::Header& h = part.header();
+  if (node.size == 1 || !patches)
+  {
+    const BlockRange alone{ node.node, node.node + 1 };
+    visitSpecial<Real>(h, a, node,
+      [&](const auto& row)
+      {
+        Relaxation::template sweep<LowerOnly, Vectors>(
+          h, row, alone, stride, part.x, static_cast<const Real*>(part.b));
+      });
+  }
+  else if (node.size > 1)
+  {
+    (*patches)(part, node, LowerOnly);
+  }
+  else if (LowerOnly)
+  {
+    // It waits for the last member. x is not initialised in this sweep, but the last member and
+    // nodes between read it as zero.
+    const typename Vectors::Vector zero{};
+    Vectors::store(part.x + node.node * stride, zero);
+  }
+}
+
+/** Relaxes the nodes of a part in descending order, one at a time, since a Relaxation ascends. */
+template <class Relaxation, class Vectors, class Real, class Arrays>
+void sweepBackward(const BlockPart<Real>& part, const Arrays& a, std::int64_t stride,
+  const PatchRelaxation<Real>* patches)
+{
+  const RowBlock::Header& h = part.header();
+  const RowBlock::Special* special = specialFrom(h, a, part.nodes.end);
+  for (std::int64_t k = part.nodes.end - 1; k >= part.nodes.begin; --k)
+  {
+    if (special != a.special && (special - 1)->node == k)
+    {
+      --special;
+      relaxSpecial<Relaxation, false, Vectors>(part, a, *special, stride, patches);
+    }
+    else
+    {
+      Relaxation::template sweep<false, Vectors>(
+        h, a, BlockRange{ k, k + 1 }, stride, part.x, static_cast<const Real*>(part.b));
+    }
+  }
+}
+
 /**
  * A sweep of a Relaxation over a part of a block. Ordinary nodes are relaxed one by one. With
  * `patches` the nodes of a patch are relaxed together, at its last member. Only the first sweep of
  * each half of a V-cycle does so: behind a sweep that relaxes node by node the next stage waits for
  * neighbours only, not for the ends of patches, so the window is shorter.
  */
-template <class Relaxation, class Real, bool LowerOnly, int Count, class Index, class Weight>
+template <class Relaxation, class Real, SweepKind Kind, int Count, class Index, class Weight>
 void sweepBlock(BlockPart<Real> part, const PatchRelaxation<Real>* patches)
 {
   using Vectors = SimdPack<Real, Count>;
+  constexpr bool LowerOnly = Kind == SweepKind::LowerOnly;
   const RowBlock::Header& h = part.header();
   const auto a = part.block.template arrays<Index, Weight>();
   const std::int64_t stride = Count == 1 ? 1 : part.stride; // a constant for one column
   for (; part.lane < stride; part.lane += Count, part.x += Count, part.b += Count)
   {
+    if constexpr (Kind == SweepKind::Backward)
+    {
+      sweepBackward<Relaxation, Vectors>(part, a, stride, patches);
+      continue;
+    }
     for (NodeRuns runs(h, a, part.nodes); runs.next();)
     {
       const RowBlock::Special* special = runs.special();
@@ -72,26 +140,9 @@ void sweepBlock(BlockPart<Real> part, const PatchRelaxation<Real>* patches)
         Relaxation::template sweep<LowerOnly, Vectors>(
           h, a, runs.nodes(), stride, part.x, static_cast<const Real*>(part.b));
       }
-      else if (special->size == 1 || !patches)
+      else
       {
-        // Alone, by its precise weights if it has some.
-        visitSpecial<Real>(h, a, *special,
-          [&](const auto& row)
-          {
-            Relaxation::template sweep<LowerOnly, Vectors>(
-              h, row, runs.nodes(), stride, part.x, static_cast<const Real*>(part.b));
-          });
-      }
-      else if (special->size > 1)
-      {
-        (*patches)(part, *special, LowerOnly);
-      }
-      else if (LowerOnly)
-      {
-        // It waits for the last member. x is not initialised in this sweep, but the last member and
-        // nodes between read it as zero.
-        const typename Vectors::Vector zero{};
-        Vectors::store(part.x + special->node * stride, zero);
+        relaxSpecial<Relaxation, LowerOnly, Vectors>(part, a, *special, stride, patches);
       }
     }
   }
@@ -105,35 +156,37 @@ struct SweepTable
   /** By the weights and indices of the block: floats, wide floats, rounded, wide and rounded. */
   using Kinds = std::array<Function, 4>;
 
-  template <class Relaxation, bool LowerOnly, int Count>
+  template <class Relaxation, SweepKind Kind, int Count>
   static constexpr Kinds kindsOf()
   {
     // There are no rounded weights on the finest level.
     using Rounded = std::conditional_t<std::is_same_v<Real, double>, float, BFloat16>;
-    return { &sweepBlock<Relaxation, Real, LowerOnly, Count, std::int16_t, float>,
-      &sweepBlock<Relaxation, Real, LowerOnly, Count, WideIndex, float>,
-      &sweepBlock<Relaxation, Real, LowerOnly, Count, std::int16_t, Rounded>,
-      &sweepBlock<Relaxation, Real, LowerOnly, Count, WideIndex, Rounded> };
+    return { &sweepBlock<Relaxation, Real, Kind, Count, std::int16_t, float>,
+      &sweepBlock<Relaxation, Real, Kind, Count, WideIndex, float>,
+      &sweepBlock<Relaxation, Real, Kind, Count, std::int16_t, Rounded>,
+      &sweepBlock<Relaxation, Real, Kind, Count, WideIndex, Rounded> };
   }
   template <class Relaxation>
   static constexpr SweepTable of()
   {
-    return { { kindsOf<Relaxation, false, 1>(), kindsOf<Relaxation, false, 4>(),
-      kindsOf<Relaxation, true, 1>(), kindsOf<Relaxation, true, 4>() } };
+    using enum SweepKind;
+    return { { kindsOf<Relaxation, Forward, 1>(), kindsOf<Relaxation, Forward, 4>(),
+      kindsOf<Relaxation, LowerOnly, 1>(), kindsOf<Relaxation, LowerOnly, 4>(),
+      kindsOf<Relaxation, Backward, 1>(), kindsOf<Relaxation, Backward, 4>() } };
   }
 
-  /** Relaxes the nodes of the part once; `lowerOnly`: see Relaxation. */
+  /** Relaxes the nodes of the part once. */
   void operator()(
-    const BlockPart<Real>& part, const PatchRelaxation<Real>* patches, bool lowerOnly) const
+    const BlockPart<Real>& part, const PatchRelaxation<Real>* patches, SweepKind sweep) const
   {
     const RowBlock::Header& h = part.header();
     const int kind = (h.weightBytes == sizeof(float) ? 0 : 2) + h.wide;
-    const int values = (lowerOnly ? 2 : 0) + (part.stride > 1 ? 1 : 0);
+    const int values = 2 * static_cast<int>(sweep) + (part.stride > 1 ? 1 : 0);
     this->functions[static_cast<std::size_t>(values)][static_cast<std::size_t>(kind)](
       part, patches);
   }
 
-  std::array<Kinds, 4> functions;
+  std::array<Kinds, 6> functions;
 };
 
 /** A relaxation as the engine calls it. */

@@ -49,8 +49,7 @@ struct Prolongation
 };
 
 /**
- * Residual and restriction: r = b - A x, and b_coarse += scale P^T r. On the finest level special
- * nodes get the residual by differences, all others the plain one.
+ * Residual and restriction: r = b - A x, and b_coarse += scale P^T r.
  *
  * Adds the squares of r to `squares` (a value per column) and, on the finest level, the squares of
  * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed. Both
@@ -70,25 +69,9 @@ struct Restriction
   void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
   {
     ResidualKeeper<Vectors> keeper(this->history, part.header().first, part.lane);
-    if constexpr (std::is_same_v<Real, double>)
-    {
-      for (NodeRuns runs(part.header(), a, part.nodes); runs.next();)
-      {
-        if (!runs.special())
-        {
-          this->restrictNodes<PlainResidual, Vectors>(a, runs.nodes(), part, keeper);
-          continue;
-        }
-        visitSpecial<Real>(part.header(), a, *runs.special(),
-          [&](const auto& row) {
-            this->restrictNodes<ResidualOfDifferences, Vectors>(row, runs.nodes(), part, keeper);
-          });
-      }
-    }
-    else
-    {
-      this->restrictNodes<PlainResidual, Vectors>(a, part.nodes, part, keeper);
-    }
+    forResiduals(a, part,
+      [&](auto residual, const auto& rows, BlockRange nodes)
+      { this->restrictNodes<decltype(residual), Vectors>(rows, nodes, part, keeper); });
   }
 
 private:

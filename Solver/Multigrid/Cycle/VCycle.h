@@ -99,6 +99,22 @@ public:
   /** Computes x of the finest core level from its b, which may be overwritten. */
   void run() { this->solve(0); }
 
+  /** Computes x of a level from its b by a V-cycle that is linear and symmetric: its relaxation
+   * ends with the transpose of that with which it begins, and no level is iterated. This and all
+   * coarser levels must be in memory. */
+  template <class Real>
+  void symmetric(Level<Real>& level)
+  {
+    CoreLevel& coarse = level.coarse();
+    level.relaxDown();
+    coarse.window().zeroB(0, coarse.window().nodes());
+    level.restrictAll();
+    &coarse == this->Levels.back() ? this->Coarsest.solveSymmetric(coarse.window())
+                                   : this->symmetric(coarse);
+    level.prolongAll();
+    level.relaxUpBackward();
+  }
+
 private:
   /** A level with at most one node for this many of the finest level is much smaller. */
   static constexpr std::int64_t SmallShare = 128;

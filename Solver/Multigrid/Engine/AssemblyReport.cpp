@@ -43,8 +43,13 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   }
   report.components = counts.components;
   report.free_components = counts.freeComponents;
-  // Before any V-cycle: the norm of the residual would be infinite and no tolerance could be met.
-  if (!std::isfinite(counts.termSquares))
+  checkSquares(counts.termSquares);
+}
+
+/** Before any V-cycle: the norm of the residual would be infinite and no tolerance could be met. */
+void checkSquares(double termSquares)
+{
+  if (!std::isfinite(termSquares))
   {
     throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
                 "sources or the screening");
@@ -71,7 +76,7 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   reportAssembly(counts, report);
 }
 
-void addAssemblyNotes(Report& report, bool leavesUndetermined)
+void addAssemblyNotes(Report& report, UndeterminedValues undetermined)
 {
   // A deformation, whose steps are in the report by now, raises weights by default and uses the
   // operator only as a measure of details.
@@ -93,10 +98,13 @@ void addAssemblyNotes(Report& report, bool leavesUndetermined)
   }
   if (report.held > 0)
   {
+    const std::string values = undetermined == UndeterminedValues::NotNumbers ? "are not numbers"
+                               : undetermined == UndeterminedValues::RightSide
+                                 ? "are those of the right-hand side"
+                                 : "stay as they were";
     report.warn(
       std::to_string(report.held) + (report.held == 1 ? " vertex belongs" : " vertices belong") +
-      " to no cell that has a weight, so that nothing determines the values there: they " +
-      (leavesUndetermined ? "are not numbers" : "stay as they were"));
+      " to no cell that has a weight, so that nothing determines the values there: they " + values);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Assembly/Assembly.h"
+#include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "smg/Export.h"
 #include "smg/Report.h"
 
@@ -29,8 +30,11 @@ SMG_EXPORT void reportAssembly(const AssemblyCounts& counts, Report& report);
 SMG_EXPORT void reportAssembly(
   const Assembly& assembly, const Components& components, Report& report);
 
+/** Throws Error if the sum of the squares of the values overflowed (see InitialResidual). */
+SMG_EXPORT void checkSquares(double termSquares);
+
 /** Adds notes and warnings on the data of reportAssembly(). To be called at the end of a solve,
- * when the steps of a deformation are in the report; `leavesUndetermined`: see FreeComponents. */
-SMG_EXPORT void addAssemblyNotes(Report& report, bool leavesUndetermined);
+ * when the steps of a deformation are in the report; `undetermined`: see FreeComponents. */
+SMG_EXPORT void addAssemblyNotes(Report& report, UndeterminedValues undetermined);
 
 } // namespace smg

@@ -143,4 +143,13 @@ void Convergence::addNotes(std::vector<std::string>& notes, const std::string& w
   }
 }
 
+void Convergence::addStep(Report& report, const std::string& name, const std::string& what) const
+{
+  report.cycles += this->cycles();
+  report.residuals.insert(report.residuals.end(), this->Residuals.begin(), this->Residuals.end());
+  report.steps.push_back({ name, this->cycles(),
+    this->Residuals.empty() ? 0.0 : this->Residuals.back(), this->Converged });
+  this->addNotes(report.notes, what);
+}
+
 } // namespace smg

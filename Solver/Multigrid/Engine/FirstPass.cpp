@@ -58,15 +58,20 @@ FirstResidual FirstPass::run(
   }
   this->Built.open(mesh.info().vertices);
   const FirstResidual residual = this->build(mesh, problem, listener);
-  if (this->Run.free.projectRightSide(this->Built.window(), this->Run.report))
-  {
-    // The coarse levels were given the right-hand side before the projection, of a problem without
-    // a solution: their correction is left out.
-    this->Built.finest().leaveOutCorrection();
-  }
+  projectRightSide(this->Run, this->Built);
   this->Run.report.seconds.build = building.seconds();
   this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
   return residual;
+}
+
+void FirstPass::projectRightSide(SolveContext& run, Hierarchy& hierarchy)
+{
+  if (run.free.projectRightSide(hierarchy.window(), run.report))
+  {
+    // The coarse levels were given the right-hand side before the projection, of a problem without
+    // a solution: their correction is left out.
+    hierarchy.finest().leaveOutCorrection();
+  }
 }
 
 FirstResidual FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* listener)
@@ -200,13 +205,19 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   // Vertices with given values have an empty row, but are not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
-  const double whole = assembly.residual().squares();
-  const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
+  this->Run.keepReport();
+  return residualOf(assembly.residual(), this->Run.components);
+}
+
+FirstResidual FirstPass::residualOf(const InitialResidual& residual, const Components& components)
+{
+  const double whole = residual.squares();
+  const double shifted = std::max(0.0, whole + components.shiftedSquares());
   // If the sources equal their mean, only the rounding of this difference of squares remains, which
   // does not measure the residual: then the sources themselves do.
   constexpr double MinShare = 1e-14;
   return { std::sqrt(shifted < MinShare * whole ? whole : shifted),
-    roundingOf(assembly.residual().termSquares()) };
+    roundingOf(residual.termSquares()) };
 }
 
 } // namespace smg

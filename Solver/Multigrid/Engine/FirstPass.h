@@ -41,6 +41,14 @@ public:
   FirstResidual operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
 
+  // For a further problem in core, too:
+
+  /** The residual of the initial values, whose right-hand side gets a mean of 0 where a component
+   * is free. */
+  static FirstResidual residualOf(const InitialResidual& residual, const Components& components);
+  /** Makes the right-hand sides of free components sum to zero, after they were restricted. */
+  static void projectRightSide(SolveContext& run, Hierarchy& hierarchy);
+
 private:
   FirstResidual run(
     MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);

@@ -37,14 +37,15 @@ void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<
   const auto columns = static_cast<std::size_t>(this->Columns);
   // Mostly there is nothing to do, and no label is read.
   const bool shifts = !this->MeanShifts.empty();
-  for (std::int64_t i = 0; (shifts || this->LeavesUndetermined) && i < count; ++i)
+  const bool marks = this->Undetermined == UndeterminedValues::NotNumbers;
+  for (std::int64_t i = 0; (shifts || marks) && i < count; ++i)
   {
     const std::int64_t vertex = first + i;
     // Labels are stored in blocks; consecutive vertices share one.
     const std::int32_t label =
       this->Labels.block(vertex / Block).labels[static_cast<std::size_t>(vertex % Block)];
     const auto of = values.subspan(static_cast<std::size_t>(i) * columns, columns);
-    if (label == ComponentLabels::Undetermined && this->LeavesUndetermined)
+    if (marks && label == ComponentLabels::Undetermined)
     {
       std::ranges::fill(of, std::numeric_limits<double>::quiet_NaN());
     }

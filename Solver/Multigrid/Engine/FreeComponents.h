@@ -21,6 +21,14 @@ SMG_EXPORT std::string incompatibilityNote(double share);
 /** Notes how many components are free; as a warning if others are not. */
 SMG_EXPORT void noteFreeComponents(Report& report);
 
+/** What becomes of a value that nothing determines. */
+enum class UndeterminedValues
+{
+  Stay,       ///< it keeps the initial value
+  NotNumbers, ///< it becomes not a number
+  RightSide   ///< it is that of the right-hand side: its row is that of the identity
+};
+
 /**
  * What the equations leave open. A component without any constraint (a free component) has a
  * solution only if its right-hand side sums to zero, and then up to a constant. Its solution is
@@ -51,11 +59,20 @@ public:
   void fix(State& level, const Problem& problem, Report& report)
   {
     this->fixMeans(level, report);
-    this->LeavesUndetermined = report.held > 0 && !problem.keepsUndetermined();
+    if (report.held > 0 && !problem.keepsUndetermined())
+    {
+      this->Undetermined = UndeterminedValues::NotNumbers;
+    }
+  }
+  /** The same for equations whose right-hand side is given. */
+  template <class State>
+  void fix(State& level, Report& report)
+  {
+    this->fixMeans(level, report);
+    this->Undetermined = UndeterminedValues::RightSide;
   }
 
-  /** Whether values that nothing determines become not a number. */
-  bool leavesUndetermined() const { return this->LeavesUndetermined; }
+  UndeterminedValues undetermined() const { return this->Undetermined; }
 
   /** Completes the values of the vertices [first, first + count): shifts those of free
    * components, and marks what is undetermined. */
@@ -75,7 +92,7 @@ private:
   ComponentLabels& Labels;
   int Columns;
   std::vector<double> MeanShifts; ///< of free components; empty if there is none
-  bool LeavesUndetermined = false;
+  UndeterminedValues Undetermined = UndeterminedValues::Stay;
 };
 
 template <class F>

@@ -160,6 +160,16 @@ void Hierarchy::runCore()
   this->Run.report.seconds.coarse += coarse.seconds();
 }
 
+void Hierarchy::runSymmetric(double typical)
+{
+  // The one of the last pass may be gone.
+  this->finest().setHistory(nullptr);
+  // Twice, since prolongation divides by the scale before the present one.
+  this->finest().setScale(scaleFor(typical));
+  this->finest().setScale(scaleFor(typical));
+  this->Core.symmetric(this->finest());
+}
+
 /** For the first V-cycle of a further problem in core, which restricts onto them. */
 void Hierarchy::zeroCoarse()
 {

@@ -55,6 +55,9 @@ public:
   void endPass();
   /** Performs the part of a V-cycle on the core levels. */
   void runCore();
+  /** In core, between two passes: computes x of the finest level from its b, whose values have
+   * about this size, by a symmetric V-cycle (CoreVCycle::symmetric()). */
+  void runSymmetric(double typical);
   /** In core, between two passes: sets the right-hand sides of the coarse levels to zero. */
   void zeroCoarse();
   /** The next pass ends one problem and begins another with this number of columns, see

@@ -4,7 +4,6 @@
 #include "Solver/Multigrid/Cycle/VCycle.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -20,7 +19,7 @@ try
   auto& finest = this->Levels.finest();
   const std::int64_t nodes = finest.window().nodes();
   finest.setHistory(further.history);
-  this->setScale(scale / std::sqrt(static_cast<double>(nodes)));
+  finest.setScale(scaleFor(scale / std::sqrt(static_cast<double>(nodes))));
 
   const SolveContext::Steps steps =
     further.inOneChain
@@ -65,14 +64,6 @@ try
 catch (const MemoryLimitError& error)
 {
   throw this->Run.explained(error);
-}
-
-/** Lets restriction scale numbers of this size to about 1: by a power of two, so that nothing is
- * rounded, and by 1 if the size is not a usable number. */
-void Pass::setScale(double typical)
-{
-  this->Levels.finest().setScale(
-    typical > DBL_MIN && typical < DBL_MAX ? std::exp2(-std::ilogb(typical)) : 1.0);
 }
 
 /** The stages of the pass, cut into chains, and what reads and writes beside them. A recorder

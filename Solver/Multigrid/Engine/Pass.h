@@ -51,7 +51,6 @@ public:
   void begin();
 
 private:
-  void setScale(double typical);
   Schedule scheduleOf(const Further& further, int chains);
 
   SolveContext& Run;

@@ -44,6 +44,16 @@ void SolveContext::beginReport()
   this->CpuAtStart = processSeconds();
 }
 
+/** What the assembly has found out about the mesh and the operator stays. */
+void SolveContext::beginAgain()
+{
+  this->report = this->Built;
+  this->report.passes = 0;
+  this->report.seconds = {};
+  this->report.stages.clear();
+  this->beginReport();
+}
+
 void SolveContext::note(const Schedule& schedule, bool isFirstPass)
 {
   std::vector<Report::Stage>& all = this->report.stages;
@@ -104,7 +114,7 @@ auto SolveContext::stepsOf(
 void SolveContext::finishReport()
 {
   Report& r = this->report;
-  addAssemblyNotes(r, this->free.leavesUndetermined());
+  addAssemblyNotes(r, this->free.undetermined());
   r.peak_nodes = this->resident.peak;
   r.pool_bytes_peak = this->pool.peak();
   // The larger one: the passes so far may have been those of an earlier program, which this one

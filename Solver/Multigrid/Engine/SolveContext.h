@@ -33,6 +33,10 @@ struct SMG_EXPORT SolveContext
 
   /** Starts the times of the report. */
   void beginReport();
+  /** In the first pass: what the report has by now is that of the mesh and the hierarchy. */
+  void keepReport() { this->Built = this->report; }
+  /** Starts the report of a further solve on the same hierarchy. */
+  void beginAgain();
   /** Seconds since the start, including those of the programs from whose checkpoint this one
    * continues. */
   double seconds() const { return this->SecondsBefore + this->Wall.seconds(); }
@@ -113,6 +117,7 @@ private:
   double CpuAtStart = 0.0;
   double SecondsBefore = 0.0;
   Parts Kept;
+  Report Built;
 };
 
 /** The part of a report that the passes of a solve set, for StateWriter and StateReader. The end

@@ -40,6 +40,14 @@ public:
     this->Expected = 0.1;
   }
 
+  /** Begins a first pass that nothing follows. */
+  void beginFirst()
+  {
+    this->Overall = Progress(this->Function);
+    this->From = 0.0;
+    this->Start = 1.0;
+  }
+
   /** The share `done` (0 to 1) of the first pass is done. */
   void updateFirst(double done)
   {

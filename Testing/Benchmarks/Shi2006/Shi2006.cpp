@@ -90,7 +90,7 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   r.seconds.solve = solving.seconds();
   // The values outlive the levels, for read().
   this->Values = std::move(finest.value);
-  addAssemblyNotes(r, this->Free.leavesUndetermined());
+  addAssemblyNotes(r, this->Free.undetermined());
   r.pool_bytes_peak = this->Memory.peak();
   r.rss_bytes_peak = peakResidentBytes();
   r.seconds.total = wall.seconds();

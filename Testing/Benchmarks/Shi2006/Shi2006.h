@@ -89,7 +89,7 @@ public:
   const Assembly& assembly() const { return this->Assembled; }
 
   // Notifications of the assembly.
-  void link(std::int32_t /*delta*/, float /*weight*/) override {} // contained in alpha and xi0
+  void link(std::int32_t /*delta*/, double /*weight*/) override {} // contained in alpha and xi0
   void target(const double* target) override;
   void constraint(const double* sum) override;
   void close(const double* /*point*/, std::int64_t /*reach*/) override {}

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Description/ParseDescriptions.h"
+#include "Python/C/Call.h"
+#include "Python/C/Handles.h"
+#include "Python/C/Options.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "smg/LinearSolver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+/** Equations with their hierarchy, and the rows of the vertices in the order of the caller. Nothing
+ * of the mesh is needed any more. */
+struct smg_solver
+{
+  smg::LinearSolver solver;
+  /** The row of each vertex of the stream; empty: its index. */
+  std::vector<std::int64_t> rows;
+  std::int64_t count; ///< of rows; those of no vertex are rows of the identity
+  std::string text;   ///< the one last returned
+
+  std::int64_t row(std::int64_t vertex) const
+  {
+    return this->rows.empty() ? vertex : this->rows[static_cast<std::size_t>(vertex)];
+  }
+};
+
+namespace smg
+{
+namespace
+{
+
+/** The rows of the vertices of a stream; empty: they are in order. */
+std::vector<std::int64_t> rowsOf(const StoredMesh& mesh, const OriginalRows& places)
+{
+  if (places.column.empty())
+  {
+    return places.table;
+  }
+  std::vector<std::int64_t> rows;
+  const auto source = mesh.source(places.columns(), {});
+  visitBlocks(*source, {}, 0.0, 1.0,
+    [&](const MeshBlock& block)
+    {
+      const auto numbers = std::ranges::find(
+        block.vertexColumns, places.column, [](const Column& column) { return column.spec.name; });
+      for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
+      {
+        rows.push_back(places.row(block.firstVertex, &*numbers, i));
+      }
+    });
+  return rows;
+}
+
+/** What smg_open_solver() is asked for. */
+struct Equations
+{
+  ProblemDescription problem;
+  SolveOptions options;
+};
+
+Equations equationsIn(const char* text, const JobLimits& defaults)
+{
+  const nlohmann::json json = optionsText(text, "options");
+  return argument(
+    [&]
+    {
+      const JsonNode node(json, "options");
+      node.requireObject({ "problem", "sweeps", "memory", "threads" });
+      Equations equations;
+      SolveOptions& options = equations.options;
+      const JobLimits limits = limitsIn(node, defaults);
+      options.memoryLimit = limits.memory > 0 ? limits.memory : options.memoryLimit;
+      options.threads = limits.threads;
+      options.scratch = limits.scratch;
+      if (node.has("problem"))
+      {
+        equations.problem = parseProblem(node.member("problem"));
+      }
+      if (node.has("sweeps"))
+      {
+        options.sweeps = static_cast<int>(node.member("sweeps").integer(1, 20));
+      }
+      return equations;
+    });
+}
+
+/** When smg_solver_solve() ends. */
+struct Ending
+{
+  double tolerance = 1e-8;
+  int maxCycles = 50;
+};
+
+Ending endingIn(const char* text)
+{
+  constexpr std::int64_t MaxCount = 1000000;
+  const nlohmann::json json = optionsText(text, "options");
+  return argument(
+    [&]
+    {
+      const JsonNode node(json, "options");
+      node.requireObject({ "tolerance", "max_cycles" });
+      Ending ending;
+      if (node.has("tolerance"))
+      {
+        ending.tolerance = node.member("tolerance").number();
+        if (ending.tolerance <= 0.0 || ending.tolerance >= 1.0)
+        {
+          node.member("tolerance").fail("must be between 0 and 1, both excluded");
+        }
+      }
+      if (node.has("max_cycles"))
+      {
+        ending.maxCycles = static_cast<int>(node.member("max_cycles").integer(1, MaxCount));
+      }
+      return ending;
+    });
+}
+
+/** The rows of an array that are those of vertices, in stream order. Throws ArgumentError if a
+ * number is not finite. */
+std::vector<double> ofVertices(const smg_solver& solver, const ArrayView& array, const char* name)
+{
+  std::vector<double> values;
+  const std::int64_t vertices = solver.solver.vertices();
+  values.reserve(static_cast<std::size_t>(vertices * array.columns));
+  for (std::int64_t vertex = 0; vertex < vertices; ++vertex)
+  {
+    const std::int64_t row = solver.row(vertex);
+    for (std::int64_t k = 0; k < array.columns; ++k)
+    {
+      values.push_back(array.value<double>(row, k));
+      if (!std::isfinite(values.back()))
+      {
+        throw ArgumentError(
+          std::string(name) + ": row " + std::to_string(row) + " has a number that is not finite.");
+      }
+    }
+  }
+  return values;
+}
+
+/** A C-contiguous array of the rows of a solver. */
+ArrayView denseArray(const smg_solver& solver, const double* values, std::int64_t columns)
+{
+  constexpr auto Size = static_cast<std::int64_t>(sizeof(double));
+  return { values, ScalarType::Float64, solver.count, columns, columns * Size, Size };
+}
+
+/** Writes the rows of vertices, given in stream order, to an array that has its other rows. */
+void storeRows(
+  const smg_solver& solver, const std::vector<double>& values, std::int64_t columns, double* array)
+{
+  for (std::int64_t vertex = 0; vertex < solver.solver.vertices(); ++vertex)
+  {
+    std::copy_n(values.data() + vertex * columns, columns, array + solver.row(vertex) * columns);
+  }
+}
+
+/** Applies one of the operators of a solver to a vector; rows of no vertex are those of the
+ * identity. */
+template <class Operator>
+smg_status applied(smg_solver* solver, const double* from, double* to, const Operator& apply)
+{
+  return guarded(
+    [&]
+    {
+      smg_solver& given = required(solver, "solver");
+      const ArrayView array = denseArray(given, &required(from, "the given vector"), 1);
+      double* const result = &required(to, "the vector for the result");
+      std::vector<double> values = ofVertices(given, array, "the given vector");
+      apply(given.solver, values);
+      if (from != to)
+      {
+        std::copy_n(from, given.count, result);
+      }
+      storeRows(given, values, 1, result);
+    });
+}
+
+} // namespace
+} // namespace smg
+
+smg_status smg_open_solver(
+  smg_mesh* mesh, const char* options, smg_progress progress, void* user, smg_solver** solver)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(solver, "solver") = nullptr;
+      const smg_mesh& given = smg::required(mesh, "mesh");
+      smg::Equations asked = smg::equationsIn(options, smg::limitsOf(given.shared->options()));
+      asked.options.progress = smg::progressOf(progress, user);
+      const smg::OriginalRows& places = given.shared->order()->vertices();
+      *solver = new smg_solver{ { given.stored(), asked.problem, asked.options },
+        smg::rowsOf(given.stored(), places), places.count, {} };
+    });
+}
+
+smg_status smg_solver_solve(smg_solver* solver, const smg_array* b, double* x, const char* options,
+  smg_progress progress, void* user, const char** report)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg_solver& given = smg::required(solver, "solver");
+      const smg::ArrayView right = smg::viewOf(b, "b");
+      double* const result = &smg::required(x, "x");
+      const smg::Ending ending = smg::endingIn(options);
+      if (right.rows != given.count)
+      {
+        throw smg::ArgumentError("b: must have a row for each of the " +
+                                 std::to_string(given.count) + " vertices, not " +
+                                 std::to_string(right.rows) + ".");
+      }
+      const std::vector<double> load = smg::ofVertices(given, right, "b");
+      std::vector<double> values =
+        smg::ofVertices(given, smg::denseArray(given, result, right.columns), "x");
+      const smg::Report& done = given.solver.solve(
+        load, values, ending.tolerance, ending.maxCycles, smg::progressOf(progress, user));
+      for (std::int64_t row = 0; row < right.rows; ++row)
+      {
+        for (std::int64_t k = 0; k < right.columns; ++k)
+        {
+          result[row * right.columns + k] = right.value<double>(row, k);
+        }
+      }
+      smg::storeRows(given, values, right.columns, result);
+      if (report)
+      {
+        given.text = done.json();
+        *report = given.text.c_str();
+      }
+    });
+}
+
+smg_status smg_solver_precondition(smg_solver* solver, const double* r, double* z)
+{
+  return smg::applied(solver, r, z,
+    [](smg::LinearSolver& of, std::vector<double>& values) { of.precondition(values, values); });
+}
+
+smg_status smg_solver_multiply(smg_solver* solver, const double* x, double* y)
+{
+  return smg::applied(solver, x, y,
+    [](smg::LinearSolver& of, std::vector<double>& values) { of.multiply(values, values); });
+}
+
+void smg_close_solver(smg_solver* solver)
+{
+  delete solver;
+}

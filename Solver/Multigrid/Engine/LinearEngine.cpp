@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/LinearEngine.h"
+
+#include "Solver/Multigrid/Engine/AssemblyReport.h"
+#include "Solver/Multigrid/Engine/FirstPass.h"
+#include "Solver/Multigrid/Engine/Iteration.h"
+#include "Solver/Multigrid/Engine/Pass.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+// The order of all sums is that of a first pass and of the passes after it. So a solution has the
+// bits of smg::solve() in core, whatever was solved before, and an exception leaves nothing behind
+// that the next call would see.
+
+namespace smg
+{
+namespace
+{
+
+/** Removes sentences that are there already. */
+void removeRepetitions(std::vector<std::string>& sentences)
+{
+  std::vector<std::string> first;
+  for (std::string& sentence : sentences)
+  {
+    if (std::ranges::find(first, sentence) == first.end())
+    {
+      first.push_back(std::move(sentence));
+    }
+  }
+  sentences = std::move(first);
+}
+
+} // namespace
+
+LinearEngine::LinearEngine(CompiledOperators operators, int columns, const SolveOptions& options)
+  : Set(std::move(operators))
+  , Columns(columns)
+  , Run(columns, options)
+  , Levels(this->Run, columns, this->Set.relaxation)
+  , Given(this->Run.pool)
+{
+}
+
+void LinearEngine::build(MeshSource& mesh, Problem& problem)
+{
+  this->Run.beginReport();
+  this->Run.progress.beginFirst();
+  FirstPass(this->Run, this->Levels, this->Set)(mesh, problem, &this->Given);
+  this->Run.finishReport();
+  this->Run.progress.finish();
+}
+
+std::string LinearEngine::Group::name() const
+{
+  const std::string from = std::to_string(this->first + 1);
+  return this->count == 1 ? "column " + from
+                          : "columns " + from + " to " + std::to_string(this->first + this->count);
+}
+
+/** Calls f(group) for the columns of two vectors, as many at a time as the levels have. */
+template <class F>
+void LinearEngine::forGroups(std::span<const double> in, std::span<const double> out, F&& f)
+{
+  const auto vertices = static_cast<std::size_t>(this->vertices());
+  if (in.size() != out.size() || in.empty() || in.size() % vertices != 0)
+  {
+    throw Error("two vectors with as many numbers for each of the " + std::to_string(vertices) +
+                " vertices are needed, but there are " + std::to_string(in.size()) + " and " +
+                std::to_string(out.size()) + " numbers");
+  }
+  const std::size_t all = in.size() / vertices, most = static_cast<std::size_t>(this->Columns);
+  for (std::size_t first = 0; first < all; first += most)
+  {
+    f(Group{ first, std::min(most, all - first), all });
+  }
+}
+
+/** Copies columns to a vector of the finest level; those that a group lacks are zero. */
+void LinearEngine::load(
+  std::span<const double> values, const Group& group, const char* what, Ring<double>& to)
+{
+  double* lanes = to.range(0, this->vertices()).data();
+  const double* of = values.data() + group.first;
+  for (std::int64_t i = 0; i < this->vertices(); ++i, of += group.all, lanes += to.lanes())
+  {
+    double finite = 0.0;
+    for (std::size_t k = 0; k < group.count; ++k)
+    {
+      lanes[k] = of[k];
+      finite += 0.0 * of[k];
+    }
+    if (finite != 0.0)
+    {
+      throw Error(std::string(what) + " has a number that is not finite at vertex " +
+                  std::to_string(i) + " of the stream");
+    }
+    std::fill(lanes + group.count, lanes + to.lanes(), 0.0);
+  }
+}
+
+/** The inverse of load(), times a factor. */
+void LinearEngine::store(
+  const Ring<double>& from, double factor, const Group& group, std::span<double> values)
+{
+  const double* lanes = from.range(0, this->vertices()).data();
+  double* of = values.data() + group.first;
+  for (std::int64_t i = 0; i < this->vertices(); ++i, of += group.all, lanes += from.lanes())
+  {
+    for (std::size_t k = 0; k < group.count; ++k)
+    {
+      of[k] = factor * lanes[k];
+    }
+  }
+}
+
+void LinearEngine::solve(std::span<const double> b, std::span<double> x, const Stopping& stopping,
+  const ProgressFunction& progress)
+{
+  this->Run.progress = SolveProgress(progress);
+  this->Run.beginAgain();
+  Report& r = this->Run.report;
+  r.converged = true;
+  std::vector<double> removed;
+  LevelWindow<double>& window = this->Levels.window();
+  this->forGroups(b, x,
+    [&](const Group& group)
+    {
+      this->load(b, group, "the right-hand side", window.b());
+      this->load(x, group, "the initial guess", window.x());
+      this->Given.setKnown(window);
+      const auto share = [&](std::size_t columns)
+      { return static_cast<double>(columns) / static_cast<double>(group.all); };
+      this->Run.progress.begin(
+        stopping, share(group.first), share(group.first + group.count), false);
+      this->solve(group, stopping);
+      std::vector<double> taken = std::exchange(r.removed_source, {});
+      taken.resize(group.count);
+      removed.insert(removed.end(), taken.begin(), taken.end());
+      this->read(group, x);
+    });
+  if (std::ranges::any_of(removed, [](double sum) { return sum != 0.0; }))
+  {
+    r.removed_source = std::move(removed);
+  }
+  // A single problem has no steps.
+  if (r.steps.size() == 1)
+  {
+    r.steps.clear();
+  }
+  r.seconds.solve = this->Run.seconds();
+  this->Run.finishReport();
+  removeRepetitions(r.notes);
+  removeRepetitions(r.warnings);
+  this->Run.progress.finish();
+}
+
+/** Solves for b and from x of the finest level. */
+void LinearEngine::solve(const Group& group, const Stopping& stopping)
+{
+  Convergence convergence(stopping, {});
+  Iteration iteration(this->Run, this->Levels, convergence);
+  convergence = Convergence(stopping, this->begin());
+  // As for a first pass: see PoissonSolver.
+  convergence.begin(this->Levels.residualNorm(), this->Run.components.incompatibility() == 0.0);
+  this->Run.endPass(1.0);
+  iteration(false);
+  Report& r = this->Run.report;
+  const std::string name = group.name();
+  convergence.addStep(r, name, group.count < group.all ? name + ": " : std::string());
+  r.converged = r.converged && convergence.converged();
+  this->Run.free.fix(this->Levels.window(), r);
+}
+
+/** Does what a first pass does after assembly. Returns the residual of the initial values. */
+FirstResidual LinearEngine::begin()
+{
+  LevelWindow<double>& window = this->Levels.window();
+  Components& components = this->Run.components;
+  this->Given.addKnown(window);
+  components.restartCounts();
+  const InitialResidual residual = this->Given.residual(window, components, this->Run.labels);
+  components.settle();
+  checkSquares(residual.termSquares());
+  Pass(this->Run, this->Levels).begin();
+  FirstPass::projectRightSide(this->Run, this->Levels);
+  return FirstPass::residualOf(residual, components);
+}
+
+/** Stores the solution, with what the equations leave open. */
+void LinearEngine::read(const Group& group, std::span<double> x)
+{
+  const Ring<double>& solved = this->Levels.window().x();
+  std::vector<double> values(static_cast<std::size_t>(this->Columns));
+  if (this->Run.report.free_components == 0)
+  {
+    this->store(solved, 1.0, group, x);
+    return;
+  }
+  for (std::int64_t i = 0; i < this->vertices(); ++i)
+  {
+    std::copy_n(solved.at(i), values.size(), values.begin());
+    this->Run.free.complete(i, 1, values);
+    std::copy_n(values.begin(), group.count,
+      x.begin() +
+        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * group.all + group.first));
+  }
+}
+
+void LinearEngine::precondition(std::span<const double> r, std::span<double> z)
+{
+  LevelWindow<double>& window = this->Levels.window();
+  this->forGroups(r, z,
+    [&](const Group& group)
+    {
+      this->load(r, group, "the residual", window.b());
+      double largest = 0.0;
+      for (const double value : window.b().range(0, window.nodes()))
+      {
+        largest = std::max(largest, std::fabs(value));
+      }
+      this->Levels.runSymmetric(largest);
+      this->store(window.x(), 1.0, group, z);
+    });
+}
+
+/** With b = 0 the residual is -A x; the neighbours whose rows are those of the identity are part of
+ * b. */
+void LinearEngine::multiply(std::span<const double> x, std::span<double> y)
+{
+  LevelWindow<double>& window = this->Levels.window();
+  this->forGroups(x, y,
+    [&](const Group& group)
+    {
+      this->load(x, group, "the vector", window.x());
+      std::ranges::fill(window.b().range(0, window.nodes()), 0.0);
+      this->Given.addKnown(window);
+      this->Levels.finest().residualAll(window.b().at(0));
+      this->store(window.b(), -1.0, group, y);
+    });
+}
+
+} // namespace smg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Multigrid/Engine/CompiledOperators.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/Hierarchy.h"
+#include "Solver/Multigrid/Engine/RightSides.h"
+#include "Solver/Multigrid/Engine/SolveContext.h"
+#include "smg/Solve.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace smg
+{
+
+/** The equations of a problem in core, solved for one right-hand side after the other: LinearSolver
+ * documents what each function does. Of the first pass, rows, hierarchy and factor are kept; x and
+ * b begin anew with each call. */
+class LinearEngine
+{
+public:
+  /** `options` must be those of a solve in core. */
+  LinearEngine(CompiledOperators operators, int columns, const SolveOptions& options);
+
+  LinearEngine(const LinearEngine&) = delete;
+  LinearEngine& operator=(const LinearEngine&) = delete;
+
+  /** The first pass; to be called once, before all others. */
+  void build(MeshSource& mesh, Problem& problem);
+  void solve(std::span<const double> b, std::span<double> x, const Stopping& stopping,
+    const ProgressFunction& progress);
+  void precondition(std::span<const double> r, std::span<double> z);
+  void multiply(std::span<const double> x, std::span<double> y);
+
+  std::int64_t vertices() const { return this->Run.report.vertices; }
+  int columns() const { return this->Columns; }
+  const Report& report() const { return this->Run.report; }
+
+private:
+  /** The columns of given vectors that are treated together. */
+  struct Group
+  {
+    std::size_t first, count;
+    std::size_t all; ///< the numbers of a vertex
+    /** "column 2", or "columns 2 to 4". */
+    std::string name() const;
+  };
+
+  template <class F>
+  void forGroups(std::span<const double> in, std::span<const double> out, F&& f);
+  void load(std::span<const double> values, const Group& group, const char* what, Ring<double>& to);
+  void store(const Ring<double>& from, double factor, const Group& group, std::span<double> values);
+  void solve(const Group& group, const Stopping& stopping);
+  FirstResidual begin();
+  void read(const Group& group, std::span<double> x);
+
+  CompiledOperators Set;
+  int Columns;
+  SolveContext Run;
+  Hierarchy Levels;
+  RightSides Given;
+};
+
+} // namespace smg
