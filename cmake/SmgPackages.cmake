@@ -2,7 +2,8 @@
 # Debian packages, made by cpack:
 #   streaming-multigrid           the libraries without VTK, and smg
 #   streaming-multigrid-dev       headers and the CMake package
-#   paraview-streaming-multigrid  the ParaView plugin, its VTK libraries and their Python package
+#   python3-streaming-multigrid   the Python package, without its part vtk
+#   paraview-streaming-multigrid  the ParaView plugin, its VTK libraries and streamingmultigrid.vtk
 
 set(plugin_folder "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}")
 set(plugin "${plugin_folder}/StreamingMultigrid/StreamingMultigrid.so")
@@ -28,7 +29,7 @@ else ()
 endif ()
 
 foreach (pair libraries:streaming-multigrid development:streaming-multigrid-dev
-    paraview_plugins:paraview-streaming-multigrid)
+    python_package:python3-streaming-multigrid paraview_plugins:paraview-streaming-multigrid)
   string(REPLACE ":" ";" pair "${pair}")
   list(GET pair 0 component)
   list(GET pair 1 package)
@@ -44,7 +45,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 # The install rules of ParaView assign no component to the plugin.
 set(plugin_components runtime paraview_plugins python Unspecified)
-set(CPACK_COMPONENTS_ALL libraries development ${plugin_components})
+set(CPACK_COMPONENTS_ALL libraries development python_package ${plugin_components})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
@@ -62,18 +63,29 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "streaming-multigrid ${version}, paraview-streaming-multigrid ${version}, "
   "paraview-dev, libopenmpi-dev, libpython3-dev")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_NAME python3-streaming-multigrid)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_DEPENDS
+  "streaming-multigrid ${version}, python3 (>= 3.9), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_SUGGESTS
+  "python3-scipy, paraview-streaming-multigrid")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME paraview-streaming-multigrid)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "streaming-multigrid ${version}, ${paraview}")
 set(CPACK_COMPONENT_LIBRARIES_DESCRIPTION "Libraries without VTK, and the program smg")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and the CMake package")
+set(CPACK_COMPONENT_PYTHON_PACKAGE_DESCRIPTION "Python package over NumPy, without VTK")
 set(CPACK_COMPONENT_GROUP_PLUGIN_DESCRIPTION "ParaView plugin, VTK libraries, Python package")
 
 include(CPack)
 cpack_add_component_group(libraries)
 cpack_add_component_group(development)
+cpack_add_component_group(python_package)
 cpack_add_component_group(plugin)
 cpack_add_component(libraries GROUP libraries)
 cpack_add_component(development GROUP development)
+cpack_add_component(python_package GROUP python_package)
 foreach (component IN LISTS plugin_components)
   cpack_add_component(${component} GROUP plugin)
 endforeach ()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The VTK modules StreamingMultigrid::IO and ::Filters, and their Python package.
+# The VTK modules StreamingMultigrid::IO and ::Filters, and their Python package
+# streamingmultigrid.vtk.
 
 vtk_module_scan(
   MODULE_FILES
@@ -29,17 +30,20 @@ vtk_module_build(
 unset(CMAKE_CXX_VISIBILITY_PRESET)
 unset(CMAKE_VISIBILITY_INLINES_HIDDEN)
 
-# The folder below /usr that Python on Debian searches, independent of the library folder.
-set(SMG_PYTHON_DIR "lib/python3/dist-packages")
 if (SMG_BUILD_PYTHON)
   # From the modules to the libraries beside lib/python3.
-  list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../../..")
+  list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../../../..")
   vtk_module_wrap_python(
     MODULES ${smg_vtk_modules}
     TARGET StreamingMultigrid::wrapped_python
-    PYTHON_PACKAGE streamingmultigrid
+    PYTHON_PACKAGE streamingmultigrid.vtk
     MODULE_DESTINATION "${SMG_PYTHON_DIR}"
     CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid"
     BUILD_STATIC OFF
     INSTALL_HEADERS OFF)
+  set(smg_python_vtk "${SMG_PYTHON_DIR}/streamingmultigrid/vtk")
+  configure_file(Python/streamingmultigrid/vtk/__init__.py
+    "${CMAKE_BINARY_DIR}/${smg_python_vtk}/__init__.py" COPYONLY)
+  install(FILES Python/streamingmultigrid/vtk/__init__.py
+    DESTINATION "${smg_python_vtk}" COMPONENT python)
 endif ()

@@ -15,13 +15,13 @@ namespace smg
 namespace
 {
 
-/** Numbers of vertices, each of which should occur once. */
+/** Numbers of vertices or cells, which may be 0, 1, ... in any order. */
 class SeenNumbers
 {
 public:
-  /** Of `count` numbers; as many again may be missing. */
+  /** Of `count` numbers. */
   explicit SeenNumbers(std::int64_t count)
-    : Seen(static_cast<std::size_t>(2 * count))
+    : Seen(static_cast<std::size_t>(count))
   {
   }
 
@@ -36,16 +36,13 @@ public:
         return;
       }
       this->Seen[place] = true;
-      this->End = std::max(this->End, number + 1);
     }
   }
   bool areRows() const { return this->AreRows; }
-  std::int64_t end() const { return this->End; }
 
 private:
   std::vector<bool> Seen;
   bool AreRows = true;
-  std::int64_t End = 0;
 };
 
 /** The places of these numbers in ascending order, equal ones in their own order. */
@@ -59,22 +56,6 @@ std::vector<std::int64_t> ranksOf(const std::vector<std::int64_t>& numbers)
     ranks[static_cast<std::size_t>(order[rank])] = static_cast<std::int64_t>(rank);
   }
   return ranks;
-}
-
-/** Whether they are 0, 1, ... in any order. */
-bool areRows(const std::vector<std::int64_t>& numbers)
-{
-  std::vector<bool> seen(numbers.size());
-  for (const std::int64_t number : numbers)
-  {
-    const auto place = static_cast<std::size_t>(number);
-    if (number < 0 || place >= seen.size() || seen[place])
-    {
-      return false;
-    }
-    seen[place] = true;
-  }
-  return true;
 }
 
 } // namespace
@@ -127,7 +108,6 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
   if (seen.areRows())
   {
     this->Vertices.column = OriginalIdName;
-    this->Vertices.count = std::max(this->Vertices.count, seen.end());
   }
 }
 
@@ -145,7 +125,9 @@ void OriginalOrder::readCells(const StoredMesh& mesh, const ProgressFunction& pr
       const auto own = block.cellColumns[0].as<std::int64_t>();
       numbers.insert(numbers.end(), own.begin(), own.end());
     });
-  if (areRows(numbers))
+  SeenNumbers seen(this->Cells.count);
+  seen.add(numbers);
+  if (seen.areRows())
   {
     this->Cells.column = OriginalCellIdName;
   }

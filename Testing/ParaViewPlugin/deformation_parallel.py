@@ -10,7 +10,7 @@ import numpy
 import smg_testing as t
 from paraview.simple import *
 from paraview.vtk import vtkMultiProcessController
-from streamingmultigrid import vtkStreamingMultigridFilters, vtkStreamingMultigridIO
+from streamingmultigrid.vtk import vtkStreamingMultigridFilters, vtkStreamingMultigridIO
 
 LoadPlugin(sys.argv[1], ns=globals())
 

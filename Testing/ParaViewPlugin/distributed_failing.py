@@ -8,7 +8,7 @@ import sys
 import smg_testing as t
 from paraview.simple import *
 from paraview.vtk import vtkMultiProcessController, vtkOutputWindow, vtkStringOutputWindow
-from streamingmultigrid import vtkStreamingMultigridFilters  # the methods of the filter
+from streamingmultigrid.vtk import vtkStreamingMultigridFilters  # the methods of the filter
 
 LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson

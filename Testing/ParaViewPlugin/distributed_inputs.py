@@ -12,8 +12,8 @@ from paraview.simple import *
 from paraview.vtk import vtkMultiProcessController
 from paraview.vtk.util.numpy_support import numpy_to_vtk
 from paraview.vtk.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
-from streamingmultigrid import vtkStreamingMultigridFilters  # the methods of the filter
-from streamingmultigrid.vtkStreamingMultigridIO import vtkStreamingMeshReader
+from streamingmultigrid.vtk import vtkStreamingMultigridFilters  # the methods of the filter
+from streamingmultigrid.vtk import vtkStreamingMeshReader
 
 LoadPlugin(sys.argv[1], ns=globals())
 

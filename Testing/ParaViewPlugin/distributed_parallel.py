@@ -10,7 +10,7 @@ import smg_testing as t
 from paraview.simple import *
 from paraview.vtk import vtkMultiProcessController
 from paraview.vtk.util.numpy_support import numpy_to_vtk
-from streamingmultigrid import vtkStreamingMultigridFilters  # the methods of the filter
+from streamingmultigrid.vtk import vtkStreamingMultigridFilters  # the methods of the filter
 
 LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson

@@ -8,8 +8,8 @@ import sys
 import smg_testing as t
 from paraview.simple import *
 from paraview.vtk import vtkMultiProcessController
-from streamingmultigrid import vtkStreamingMultigridFilters as filters
-from streamingmultigrid import vtkStreamingMultigridIO
+from streamingmultigrid.vtk import vtkStreamingMultigridFilters as filters
+from streamingmultigrid.vtk import vtkStreamingMultigridIO
 
 LoadPlugin(sys.argv[1], ns=globals())
 

@@ -5,8 +5,8 @@ import os
 
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkFiltersCore import vtkArrayCalculator
-from streamingmultigrid.vtkStreamingMultigridIO import vtkStreamingMeshKeys, vtkStreamingMeshReader
-from streamingmultigrid.vtkStreamingMultigridFilters import vtkStreamingPoisson
+from streamingmultigrid.vtk import (
+    vtkStreamingMeshKeys, vtkStreamingMeshReader, vtkStreamingPoisson)
 
 reader = vtkStreamingMeshReader()
 reader.SetFileName(os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "bunny.smb"))

@@ -27,6 +27,7 @@ smg --version
 smg convert "$tree/Examples/Data/bunny.smb" bunny.vtp --quiet
 smg info bunny.vtp --quiet --report info.json
 grep -q '"vertices": *34834' info.json
+/usr/bin/python3 -c 'import streamingmultigrid as smg; assert smg.open("bunny.vtp").n_vertices == 34834'
 
 cat > plugin.py << 'END'
 from paraview.simple import *

@@ -18,7 +18,7 @@ namespace smg::testing
 namespace
 {
 
-class JobMemory : public JobTest
+class JobLimitLaw : public JobTest
 {
 protected:
   StreamMesh someMesh() const
@@ -34,7 +34,7 @@ protected:
 };
 
 /** What the growth holds for: jobs that keep a window of the stream. */
-class JobMemoryLaw : public JobMemory
+class JobMemoryLaw : public JobLimitLaw
 {
 protected:
   /** Checks that memory grows by at most the factors `nodes` and `bytes` from mesh to mesh. */
@@ -61,7 +61,7 @@ protected:
 
 } // namespace
 
-TEST_P(JobMemory, StaysWithinTheLimit)
+TEST_P(JobLimitLaw, StaysWithinTheLimit)
 {
   const JobOnMesh run(this->job(), this->someMesh());
   Way way = this->someWay();
@@ -82,7 +82,7 @@ TEST_P(JobMemory, StaysWithinTheLimit)
   }
 }
 
-TEST_P(JobMemory, ALimitBelowTheNeedIsRefusedWithBothFigures)
+TEST_P(JobLimitLaw, ALimitBelowTheNeedIsRefusedWithBothFigures)
 {
   const JobOnMesh run(this->job(),
     toStream(this->job().ofSurfaces ? torus(400, 200, 0.3) : tetBox(40, 40, 40, 0.15)));
@@ -141,7 +141,7 @@ TEST_P(JobMemoryLaw, OfAStripIsItsWidth)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, JobMemory, ::testing::ValuesIn(kindsOfJobs()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Of, JobLimitLaw, ::testing::ValuesIn(kindsOfJobs()), nameOf);
 INSTANTIATE_TEST_SUITE_P(Of, JobMemoryLaw,
   ::testing::ValuesIn(jobsWith([](const Job& job) { return job.hasWindow; })), nameOf);
 

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays that are given by value: columns of the mesh for one job."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence
+
+import numpy as np
+
+from ._arrays import numbers
+from ._errors import InputError
+
+
+class Column(NamedTuple):
+    """A column that a job needs besides those of the mesh."""
+
+    name: str
+    cells: bool  # of the cells, else of the vertices
+    values: np.ndarray
+
+
+class Columns:
+    """The columns that the description of a job adds to a mesh, while it is made.
+
+    Columns named by this class begin with #: they are arguments of the job, not part of results.
+    """
+
+    def __init__(self, mesh: Any) -> None:
+        self.mesh = mesh
+        self.added: List[Column] = []
+
+    def diagonal(self) -> float:
+        """The diagonal of the bounds of the mesh."""
+        bounds = np.reshape(self.mesh.bounds, (3, 2))
+        return float(np.linalg.norm(bounds[:, 1] - bounds[:, 0]))
+
+    def rows(self, values: np.ndarray, cells: Optional[bool]) -> Optional[bool]:
+        """Whether an array has a row for each cell (True) or vertex (False), or neither (None)."""
+        count = values.shape[0] if values.ndim else -1
+        for of_cells, wanted in ((False, self.mesh.n_vertices), (True, self.mesh.n_cells)):
+            if count == wanted and cells in (None, of_cells):
+                return of_cells
+        return None
+
+    def add(
+        self,
+        values: Any,
+        what: str,
+        cells: Optional[bool] = None,
+        components: Sequence[int] = (),
+        name: Optional[str] = None,
+    ) -> Column:
+        """Adds an array as a column.
+
+        Args:
+            values: (n,) or (n, k), a row for each vertex or cell.
+            what: the argument, for messages.
+            cells: True, False, or by the number of rows; vertices if both have as many.
+            components: those that are allowed; empty: any.
+            name: for a column of the result.
+        """
+        array = numbers(values, what)
+        of_cells = self.rows(array, cells)
+        if of_cells is None or array.ndim > 2:
+            wanted = [
+                "%d %s" % (count, noun)
+                for of, count, noun in (
+                    (False, self.mesh.n_vertices, "vertices"),
+                    (True, self.mesh.n_cells, "cells"),
+                )
+                if cells in (None, of)
+            ]
+            raise InputError(
+                "%s: the shape of the array is %s; it must have a row for each of the %s."
+                % (what, array.shape, " or ".join(wanted))
+            )
+        width = array.shape[1] if array.ndim == 2 else 1
+        if components and width not in components:
+            raise InputError(
+                "%s: an array of %d components; it must have %s."
+                % (what, width, " or ".join(map(str, components)))
+            )
+        column = Column(name or "#%d" % len(self.added), of_cells, array)
+        self.added.append(column)
+        return column
+
+    def named(self, values: Any, what: str, default: str) -> List[str]:
+        """Names of columns of the vertices: given as a name, names, {name: array}, or an array."""
+        if isinstance(values, str):
+            return [values]
+        if isinstance(values, Mapping):
+            return [
+                self.add(array, what, cells=False, name=name).name for name, array in values.items()
+            ]
+        if isinstance(values, (list, tuple)) and all(isinstance(each, str) for each in values):
+            return list(values)
+        return [self.add(values, what, cells=False, name=default).name]
+
+    def components(self, name: str) -> Optional[int]:
+        """Of a column of the vertices of the mesh; None if there is none of this name."""
+        specs: Dict[str, Any] = self.mesh.columns["vertices"]
+        return specs[name]["components"] if name in specs else None

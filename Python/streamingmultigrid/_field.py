@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a job has found: values at the vertices, on disk until they are asked for; and blocks."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_char_p, c_int64, c_void_p
+from typing import Any, Dict, Iterator, List, Optional, Sequence
+
+import numpy as np
+
+from ._arrays import Array, copy, shaped
+from ._errors import Error, InputError
+from ._library import Handle, call, call_reporting, json_text, parse, text
+from .progress import reporting
+from ._report import Report, warn_of
+
+#: Of every mesh, beside its columns: name, whether of the cells, type, components (None: 3 or 4).
+_OF_EVERY_MESH = (("Position", False, "float64", 3), ("Corners", True, "int64", None))
+
+
+class Block:
+    """Consecutive cells of a mesh with all their vertices; valid until the next block is asked for.
+
+    Attributes:
+        points: (n, 3) float64, in the unit of the mesh.
+        cells: (m, 3) or (m, 4) int64, rows of `points`.
+        n_points, n_cells: n and m.
+
+    ``block["Temperature"]`` is a column, (n,) or (n, k) of the vertices, else (m,) or (m, k) of the
+    cells. ``block["OriginalId"]`` (int64) has the numbers of the vertices in the original order,
+    ``block["OriginalCellId"]`` those of the cells, and ``block["Ghost"]`` (uint8) is 1 at vertices
+    that an earlier block has, too: leave these out to count each vertex once.
+    """
+
+    def __init__(self, handle: Handle, n_points: int, n_cells: int, of_cells: Sequence[str]) -> None:
+        self.n_points, self.n_cells = n_points, n_cells
+        self._handle: Optional[Handle] = handle
+        self._of_cells = set(of_cells)
+        self._read: Dict[str, np.ndarray] = {}
+
+    @property
+    def points(self) -> np.ndarray:
+        """The positions of the vertices, (n, 3) float64."""
+        return self["Position"]
+
+    @property
+    def cells(self) -> np.ndarray:
+        """The corners of the cells, (m, 3) or (m, 4) int64, as rows of `points`."""
+        return self["Corners"]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._read:
+            if self._handle is None:
+                raise Error(
+                    "This block has passed: read %r of a block before the next one is asked for." % name
+                )
+            array = Array()
+            with self._handle as blocks:
+                cells = name in self._of_cells
+                call("smg_block_array", blocks, text(name), int(cells), byref(array))
+                self._read[name] = copy(array)
+        return self._read[name]
+
+    def __repr__(self) -> str:
+        return "<Block of %d vertices and %d cells>" % (self.n_points, self.n_cells)
+
+
+def read_blocks(
+    mesh: Any,
+    field: Any,
+    columns: Dict[str, Dict[str, Any]],
+    max_points: int,
+    names: Optional[Sequence[str]],
+) -> Iterator[Block]:
+    """The blocks of a mesh, or of a field with its mesh; `mesh` and `field` are handles or None."""
+    options: Dict[str, Any] = {"points": max_points}
+    if names is not None:
+        unknown = [n for n in names if n not in columns["vertices"] and n not in columns["cells"]]
+        if unknown:
+            raise InputError(
+                "columns: there is no column %r; there are %s."
+                % (unknown[0], ", ".join([*columns["vertices"], *columns["cells"]]) or "none")
+            )
+        options["columns"] = [name for name in names if name in columns["vertices"]]
+        options["cell_columns"] = [name for name in names if name in columns["cells"]]
+    of_cells = ["Corners", "OriginalCellId", *(set(columns["cells"]) - set(columns["vertices"]))]
+    source = field or mesh
+    handle = Handle("blocks", source.keep)
+    with source as pointer:
+        call(
+            "smg_open_blocks",
+            pointer if field is None else None,
+            pointer if field is not None else None,
+            json_text(options),
+            byref(handle.pointer),
+        )
+    vertices, cells = c_int64(), c_int64()
+    block = None
+    try:
+        while True:
+            with handle as blocks:
+                if block is not None:
+                    block._handle = None
+                call("smg_next_block", blocks, byref(vertices), byref(cells))
+            if cells.value == 0:
+                return
+            block = Block(handle, vertices.value, cells.value, of_cells)
+            yield block
+    finally:
+        if block is not None:
+            block._handle = None
+        handle.close()
+
+
+def read_columns(mesh: Optional[c_void_p], field: Optional[c_void_p]) -> Dict[str, Dict[str, Any]]:
+    """The columns of a handle: {"vertices": {name: {"type", "components"}}, "cells": {...}}."""
+    result = c_char_p()
+    call("smg_columns", mesh, field, byref(result))
+    return {
+        place: {
+            column["name"]: {"type": column["type"], "components": column["components"]}
+            for column in specs
+        }
+        for place, specs in parse(result).items()
+    }
+
+
+def read_column(
+    mesh: Optional[c_void_p],
+    field: Optional[c_void_p],
+    name: str,
+    cells: Optional[bool],
+    columns: Dict[str, Dict[str, Any]],
+    counts: Sequence[int],
+    corners: int,
+    report: Any,
+) -> np.ndarray:
+    """A whole column in the original order; `cells`: None: of the vertices if these have it."""
+    places = [False, True] if cells is None else [cells]
+    specs = {
+        (of, name_): (spec["type"], spec["components"])
+        for of, place in ((False, "vertices"), (True, "cells"))
+        for name_, spec in columns[place].items()
+    }
+    for name_, of, type_, components in _OF_EVERY_MESH:
+        specs.setdefault((of, name_), (type_, components or corners))
+    for of_cells in places:
+        if (of_cells, name) in specs:
+            type_, components = specs[of_cells, name]
+            values = np.empty((counts[of_cells], components), type_)
+            pointer = values.ctypes.data_as(c_void_p)
+            call_reporting("smg_read", (mesh, field, text(name), int(of_cells)), report, pointer)
+            return shaped(values, components)
+    names = sorted(name_ for of, name_ in specs if of in places)
+    raise InputError("There is no column %r; there are %s." % (name, ", ".join(names)))
+
+
+class Field:
+    """The result of a job: values at the vertices of a mesh, on disk until they are asked for.
+
+    ``np.asarray(field)`` and `to_numpy` read them; `blocks` reads them with the mesh, part by part;
+    `save` writes them with the mesh to a file.
+
+    Attributes:
+        mesh: the mesh that the job was done on.
+        names: the columns of the result; first that of the values, for example "Solution"; that of
+            moved points is "Position".
+    """
+
+    def __init__(self, mesh: Any, handle: Handle, job: str, names: Sequence[str]) -> None:
+        self.mesh, self.names, self._job = mesh, tuple(names), job
+        self._handle = handle
+        self._said: set = set()
+        self._report: Optional[Report] = None
+
+    @property
+    def name(self) -> str:
+        """The name of the values: the first of `names`."""
+        return self.names[0]
+
+    @property
+    def shape(self) -> tuple:
+        """(n,) of one value at each vertex, else (n, k); n counts vertices of no cell, too."""
+        vertices, columns = c_int64(), c_int64()
+        with self._handle as field:
+            call("smg_shape", field, byref(vertices), byref(columns))
+        return (vertices.value,) if columns.value == 1 else (vertices.value, columns.value)
+
+    @property
+    def columns(self) -> Dict[str, Dict[str, Any]]:
+        """The columns of the result with its mesh, as `Mesh.columns`."""
+        with self._handle as field:
+            return read_columns(None, field)
+
+    @property
+    def report(self) -> Report:
+        """What the job did and what it cost, with what follows from its result.
+
+        The mesh is read once for that, the first time.
+        """
+        if self._report is None:
+            self._report = self._read_report(True)
+            warn_of(self._report, self._said)
+        return self._report
+
+    def _read_report(self, full: bool) -> Report:
+        result = c_char_p()
+        with self._handle as field:
+            call_reporting("smg_report", (field, int(full)), None, byref(result))
+            return Report(parse(result))
+
+    def to_numpy(self) -> np.ndarray:
+        """The values at the vertices, in the order of the file or of the arrays.
+
+        Returns:
+            (n,), or (n, k) of k right-hand sides or components; at vertices of no cell a solution is
+            NaN.
+        """
+        return self.read(self.name)
+
+    def read(self, name: str, cells: Optional[bool] = None, progress: Any = None) -> np.ndarray:
+        """A whole column of the result or of its mesh, as `Mesh.read`."""
+        with reporting(progress, "reading") as report, self._handle as field:
+            return read_column(
+                None,
+                field,
+                name,
+                cells,
+                read_columns(None, field),
+                (self.mesh.n_vertices, self.mesh.n_cells),
+                self.mesh.n_corners,
+                report,
+            )
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> np.ndarray:
+        if copy is False:
+            raise ValueError("The values are on disk: an array of them is a copy.")
+        values = self.to_numpy()
+        return values if dtype is None else values.astype(dtype, copy=False)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.read(name)
+
+    def blocks(
+        self, max_points: int = 1_000_000, columns: Optional[Sequence[str]] = None
+    ) -> Iterator[Block]:
+        """The mesh with the result in blocks of consecutive cells, with all their vertices.
+
+        Args:
+            max_points: the most vertices of a block.
+            columns: names of columns; by default all.
+        """
+        return read_blocks(None, self._handle, self.columns, max_points, columns)
+
+    def save(self, path: Any, *, progress: Any = None, **options: Any) -> Report:
+        """Writes the mesh with the result to a file, in the format of its suffix.
+
+        The order and everything else is as of the command line: from a mesh file to .ply, .vtk, .vtp
+        or .vtu that of the file. Arrays that were arguments of the job are not part of it.
+
+        Args:
+            path: .vsm, .ply, .vtk, .vtp, .vtu, .vtkhdf ...
+            options: `memory`, `threads`, `scratch`, as of `Mesh.solve`.
+
+        Returns:
+            The report, with notes on what the format cannot hold.
+        """
+        result = c_char_p()
+        options = {**self.mesh.defaults("memory", "threads", "scratch"), **options}
+        with reporting(progress, "writing") as report, self._handle as field:
+            call_reporting(
+                "smg_save", (field, text(path), json_text(options)), report, byref(result)
+            )
+            self._report = Report(parse(result))
+        warn_of(self._report, self._said)
+        return self._report
+
+    def to_pyvista(self) -> Any:
+        """The mesh with the result as a pyvista.PolyData or UnstructuredGrid, all in memory."""
+        from ._interop import to_pyvista
+
+        return to_pyvista(self.mesh, self)
+
+    def close(self) -> None:
+        """Removes the values from the disk; also done when nothing refers to the field any more."""
+        self._handle.close()
+
+    def __enter__(self) -> "Field":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return "<Field %r %s of %s, by %s>" % (self.name, self.shape, self.mesh.name, self._job)
+
+    def _repr_html_(self) -> str:
+        from ._display import report_html
+
+        return report_html(self.report) + self.mesh.preview_svg(self)
+
+
+__all__: List[str] = ["Block", "Field"]

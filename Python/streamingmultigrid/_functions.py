@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The jobs on arrays: NumPy in, NumPy out."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Tuple, Union
+
+import numpy as np
+
+from . import _jobs as jobs
+from ._mesh import Mesh, mesh
+from ._solver import Solver
+
+_OPENING = ("memory", "threads", "scratch", "scratch_limit")
+_Values = Union[np.ndarray, Dict[str, np.ndarray]]
+
+
+def _opened(points: Any, cells: Any, options: Dict[str, Any]) -> Mesh:
+    return mesh(points, cells, **{key: options[key] for key in _OPENING if key in options})
+
+
+def _read(field: Any) -> _Values:
+    """The values; of several columns all, by their names."""
+    if len(field.names) == 1:
+        return field.to_numpy()
+    return {name: field.read(name) for name in field.names}
+
+
+@jobs.with_arguments_of("solve", ("points", "cells"))
+def solve(points: Any, cells: Any, **options: Any) -> _Values:
+    with _opened(points, cells, options) as opened:
+        return _read(opened.solve(**options))
+
+
+@jobs.with_arguments_of("deform", ("points", "cells"))
+def deform(points: Any, cells: Any, handles: Any, **options: Any) -> _Values:
+    with _opened(points, cells, options) as opened:
+        return opened.deform(handles, **options).to_numpy()
+
+
+@jobs.with_arguments_of("smooth", ("points", "cells"))
+def smooth(points: Any, cells: Any, **options: Any) -> _Values:
+    with _opened(points, cells, options) as opened:
+        return opened.smooth(**options).to_numpy()
+
+
+@jobs.with_arguments_of("blend", ("points", "cells"))
+def blend(points: Any, cells: Any, columns: Any, **options: Any) -> _Values:
+    with _opened(points, cells, options) as opened:
+        return _read(opened.blend(columns, **options))
+
+
+@jobs.with_arguments_of("distance", ("points", "cells"))
+def distance(points: Any, cells: Any, sources: Any = None, **options: Any) -> _Values:
+    with _opened(points, cells, options) as opened:
+        return _read(opened.distance(sources, **options))
+
+
+def simplify(
+    points: Any, cells: Any, vertices: Any = None, **options: Any
+) -> Tuple[np.ndarray, np.ndarray]:
+    """A surface with fewer vertices, each of which is one of the surface.
+
+    Args:
+        points, cells: (n, 3) numbers and (m, 3) integers.
+        vertices: the most vertices of the result, at least 4.
+        error, memory, threads, scratch, progress: as of `Mesh.simplify`.
+
+    Returns:
+        Its points, (k, 3) float64, and triangles, (l, 3) int64.
+    """
+    with _opened(points, cells, options) as opened:
+        with opened.simplify(vertices, **options) as small:
+            return small.points, small.cells
+
+
+def solver(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> Solver:
+    """The equations of a problem on arrays, with their hierarchy, for many right-hand sides.
+
+    Args:
+        points, cells: (n, 3) numbers, and (m, 3) or (m, 4) integers.
+        options: the arguments of `smg.solve` that say what the matrix is (`conductivity`, `screening`,
+            `dirichlet`, `robin`, `soft`, `weights`), and `sweeps`, `memory`, `threads`. Without a
+            Dirichlet condition, screening, soft constraint or Robin condition, A is singular.
+
+    ::
+
+        s = smg.solver(V, F, dirichlet=smg.boundary >> 0)
+        x = s.solve(b, tol=1e-10)
+        x, info = scipy.sparse.linalg.cg(s.A, b, M=s.aspreconditioner())
+    """
+    with _opened(points, cells, options) as opened:
+        return opened.solver(progress=progress, **options)
+
+
+def _complete_docstrings() -> None:
+    arrays = """
+    The arrays `points`, (n, 3) numbers, and `cells`, (m, 3) or (m, 4) integers, are the mesh. The
+    result is an array; of several columns a dict of arrays by their names. For the report, use
+    ``smg.mesh(points, cells)`` and its method of this name.
+"""
+    for function in (solve, deform, smooth, blend, distance):
+        first, rest = (function.__doc__ or "").split("\n", 1)
+        function.__doc__ = first + "\n" + arrays + rest
+
+
+_complete_docstrings()

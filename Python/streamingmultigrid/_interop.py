@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes of other packages: PyVista, meshio, trimesh, and whatever has points and cells or faces."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from ._arrays import numbers
+from ._errors import Error, InputError
+from ._mesh import Mesh, mesh
+
+_CORNERS = {3: "triangles", 4: "tetrahedra"}
+_TRIANGLE, _POLYGON, _PIXEL, _QUAD, _TETRA = 5, 7, 8, 9, 10  # cell types of VTK
+_FLAT = {"triangle": 3, "quad": 4, "polygon": None}  # of meshio
+
+
+def _fans(corners: np.ndarray, offsets: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """Polygons as triangles around their first corners, and the polygon of each triangle."""
+    sizes = np.diff(offsets)
+    if (sizes < 3).any():
+        raise InputError("cells: a polygon has less than three corners.")
+    polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
+    within = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
+    first = offsets[:-1][polygon]
+    rows = np.stack([first, first + within + 1, first + within + 2], axis=1)
+    return corners[rows], polygon
+
+
+def _counted(flat: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """Cells as VTK writes them in one array, [3, i, j, k, 4, ...]: corners and offsets."""
+    if flat.size and np.all(flat[:: flat[0] + 1] == flat[0]) and flat.size % (flat[0] + 1) == 0:
+        corners = flat.reshape(-1, flat[0] + 1)[:, 1:].reshape(-1)
+        return corners, np.arange(len(corners) // flat[0] + 1) * flat[0]
+    starts: List[int] = []
+    at = 0
+    while at < len(flat):
+        starts.append(at)
+        at += int(flat[at]) + 1
+    if at != len(flat):
+        raise InputError("faces: the counts of corners do not fit the length of the array.")
+    sizes = flat[starts]
+    return np.delete(flat, starts), np.concatenate([[0], np.cumsum(sizes)])
+
+
+def _of_vtk(dataset: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
+    """Simplices of a dataset of PyVista, and the cell of each; None: they are its cells."""
+    if hasattr(dataset, "celltypes"):  # UnstructuredGrid
+        types = np.asarray(dataset.celltypes)
+        corners = np.asarray(dataset.cell_connectivity)
+        offsets = np.asarray(dataset.offset)
+        if (types == _TETRA).all():
+            return corners.reshape(-1, 4), None
+        if (types == _TRIANGLE).all():
+            return corners.reshape(-1, 3), None
+        if np.isin(types, (_TRIANGLE, _POLYGON, _QUAD)).all():
+            return _fans(corners, offsets)
+        raise InputError(
+            "The cells are neither all tetrahedra nor all polygons: give dataset.triangulate(), or "
+            "save it as .vtu and open that."
+        )
+    return _fans(*_counted(numbers(dataset.faces, "faces")))
+
+
+def _of_blocks(blocks: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
+    """Simplices of meshio's list of cell blocks, tetrahedra if there are any, and the cell of each."""
+    solid = any(block.type == "tetra" for block in blocks)
+    chosen: List[np.ndarray] = []
+    cells: List[np.ndarray] = []
+    first = 0
+    for block in blocks:
+        data = np.asarray(block.data)
+        if block.type in ({"tetra"} if solid else _FLAT):
+            if solid:
+                simplices, of = data, np.arange(len(data))
+            else:
+                width = data.shape[1]
+                simplices, of = _fans(data.reshape(-1), np.arange(len(data) + 1) * width)
+            chosen.append(simplices)
+            cells.append(first + of)
+        elif block.type not in ("vertex", "line", *(_FLAT if solid else ())):
+            raise InputError(
+                "cells: %r are neither triangles, polygons nor tetrahedra: write the mesh to a file and "
+                "open that." % block.type
+            )
+        first += len(data)
+    if not chosen:
+        raise InputError("cells: there are neither triangles nor tetrahedra.")
+    of_all = np.concatenate(cells)
+    plain = len(of_all) == first and np.array_equal(of_all, np.arange(first))
+    return np.concatenate(chosen), None if plain else of_all
+
+
+def _parts(thing: Any) -> Tuple[Any, np.ndarray, Optional[np.ndarray]]:
+    """Points, simplices, and the cell of each simplex, of any object that has them."""
+    points = getattr(thing, "points", None)
+    if points is None:
+        points = getattr(thing, "vertices", None)
+    if points is None:
+        raise InputError("%r has neither points nor vertices." % type(thing).__name__)
+    if hasattr(thing, "celltypes") or hasattr(thing, "GetPolys"):
+        return points, *_of_vtk(thing)
+    cells = getattr(thing, "cells", None)
+    if cells is None:
+        cells = getattr(thing, "faces", None)
+    if cells is None:
+        raise InputError("%r has neither cells nor faces." % type(thing).__name__)
+    if isinstance(cells, (list, tuple)) and all(hasattr(block, "type") for block in cells):
+        return points, *_of_blocks(cells)
+    cells = numbers(cells, "cells")
+    if cells.ndim == 1:
+        return points, *_fans(*_counted(cells))
+    return points, cells, None
+
+
+def _data(thing: Any, cells: Optional[np.ndarray]) -> Dict[Tuple[str, bool], np.ndarray]:
+    """The numeric arrays that belong to vertices and cells; others stay behind."""
+    found: Dict[Tuple[str, bool], np.ndarray] = {}
+    for attribute, of_cells in (("point_data", False), ("cell_data", True)):
+        data = getattr(thing, attribute, None)
+        for name in list(data.keys()) if data is not None else []:
+            values = data[name]
+            if of_cells and isinstance(values, (list, tuple)):  # meshio: an array for each block
+                values = np.concatenate([np.asarray(each) for each in values])
+            values = np.asarray(values)
+            if values.dtype.kind not in "biuf" or values.ndim not in (1, 2):
+                continue
+            if of_cells and cells is not None:
+                values = values[cells]
+            found[str(name), of_cells] = values
+    return found
+
+
+def from_pyvista(dataset: Any, **options: Any) -> Mesh:
+    """A mesh of an object in memory, with its data of points and cells as columns.
+
+    Args:
+        dataset: a pyvista.PolyData or UnstructuredGrid, a mesh of meshio or trimesh, or any object with
+            `points` (or `vertices`), (n, 3), and `cells` or `faces`: (m, 3) triangles, (m, 4)
+            tetrahedra, or counted as in VTK. Polygons are cut into triangles, whose cell data are
+            those of the polygon; of meshes with tetrahedra these count.
+        options: as of `smg.mesh`.
+    """
+    points, simplices, cells = _parts(dataset)
+    made = mesh(points, simplices, **options)
+    for (name, of_cells), values in _data(dataset, cells).items():
+        if name.startswith("vtk") or name.startswith("#"):
+            continue
+        made.add(name, values, of_cells)
+    return made
+
+
+def to_pyvista(source: Mesh, field: Any = None) -> Any:
+    """A mesh, perhaps with the result of a job, as a pyvista.PolyData or UnstructuredGrid."""
+    try:
+        import pyvista
+    except ImportError:
+        raise Error("to_pyvista() needs PyVista: pip install pyvista.") from None
+    points, cells = source.points, source.cells
+    counted = np.concatenate([np.full((len(cells), 1), cells.shape[1]), cells], axis=1).reshape(-1)
+    if field is not None and field.name == "Position":
+        points = field.to_numpy()
+    if cells.shape[1] == 3:
+        made = pyvista.PolyData(points, counted)
+    else:
+        made = pyvista.UnstructuredGrid(counted, np.full(len(cells), _TETRA, np.uint8), points)
+    holder = field or source
+    for place, data in (("vertices", made.point_data), ("cells", made.cell_data)):
+        for name in holder.columns[place]:
+            if name != "Position":
+                data[name] = holder.read(name, cells=place == "cells")
+    return made

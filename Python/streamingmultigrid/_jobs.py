@@ -1,0 +1,398 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The jobs: their arguments in Python, and what the library is told of them.
+
+The functions here describe; `Mesh` and the functions on arrays have their arguments and docstrings.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+
+from . import _problem as problems
+from ._columns import Columns
+from ._errors import InputError
+from ._regions import as_regions
+
+_Description = Tuple[Dict[str, Any], List[str]]  # for smg_run(), and the columns of the result
+
+
+def _where(added: Columns, regions: Any) -> Any:
+    return None if regions is None else [each.where(added) for each in as_regions(regions)]
+
+
+def solve(
+    added: Columns,
+    *,
+    dirichlet: Any = None,
+    source: Any = None,
+    flux: Any = None,
+    robin: Any = None,
+    soft: Any = None,
+    conductivity: Any = None,
+    screening: Any = None,
+    field: Any = None,
+    initial: Any = None,
+    weights: Optional[str] = None,
+    outputs: Any = None,
+    columns: Optional[int] = None,
+    problem: Any = None,
+    tolerance: Any = None,
+    acceleration: Optional[str] = None,
+    max_cycles: Optional[int] = None,
+    sweeps: Optional[int] = None,
+    in_core: Optional[bool] = None,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+    checkpoint: Any = None,
+) -> _Description:
+    """Solves -div(K grad u - q) + s u = f by linear finite elements, as ``smg solve``.
+
+    A value is a number (for all right-hand sides); a list of k numbers, one for each right-hand side (an array of these with `columns`);
+    an array with a row for each vertex, (n,) or (n, k); the name of a column of the mesh; or
+    "position". With a region it is written ``region >> value``; of several, in a list, later ones take
+    precedence. Without any flux or Robin condition, the boundary is insulated.
+
+    Args:
+        dirichlet: u at vertices: ``[smg.plane(z=0) >> 0, smg.tag("part", 3) >> 1]``, or a dict
+            {vertex: value}. With ``smg.vertices(ids)`` a value may have a row for each of `ids`.
+        source: f, a density: a value, or a list of values with regions; also an array with a row for
+            each cell. Default 0.
+        flux: (K grad u - q) . n on the boundary, positive into the body: like `dirichlet`.
+        robin: (K grad u - q) . n = coefficient * (ambient - u) on the boundary:
+            ``[region >> (coefficient, ambient)]``.
+        soft: adds weight * (u - value), a density: ``[region >> (weight, value)]``; entries add up.
+        conductivity: K in the cells: a positive number; a symmetric tensor (3, 3), or its diagonal
+            (3,), or (6,): xx, yy, zz, xy, yz, xz; an array of these with a row for each cell; the name
+            of a column; or a list with regions, as ``[25, smg.tag("Material", 2) >> 200]``. Default 1.
+        screening: s, at least 0: a number, an array (n,) of the vertices or (m,) of the cells, the
+            name of a column, or a list with regions. Default 0.
+        field: q in the cells: an array (m, 3) or (m, 3 k), or the name of a column. Default 0.
+        initial: where the iteration begins: like `source`, of the vertices; NaN counts as 0.
+        weights: "cotangent" (default, finite elements), "clamped" or "uniform".
+        outputs: "gradient", "flux", or both in a list: columns Gradient (grad u) and Flux (-K grad u)
+            of the cells, beside the solution.
+        columns: k, the number of right-hand sides, 1 to 64; default: what the values have.
+        problem: a problem file (docs/problem.md), or its dict, which the other arguments complete.
+        tolerance: the relative residual to stop at, between 0 and 1, or "auto"; default 1e-8.
+        acceleration: "automatic" (default), "none", "chebyshev" or "cg".
+        max_cycles: the most V-cycles; default 50.
+        sweeps: Gauss-Seidel sweeps before and after a coarse-grid correction, 1 to 20; default 2.
+        in_core: keep everything in memory; the result is the same, bit for bit. Default False.
+        memory: limit of the accounted memory: bytes, or a text as "2GB"; default that of the mesh, or
+            1 GiB.
+        threads: 0 (default): one for each core; the result does not depend on it.
+        scratch: folder for scratch files; default that of the mesh, $TMPDIR, or /tmp.
+        scratch_limit: the most bytes of scratch files at once, or a text.
+        checkpoint: folder from which the same solve continues if it was killed.
+        progress: a function of the part that is done, a bar of tqdm or rich, or True.
+        strict: raise NotConverged instead of a warning NotConvergedWarning.
+
+    Returns:
+        The solution: (n,), or (n, k) of k right-hand sides, float64; NaN at vertices of no cell.
+
+    Raises:
+        InputError: an argument is wrong. MemoryLimitError: the mesh needs more; the sentence says how
+        much. Error: the problem has no solution, a region no vertex, the disk is full.
+    """
+    given = {
+        "dirichlet": dirichlet,
+        "source": source,
+        "flux": flux,
+        "robin": robin,
+        "soft": soft,
+        "conductivity": conductivity,
+        "screening": screening,
+        "field": field,
+        "initial": initial,
+        "weights": weights,
+        "outputs": outputs,
+        "columns": columns,
+        "problem": problem,
+    }
+    described = problems.problem(added, given)
+    names = ["Solution", *(name.capitalize() for name in described.get("outputs", []))]
+    return {
+        "problem": described,
+        "tolerance": tolerance,
+        "acceleration": acceleration,
+        "max_cycles": max_cycles,
+        "sweeps": sweeps,
+        "in_core": in_core,
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+        "checkpoint": checkpoint,
+    }, names
+
+
+def deform(
+    added: Columns,
+    handles: Any,
+    *,
+    weights: Optional[str] = None,
+    tolerance: Optional[float] = None,
+    cycles: Optional[int] = None,
+    normals: Optional[str] = None,
+    max_cycles: Optional[int] = None,
+    sweeps: Optional[int] = None,
+    in_core: Optional[bool] = None,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+    checkpoint: Any = None,
+) -> _Description:
+    """Deforms the mesh: handles hold or move parts, the rest follows and keeps its details.
+
+    Args:
+        handles: a list of `smg.handle(...)`; the last one counts where several hold a vertex. Also a
+            handle file (docs/deform.md) or its dict.
+        weights: "clamped" (default), "cotangent" or "uniform".
+        tolerance: the relative residual at which each of the two steps stops; default 1e-6.
+        cycles: V-cycles of each step, instead of `tolerance`.
+        normals: "recompute" (default) or "drop" a column Normals.
+        max_cycles, sweeps, in_core, memory, threads, scratch, scratch_limit, checkpoint, progress,
+        strict: as of `solve`; max_cycles of each step.
+
+    Returns:
+        The positions: (n, 3) float64. Components that no handle holds, and vertices of no cell, stay.
+    """
+    return {
+        "handles": problems.handles(added, handles),
+        "weights": weights,
+        "tolerance": tolerance,
+        "cycles": cycles,
+        "normals": normals,
+        "max_cycles": max_cycles,
+        "sweeps": sweeps,
+        "in_core": in_core,
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+        "checkpoint": checkpoint,
+    }, ["Position"]
+
+
+def smooth(
+    added: Columns,
+    *,
+    size: Any = None,
+    steps: Optional[int] = None,
+    hold: Any = None,
+    boundary: Optional[str] = None,
+    keep_volume: Optional[bool] = None,
+    keep_edges: Optional[float] = None,
+    column: Any = None,
+    normals: Optional[str] = None,
+    tolerance: Optional[float] = None,
+    max_cycles: Optional[int] = None,
+    sweeps: Optional[int] = None,
+    in_core: Optional[bool] = None,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+) -> _Description:
+    """Smooths a surface, or a column of the vertices of any mesh, by implicit fairing.
+
+    Args:
+        size: waves of this length are halved: a number in the unit of the mesh, "6edges" (mean
+            edges), or "1%" (of the diagonal of the bounds); default "4edges".
+        steps: implicit steps, 1 to 1000; default 1.
+        hold: what does not move: a region, a mask (booleans, (n,)), numbers of vertices, or a list.
+        boundary: "smooth" (default of positions), "fixed", or "free" (default of a column).
+        keep_volume: each step moves the surface so that it sweeps no volume; default True.
+        keep_edges: degrees: edges at which the surface turns by more are kept.
+        column: smooths a column of the vertices instead of the positions: its name, an array (n,) or
+            (n, k), which becomes the column Values, or {name: array}.
+        normals: "recompute" (default) or "drop" a column Normals.
+        tolerance, max_cycles (of each step), sweeps, in_core, memory, threads, scratch, scratch_limit,
+        progress, strict: as of `solve`.
+
+    Returns:
+        The smoothed positions, (n, 3) float64, or the smoothed column, of its type.
+    """
+    name = None
+    if column is not None:
+        names = added.named(column, "column", "Values")
+        if len(names) != 1:
+            raise InputError("column: one column is smoothed at a time.")
+        (name,) = names
+    return {
+        "size": size,
+        "steps": steps,
+        "hold": _where(added, hold),
+        "boundary": boundary,
+        "keep_volume": keep_volume,
+        "keep_edges": keep_edges,
+        "column": name,
+        "normals": normals,
+        "tolerance": tolerance,
+        "max_cycles": max_cycles,
+        "sweeps": sweeps,
+        "in_core": in_core,
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }, [name or "Position"]
+
+
+def blend(
+    added: Columns,
+    columns: Any,
+    *,
+    patch: Any,
+    hold: Any = None,
+    anchor: Optional[float] = None,
+    seam: Optional[str] = None,
+    tolerance: Optional[float] = None,
+    max_cycles: Optional[int] = None,
+    sweeps: Optional[int] = None,
+    in_core: Optional[bool] = None,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+) -> _Description:
+    """Removes the steps of columns between patches and keeps the gradients inside these.
+
+    Args:
+        columns: columns of the vertices: a name, a list of names, an array (n,) or (n, k), which
+            becomes the column Values, or {name: array}.
+        patch: the patch of each vertex or cell, any numbers: the name of a column, or an array (n,)
+            or (m,).
+        hold: what keeps its values: a region, a mask (booleans, (n,)), numbers of vertices, or a list.
+        anchor: how strongly values are pulled towards the original ones, at least 0; default 0.01.
+        seam: gradients between patches: "zero" (default), or "average" of those beside them.
+        tolerance, max_cycles, sweeps, in_core, memory, threads, scratch, scratch_limit, progress,
+        strict: as of `solve`.
+
+    Returns:
+        The blended column, of its type; of several the first one, the others by their names.
+    """
+    names = added.named(columns, "columns", "Values")
+    if not isinstance(patch, str):
+        patch = added.add(patch, "patch", components=(1,)).name
+    return {
+        "columns": names,
+        "patch": patch,
+        "hold": _where(added, hold),
+        "anchor": anchor,
+        "seam": seam,
+        "tolerance": tolerance,
+        "max_cycles": max_cycles,
+        "sweeps": sweeps,
+        "in_core": in_core,
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }, names
+
+
+def distance(
+    added: Columns,
+    sources: Any = None,
+    *,
+    wall: Optional[bool] = None,
+    source: Optional[bool] = None,
+    direction: Optional[bool] = None,
+    max_passes: Optional[int] = None,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+) -> _Description:
+    """The distance of all vertices from some of them, along a surface or through a solid.
+
+    Args:
+        sources: where it is 0: a region, a mask (booleans, (n,)), numbers of vertices, or a list;
+            needed without `wall`.
+        wall: of tetrahedra, the distance in a straight line to the boundary, or to the part of it in
+            `sources`. Default False.
+        source: adds the column DistanceSource (int64), the number of the nearest source, -1: none.
+        direction: adds the column DistanceDirection (n, 3), the unit gradient.
+        max_passes: the most passes over the mesh; default 200.
+        memory, threads, scratch, scratch_limit, progress, strict: as of `solve`.
+
+    Returns:
+        The distances: (n,) float64, in the unit of the mesh; infinite where no path leads.
+    """
+    if sources is None and not wall:
+        raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
+    names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceDirection"] * bool(direction)
+    return {
+        "from": _where(added, sources),
+        "wall": wall,
+        "source": source,
+        "direction": direction,
+        "max_passes": max_passes,
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }, names
+
+
+def simplify(
+    added: Columns,
+    vertices: Optional[int] = None,
+    *,
+    error: Optional[float] = None,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    checkpoint: Any = None,
+) -> _Description:
+    if vertices is None and error is None:
+        raise InputError("simplify: give the number of vertices, or the error, or both.")
+    return {
+        "vertices": vertices,
+        "error": error,
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "checkpoint": checkpoint,
+    }, ["Position"]
+
+
+#: By the names that the library knows them by.
+DESCRIPTIONS: Dict[str, Callable[..., _Description]] = {
+    "solve": solve,
+    "deform": deform,
+    "smooth": smooth,
+    "blend": blend,
+    "distance": distance,
+    "simplify": simplify,
+}
+
+
+def with_arguments_of(job: str, before: Sequence[str]) -> Callable[[Callable], Callable]:
+    """Gives a function that passes its arguments on the signature and docstring of a job.
+
+    `before` are its own first arguments; `progress` and `strict` come last.
+    """
+    import inspect
+
+    described = inspect.signature(DESCRIPTIONS[job]).parameters
+    parameter = inspect.Parameter
+
+    def give(function: Callable) -> Callable:
+        first = [parameter(name, parameter.POSITIONAL_OR_KEYWORD) for name in before]
+        last = [
+            parameter("progress", parameter.KEYWORD_ONLY, default=None, annotation=Any),
+            parameter("strict", parameter.KEYWORD_ONLY, default=False, annotation=bool),
+        ]
+        own = inspect.signature(function)
+        function.__signature__ = own.replace(  # type: ignore[attr-defined]
+            parameters=[*first, *list(described.values())[1:], *last]
+        )
+        function.__doc__ = DESCRIPTIONS[job].__doc__
+        return function
+
+    return give

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The C interface (streamingmultigrid.h): loaded at its first use, and called."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import glob
+import json
+import os
+import sysconfig
+import threading
+import weakref
+from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
+from typing import Any, Dict, Mapping, Optional
+
+from . import progress as _progress
+from ._arrays import Array, plain
+from ._errors import Error, InputError, MemoryLimitError
+
+PROGRESS = ctypes.CFUNCTYPE(c_int, c_double, c_void_p)
+_INVALID, _MEMORY, _CANCELLED = 2, 3, 4
+_NAME = "libstreamingmultigrid.so"
+
+_REPORTED = [PROGRESS, c_void_p]  # progress and its data
+_FUNCTIONS = {  # their arguments; they return a status
+    "smg_open": [c_char_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
+    "smg_open_arrays": [POINTER(Array), POINTER(Array), c_char_p, *_REPORTED, POINTER(c_void_p)],
+    "smg_add_column": [c_void_p, c_char_p, c_int, POINTER(Array)],
+    "smg_info": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
+    "smg_counts": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
+    "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],
+    "smg_run": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
+    "smg_simplify": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
+    "smg_convert": [c_char_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
+    "smg_report": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
+    "smg_shape": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
+    "smg_save": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
+    "smg_save_mesh": [c_void_p, c_char_p, c_char_p, *_REPORTED],
+    "smg_columns": [c_void_p, c_void_p, POINTER(c_char_p)],
+    "smg_read": [c_void_p, c_void_p, c_char_p, c_int, *_REPORTED, c_void_p],
+    "smg_open_blocks": [c_void_p, c_void_p, c_char_p, POINTER(c_void_p)],
+    "smg_next_block": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
+    "smg_block_array": [c_void_p, c_char_p, c_int, POINTER(Array)],
+    "smg_open_solver": [c_void_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
+    "smg_solver_solve": [
+        c_void_p, POINTER(Array), c_void_p, c_char_p, *_REPORTED, POINTER(c_char_p),
+    ],
+    "smg_solver_precondition": [c_void_p, c_void_p, c_void_p],
+    "smg_solver_multiply": [c_void_p, c_void_p, c_void_p],
+}  # fmt: skip
+
+
+def _places() -> list:
+    """Where the library may be: in a wheel, in the folder of a build, where CMake installs it."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    prefix_lib = os.path.normpath(os.path.join(here, "..", "..", ".."))
+    multiarch = sysconfig.get_config_var("MULTIARCH") or ""
+    return [os.path.join(here, "lib"), prefix_lib, os.path.join(prefix_lib, multiarch)]
+
+
+def _path() -> str:
+    for folder in _places():
+        for path in sorted(glob.glob(os.path.join(folder, _NAME + ".*")), key=len):
+            return path
+    return _NAME  # where the loader looks
+
+
+@functools.lru_cache(maxsize=None)
+def library() -> ctypes.CDLL:
+    """The library, whose functions run without the global interpreter lock."""
+    try:
+        loaded = ctypes.CDLL(_path())
+    except OSError as error:
+        raise ImportError(
+            "streamingmultigrid: the library %s cannot be loaded: %s. It is beside the package in a "
+            "wheel, and in the Debian package streaming-multigrid." % (_NAME, error)
+        ) from None
+    for name, arguments in _FUNCTIONS.items():
+        function = getattr(loaded, name)
+        function.argtypes, function.restype = arguments, c_int
+    for name in ("smg_version", "smg_error"):
+        getattr(loaded, name).argtypes, getattr(loaded, name).restype = [], c_char_p
+    for name in ("mesh", "field", "blocks", "solver"):
+        close = getattr(loaded, "smg_close_" + name)
+        close.argtypes, close.restype = [c_void_p], None
+    return loaded
+
+
+def version() -> str:
+    """The version of the library, for example "0.3.0"."""
+    return library().smg_version().decode()
+
+
+def text(value: Any) -> Optional[bytes]:
+    """A path or name as the C interface takes it."""
+    return None if value is None else os.fsencode(value)
+
+
+def json_text(description: Mapping[str, Any]) -> bytes:
+    """The JSON of a description, without the keys whose value is None."""
+    given = {key: value for key, value in description.items() if value is not None}
+    try:
+        return json.dumps(given, default=plain, allow_nan=False).encode()
+    except ValueError as error:
+        if isinstance(error, Error):
+            raise
+        raise InputError("A number is infinite or NaN: %s." % ", ".join(given)) from None
+
+
+def _check(status: int) -> None:
+    if status:
+        error = {_INVALID: InputError, _MEMORY: MemoryLimitError}.get(status, Error)
+        raise error(library().smg_error().decode(errors="replace"))
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Calls a function that takes no progress function; raises its error."""
+    _check(getattr(library(), name)(*arguments))
+
+
+def call_reporting(name: str, arguments: tuple, report: Any, *results: Any) -> None:
+    """Calls a function that may take long.
+
+    `arguments` are those before the progress function, `results` those after it, `report` a function
+    of the part that is done, or None. What that raises is raised, KeyboardInterrupt at Ctrl-C.
+    """
+    with _progress.Cancellation(report) as cancellation:
+        function = PROGRESS(cancellation)
+        status = getattr(library(), name)(*arguments, function, None, *results)
+    cancellation.raise_exception()
+    _check(status)
+
+
+class Handle:
+    """A handle of the C interface, closed with this object, and used by one thread at a time.
+
+    `keep` holds what must live as long as the handle, as arrays that the library reads.
+    """
+
+    def __init__(self, kind: str, *keep: Any) -> None:
+        self.pointer = c_void_p()
+        self.lock = threading.RLock()
+        self.keep = list(keep)
+        close = getattr(library(), "smg_close_" + kind)
+        self._finalizer = weakref.finalize(self, _close, close, self.pointer, self.keep)
+
+    def __enter__(self) -> c_void_p:
+        """Reserves the handle for this thread."""
+        self.lock.acquire()
+        if not self._finalizer.alive:
+            self.lock.release()
+            raise Error("This object has been closed: open it again.")
+        return self.pointer
+
+    def __exit__(self, *_: Any) -> None:
+        self.lock.release()
+
+    def close(self) -> None:
+        """Closes it and removes its scratch files; twice is nothing."""
+        with self.lock:
+            self._finalizer()
+
+
+def _close(close: Any, pointer: c_void_p, keep: list) -> None:
+    close(pointer)
+    keep.clear()
+
+
+def parse(result: c_char_p) -> Dict[str, Any]:
+    """The JSON that a function has returned."""
+    return json.loads(result.value or b"{}")
+

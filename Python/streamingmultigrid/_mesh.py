@@ -1,0 +1,497 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mesh on disk, and the jobs that are done on it."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import shutil
+import tempfile
+import weakref
+from ctypes import byref, c_char_p, c_int64
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _jobs as jobs
+from ._arrays import points_and_cells, table
+from ._columns import Column, Columns
+from ._display import mesh_html, mesh_lines, surface_svg
+from ._errors import Error, InputError, NotConverged
+from ._field import Block, Field, read_blocks, read_column, read_columns
+from ._library import Handle, call, call_reporting, json_text, parse, text, version
+from .progress import part, reporting
+from ._report import Estimate, Report, not_converged, warn_of
+
+#: Meshes up to this size show a picture of themselves in notebooks, which reads them.
+_PICTURE_VERTICES = 2_000_000
+
+
+class Mesh:
+    """A mesh of triangles or tetrahedra, on disk: made by `smg.open`, `smg.mesh`, `smg.from_pyvista`.
+
+    ``print(mesh)`` describes it, ``mesh["Temperature"]`` reads a column of the vertices (else of the
+    cells), ``mesh["heat"] = array`` adds one, which files then have, too. Columns and rows are in the
+    original order, that of the file or arrays. Everything is read when it is asked for.
+    """
+
+    def __init__(self, name: str, opener: Any, defaults: Dict[str, Any], progress: Any = None) -> None:
+        self.name = name
+        self._opener, self._defaults, self._progress = opener, defaults, progress
+        self._opened: Optional[Handle] = None
+        self._own: Dict[Tuple[str, bool], np.ndarray] = {}
+        self._facts: Dict[bool, Dict[str, Any]] = {}
+        #: Of a mesh made by `simplify`: its report.
+        self.report: Optional[Report] = None
+
+    # Opening, which is done at the first use.
+
+    def _handle(self, report: Any = None) -> Handle:
+        if self._opened is None:
+            if report is None:
+                with reporting(self._progress, "opening") as own:
+                    self._opened = self._opener(own)
+            else:
+                self._opened = self._opener(report)
+            self._opened.keep.append(self._own)
+        return self._opened
+
+    def defaults(self, *names: str) -> Dict[str, Any]:
+        """Of `memory`, `threads`, `scratch`, `scratch_limit`: those that the mesh was opened with."""
+        return {name: self._defaults[name] for name in names if self._defaults.get(name) is not None}
+
+    def close(self) -> None:
+        """Removes scratch files; also done when nothing refers to the mesh any more. Fields that were
+        made from it stay."""
+        if self._opened is not None:
+            self._opened.close()
+
+    def __enter__(self) -> "Mesh":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    # What is known of it.
+
+    def info(self, full: bool = False, progress: Any = None) -> Dict[str, Any]:
+        """What is known of the mesh, as ``smg info --report``.
+
+        Args:
+            full: read the mesh for bodies, boundary, quality of cells, ranges of columns and more.
+        """
+        if full not in self._facts:
+            result = c_char_p()
+            with reporting(progress, "reading") as report, self._handle() as mesh:
+                call_reporting("smg_info", (mesh, int(full)), report, byref(result))
+                self._facts[full] = parse(result)
+        return self._facts[full]
+
+    def _counts(self) -> Tuple[int, int]:
+        vertices, cells = c_int64(), c_int64()
+        with self._handle() as mesh:
+            call("smg_counts", mesh, byref(vertices), byref(cells))
+        return vertices.value, cells.value
+
+    @property
+    def n_vertices(self) -> int:
+        """The number of vertices, with those of no cell: of rows of `points`."""
+        return self._counts()[0]
+
+    @property
+    def n_cells(self) -> int:
+        """The number of cells: of rows of `cells`."""
+        return self._counts()[1]
+
+    @property
+    def n_corners(self) -> int:
+        """3 of triangles, 4 of tetrahedra."""
+        return 3 if self.info()["cell_type"] == "triangle" else 4
+
+    @property
+    def bounds(self) -> Tuple[float, ...]:
+        """(xmin, xmax, ymin, ymax, zmin, zmax), in the unit of the mesh."""
+        return tuple(self.info()["bounds"])
+
+    @property
+    def columns(self) -> Dict[str, Dict[str, Any]]:
+        """The columns: {"vertices": {name: {"type", "components"}}, "cells": {...}}."""
+        with self._handle() as mesh:
+            return read_columns(mesh, None)
+
+    # What it holds.
+
+    @property
+    def points(self) -> np.ndarray:
+        """All positions, (n, 3) float64, in the unit of the mesh."""
+        return self.read("Position")
+
+    @property
+    def cells(self) -> np.ndarray:
+        """All cells, (m, 3) or (m, 4) int64: rows of `points`."""
+        return self.read("Corners", cells=True)
+
+    def read(self, name: str, cells: Optional[bool] = None, progress: Any = None) -> np.ndarray:
+        """A whole column.
+
+        Args:
+            name: of a column; "Position" and "Corners" are those of `points` and `cells`.
+            cells: True: of the cells, False: of the vertices; default: of the vertices if they have it.
+
+        Returns:
+            (n,), or (n, k) of k components, of the type of the column.
+        """
+        with reporting(progress, "reading") as report, self._handle() as mesh:
+            return read_column(
+                mesh, None, name, cells, read_columns(mesh, None), self._counts(), self.n_corners, report
+            )
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.read(name)
+
+    def __setitem__(self, name: str, values: Any) -> None:
+        self.add(name, values)
+
+    def add(self, name: str, values: Any, cells: Optional[bool] = None) -> None:
+        """Adds a column, in place of one of this name; files that are written have it.
+
+        The array is used where it is: do not change it while the mesh or a field of it is used.
+
+        Args:
+            name: not beginning with #.
+            values: (n,) or (n, k), a row for each vertex or each cell.
+            cells: True, False, or by the number of rows; vertices if there are as many of both.
+        """
+        if not isinstance(name, str) or name.startswith("#"):
+            raise InputError("%r: a name is a text that does not begin with #." % (name,))
+        column = Columns(self).add(values, name, cells, name=name)
+        with self._handle() as mesh:
+            self._set_column(mesh, column, byref(table(column.values)))
+            self._own[name, column.cells] = column.values
+            self._facts.clear()
+
+    def blocks(
+        self, max_points: int = 1_000_000, columns: Optional[Sequence[str]] = None
+    ) -> Iterator[Block]:
+        """The mesh in blocks of consecutive cells, with all their vertices.
+
+        Args:
+            max_points: the most vertices of a block.
+            columns: names of columns of vertices and cells; by default all.
+        """
+        return read_blocks(self._handle(), None, self.columns, max_points, columns)
+
+    def save(self, path: Any, *, progress: Any = None, **options: Any) -> None:
+        """Writes the mesh with its columns to a file, in the format of its suffix.
+
+        Args:
+            path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh ...
+            options: `memory`, `threads`, `scratch`.
+        """
+        options = {**self.defaults("memory", "threads", "scratch"), **options}
+        with reporting(progress, "writing") as report, self._handle() as mesh:
+            call_reporting("smg_save_mesh", (mesh, text(path), json_text(options)), report)
+
+    # Jobs.
+
+    def estimate(self, job: str, *arguments: Any, path: Any = None, **options: Any) -> Estimate:
+        """What a job is expected to cost, before it starts: memory, scratch, passes and seconds.
+
+        Args:
+            job: "solve", "deform", "smooth", "blend", "distance", "simplify".
+            arguments, options: as of the method of this name.
+            path: where the result is to be written; default: nowhere.
+        """
+        if job not in jobs.DESCRIPTIONS:
+            raise InputError("There is no job %r; there are %s." % (job, ", ".join(jobs.DESCRIPTIONS)))
+        columns = Columns(self)
+        description = jobs.DESCRIPTIONS[job](columns, *arguments, **options)[0]
+        description = self._with_defaults(job, description)
+        result = c_char_p()
+        with self.with_columns(columns) as mesh:
+            call("smg_estimate", mesh, text(job), json_text(description), text(path), byref(result))
+            return Estimate(parse(result))
+
+    def _with_defaults(self, job: str, description: Dict[str, Any]) -> Dict[str, Any]:
+        names = ["memory", "threads", "scratch"] + ["scratch_limit"] * (job != "simplify")
+        given = {key: value for key, value in description.items() if value is not None}
+        return {**self.defaults(*names), **given}
+
+    @contextlib.contextmanager
+    def with_columns(self, columns: Columns) -> Iterator[Any]:
+        """The pointer of the handle; the mesh has these columns as long as this is entered."""
+        with self._handle() as pointer:
+            have = self.columns if columns.added else {}
+            for column in columns.added:
+                if column.name in have["cells" if column.cells else "vertices"]:
+                    raise InputError(
+                        "The mesh has a column %r: give the array another name." % column.name
+                    )
+            try:
+                for column in columns.added:
+                    self._set_column(pointer, column, byref(table(column.values)))
+                yield pointer
+            finally:
+                for column in columns.added:
+                    self._set_column(pointer, column, None)
+
+    @staticmethod
+    def _set_column(pointer: Any, column: Column, array: Any) -> None:
+        call("smg_add_column", pointer, text(column.name), int(column.cells), array)
+
+    def _run(self, job: str, progress: Any, strict: bool, arguments: tuple, options: dict) -> Field:
+        columns = Columns(self)
+        with reporting(progress, job) as report:
+            opening = 0.0 if self._opened else 0.3
+            self._handle(part(report, 0, opening))
+            described, names = jobs.DESCRIPTIONS[job](columns, *arguments, **options)
+            description = json_text(self._with_defaults(job, described))
+            arrays = [*self._own.values(), *(column.values for column in columns.added)]
+            handle = Handle("field", *arrays)
+            with self.with_columns(columns) as mesh:
+                call_reporting(
+                    "smg_run",
+                    (mesh, text(job), description),
+                    part(report, opening, 1),
+                    byref(handle.pointer),
+                )
+        field = Field(self, handle, job, names)
+        found = field._read_report(False)
+        if strict and not found.get("converged", True):
+            raise NotConverged(not_converged(found), field)
+        warn_of(found, field._said, stacklevel=4)
+        return field
+
+    @jobs.with_arguments_of("solve", ("self",))
+    def solve(self, *, progress: Any = None, strict: bool = False, **options: Any) -> Field:
+        return self._run("solve", progress, strict, (), options)
+
+    @jobs.with_arguments_of("deform", ("self",))
+    def deform(self, handles: Any, *, progress: Any = None, strict: bool = False, **options: Any) -> Field:
+        return self._run("deform", progress, strict, (handles,), options)
+
+    @jobs.with_arguments_of("smooth", ("self",))
+    def smooth(self, *, progress: Any = None, strict: bool = False, **options: Any) -> Field:
+        return self._run("smooth", progress, strict, (), options)
+
+    @jobs.with_arguments_of("blend", ("self",))
+    def blend(
+        self, columns: Any, *, patch: Any, progress: Any = None, strict: bool = False, **options: Any
+    ) -> Field:
+        return self._run("blend", progress, strict, (columns,), {"patch": patch, **options})
+
+    @jobs.with_arguments_of("distance", ("self",))
+    def distance(
+        self, sources: Any = None, *, progress: Any = None, strict: bool = False, **options: Any
+    ) -> Field:
+        return self._run("distance", progress, strict, (sources,), options)
+
+    def simplify(
+        self,
+        vertices: Optional[int] = None,
+        *,
+        error: Optional[float] = None,
+        path: Any = None,
+        progress: Any = None,
+        **options: Any,
+    ) -> "Mesh":
+        """The surface with fewer vertices, out of core; see docs/simplify.md.
+
+        Args:
+            vertices: the most vertices of the result, at least 4.
+            error: the largest error, in the unit of the mesh; with `vertices`, what comes first.
+            path: where to write the result; default: a scratch file, removed with the new mesh.
+            options: `memory`, `threads`, `scratch`, `checkpoint` (a folder).
+
+        Returns:
+            The simplified surface, whose column OriginalId has the numbers of its vertices in this
+            mesh, and whose `report` says more.
+        """
+        description = jobs.DESCRIPTIONS["simplify"](Columns(self), vertices, error=error, **options)[0]
+        description = self._with_defaults("simplify", description)
+        folder = None
+        if path is None:
+            folder = tempfile.mkdtemp(prefix="smg-simplified-", dir=description.get("scratch"))
+            path = os.path.join(folder, "simplified.vsm")
+        result = c_char_p()
+        try:
+            with reporting(progress, "simplify") as report:
+                opening = 0.0 if self._opened else 0.3
+                with self._handle(part(report, 0, opening)) as mesh:
+                    call_reporting(
+                        "smg_simplify",
+                        (mesh, json_text(description), text(path)),
+                        part(report, opening, 1),
+                        byref(result),
+                    )
+                    facts = Report(parse(result))
+        except BaseException:
+            if folder:
+                shutil.rmtree(folder, ignore_errors=True)
+            raise
+        simplified = open(path, **self._defaults)
+        simplified.report = facts
+        if folder:
+            simplified.name = "%s, simplified" % self.name
+            weakref.finalize(simplified, shutil.rmtree, folder, True)
+        warn_of(facts, set())
+        return simplified
+
+    def solver(self, *, progress: Any = None, **options: Any) -> Any:
+        """The equations of a problem with their hierarchy, in memory, for many right-hand sides.
+
+        The arguments are those of `solve` that say what the matrix is. See `streamingmultigrid.Solver`.
+        """
+        from ._solver import Solver
+
+        return Solver(self, progress, options)
+
+    def to_pyvista(self) -> Any:
+        """The mesh with its columns as a pyvista.PolyData or UnstructuredGrid, all in memory."""
+        from ._interop import to_pyvista
+
+        return to_pyvista(self)
+
+    # How it shows itself.
+
+    def __repr__(self) -> str:
+        return "<Mesh %s%s>" % (self.name, "" if self._opened else ", not read yet")
+
+    def __str__(self) -> str:
+        return "\n".join(
+            [self.name] + ["  %-12s %s" % row for row in mesh_lines(self.info(full=True))]
+        )
+
+    def _repr_html_(self) -> str:
+        rows = mesh_lines(self.info())
+        return mesh_html(self.name, rows, self.preview_svg())
+
+    def preview_svg(self, field: Optional[Field] = None) -> str:
+        """A picture of the mesh as SVG, coloured by a field; empty if the mesh is large or has none."""
+        if self.n_vertices > _PICTURE_VERTICES:
+            return ""
+        try:
+            with self.simplify(1500) as small:
+                points, cells, ids = small.points, small.cells, small["OriginalId"]
+        except Error:
+            return ""
+        values = None
+        if field is not None:
+            found = field.to_numpy()
+            if field.name == "Position":
+                points = found[ids]
+            elif found.ndim == 1 or found.shape[1] == 1:
+                values = found.reshape(-1)[ids].astype(np.float64)
+        return surface_svg(points, cells, values)
+
+
+def _cached(path: str, cache: Any, options: Dict[str, Any]) -> str:
+    """Where the conversion of a file is kept: its name depends on the file and on the options."""
+    if cache is True:
+        home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+        cache = os.path.join(home, "streamingmultigrid")
+    folder = os.path.dirname(path) if cache == "beside" else os.fspath(cache)
+    state = os.stat(path)
+    key = repr((path, state.st_size, state.st_mtime_ns, version(), sorted(options.items())))
+    os.makedirs(folder, exist_ok=True)
+    digest = hashlib.sha256(key.encode()).hexdigest()[:12]
+    return os.path.join(folder, "%s.%s.vsm" % (os.path.basename(path), digest))
+
+
+def open(  # noqa: A001, the word of the trade
+    path: Any,
+    *,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+    cells: Optional[str] = None,
+    weld: Optional[float] = None,
+    time_step: Optional[int] = None,
+    partition: Optional[int] = None,
+    order: Optional[str] = None,
+    cache: Any = None,
+    progress: Any = None,
+) -> Mesh:
+    """A mesh file of any format; nothing is read before it is needed.
+
+    A file that is no .vsm is converted at its first use, out of core, to a scratch file that is
+    removed with the mesh, or with `cache` to a file that is found again.
+
+    Args:
+        path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh, .node, .sma ...
+        memory: the memory limit of the conversion and of jobs: bytes, or a text as "1GB" or "512MiB".
+            Default: 256 MiB for conversions, 1 GiB for jobs.
+        threads: 0 (default): one for each core. Results do not depend on it.
+        scratch: the folder for scratch files; default: $TMPDIR, or /tmp.
+        scratch_limit: the most bytes of scratch files at once, or a text; default: none.
+        cells: "triangles" or "tets", of a file that has both.
+        weld: merge points within this distance, in the unit of the mesh; 0: of equal coordinates.
+        time_step, partition: which of a VTKHDF file, from 0.
+        order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
+        cache: a folder for conversions; True: ~/.cache/streamingmultigrid; "beside": the folder of the
+            file. From a cached conversion, results are written in the order of the file, but with
+            polygons cut into triangles; with `weld` it has an order of its own.
+        progress: of the conversion, see `help(streamingmultigrid.progress)`.
+
+    Raises:
+        Error: there is no such file; at the first use: it cannot be read.
+    """
+    path = os.path.abspath(os.fspath(path))
+    os.stat(path)  # FileNotFoundError at once, not at the first use
+    own = {
+        "cells": cells,
+        "weld": weld,
+        "time_step": time_step,
+        "partition": partition,
+        "order": order,
+    }
+    own = {key: value for key, value in own.items() if value is not None}
+    defaults = {
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }
+    options = {**own, **defaults}
+
+    def opener(report: Any) -> Handle:
+        file = path
+        if cache is not None and cache is not False and not path.endswith(".vsm"):
+            file = _cached(path, cache, own)
+            if not os.path.exists(file):
+                call_reporting(
+                    "smg_convert", (text(path), text(file), json_text(options)), report, None
+                )
+        given = options if file == path else defaults
+        handle = Handle("mesh")
+        call_reporting("smg_open", (text(file), json_text(given)), report, byref(handle.pointer))
+        return handle
+
+    return Mesh(path, opener, defaults, progress)
+
+
+def mesh(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> Mesh:
+    """A mesh of arrays, which are read during this call: they may change or go afterwards.
+
+    Args:
+        points: (n, 3) numbers of any type, in any unit of length.
+        cells: (m, 3), triangles, or (m, 4), tetrahedra: integers of any type, rows of `points`.
+        options: `memory`, `threads`, `scratch`, `scratch_limit`, `weld`, `order`, as of `smg.open`.
+    """
+    points, cells = points_and_cells(points, cells)
+    defaults = {name: options.get(name) for name in ("memory", "threads", "scratch", "scratch_limit")}
+    arrays = table(points), table(cells)
+
+    def opener(report: Any) -> Handle:
+        handle = Handle("mesh")
+        arguments = (byref(arrays[0]), byref(arrays[1]), json_text(options))
+        call_reporting("smg_open_arrays", arguments, report, byref(handle.pointer))
+        return handle
+
+    made = Mesh("arrays of %d points and %d cells" % (len(points), len(cells)), opener, defaults, progress)
+    made._handle()
+    made._opener = None  # which has the arrays
+    return made
+

@@ -1,0 +1,332 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Problems and handles: from words and arrays of Python to the JSON of problem and handle files."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
+
+import numpy as np
+
+from ._arrays import numbers
+from ._columns import Columns
+from ._errors import InputError
+from ._regions import Placed, Region, as_region, everywhere, vertices
+
+#: More values of single vertices than this become a column.
+_FEW = 64
+_MOST_COLUMNS = 64
+
+_Entry = Tuple[Region, Any]
+
+
+def _entries(values: Any, what: str) -> List[_Entry]:
+    """The places and values of one datum, later ones winning; a value alone holds everywhere."""
+    if isinstance(values, Placed):
+        return [(values.region, values.value)]
+    if isinstance(values, Mapping):
+        ids = list(values)
+        if not all(isinstance(each, (int, np.integer)) for each in ids):
+            raise InputError("%s: the keys of a dict are numbers of vertices." % what)
+        return [(vertices(ids), list(values.values()))] if ids else []
+    if isinstance(values, (list, tuple)) and any(
+        isinstance(each, (Placed, Mapping)) for each in values
+    ):
+        return [entry for each in values for entry in _entries(each, what)]
+    return [(everywhere, values)]
+
+
+class _Data:
+    """Writes the values of a problem; all have the same number of components, `width`."""
+
+    def __init__(self, columns: Columns, width: Optional[int]) -> None:
+        self.columns = columns
+        self.width = width
+
+    def _ids(self, region: Region) -> Optional[np.ndarray]:
+        return region._value if region._kind == "vertices" else None
+
+    def widths(self, region: Region, value: Any) -> Optional[int]:
+        """The components that a value has; None if it may have any."""
+        if isinstance(value, str):
+            return 3 if value == "position" else self.columns.components(value)
+        array = numbers(value, "value")
+        if array.ndim == 0:
+            return None
+        if array.ndim == 2:
+            return array.shape[1]
+        ids = self._ids(region)
+        if self.columns.rows(array, None) is not None or ids is not None and len(array) == len(ids):
+            return 1  # a row for each vertex, cell, or vertex of the region
+        # An array of another length is more likely a mistake than a number for each right-hand side.
+        return len(array) if isinstance(value, (list, tuple)) and len(array) <= _MOST_COLUMNS else None
+
+    def value(self, value: Any, what: str, cells: Optional[bool] = None) -> Any:
+        """A value everywhere in a region: a number for each component, or the name of a column."""
+        if isinstance(value, str):
+            return value
+        array = numbers(value, what)
+        width = self.width or 1
+        if array.ndim == 0:
+            return [array.item()] * width if width > 1 else array.item()
+        rows = self.columns.rows(array, cells) is not None
+        if array.shape == (width,) and not (rows and width == 1):
+            return array.tolist()
+        return self.columns.add(array, what, cells, (width,)).name
+
+    def coefficient(self, value: Any, what: str, cells: Optional[bool] = None) -> Any:
+        """A number, or the name of a column of one component."""
+        if isinstance(value, str) or np.ndim(value) == 0:
+            return value
+        return self.columns.add(value, what, cells, (1,)).name
+
+    def place(self, region: Region, what: str, write: Callable[..., Dict[str, Any]], *values: Any) -> list:
+        """The entries of a region: one, or for values of single vertices one for each value."""
+        ids = self._ids(region)
+        apart = [self._per_vertex(ids, value) for value in values]
+        if ids is None or not any(apart):
+            return [{**region.where(self.columns), **write(*values)}]
+        rows = [
+            numbers(value, what) if own else [value] * len(ids) for own, value in zip(apart, values)
+        ]
+        groups: Dict[tuple, list] = {}
+        for number, *row in zip(ids.tolist(), *rows):
+            key = tuple(item for value in row for item in np.ravel(value).tolist())
+            groups.setdefault(key, [row]).append(number)
+        if len(groups) <= _FEW:
+            return [{"vertices": numbers_, **write(*row)} for row, *numbers_ in groups.values()]
+        return [
+            {
+                "vertices": ids.tolist(),
+                **write(*(self._spread(ids, value) if own else value for own, value in zip(apart, values))),
+            }
+        ]
+
+    def _per_vertex(self, ids: Optional[np.ndarray], value: Any) -> bool:
+        if ids is None or isinstance(value, str) or np.ndim(value) == 0:
+            return False
+        array = numbers(value, "value")
+        return len(array) == len(ids) and (array.ndim == 2 or (self.width or 1) == 1)
+
+    def _spread(self, ids: np.ndarray, values: Any) -> np.ndarray:
+        rows = numbers(values, "value").astype(np.float64)
+        spread = np.zeros((self.columns.mesh.n_vertices, *rows.shape[1:]))
+        if ids.max() >= len(spread):
+            raise InputError(
+                "vertices: there is no vertex %d; the mesh has %d." % (ids.max(), len(spread))
+            )
+        spread[ids] = rows
+        return spread
+
+
+def _conductivity(value: Any, columns: Columns) -> Any:
+    """A number, a tensor as the six numbers of the JSON, or the name of a column of the cells."""
+    if isinstance(value, str) or np.ndim(value) == 0:
+        return value
+    array = numbers(value, "conductivity")
+    if array.ndim >= 2 and array.shape[-2:] == (3, 3):
+        if not np.array_equal(array, np.swapaxes(array, -1, -2)):
+            raise InputError("conductivity: a tensor must be symmetric.")
+        array = array[..., (0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2)]  # xx yy zz xy yz xz
+    if array.shape == (3,):
+        array = np.concatenate([array, np.zeros(3)])
+    if array.shape == (6,) and columns.mesh.n_cells != 6:
+        return array.tolist()
+    return columns.add(array, "conductivity", True, (1, 3, 6)).name
+
+
+def _several(entries: List[_Entry], write: Callable[[Any], Any], columns: Columns) -> Any:
+    """A datum that is one value, or a list of values with their places."""
+    if len(entries) == 1 and entries[0][0] is everywhere:
+        return write(entries[0][1])
+    return [{**region.where(columns), "value": write(value)} for region, value in entries]
+
+
+def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
+    """The JSON of a problem file, of the arguments of `Mesh.solve`; arrays are added to `columns`."""
+    base = given.get("problem") or {}
+    if not isinstance(base, Mapping):
+        with open(os.fspath(base), encoding="utf-8") as file:
+            base = json.load(file)
+    found = dict(base)
+    placed = {
+        name: _entries(given[name], name)
+        for name in ("dirichlet", "flux", "source", "initial")
+        if given.get(name) is not None
+    }
+    pairs = {
+        "robin": _coefficients(given.get("robin"), "robin", "smg.boundary >> (coefficient, ambient)"),
+        "soft": _coefficients(given.get("soft"), "soft", "region >> (weight, value)"),
+    }
+    data = _Data(columns, given.get("columns") or base.get("columns"))
+    if data.width is None:
+        widths = {
+            data.widths(region, value)
+            for entries in (*placed.values(), *([(r, v) for r, _, v in p] for p in pairs.values()))
+            for region, value in entries
+        } - {None, 1}
+        if len(widths) > 1:
+            raise InputError(
+                "The values have %s components: give `columns`, and values of as many or of one number."
+                % " and ".join(map(str, sorted(widths)))
+            )
+        data.width = widths.pop() if widths else None
+    if data.width is not None:
+        found["columns"] = int(data.width)
+
+    for name, cells in (("dirichlet", False), ("flux", False)):
+        if name in placed:
+            found[name] = [
+                written
+                for region, value in placed[name]
+                for written in data.place(
+                    region, name, lambda v: {"value": data.value(v, name, cells)}, value  # noqa: B023
+                )
+            ]
+    for name, cells in (("source", None), ("initial", False)):
+        if name in placed:
+            entries = placed[name]
+            found[name] = _several(entries, lambda v: data.value(v, name, cells), columns)  # noqa: B023
+    for name, (first, second) in (("robin", ("coefficient", "ambient")), ("soft", ("weight", "value"))):
+        if pairs[name]:
+            found[name] = [
+                written
+                for region, coefficient, value in pairs[name]
+                for written in data.place(
+                    region,
+                    name,
+                    lambda c, v: {  # noqa: B023
+                        first: data.coefficient(c, name, False),  # noqa: B023
+                        second: data.value(v, name, False),  # noqa: B023
+                    },
+                    coefficient,
+                    value,
+                )
+            ]
+    if given.get("conductivity") is not None:
+        found["conductivity"] = _several(
+            _entries(given["conductivity"], "conductivity"), lambda v: _conductivity(v, columns), columns
+        )
+    if given.get("screening") is not None:
+        found["screening"] = _several(
+            _entries(given["screening"], "screening"),
+            lambda v: data.coefficient(v, "screening"),
+            columns,
+        )
+    field = given.get("field")
+    if field is not None:
+        width = 3 * (data.width or 1)
+        found["field"] = (
+            field if isinstance(field, str) else columns.add(field, "field", True, (3, width)).name
+        )
+    for name in ("weights", "outputs"):
+        if given.get(name) is not None:
+            found[name] = [given[name]] if name == "outputs" and isinstance(given[name], str) else given[name]
+    return found
+
+
+def _coefficients(values: Any, what: str, form: str) -> list:
+    """Of robin and soft: (region, coefficient, value) of each entry."""
+    if values is None:
+        return []
+    entries = values if isinstance(values, list) else [values]
+    found = []
+    for entry in entries:
+        region, pair = (entry.region, entry.value) if isinstance(entry, Placed) else (everywhere, entry)
+        if not isinstance(pair, tuple) or len(pair) != 2:
+            raise InputError("%s: an entry is %s, or a list of these." % (what, form))
+        found.append((region, *pair))
+    return found
+
+
+class Handle:
+    """A part of a mesh that is held or moved; see `handle()`."""
+
+    def __init__(self, region: Region, motion: Dict[str, Any]) -> None:
+        self.region, self.motion = region, motion
+
+    def __repr__(self) -> str:
+        words = ["%s=%r" % item for item in self.motion.items()]
+        return "smg.handle(%s)" % ", ".join([repr(self.region), *words])
+
+    def description(self, columns: Columns) -> Dict[str, Any]:
+        """The handle as in a handle file."""
+        written: Dict[str, Any] = {"region": self.region.where(columns)}
+        for key, value in self.motion.items():
+            if key in ("target", "rotation", "logScale") and not isinstance(value, str):
+                array = numbers(value, key)
+                if columns.rows(array, False) is not None:
+                    value = columns.add(array, key, False, (1,) if key == "logScale" else (3,)).name
+            written[key] = value
+        return written
+
+
+def handle(
+    region: Any,
+    *,
+    fixed: bool = False,
+    translate: Any = None,
+    rotate: Any = None,
+    scale: Optional[float] = None,
+    center: Any = None,
+    target: Any = None,
+    rotation: Any = None,
+    log_scale: Any = None,
+) -> Handle:
+    """A part of a mesh that a deformation holds or moves, for `Mesh.deform`.
+
+    Args:
+        region: a region; a mask or numbers of vertices.
+        fixed: the part stays where it is.
+        translate: 3 numbers, in the unit of the mesh.
+        rotate: ``(axis, degrees)`` with an axis of 3 numbers; more than a turn is possible.
+        scale: a factor, 1e-20 to 1e20.
+        center: of rotation and scale, 3 numbers; by default that of a sphere or box.
+        target: where each vertex goes: an array (n, 3) with a row for each vertex of the mesh, of
+            which the rows in the region count, or the name of a column; 3 numbers; with
+            ``smg.nearest(points)`` an array (k, 3) with a row for each point.
+        rotation: with `target`, the rotation vector of each vertex, in radians: (n, 3), a name, or 3
+            numbers; default 0.
+        log_scale: with `target`, the natural logarithm of the scale: (n,), a name, or a number;
+            default 0.
+
+    Rotation and scale come first, about the same center, then the translation.
+    """
+    motion: Dict[str, Any] = {"fixed": True} if fixed else {}
+    if rotate is not None:
+        if isinstance(rotate, Mapping):
+            motion["rotate"] = dict(rotate)
+        else:
+            axis, degrees = rotate
+            motion["rotate"] = {"axis": axis, "degrees": degrees}
+        if center is not None:
+            motion["rotate"]["center"] = center
+    words = {
+        "translate": translate,
+        "scale": scale,
+        "center": center if rotate is None else None,
+        "target": target,
+        "rotation": rotation,
+        "logScale": log_scale,
+    }
+    motion.update((key, value) for key, value in words.items() if value is not None)
+    if not motion:
+        raise InputError(
+            "handle: say what it does: fixed=True, translate=, rotate=, scale= or target=."
+        )
+    return Handle(as_region(region), motion)
+
+
+def handles(columns: Columns, given: Any) -> Dict[str, Any]:
+    """The JSON of a handle file, of one handle, a list of handles, a dict or a path."""
+    if isinstance(given, Handle):
+        given = [given]
+    if isinstance(given, (list, tuple)):
+        if not all(isinstance(each, Handle) for each in given):
+            raise InputError("handles: a list of smg.handle(...) is needed.")
+        return {"handles": [each.description(columns) for each in given]}
+    if isinstance(given, Mapping):
+        return dict(given)
+    with open(os.fspath(given), encoding="utf-8") as file:
+        return json.load(file)

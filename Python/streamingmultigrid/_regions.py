@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where something holds on a mesh, and what: regions, and regions with a value.
+
+``region >> value`` pairs a region with a value: ``smg.plane(z=0) >> 20.0``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Iterable, List, Optional, Sequence, Union
+
+import numpy as np
+
+from ._arrays import numbers
+from ._errors import InputError
+
+_FAR = 1e300  # beyond every coordinate
+_AXES = "xyz"
+
+
+class Region:
+    """A part of the vertices of a mesh; made by the functions of this module.
+
+    A cell or a boundary facet belongs to a region if all its corners do; regions by a column of the
+    cells select cells, their vertices and their facets. Several regions are given as a list.
+    """
+
+    def __init__(self, kind: str, value: Any) -> None:
+        self._kind, self._value = kind, value
+
+    def __rshift__(self, value: Any) -> "Placed":
+        return Placed(self, value)
+
+    def __repr__(self) -> str:
+        return "smg.%s(%r)" % (self._kind, self._value)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> Any:
+        raise InputError("A region stands before the value: region >> value.")
+
+    def where(self, context: Any) -> Dict[str, Any]:
+        """WHERE of a problem file; `context` (columns.Columns) adds masks and knows the bounds."""
+        return {self._kind: self._value}
+
+
+class Placed:
+    """A region with its value: what ``region >> value`` makes."""
+
+    def __init__(self, region: Region, value: Any) -> None:
+        self.region, self.value = region, value
+
+    def __repr__(self) -> str:
+        return "%r >> %r" % (self.region, self.value)
+
+
+class _Everywhere(Region):
+    def __init__(self) -> None:
+        super().__init__("everywhere", True)
+
+    def __repr__(self) -> str:
+        return "smg.everywhere"
+
+    def where(self, context: Any) -> Dict[str, Any]:
+        return {}
+
+
+class _Boundary(Region):
+    def __init__(self) -> None:
+        super().__init__("boundary", True)
+
+    def __repr__(self) -> str:
+        return "smg.boundary"
+
+
+class _Plane(Region):
+    def __init__(self, axis: int, at: float, tolerance: Optional[float]) -> None:
+        super().__init__("plane", {_AXES[axis]: at})
+        self._axis, self._at, self._tolerance = axis, at, tolerance
+
+    def where(self, context: Any) -> Dict[str, Any]:
+        tolerance = 1e-6 * context.diagonal() if self._tolerance is None else self._tolerance
+        box = [-_FAR] * 3 + [_FAR] * 3
+        box[self._axis], box[self._axis + 3] = self._at - tolerance, self._at + tolerance
+        return {"box": box}
+
+
+class _Mask(Region):
+    def __init__(self, values: Any) -> None:
+        super().__init__("mask", values)
+
+    def __repr__(self) -> str:
+        if isinstance(self._value, str):
+            return "smg.mask(%r)" % self._value
+        return "smg.mask(<%d of %d>)" % (np.count_nonzero(self._value), len(self._value))
+
+    def where(self, context: Any) -> Dict[str, Any]:
+        if isinstance(self._value, str):
+            return {"mask": self._value}
+        return {"mask": context.add(self._value, "mask", components=(1,)).name}
+
+
+#: All of the mesh: ``conductivity=[smg.everywhere >> 25, ...]``; a value alone means the same.
+everywhere: Region = _Everywhere()
+
+#: The boundary: edges of exactly one triangle, faces of exactly one tetrahedron. An error if there is
+#: none.
+boundary: Region = _Boundary()
+
+
+def _one_axis(coordinates: Dict[str, Optional[float]], name: str) -> tuple:
+    given = [(axis, at) for axis, at in enumerate(coordinates.values()) if at is not None]
+    if len(given) != 1:
+        raise InputError("%s: give one of x, y and z, as in %s(z=0)." % (name, name))
+    axis, at = given[0]
+    return axis, float(at)
+
+
+def _vector(values: Any, length: int, name: str) -> List[float]:
+    array = numbers(values, name)
+    if array.shape != (length,) or not np.isfinite(array).all():
+        raise InputError("%s: %r are not %d finite numbers." % (name, values, length))
+    return [float(value) for value in array]
+
+
+def plane(
+    x: Optional[float] = None,
+    y: Optional[float] = None,
+    z: Optional[float] = None,
+    tolerance: Optional[float] = None,
+) -> Region:
+    """The vertices on the plane of one coordinate, as ``plane(z=0)``.
+
+    Args:
+        x, y, z: one of them, in the unit of the mesh.
+        tolerance: the largest distance from the plane, in the unit of the mesh; by default 1e-6 of
+            the diagonal of the bounds of the mesh, which is more than coordinates in single precision
+            are rounded by.
+    """
+    axis, at = _one_axis({"x": x, "y": y, "z": z}, "plane")
+    return _Plane(axis, at, tolerance)
+
+
+def above(
+    x: Optional[float] = None, y: Optional[float] = None, z: Optional[float] = None
+) -> Region:
+    """The vertices whose coordinate is at least this, as ``above(z=1.5)``."""
+    axis, at = _one_axis({"x": x, "y": y, "z": z}, "above")
+    return halfspace([float(axis == each) for each in range(3)], at)
+
+
+def below(
+    x: Optional[float] = None, y: Optional[float] = None, z: Optional[float] = None
+) -> Region:
+    """The vertices whose coordinate is at most this, as ``below(z=0.1)``."""
+    axis, at = _one_axis({"x": x, "y": y, "z": z}, "below")
+    return halfspace([-float(axis == each) for each in range(3)], -at)
+
+
+def halfspace(normal: Sequence[float], offset: float) -> Region:
+    """The vertices p with ``normal . p >= offset``; `normal` has any length but 0."""
+    return Region("halfspace", [*_vector(normal, 3, "halfspace"), float(offset)])
+
+
+def box(low: Sequence[float], high: Sequence[float]) -> Region:
+    """The vertices between two corners (3 numbers each), both included."""
+    return Region("box", [*_vector(low, 3, "box"), *_vector(high, 3, "box")])
+
+
+def sphere(center: Sequence[float], radius: float) -> Region:
+    """The vertices at most `radius` from `center` (3 numbers)."""
+    return Region("sphere", [*_vector(center, 3, "sphere"), float(radius)])
+
+
+def vertices(numbers_: Iterable[int]) -> Region:
+    """Vertices by their numbers in the file or the rows of the arrays, from 0.
+
+    As a value, an array with a row for each of the numbers gives each its own:
+    ``vertices([4, 7]) >> [1.0, 2.0]``.
+    """
+    if not isinstance(numbers_, np.ndarray):
+        numbers_ = np.atleast_1d(np.asarray(list(numbers_) if not np.isscalar(numbers_) else numbers_))
+    ids = numbers(numbers_, "vertices")
+    if ids.size and ids.dtype.kind not in "iu" or np.asarray(numbers_).dtype == bool:
+        raise InputError("vertices: numbers of vertices are integers; of a mask use smg.mask().")
+    if ids.ndim != 1 or ids.size == 0 or ids.min() < 0:
+        raise InputError("vertices: a list of numbers of at least 0 is needed, and not an empty one.")
+    return Region("vertices", ids)
+
+
+def nearest(points: Sequence[Sequence[float]]) -> Region:
+    """The vertex nearest to a point, (3,), or to each of several points, (k, 3)."""
+    array = np.atleast_2d(numbers(points, "nearest"))
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InputError("nearest: the shape is %s; it must be (3,) or (k, 3)." % (array.shape,))
+    return Region("nearest", array.tolist())
+
+
+def tag(column: str, value: float) -> Region:
+    """Where a column of one component, of the vertices or cells, has the value."""
+    return Region("tag", [column, value])
+
+
+def mask(column_or_values: Union[str, Any]) -> Region:
+    """Where a column is not 0, or an array with a row for each vertex, or each cell, is not 0."""
+    if isinstance(column_or_values, str):
+        return _Mask(column_or_values)
+    values = numbers(column_or_values, "mask")
+    if values.ndim != 1:
+        raise InputError("mask: the shape is %s; it must be (n,)." % (values.shape,))
+    return _Mask(values)
+
+
+def as_region(value: Any) -> Region:
+    """A region; of booleans the mask, of integers these vertices, of a dict WHERE of a problem file."""
+    if isinstance(value, Region):
+        return value
+    if isinstance(value, dict) and len(value) == 1:
+        return Region(*next(iter(value.items())))
+    if isinstance(value, str):
+        return mask(value)
+    array = np.asarray(value)
+    if array.dtype.kind == "b":
+        return mask(value)
+    if array.dtype.kind in "iu":
+        return vertices(np.atleast_1d(array))
+    raise InputError(
+        "%r is no region: use smg.sphere(), smg.mask() ..., a mask (an array of booleans), or "
+        "numbers of vertices." % (value,)
+    )
+
+
+def as_regions(value: Any) -> List[Region]:
+    """The regions of one, or of a list of them."""
+    if isinstance(value, (list, tuple)) and not all(isinstance(each, (int, bool)) for each in value):
+        return [as_region(each) for each in value]
+    return [as_region(value)]

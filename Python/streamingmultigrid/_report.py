@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a job did and what it cost, and what it is expected to cost."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, Dict, List
+
+from ._display import estimate_html, report_html
+from ._errors import NotConvergedWarning, ReportWarning
+
+
+class _Facts(Dict[str, Any]):
+    """A dict whose keys are attributes, too."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self]
+
+
+def in_bytes(count: float) -> str:
+    """A number of bytes with a unit."""
+    for unit in ("bytes", "KiB", "MiB", "GiB", "TiB"):
+        if abs(count) < 1024 or unit == "TiB":
+            break
+        count /= 1024
+    return "%.0f %s" % (count, unit) if unit == "bytes" or count >= 10 else "%.1f %s" % (count, unit)
+
+
+class Report(_Facts):
+    """The report of a job: a dict with the entries of ``smg --report``, which are attributes, too.
+
+    Of a solve for example `vertices`, `cells`, `passes`, `cycles`, `residuals` (relative, one for each
+    V-cycle), `converged`, `pool_bytes_peak` (accounted memory, bytes), `seconds` (a dict),
+    `conditions`, `energy`, `mean`, `minimum`, `maximum`, `notes` and `warnings` (sentences). Numbers
+    that are not finite are None. docs/solve.md describes all of them.
+    """
+
+    def __repr__(self) -> str:
+        return "\n".join(self._lines())
+
+    def _repr_html_(self) -> str:
+        return report_html(self)
+
+    def _lines(self) -> List[str]:
+        lines = ["%s vertices, %s cells" % (f"{self['vertices']:,}", f"{self['cells']:,}")]
+        if "converged" in self:
+            residuals = self.get("residuals") or []
+            outcome = "converged" if self["converged"] else "NOT CONVERGED"
+            if residuals:
+                outcome += " after %d V-cycles, residual %.2e" % (self["cycles"], residuals[-1])
+            lines.append("  %s, %d passes" % (outcome, self.get("passes", 0)))
+        if "error" in self:
+            lines.append("  error %s" % self["error"])
+        seconds = self.get("seconds") or {}
+        if isinstance(seconds, dict):
+            seconds = seconds.get("total", 0)
+        lines.append(
+            "  %.3g s, %.3g s of CPU, %s of memory accounted"
+            % (seconds, self.get("cpu_seconds", 0), in_bytes(self.get("pool_bytes_peak", 0)))
+        )
+        for condition in self.get("conditions") or []:
+            lines.append(
+                "  %s: mean %s, flux %s"
+                % (condition["name"], condition.get("mean"), condition.get("flux"))
+            )
+        lines += ["  " + note for note in self.get("notes") or []]
+        return lines
+
+
+class Estimate(_Facts):
+    """What a job is expected to cost: a dict whose keys are attributes, too.
+
+    `memory_bytes`, `memory_limit`, `scratch_bytes`, `scratch_free`, `output_bytes`, `output_free`
+    (bytes), `passes` over the mesh, and `cpu_seconds`. `counted` says whether `vertices` and `cells`
+    are known; else they are estimated from the size of the file.
+    """
+
+    def __repr__(self) -> str:
+        about = "" if self.get("counted", True) else "about "
+        return "\n".join(
+            ["%s%s vertices, %s cells" % (about, f"{self['vertices']:,}", f"{self['cells']:,}")]
+            + ["  %-8s %s" % line for line in self.lines()]
+        )
+
+    def lines(self) -> list:
+        """The figures with their names, for people."""
+        lines = [
+            (
+                "memory",
+                "about %s, the limit is %s"
+                % (in_bytes(self["memory_bytes"]), in_bytes(self["memory_limit"])),
+            )
+        ]
+        for name in ("scratch", "output"):
+            if self.get(name + "_bytes"):
+                words = "about %s" % in_bytes(self[name + "_bytes"])
+                if self.get(name + "_free"):
+                    words += ", %s are free" % in_bytes(self[name + "_free"])
+                lines.append((name, words))
+        if self.get("passes"):
+            lines.append(("passes", "about %d" % self["passes"]))
+        if self.get("cpu_seconds") is not None:
+            lines.append(("time", "about %.3g s of CPU" % self["cpu_seconds"]))
+        return lines
+
+    def _repr_html_(self) -> str:
+        return estimate_html(self)
+
+
+def warn_of(report: Report, said: set, stacklevel: int = 3) -> None:
+    """Turns what a report warns of into warnings of Python, each sentence once."""
+    converged = report.get("converged", True)
+    for sentence in report.get("warnings") or []:
+        if sentence not in said:
+            said.add(sentence)
+            kind = ReportWarning if converged else NotConvergedWarning
+            warnings.warn(sentence, kind, stacklevel)
+    if not converged and NotConvergedWarning not in said:
+        said.add(NotConvergedWarning)
+        warnings.warn(not_converged(report), NotConvergedWarning, stacklevel)
+
+
+def not_converged(report: Report) -> str:
+    """The sentence of a job that did not converge."""
+    residuals = report.get("residuals") or []
+    if residuals:
+        return "Not converged after %d V-cycles: the relative residual is %.2e." % (
+            report.get("cycles", len(residuals)),
+            residuals[-1],
+        )
+    return "Not settled after %d passes." % report.get("passes", 0)

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Equations with their hierarchy, kept in memory for many right-hand sides."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_char_p, c_void_p
+from typing import Any, Dict, Mapping, Optional
+
+import numpy as np
+
+from . import _jobs as jobs
+from ._arrays import numbers, table, vector
+from ._columns import Columns
+from ._errors import InputError, NotConverged
+from ._library import Handle, call, call_reporting, json_text, parse
+from .progress import reporting
+from ._report import Report, not_converged, warn_of
+
+
+class Solver:
+    """A x = b for many b: made by `smg.solver` or `Mesh.solver`.
+
+    A, (n, n), is the stiffness of the mesh with screening, soft constraints and Robin terms of the
+    problem; its rows at vertices with a Dirichlet condition, and of no cell, are those of the identity:
+    b has the prescribed values there. Rows are vertices in the order of the file or of the arrays.
+
+    A solver may be used by one thread at a time; calls of others wait.
+    """
+
+    def __init__(self, mesh: Any, progress: Any, options: Mapping[str, Any]) -> None:
+        own = {
+            name: options[name]
+            for name in ("memory", "threads", "sweeps")
+            if options.get(name) is not None
+        }
+        columns = Columns(mesh)
+        problem, _ = jobs.solve(columns, **{k: v for k, v in options.items() if k not in own})
+        used = {key: value for key, value in problem.items() if value is not None}
+        unknown = set(used) - {"problem"}
+        if unknown:
+            raise InputError(
+                "solver: %s is no argument of it, but perhaps of its solve()." % sorted(unknown)[0]
+            )
+        description = {**mesh.defaults("memory", "threads"), **own, **used}
+        self._handle = Handle("solver", *(column.values for column in columns.added))
+        with reporting(progress, "solver") as report, mesh.with_columns(columns) as pointer:
+            call_reporting(
+                "smg_open_solver",
+                (pointer, json_text(description)),
+                report,
+                byref(self._handle.pointer),
+            )
+        n = mesh.n_vertices
+        #: (n, n)
+        self.shape = (n, n)
+        self.dtype = np.dtype(np.float64)
+        #: The report of the last `solve`; None before the first.
+        self.report: Optional[Report] = None
+
+    def solve(
+        self,
+        b: Any,
+        x0: Any = None,
+        tol: float = 1e-8,
+        max_cycles: Optional[int] = None,
+        progress: Any = None,
+        strict: bool = False,
+    ) -> np.ndarray:
+        """Solves A x = b.
+
+        Args:
+            b: (n,), or (n, k) of k right-hand sides, numbers of any type.
+            x0: initial values, of the shape of b; default 0.
+            tol: the relative residual to stop at, ||b - A x|| / ||b - A x0||, between 0 and 1.
+            max_cycles: the most V-cycles of each right-hand side; default 50.
+            progress: a function of the part that is done, a bar of tqdm or rich, or True.
+            strict: raise NotConverged instead of a warning NotConvergedWarning.
+
+        Returns:
+            x, of the shape of b, float64.
+        """
+        right = vector(b, "b", self.shape[0])
+        if x0 is None:
+            x = np.zeros(right.shape)
+        else:
+            x = np.array(numbers(x0, "x0"), np.float64, order="C")
+            if x.shape != right.shape:
+                raise InputError("x0: the shape is %s; that of b is %s." % (x.shape, right.shape))
+        options: Dict[str, Any] = {"tolerance": tol, "max_cycles": max_cycles}
+        result = c_char_p()
+        with reporting(progress, "solve") as report, self._handle as solver:
+            call_reporting(
+                "smg_solver_solve",
+                (solver, byref(table(right)), x.ctypes.data_as(c_void_p), json_text(options)),
+                report,
+                byref(result),
+            )
+            self.report = Report(parse(result))
+        if strict and not self.report.get("converged", True):
+            raise NotConverged(not_converged(self.report), x)
+        warn_of(self.report, set())
+        return x
+
+    def multiply(self, x: Any) -> np.ndarray:
+        """A x, of the shape of x: (n,) or (n, k)."""
+        return self._apply("smg_solver_multiply", x, "x")
+
+    def precondition(self, r: Any) -> np.ndarray:
+        """M r: one V-cycle, a symmetric positive definite approximation of the inverse of A.
+
+        r and the result: (n,) or (n, k); each column has a V-cycle.
+        """
+        return self._apply("smg_solver_precondition", r, "r")
+
+    def _apply(self, function: str, values: Any, name: str) -> np.ndarray:
+        given = np.asarray(vector(values, name, self.shape[0]), np.float64)
+        columns = np.ascontiguousarray(given.reshape(len(given), -1).T)
+        found = np.empty_like(columns)
+        with self._handle as solver:
+            for column, result in zip(columns, found):
+                call(
+                    function,
+                    solver,
+                    column.ctypes.data_as(c_void_p),
+                    result.ctypes.data_as(c_void_p),
+                )
+        return np.ascontiguousarray(found.T).reshape(given.shape)
+
+    def __matmul__(self, x: Any) -> np.ndarray:
+        return self.multiply(x)
+
+    @property
+    def A(self) -> Any:  # noqa: N802, the letter of the equations
+        """A as a scipy.sparse.linalg.LinearOperator."""
+        return self._operator(self.multiply)
+
+    def aspreconditioner(self) -> Any:
+        """M as a scipy.sparse.linalg.LinearOperator, for ``cg(A, b, M=solver.aspreconditioner())``."""
+        return self._operator(self.precondition)
+
+    def _operator(self, function: Any) -> Any:
+        from scipy.sparse.linalg import LinearOperator
+
+        return LinearOperator(
+            self.shape,
+            matvec=lambda x: function(np.reshape(x, -1)),
+            rmatvec=lambda x: function(np.reshape(x, -1)),  # both are symmetric on free vertices
+            matmat=function,
+            dtype=self.dtype,
+        )
+
+    def close(self) -> None:
+        """Frees the memory; also done when nothing refers to the solver any more."""
+        self._handle.close()
+
+    def __enter__(self) -> "Solver":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return "<Solver of %d vertices>" % self.shape[0]

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays of any type and stride give the same bits, without copies; wrong ones a clear error."""
+
+import unittest
+
+from testing import bits, cube, np, smg, sphere
+
+
+class TypesTest(unittest.TestCase):
+    def setUp(self):
+        self.points, self.cells = sphere(3)
+        self.points = np.round(self.points * 64) / 64  # exact in half precision
+        self.expected = self.solve(self.points, self.cells)
+
+    def solve(self, points, cells, values=None, held=None):
+        held = self.points[:, 2] >= 0.5 if held is None else held
+        values = np.round(self.points[:, 0] * 8) if values is None else values
+        return smg.solve(points, cells, dirichlet=smg.mask(held) >> values, source=2)
+
+    def test_types(self):
+        types = [np.int8, np.int16, np.int32, np.int64, np.float16, np.float32, np.float64,
+                 np.longdouble, ">f8", ">i4"]  # fmt: skip
+        for type_ in types:
+            with self.subTest(values=type_):
+                values = np.round(self.points[:, 0] * 8).astype(type_)
+                self.assertEqual(bits(self.solve(self.points, self.cells, values)), bits(self.expected))
+        for type_ in [np.float16, np.float32, np.longdouble, ">f4"]:
+            with self.subTest(points=type_):
+                found = self.solve(self.points.astype(type_), self.cells)
+                self.assertEqual(bits(found), bits(self.expected))
+        for type_ in [np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64, ">i8"]:
+            with self.subTest(cells=type_):
+                found = self.solve(self.points, self.cells.astype(type_))
+                self.assertEqual(bits(found), bits(self.expected))
+        for type_ in [bool, np.uint8, np.float32, np.int64]:
+            with self.subTest(mask=type_):
+                held = (self.points[:, 2] >= 0.5).astype(type_)
+                found = self.solve(self.points, self.cells, held=held)
+                self.assertEqual(bits(found), bits(self.expected))
+
+    def test_strides(self):
+        wide = np.full((len(self.points), 7), 5.0)
+        wide[:, 5:2:-1] = self.points
+        for points in (np.asfortranarray(self.points), wide[:, 5:2:-1], self.points.tolist()):
+            self.assertEqual(bits(self.solve(points, self.cells)), bits(self.expected))
+        every = np.repeat(self.cells, 2, axis=0)[::2]
+        for cells in (np.asfortranarray(self.cells), every, self.cells.tolist()):
+            self.assertEqual(bits(self.solve(self.points, cells)), bits(self.expected))
+        values = np.round(self.points[:, 0] * 8)[::-1].copy()[::-1]
+        self.assertEqual(bits(self.solve(self.points, self.cells, values)), bits(self.expected))
+        values.flags.writeable = False
+        self.assertEqual(bits(self.solve(self.points, self.cells, values)), bits(self.expected))
+
+    def test_points_may_change_after_the_mesh_is_made(self):
+        points, cells = self.points.copy(), self.cells.copy()
+        mesh = smg.mesh(points, cells)
+        points[:], cells[:] = np.nan, 0
+        self.assertEqual(bits(mesh.points), bits(self.points))
+        np.testing.assert_array_equal(mesh.cells, self.cells)
+
+    def test_columns_return_as_they_were_given(self):
+        for type_ in (np.int8, np.uint16, np.int64, np.float32, np.float64):
+            for shape in ((), (2,)):
+                mesh = smg.mesh(self.points, self.cells)
+                values = np.arange(len(self.points) * (shape or (1,))[0]).astype(type_)
+                values = values.reshape(-1, *shape)
+                mesh["Column"] = values
+                self.assertEqual(mesh["Column"].dtype, type_)
+                np.testing.assert_array_equal(mesh["Column"], values)
+                of_cells = np.arange(len(self.cells)).astype(type_)
+                mesh.add("OfCells", of_cells, cells=True)
+                np.testing.assert_array_equal(mesh["OfCells"], of_cells)
+
+
+class ErrorsTest(unittest.TestCase):
+    def test_meshes(self):
+        points, cells = sphere(1)
+        wrong = cells.copy()
+        wrong[3, 1] = len(points)
+        for given, words in (
+            ((points[:, :2], cells), r"points: the shape is \(42, 2\)"),
+            ((points, cells[:, :2]), r"cells: the shape is \(80, 2\)"),
+            ((points, cells.astype(float)), "integers"),
+            ((points, wrong), "42"),
+            ((points, -cells), "-"),
+            ((points * 1j, cells), "complex"),
+            ((points.astype(object), cells), "objects"),
+            ((np.ma.masked_less(points, 0), cells), "masked"),
+            ((points[:, 0], cells), r"\(42,\)"),
+            (("text", cells), "only real numbers"),
+            (([[0, 0, 0], [1, 0]], cells), "points"),
+            ((np.where(points > 0.9, np.nan, points), cells), "finite|not a number|NaN|nan"),
+        ):
+            with self.subTest(words=words), self.assertRaisesRegex(smg.InputError, words) as caught:
+                smg.mesh(*given)
+            self.assertEqual(str(caught.exception).count("\n"), 0)
+            self.assertIsInstance(caught.exception, ValueError)
+
+    def test_jobs(self):
+        points, cells = sphere(2)
+        mesh = smg.mesh(points, cells)
+        for call, error, words in (
+            (lambda: mesh.solve(source=np.ones(7)), smg.InputError, "162 vertices or 320 cells"),
+            (lambda: mesh.solve(dirichlet=smg.tag("part", 1) >> 0), smg.Error, "part"),
+            (lambda: mesh.solve(dirichlet=smg.sphere((9, 9, 9), 1) >> 0), smg.Error, "no vertex"),
+            (lambda: mesh.solve(dirichlet=smg.boundary >> 0), smg.Error, "boundary"),
+            (lambda: mesh.solve(dirichlet={999: 1.0}), smg.Error, "999"),
+            (lambda: mesh.solve(dirichlet={0: 1.0}, tolerance=3), smg.Error, "tolerance"),
+            (lambda: mesh.solve(), smg.Error, "."),
+            (lambda: mesh.solve(dirichlet={0: np.nan}), smg.Error, "."),
+            (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1 furlong"), smg.Error, "furlong"),
+            (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1KB"), smg.InputError, "1KB"),
+            (lambda: mesh.smooth(size="wide"), smg.InputError, "size"),
+            (lambda: mesh.distance(), smg.InputError, "sources"),
+            (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.Error, "."),
+            (lambda: mesh.blend("Light", patch="scan"), smg.Error, "scan|Light"),
+            (lambda: mesh["Light"], smg.InputError, "Light"),
+            (lambda: mesh.add("#1", np.ones(162)), smg.InputError, "#"),
+            (lambda: mesh.save("x.unknown"), smg.Error, "unknown"),
+            (lambda: mesh.simplify(), smg.InputError, "vertices"),
+            (lambda: smg.open("nowhere.ply"), FileNotFoundError, "nowhere.ply"),
+        ):
+            with self.subTest(words=words), self.assertRaisesRegex(error, words):
+                call()
+        self.assertRaises(TypeError, mesh.solve, dirichlets={0: 1.0})
+        # NaN where nothing is read from an array is no fault.
+        held = points[:, 2] > 0.5
+        values = np.where(held, 1.0, np.nan)
+        np.testing.assert_allclose(mesh.solve(dirichlet=smg.mask(held) >> values), 1)
+        with self.assertRaisesRegex(smg.Error, "NaN|nan|finite|not a number"):
+            mesh.solve(dirichlet=smg.mask(points[:, 2] > 0.4) >> values)
+
+    def test_memory(self):
+        mesh = smg.mesh(*sphere(6))
+        with self.assertRaisesRegex(smg.MemoryLimitError, "limit.*MiB") as caught:
+            mesh.solve(dirichlet={0: 1.0, 1: 2.0}, memory="1MiB")
+        self.assertIsInstance(caught.exception, MemoryError)
+
+    def test_a_column_of_cells_for_vertices(self):
+        points, cells = cube(2)
+        with self.assertRaisesRegex(smg.InputError, "27 vertices"):
+            smg.solve(points, cells, initial=np.ones(48), source=1)
+
+    def test_closed(self):
+        mesh = smg.mesh(*sphere(2))
+        u = mesh.solve(dirichlet={0: 0.0, 1: 1.0})
+        values = u.to_numpy()
+        mesh.close()
+        mesh.close()
+        with self.assertRaisesRegex(smg.Error, "closed"):
+            mesh.info(full=True)
+        u.save("closed.vsm")  # a field has what it needs of its mesh
+        with smg.open("closed.vsm") as saved:
+            self.assertEqual(bits(saved["Solution"]), bits(values))
+
+
+unittest.main(verbosity=2)

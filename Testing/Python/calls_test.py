@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Progress, Ctrl-C, threads: what happens during a call; and that nothing is left behind."""
+
+import _thread
+import contextlib
+import gc
+import io
+import os
+import signal
+import tempfile
+import threading
+import unittest
+
+from testing import bits, np, smg, sphere
+
+POINTS, CELLS = sphere(5)
+PROBLEM = {"dirichlet": {0: 0.0, 99: 1.0}}
+
+
+class Rich:
+    """The protocol of rich.progress.Progress."""
+
+    def __init__(self):
+        self.tasks = []
+
+    def add_task(self, description, total):
+        self.tasks.append([description, total, 0])
+        return len(self.tasks) - 1
+
+    def update(self, task, completed):
+        self.tasks[task][2] = completed
+
+
+class ProgressTest(unittest.TestCase):
+    def test_functions(self):
+        said = []
+        mesh = smg.mesh(POINTS, CELLS, progress=said.append)
+        self.assertTrue(said)
+        mesh.solve(**PROBLEM, progress=said.append)
+        self.assertTrue(all(0 <= part <= 1 for part in said))
+        self.assertGreater(said[-1], 0.9)
+
+    def test_bars(self):
+        mesh = smg.mesh(POINTS, CELLS)
+        rich = Rich()
+        mesh.solve(**PROBLEM, progress=rich)
+        (task,) = rich.tasks
+        self.assertEqual(task[:2], ["solve", 1.0])
+        self.assertGreater(task[2], 0.9)
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            mesh.solve(**PROBLEM, progress=True)
+        self.assertIn("solve [####", shown.getvalue())
+        try:
+            import tqdm
+        except ImportError:
+            self.skipTest("tqdm is not installed")
+        with contextlib.redirect_stderr(io.StringIO()), tqdm.tqdm(total=50) as bar:
+            mesh.solve(**PROBLEM, progress=bar)
+            self.assertGreater(bar.n, 45)
+            self.assertLessEqual(bar.n, 50 + 1e-9)
+        with contextlib.redirect_stderr(io.StringIO()) as shown:
+            mesh.solve(**PROBLEM, progress=tqdm.tqdm)
+        self.assertIn("solve", shown.getvalue())
+        self.assertRaises(smg.InputError, mesh.solve, **PROBLEM, progress=5)
+
+    def test_opening_is_a_part(self):
+        smg.mesh(POINTS, CELLS).save("part.off")
+        said = []
+        smg.open("part.off").solve(**PROBLEM, progress=said.append)
+        self.assertEqual(said, sorted(said))
+
+
+class CancelTest(unittest.TestCase):
+    def test_what_a_progress_function_raises_is_raised(self):
+        class Enough(Exception):
+            pass
+
+        def enough(done):
+            if done > 0.3:
+                raise Enough
+
+        mesh = smg.mesh(POINTS, CELLS)
+        for call in (
+            lambda: mesh.solve(**PROBLEM, progress=enough),
+            lambda: mesh.smooth(progress=enough),
+            lambda: mesh.deform([smg.handle([0], fixed=True), smg.handle([9], target=[0, 0, 9])],
+                                progress=enough),
+            lambda: mesh.distance([0], progress=enough),
+            lambda: mesh.save("cancelled.vtu", progress=enough),
+            lambda: mesh.solver(**PROBLEM, progress=enough),
+        ):  # fmt: skip
+            self.assertRaises(Enough, call)
+        self.assertFalse(os.path.exists("cancelled.vtu"))
+        u = mesh.solve(**PROBLEM)  # it can be used as before
+        self.assertEqual(bits(u.to_numpy()), bits(smg.solve(POINTS, CELLS, **PROBLEM)))
+
+    def test_interrupt(self):
+        mesh = smg.mesh(POINTS, CELLS)
+        before = signal.getsignal(signal.SIGINT)
+        said = []
+
+        def interrupt(done):
+            if not said:
+                signal.raise_signal(signal.SIGINT)
+            said.append(done)
+
+        self.assertRaises(KeyboardInterrupt, mesh.solve, **PROBLEM, progress=interrupt)
+        self.assertLess(len(said), 5)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+
+    def test_interrupt_from_outside(self):
+        """Without any progress function, at any time; what was there before still works."""
+        mesh = smg.mesh(*sphere(6))
+        interrupted = 0
+        for k in range(12):
+            timer = threading.Timer(0.02 * (k + 1), _thread.interrupt_main)
+            try:
+                timer.start()
+                mesh.solve(**PROBLEM)
+                timer.join()
+            except KeyboardInterrupt:
+                interrupted += 1
+            timer.join()
+        self.assertGreater(interrupted, 0)
+        mesh.solve(**PROBLEM)
+
+    def test_a_handler_of_the_program_is_used(self):
+        mesh = smg.mesh(POINTS, CELLS)
+        called = []
+        before = signal.signal(signal.SIGINT, lambda *arguments: called.append(arguments[0]))
+        try:
+            mesh.solve(**PROBLEM, progress=lambda done: called or signal.raise_signal(signal.SIGINT))
+        finally:
+            signal.signal(signal.SIGINT, before)
+        self.assertEqual(called, [signal.SIGINT])
+
+
+class ThreadsTest(unittest.TestCase):
+    def test_python_runs_during_a_call(self):
+        """Another thread goes on between two reports of progress."""
+        mesh = smg.mesh(*sphere(6))
+        turns, ended = [0], threading.Event()
+
+        def count():
+            while not ended.is_set():
+                turns[0] += 1
+
+        counter = threading.Thread(target=count)
+        counter.start()
+        try:
+            mesh.solve(**PROBLEM)
+        finally:
+            ended.set()
+            counter.join()
+        self.assertGreater(turns[0], 1000)
+
+    def test_threads_share_a_mesh(self):
+        mesh = smg.mesh(POINTS, CELLS)
+        expected = [bits(mesh.solve(dirichlet={0: 0.0, i: 1.0}).to_numpy()) for i in range(1, 5)]
+        found = [None] * 4
+
+        def solve(i):
+            found[i - 1] = bits(mesh.solve(dirichlet={0: 0.0, i: 1.0}).to_numpy())
+
+        threads = [threading.Thread(target=solve, args=(i,)) for i in range(1, 5)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, expected)
+
+
+class ScratchTest(unittest.TestCase):
+    def test_nothing_is_left(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            mesh = smg.mesh(POINTS, CELLS, scratch=scratch)
+            u = mesh.solve(**PROBLEM)
+            small = mesh.simplify(500)
+            self.assertEqual(small.n_corners, 3)
+            self.assertEqual(u.shape, (len(POINTS),))
+            del mesh, u, small
+            gc.collect()
+            left = [os.path.join(folder, name) for folder, _, names in os.walk(scratch)
+                    for name in names]  # fmt: skip
+            self.assertEqual(left, [])
+
+    def test_memory_of_repeated_jobs(self):
+        """The arrays of a job go with its field."""
+        import weakref
+
+        mesh = smg.mesh(POINTS, CELLS)
+        source = POINTS[:, 2].copy()
+        gone = weakref.ref(source)
+        u = mesh.solve(source=source, dirichlet={0: 0.0})
+        del source
+        gc.collect()
+        self.assertIsNotNone(gone())
+        np.testing.assert_array_equal(u.report["conditions"][0]["vertices"], 1)
+        del u
+        gc.collect()
+        self.assertIsNone(gone())
+
+
+unittest.main(verbosity=2)

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Each job in Python has the bits of the command line, from files and from arrays."""
+
+import json
+import os
+import unittest
+import warnings
+
+from testing import (
+    BUNNY, SINK, SOURCE, bits, cube, file_result, np, run, smg, sphere, write_off,
+)  # fmt: skip
+
+HEAT = {
+    "conductivity": [25, smg.tag("Material", 2) >> 200],
+    "flux": smg.halfspace((0, 0, -1), -0.001) >> 100000,
+    "robin": smg.above(z=0.005) >> (100, 20),
+    "outputs": ["gradient", "flux"],
+}
+HELD = smg.sphere((-0.07, 0.14, 0.01), 0.04)
+
+
+class CommandLineTest(unittest.TestCase):
+    def test_solve(self):
+        run("solve", SINK, "heat.vsm", "--problem",
+            os.path.join(SOURCE, "Examples", "HeatConduction", "heat.json"), "--report", "heat.json")
+        mesh = smg.open(SINK)
+        heat = mesh.solve(**HEAT)
+        self.assertEqual(heat.shape, (2116,))
+        for name in ("Solution", "Gradient", "Flux"):
+            self.assertEqual(bits(heat[name]), bits(file_result("heat.vsm", name)), name)
+        with open("heat.json", encoding="utf-8") as file:
+            said = json.load(file)
+        for key in ("residuals", "conditions", "energy", "mean", "minimum", "maximum", "balance"):
+            self.assertEqual(heat.report[key], said[key], key)
+        self.assertAlmostEqual(heat.report.maximum[0]["value"], 67.84, 2)
+        # Files have the same bytes, too.
+        heat.save("python.vtu")
+        run("solve", SINK, "smg.vtu", "--problem",
+            os.path.join(SOURCE, "Examples", "HeatConduction", "heat.json"))
+        with open("python.vtu", "rb") as one, open("smg.vtu", "rb") as two:
+            self.assertEqual(one.read(), two.read())
+
+    def test_deform(self):
+        file = os.path.join(SOURCE, "Examples", "Deformation", "bunny.json")
+        run("deform", BUNNY, "deformed.vsm", "--handles", file)
+        mesh = smg.open(BUNNY)
+        one = mesh.deform([
+            smg.handle(smg.below(y=0.05), fixed=True),
+            smg.handle(smg.sphere((-0.068, 0.134, 0.027), 0.034),
+                       rotate={"axis": [0, 1, 0], "degrees": 70, "center": [-0.065, 0.11, 0.01]},
+                       scale=1.3, translate=[-0.015, 0.012, 0.01]),
+            smg.handle(smg.sphere((-0.068, 0.175, -0.055), 0.025), rotate=((-0.4, 0.8, 0.45), 90),
+                       center=(-0.065, 0.152, -0.008), scale=1.3, translate=(-0.037, 0.025, 0.02)),
+        ], weights="clamped", tolerance=1e-6)  # fmt: skip
+        two = mesh.deform(file)
+        expected = file_result("deformed.vsm", "Position")
+        self.assertEqual(bits(two.to_numpy().astype(np.float32)), bits(expected.astype(np.float32)))
+        self.assertEqual(bits(one.to_numpy()), bits(two.to_numpy()))
+
+    def test_smooth(self):
+        run("smooth", BUNNY, "smooth.vsm", "--size", 0.01, "--steps", 2, "--hold",
+            '{"sphere": [-0.07, 0.14, 0.01, 0.04]}')
+        smooth = smg.open(BUNNY).smooth(size=0.01, steps=2, hold=HELD)
+        self.assertEqual(bits(smooth.to_numpy().astype(np.float32)),
+                         bits(file_result("smooth.vsm", "Position").astype(np.float32)))
+        smooth.save("python.vsm")
+        self.assertEqual(bits(file_result("python.vsm", "Position")),
+                         bits(file_result("smooth.vsm", "Position")))
+
+    def test_smooth_a_column(self):
+        mesh = smg.open(BUNNY)
+        noise = np.random.default_rng(1).random(mesh.n_vertices)
+        by_value = mesh.smooth(column=noise, size="8edges")
+        mesh["Noise"] = noise
+        by_name = mesh.smooth(column="Noise", size="8edges")
+        self.assertEqual((by_value.name, by_name.name), ("Values", "Noise"))
+        self.assertEqual(bits(by_value.to_numpy()), bits(by_name.to_numpy()))
+        mesh.save("noisy.vsm")
+        run("smooth", "noisy.vsm", "quiet.vsm", "--column", "Noise", "--size", "8edges")
+        self.assertEqual(bits(by_name.to_numpy()), bits(file_result("quiet.vsm", "Noise")))
+
+    def test_blend(self):
+        mesh = smg.open(BUNNY)
+        points = mesh.points
+        patch = (points[:, 0] > 0).astype(np.int32)
+        light = (points * 1000 + 20 * patch[:, None]).astype(np.float32)
+        blended = mesh.blend({"Light": light}, patch=patch, hold=HELD, anchor=0.1)
+        self.assertEqual(blended.shape, light.shape)
+        with_columns = smg.open(BUNNY)
+        with_columns["Light"], with_columns["scan"] = light, patch
+        with_columns.save("patches.vsm")
+        run("blend", "patches.vsm", "blended.vsm", "--patch", "scan", "--columns", "Light", "--hold",
+            '{"sphere": [-0.07, 0.14, 0.01, 0.04]}', "--anchor", 0.1)
+        self.assertEqual(blended.to_numpy().dtype, np.float32)
+        self.assertEqual(bits(blended.to_numpy()), bits(file_result("blended.vsm", "Light")))
+
+    def test_distance(self):
+        run("distance", BUNNY, "distance.vsm", "--from", '{"vertices": [21000]}', "--source",
+            "--direction")
+        distance = smg.open(BUNNY).distance(smg.vertices([21000]), source=True, direction=True)
+        for name in ("Distance", "DistanceSource", "DistanceDirection"):
+            self.assertEqual(bits(distance[name]), bits(file_result("distance.vsm", name)), name)
+        run("distance", SINK, "wall.vsm", "--wall")
+        wall = smg.open(SINK).distance(wall=True)
+        self.assertEqual(bits(wall.to_numpy()), bits(file_result("wall.vsm", "Distance")))
+
+    def test_simplify(self):
+        run("simplify", BUNNY, "small.ply", "--vertices", 2000)
+        with smg.open(BUNNY) as mesh:
+            small = mesh.simplify(2000)
+            mesh.simplify(2000, path="python.ply")
+        with open("python.ply", "rb") as one, open("small.ply", "rb") as two:
+            self.assertEqual(one.read(), two.read())
+        self.assertLessEqual(small.n_vertices, 2000)
+        self.assertEqual(small.report.vertices, small.n_vertices)
+        self.assertEqual(bits(small.points), bits(smg.open(BUNNY).points[small["OriginalId"]]))
+        points, cells = sphere(4)
+        for vertices in (100, 2000):
+            small = smg.mesh(points, cells).simplify(vertices)
+            self.assertEqual(bits(small.points), bits(points[small["OriginalId"]]))
+            self.assertTrue(np.isfinite(small.points).all())
+
+
+class ArraysTest(unittest.TestCase):
+    """Arrays and the file of the same mesh have the same results."""
+
+    def setUp(self):
+        self.points, self.cells = sphere(4)
+        self.file = write_off("sphere.off", self.points, self.cells)
+
+    def same(self, job, *arguments, **options):
+        of_file = getattr(smg.open(self.file), job)(*arguments, **options).to_numpy()
+        of_arrays = getattr(smg, job)(self.points, self.cells, *arguments, **options)
+        self.assertEqual(bits(of_file), bits(of_arrays), job)
+        return of_arrays
+
+    def test_jobs(self):
+        u = self.same("solve", dirichlet={0: 0.0, 99: 1.0})
+        self.assertEqual(u.shape, (len(self.points),))
+        self.assertEqual((u[0], u[99]), (0, 1))
+        self.assertTrue(((-1e-6 < u) & (u < 1 + 1e-6)).all())
+        moved = self.same("deform", [smg.handle(smg.below(z=-0.8), fixed=True),
+                                     smg.handle(smg.above(z=0.8), translate=[0, 0, 1])])
+        self.assertAlmostEqual(moved[:, 2].max(), 2, 6)
+        self.same("smooth", size="8edges", hold=self.points[:, 2] > 0.5)
+        self.same("smooth", column=self.points, size="8edges")
+        self.same("blend", self.points[:, 0] + (self.points[:, 1] > 0), patch=self.points[:, 1] > 0)
+        self.same("distance", [0])
+
+    def test_conditions_by_arrays(self):
+        """What masks and arrays select is what regions select."""
+        z = self.points[:, 2]
+        by_region = self.same("solve", dirichlet=[smg.above(z=0.5) >> 1, smg.below(z=-0.5) >> 0])
+        by_mask = self.same("solve", dirichlet=[smg.mask(z >= 0.5) >> 1, smg.mask(z <= -0.5) >> 0])
+        by_value = self.same("solve", dirichlet=smg.mask(np.abs(z) >= 0.5) >> (z > 0))
+        by_number = self.same("solve", dirichlet={int(i): float(z[i] > 0)
+                                                  for i in np.flatnonzero(np.abs(z) >= 0.5)})
+        for other in (by_mask, by_value, by_number):
+            self.assertEqual(bits(by_region), bits(other))
+
+    def test_several_columns(self):
+        x = self.same("solve", dirichlet=smg.mask(np.abs(self.points[:, 2]) > 0.5) >> self.points)
+        self.assertEqual(x.shape, (len(self.points), 3))
+        one = smg.solve(self.points, self.cells, initial=0,
+                        dirichlet=smg.mask(np.abs(self.points[:, 2]) > 0.5) >> self.points[:, 0])
+        np.testing.assert_allclose(x[:, 0], one, atol=1e-6)
+
+    def test_tetrahedra(self):
+        points, cells = cube(6)
+        inner = smg.solve(points, cells, dirichlet=smg.boundary >> points @ [1, 2, 3], tolerance=1e-11)
+        np.testing.assert_allclose(inner, points @ [1, 2, 3], atol=1e-8)
+        found = smg.solve(points, cells, dirichlet=smg.plane(x=0) >> 0, flux=smg.plane(x=1) >> 1,
+                          outputs="gradient", tolerance=1e-11)
+        np.testing.assert_allclose(found["Solution"], points[:, 0], atol=1e-8)
+        np.testing.assert_allclose(found["Gradient"], np.tile([1, 0, 0], (len(cells), 1)), atol=1e-7)
+        conductivity = np.where(points[cells].mean(axis=1)[:, 0] < 0.5, 1, 4)
+        u = smg.solve(points, cells, dirichlet=[smg.plane(x=0) >> 0, smg.plane(x=1) >> 5],
+                      conductivity=conductivity, tolerance=1e-11)
+        np.testing.assert_allclose(u[np.isclose(points[:, 0], 0.5)], 4, atol=1e-8)
+
+    def test_vertices_of_no_cell(self):
+        points = np.concatenate([[[9, 9, 9]], self.points])
+        u = smg.solve(points, self.cells + 1, dirichlet={1: 0.0, 100: 1.0})
+        self.assertTrue(np.isnan(u[0]))
+        self.assertEqual(bits(u[1:]), bits(self.same("solve", dirichlet={0: 0.0, 99: 1.0})))
+        moved = smg.smooth(points, self.cells + 1)
+        self.assertEqual(moved[0].tolist(), [9, 9, 9])
+
+
+class ResultTest(unittest.TestCase):
+    def test_arrays_of_a_job_stay_out_of_files(self):
+        points, cells = sphere(3)
+        mesh = smg.mesh(points, cells)
+        mesh["Height"] = points[:, 2]
+        u = mesh.solve(source=points[:, 0], dirichlet=smg.mask(points[:, 2] > 0.9) >> 0)
+        self.assertEqual(set(mesh.columns["vertices"]) - {"OriginalId"}, {"Height"})
+        u.save("u.vtu")
+        with smg.open("u.vtu") as saved:
+            self.assertEqual(set(saved.columns["vertices"]) - {"OriginalId"}, {"Height", "Solution"})
+            self.assertEqual(bits(saved["Solution"]), bits(u.to_numpy()))
+        # Another job with other arrays leaves the first one as it was.
+        before = u.report["conditions"]
+        mesh.solve(source=-points[:, 0], dirichlet=smg.mask(points[:, 2] < -0.9) >> 0)
+        self.assertEqual(u.report["conditions"], before)
+        self.assertEqual(u.names, ("Solution",))
+        self.assertEqual(set(u.columns["vertices"]) - {"OriginalId"}, {"Height", "Solution"})
+
+    def test_not_converged(self):
+        points, cells = sphere(4)
+        mesh = smg.mesh(points, cells)
+        problem = {"dirichlet": {0: 0, 99: 1}, "max_cycles": 1, "tolerance": 1e-12}
+        with self.assertWarns(smg.NotConvergedWarning) as caught:
+            u = mesh.solve(**problem)
+        self.assertEqual(caught.filename, __file__)
+        self.assertFalse(u.report.converged)
+        with self.assertRaises(smg.NotConverged) as caught:
+            mesh.solve(strict=True, **problem)
+        self.assertEqual(bits(caught.exception.result.to_numpy()), bits(u.to_numpy()))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mesh.solve(dirichlet={0: 0, 99: 1})
+
+    def test_estimates(self):
+        mesh = smg.open(BUNNY)
+        estimate = mesh.estimate("smooth", size="8edges")
+        self.assertIn("memory", repr(estimate))
+        self.assertGreater(estimate.memory_bytes, 0)
+        mesh.estimate("solve", dirichlet={0: 0, 1: 1}, path="out.vtu")
+        self.assertRaises(smg.InputError, mesh.estimate, "sing")
+
+    def test_cache(self):
+        points, cells = sphere(3)
+        file = write_off("cached.off", points, cells)
+        mesh = smg.open(file, cache="cache")
+        self.assertFalse(os.path.exists("cache"))  # before it is used
+        u = mesh.solve(dirichlet={0: 0, 9: 1})
+        (name,) = os.listdir("cache")
+        state = os.stat(os.path.join("cache", name)).st_mtime_ns
+        again = smg.open(file, cache="cache").solve(dirichlet={0: 0, 9: 1})
+        self.assertEqual(bits(u.to_numpy()), bits(again.to_numpy()))
+        self.assertEqual(os.stat(os.path.join("cache", name)).st_mtime_ns, state)
+        write_off("cached.off", points * 2, cells)
+        smg.open(file, cache="cache").info()
+        self.assertEqual(len(os.listdir("cache")), 2)
+
+
+unittest.main(verbosity=2)

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A wheel, built without a network from the libraries of the build folder, installed in an
+environment of its own, uses the libraries that it carries."""
+
+import os
+import subprocess
+import sys
+import tarfile
+import unittest
+
+from testing import SOURCE, need
+
+need("venv", "ensurepip", "pip")
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+BUILD = os.environ["SMG_BUILD_DIR"]
+
+PROGRAM = """
+import os, re, sys
+import numpy as np
+import streamingmultigrid as smg
+points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5]])
+u = smg.solve(points, [[0, 1, 2], [2, 1, 3]], dirichlet={0: 0.0, 3: 1.0})
+assert u[0] == 0 and u[3] == 1 and 0 < u[1] < 1, u
+here = os.path.dirname(smg.__file__)
+assert here.startswith(sys.prefix), here
+loaded = {line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}
+for name in ("libsmgSolver", "libsmgIOCore", "libstreamingmultigrid", "libcholmod", "libmetis"):
+    (path,) = [each for each in loaded if os.path.basename(each).startswith(name)]
+    assert path.startswith(here), path
+print(smg.__version__)
+"""
+
+
+def run(*command):
+    return subprocess.run(command, check=True, env=ENVIRONMENT, timeout=900, stdout=subprocess.PIPE,
+                          text=True).stdout  # fmt: skip
+
+
+class WheelTest(unittest.TestCase):
+    def test_wheel(self):
+        run(sys.executable, "-m", "venv", "--clear", "--system-site-packages", "environment")
+        python = os.path.join("environment", "bin", "python")
+        run(python, "-m", "pip", "wheel", "--quiet", "--no-index", "--no-build-isolation", "--no-deps",
+            "--config-settings", "build-dir=" + BUILD, "--wheel-dir", "wheels", SOURCE)  # fmt: skip
+        (wheel,) = [name for name in os.listdir("wheels") if name.endswith(".whl")]
+        self.assertRegex(wheel, r"^streamingmultigrid-[0-9.]+-py3-none-linux_\w+\.whl$")
+        run(python, "-m", "pip", "install", "--quiet", "--no-index", os.path.join("wheels", wheel))
+        version = run(python, "-c", PROGRAM).strip()
+        self.assertEqual(wheel.split("-")[1], version)
+        listed = run(python, "-m", "pip", "show", "--files", "streamingmultigrid")
+        for name in ("LICENSE", "copyright", "py.typed", "entry_points.txt"):
+            self.assertIn(name, listed)
+
+    def test_source_archive(self):
+        sys.path.insert(0, os.path.join(SOURCE, "Python"))
+        import build_backend
+
+        name = build_backend.build_sdist(os.getcwd())
+        with tarfile.open(name) as archive:
+            names = {entry.split("/", 1)[1] for entry in archive.getnames()}
+        self.assertTrue({"PKG-INFO", "pyproject.toml", "CMakeLists.txt", "LICENSE",
+                         "Python/streamingmultigrid/__init__.py"} <= names)  # fmt: skip
+        self.assertFalse(any(each.startswith("build/") for each in names))
+
+
+unittest.main(verbosity=2)
