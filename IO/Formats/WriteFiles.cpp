@@ -222,7 +222,6 @@ std::vector<std::string> writeRestored(
   std::vector<std::string> notes = mesh.notes();
   const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace);
   notes.insert(notes.end(), more.begin(), more.end());
-  workspace.tell(1.0);
   return notes;
 }
 

@@ -2,10 +2,11 @@
 #include "smg/Convert.h"
 #include "Python/C/Call.h"
 #include "Python/C/Handles.h"
+#include "Python/C/JobText.h"
 #include "Python/C/Options.h"
 #include "smg/Simplify.h"
 
-#include <limits>
+#include <string>
 
 namespace smg
 {
@@ -30,47 +31,6 @@ ConversionOptions convertingIn(const JsonNode& node)
   return options;
 }
 
-std::string simplifyMesh(
-  const smg_mesh& mesh, const char* description, const char* path, const ProgressFunction& progress)
-{
-  const nlohmann::json json = optionsText(description, "simplify");
-  SimplifyTarget target;
-  SimplifyOptions options;
-  argument(
-    [&]
-    {
-      const JsonNode node(json, "simplify");
-      node.requireObject({ "vertices", "error", "memory", "threads", "scratch", "checkpoint" });
-      if (node.has("vertices"))
-      {
-        target.vertices =
-          node.member("vertices").integer(4, std::numeric_limits<std::int64_t>::max());
-      }
-      if (node.has("error"))
-      {
-        target.error = node.member("error").number();
-        if (target.error <= 0.0)
-        {
-          node.member("error").fail("must be a length above 0");
-        }
-      }
-      if (!node.has("vertices") && !node.has("error"))
-      {
-        node.fail("needs \"vertices\", \"error\" or both");
-      }
-      if (node.has("checkpoint"))
-      {
-        options.checkpoint = node.member("checkpoint").string();
-      }
-      const JobLimits limits = limitsIn(node, limitsOf(mesh.shared->options()));
-      options.memoryLimit = limits.memory > 0 ? limits.memory : options.memoryLimit;
-      options.threads = limits.threads;
-      options.scratch = limits.scratch;
-    });
-  options.progress = progress;
-  return simplify(mesh.stored(), target, path, options).json();
-}
-
 /** The report that smg_convert() last returned on this thread. */
 thread_local std::string ConvertReport;
 
@@ -84,8 +44,10 @@ smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* pat
     [&]
     {
       smg_mesh& given = smg::required(mesh, "mesh");
-      given.text = smg::simplifyMesh(
-        given, description, &smg::required(path, "path"), smg::progressOf(progress, user));
+      const char* const out = &smg::required(path, "path");
+      smg::SimplifyCall call = smg::simplifyCallOf(description, limitsOf(given.shared->options()));
+      call.options.progress = smg::progressOf(progress, user);
+      given.text = smg::simplify(given.stored(), call.target, out, call.options).json();
       if (report)
       {
         *report = given.text.c_str();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Arrays/ArgumentColumns.h"
 #include "IO/Conversion/JobEstimate.h"
+#include "IO/Simplification/SimplifiedMesh.h"
 #include "Python/C/Call.h"
 #include "Python/C/Field.h"
 #include "Python/C/JobText.h"
@@ -55,21 +56,26 @@ std::string infoText(const smg_mesh& mesh)
 }
 
 std::string estimateText(
-  const smg_mesh& mesh, const char* kind, const char* description, const char* path)
+  const smg_mesh& mesh, const std::string& kind, const char* description, const char* path)
 {
-  const std::unique_ptr<MeshJob> job = jobOf(kind, description, limitsOf(mesh.shared->options()));
+  const JobLimits limits = limitsOf(mesh.shared->options());
   const StoredMesh& stored = mesh.stored();
   ConversionOptions options;
-  options.scratch = mesh.shared->options().scratch;
+  options.scratch = limits.scratch;
   EstimatedInput in(stored.file(), options);
   in.info = withoutArguments(stored.info());
+  if (kind == "simplify")
+  {
+    const SimplifyCall call = simplifyCallOf(description, limits);
+    return simplifyEstimate(in, call.target, path ? path : "", call.options, options).json();
+  }
+  const std::unique_ptr<MeshJob> job = jobOf(kind, description, limits);
   EstimatedResult result{ path ? path : "", job->addedTo(in.info) };
   result.memory = job->writerMemory();
   if (path)
   {
     result.order =
-      resultFile(*mesh.shared, mesh.added, job.get(), path, limitsOf(mesh.shared->options()))
-        .expectedOrder(in.info);
+      resultFile(*mesh.shared, mesh.added, job.get(), path, limits).expectedOrder(in.info);
   }
   JobEstimate estimate(in, result, job->costsOn(stored.info()), options);
   estimate.memory_limit = job->memoryLimit();

@@ -13,6 +13,7 @@
 #include "Python/C/Options.h"
 
 #include <initializer_list>
+#include <limits>
 #include <vector>
 
 namespace smg
@@ -264,6 +265,44 @@ std::unique_ptr<MeshJob> jobOf(
       job->setLimits(limitsIn(node, defaults));
       job->check();
       return job;
+    });
+}
+
+SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults)
+{
+  const nlohmann::json json = optionsText(description, "simplify");
+  return argument(
+    [&]
+    {
+      const JsonNode node(json, "simplify");
+      node.requireObject({ "vertices", "error", "memory", "threads", "scratch", "checkpoint" });
+      if (!node.has("vertices") && !node.has("error"))
+      {
+        node.fail("needs \"vertices\", \"error\" or both");
+      }
+      SimplifyCall call;
+      if (node.has("vertices"))
+      {
+        call.target.vertices =
+          node.member("vertices").integer(4, std::numeric_limits<std::int64_t>::max());
+      }
+      if (node.has("error"))
+      {
+        call.target.error = node.member("error").number();
+        if (call.target.error <= 0.0)
+        {
+          node.member("error").fail("must be a length above 0");
+        }
+      }
+      if (node.has("checkpoint"))
+      {
+        call.options.checkpoint = node.member("checkpoint").string();
+      }
+      const JobLimits limits = limitsIn(node, defaults);
+      call.options.memoryLimit = limits.memory > 0 ? limits.memory : call.options.memoryLimit;
+      call.options.threads = limits.threads;
+      call.options.scratch = limits.scratch;
+      return call;
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Jobs/MeshJob.h"
+#include "smg/Simplify.h"
 
 #include <memory>
 #include <string>
@@ -14,5 +15,15 @@ namespace smg
  * ArgumentError with the place in the description. */
 std::unique_ptr<MeshJob> jobOf(
   const std::string& kind, const char* description, const JobLimits& defaults);
+
+/** What simplify() is to do. */
+struct SimplifyCall
+{
+  SimplifyTarget target;
+  SimplifyOptions options;
+};
+
+/** The same for the simplification of a mesh, which is no MeshJob. */
+SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults);
 
 } // namespace smg

@@ -112,8 +112,9 @@ extern "C"
   /* The numbers of vertices and cells in the original order. */
   SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
 
-  /* What a job is expected to cost, before it starts: the JSON of `--dry-run --report`. `path`:
-   * where the result is to be written; NULL: nowhere. The text as that of smg_info(). */
+  /* What a job of smg_run(), or "simplify", is expected to cost, before it starts: the JSON of
+   * `--dry-run --report`, without the conversion that smg_open() has made. `path`: where the result
+   * is to be written; NULL: nowhere. The text as that of smg_info(). */
   SMG_C_EXPORT smg_status smg_estimate(
     smg_mesh* mesh, const char* job, const char* description, const char* path, const char** json);
 
@@ -127,9 +128,10 @@ extern "C"
    *               "keep_edges" (degrees), "column", "tolerance", "normals"
    *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
    *   "distance"  "from" (WHERE or a list), "wall", "source", "direction", "max_passes"
-   * and of all of them "memory", "threads", "scratch", "scratch_limit"; of all that solve "sweeps",
-   * "max_cycles", "in_core"; of solve and deform "checkpoint". They mean what the options of the
-   * command line of these names mean, and have their defaults. */
+   * and of all of them "memory", "threads", "scratch", "scratch_limit", by default those that the
+   * mesh was opened with; of all that solve "sweeps", "max_cycles", "in_core"; of solve and deform
+   * "checkpoint". They mean what the options of the command line of these names mean, and have
+   * their defaults. A checkpoint goes with the field that smg_save() has written. */
   SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
     smg_progress progress, void* user, smg_field** field);
 
