@@ -144,7 +144,9 @@ def _licences(files):
     found = {}
     if shutil.which("dpkg"):
         for file in files:
-            done = subprocess.run(["dpkg", "-S", file], capture_output=True, text=True)
+            # Debian knows some files by their names before /lib became a link to /usr/lib.
+            names = [file, file.replace("/usr/lib/", "/lib/", 1)]
+            done = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True)
             package = done.stdout.split(":")[0]
             path = "/usr/share/doc/%s/copyright" % package
             if package and os.path.exists(path):

@@ -47,7 +47,8 @@ struct OriginalRows
  * vertex. Triangles or tetrahedra that were a single cell of the file follow each other, in stream
  * order, and nothing stands for cells that were left out. Where a column is missing, or has other
  * numbers than 0, 1, ... (as that of a simplified surface, which names vertices of another mesh, or
- * of a file whose points were merged before), the order is that of the stream, before the vertices of no cell.
+ * of a file whose points were merged before), the order is that of the stream, before the vertices
+ * of no cell.
  */
 class SMG_EXPORT OriginalOrder
 {

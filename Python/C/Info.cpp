@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace smg
 {
 namespace
@@ -55,15 +57,12 @@ std::string infoText(const smg_mesh& mesh)
   return textOfJson(json);
 }
 
-std::string estimateText(
-  const smg_mesh& mesh, const std::string& kind, const char* description, const char* path)
+/** What a job is expected to cost. `fileOf` makes the file of its result. */
+template <class FileOf>
+std::string estimateText(const EstimatedInput& in, const std::string& kind, const char* description,
+  const char* path, const ConversionOptions& options, const FileOf& fileOf)
 {
-  const JobLimits limits = limitsOf(mesh.shared->options());
-  const StoredMesh& stored = mesh.stored();
-  ConversionOptions options;
-  options.scratch = limits.scratch;
-  EstimatedInput in(stored.file(), options);
-  in.info = withoutArguments(stored.info());
+  const JobLimits limits = limitsOf(options);
   if (kind == "simplify")
   {
     const SimplifyCall call = simplifyCallOf(description, limits);
@@ -74,13 +73,46 @@ std::string estimateText(
   result.memory = job->writerMemory();
   if (path)
   {
-    result.order =
-      resultFile(*mesh.shared, mesh.added, job.get(), path, limits).expectedOrder(in.info);
+    result.order = fileOf(*job).expectedOrder(in.info);
   }
-  JobEstimate estimate(in, result, job->costsOn(stored.info()), options);
+  JobEstimate estimate(in, result, job->costsOn(in.info), options);
   estimate.memory_limit = job->memoryLimit();
   return estimate.json();
 }
+
+std::string estimateText(
+  const smg_mesh& mesh, const std::string& kind, const char* description, const char* path)
+{
+  const ConversionOptions& opened = mesh.shared->options();
+  ConversionOptions options;
+  apply(limitsOf(opened), options);
+  EstimatedInput in(mesh.stored().file(), options);
+  in.info = withoutArguments(mesh.stored().info());
+  return estimateText(in, kind, description, path, options,
+    [&](const MeshJob& job)
+    { return resultFile(*mesh.shared, mesh.added, &job, path, limitsOf(opened)); });
+}
+
+std::string estimateFileText(const std::filesystem::path& file, const char* text,
+  const std::string& kind, const char* description, const char* path)
+{
+  const nlohmann::json json = optionsText(text, "options");
+  const ConversionOptions options =
+    argument([&] { return conversionIn(JsonNode(json, "options"), true); });
+  const EstimatedInput in(file, options);
+  return estimateText(in, kind, description, path, options,
+    [&](const MeshJob& job)
+    {
+      ResultFile::Options result;
+      result.in = file;
+      result.out = path;
+      result.welds = options.weld.has_value();
+      return ResultFile(job, std::move(result));
+    });
+}
+
+/** The text that smg_estimate_file() last returned on this thread. */
+thread_local std::string FileEstimate;
 
 } // namespace
 } // namespace smg
@@ -108,6 +140,19 @@ smg_status smg_estimate(
       smg_mesh& given = smg::required(mesh, "mesh");
       given.text = smg::estimateText(given, &smg::required(job, "job"), description, path);
       *json = given.text.c_str();
+    });
+}
+
+smg_status smg_estimate_file(const char* file, const char* options, const char* job,
+  const char* description, const char* path, const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(json, "json") = nullptr;
+      smg::FileEstimate = smg::estimateFileText(
+        &smg::required(file, "file"), options, &smg::required(job, "job"), description, path);
+      *json = smg::FileEstimate.c_str();
     });
 }
 

@@ -118,6 +118,12 @@ extern "C"
   SMG_C_EXPORT smg_status smg_estimate(
     smg_mesh* mesh, const char* job, const char* description, const char* path, const char** json);
 
+  /* The same of a file that is not opened: of one that is no .vsm, with the conversion, from its
+   * header or its size. options as of smg_open(). The text is valid until the next call on this
+   * thread. */
+  SMG_C_EXPORT smg_status smg_estimate_file(const char* file, const char* options, const char* job,
+    const char* description, const char* path, const char** json);
+
   /* Does a job. description:
    *   "solve"     "problem" (as a problem file: docs/problem.md), "tolerance" (a number or "auto"),
    *               "acceleration" ("automatic", "none", "chebyshev", "cg")

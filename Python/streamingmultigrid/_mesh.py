@@ -8,6 +8,7 @@ import hashlib
 import os
 import shutil
 import tempfile
+import threading
 import weakref
 from ctypes import byref, c_char_p, c_int64
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
@@ -40,6 +41,8 @@ class Mesh:
         self.name = name
         self._opener, self._defaults, self._progress = opener, defaults, progress
         self._opened: Optional[Handle] = None
+        self._opening = threading.Lock()
+        self._file: Tuple[Any, ...] = ()  # path and options as smg_estimate_file() takes them
         self._own: Dict[Tuple[str, bool], np.ndarray] = {}
         self._facts: Dict[bool, Dict[str, Any]] = {}
         #: Of a mesh made by `simplify`: its report.
@@ -48,14 +51,14 @@ class Mesh:
     # Opening, which is done at the first use.
 
     def _handle(self, report: Any = None) -> Handle:
-        if self._opened is None:
-            if report is None:
-                with reporting(self._progress, "opening") as own:
-                    self._opened = self._opener(own)
-            else:
-                self._opened = self._opener(report)
-            self._opened.keep.append(self._own)
-        return self._opened
+        with self._opening:
+            if self._opened is None:
+                with contextlib.ExitStack() as stack:
+                    if report is None:
+                        report = stack.enter_context(reporting(self._progress, "opening"))
+                    self._opened = self._opener(report)
+                self._opened.keep.append(self._own)
+            return self._opened
 
     def defaults(self, *names: str) -> Dict[str, Any]:
         """Of `memory`, `threads`, `scratch`, `scratch_limit`: those that the mesh was opened with."""
@@ -202,15 +205,23 @@ class Mesh:
             job: "solve", "deform", "smooth", "blend", "distance", "simplify".
             arguments, options: as of the method of this name.
             path: where the result is to be written; default: nowhere.
+
+        A file that has not been read yet is not read for it, unless arrays, names of columns or planes
+        are arguments: then counts are estimated from its size where its header does not say them.
         """
         if job not in jobs.DESCRIPTIONS:
             raise InputError("There is no job %r; there are %s." % (job, ", ".join(jobs.DESCRIPTIONS)))
         columns = Columns(self)
-        description = jobs.DESCRIPTIONS[job](columns, *arguments, **options)[0]
-        description = self._with_defaults(job, description)
+        described = jobs.DESCRIPTIONS[job](columns, *arguments, **options)[0]
+        description = json_text(self._with_defaults(job, described))
         result = c_char_p()
+        if self._opened is None:  # what is said of the job did not need it
+            call(
+                "smg_estimate_file", *self._file, text(job), description, text(path), byref(result)
+            )
+            return Estimate(parse(result))
         with self.with_columns(columns) as mesh:
-            call("smg_estimate", mesh, text(job), json_text(description), text(path), byref(result))
+            call("smg_estimate", mesh, text(job), description, text(path), byref(result))
             return Estimate(parse(result))
 
     def _with_defaults(self, job: str, description: Dict[str, Any]) -> Dict[str, Any]:
@@ -436,7 +447,7 @@ def open(  # noqa: A001, the word of the trade
         progress: of the conversion, see `help(streamingmultigrid.progress)`.
 
     Raises:
-        Error: there is no such file; at the first use: it cannot be read.
+        FileNotFoundError: there is no such file. Error, at the first use: it cannot be read.
     """
     path = os.path.abspath(os.fspath(path))
     os.stat(path)  # FileNotFoundError at once, not at the first use
@@ -469,7 +480,9 @@ def open(  # noqa: A001, the word of the trade
         call_reporting("smg_open", (text(file), json_text(given)), report, byref(handle.pointer))
         return handle
 
-    return Mesh(path, opener, defaults, progress)
+    opened = Mesh(path, opener, defaults, progress)
+    opened._file = text(path), json_text(options)
+    return opened
 
 
 def mesh(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> Mesh:

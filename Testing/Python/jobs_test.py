@@ -223,9 +223,18 @@ class ResultTest(unittest.TestCase):
     def test_estimates(self):
         mesh = smg.open(BUNNY)
         estimate = mesh.estimate("smooth", size="8edges")
+        self.assertIn("not read yet", repr(mesh))
+        run("smooth", BUNNY, "out.ply", "--size", "8edges", "--dry-run", "--report", "dry.json")
+        with open("dry.json", encoding="utf-8") as file:
+            said = json.load(file)
+        for key in ("vertices", "memory_bytes", "memory_limit", "passes"):
+            self.assertEqual(estimate[key], said[key], key)
         self.assertIn("memory", repr(estimate))
         self.assertGreater(estimate.memory_bytes, 0)
         mesh.estimate("solve", dirichlet={0: 0, 1: 1}, path="out.vtu")
+        mesh.estimate("simplify", 1000)
+        exact = mesh.estimate("smooth", hold=np.zeros(mesh.n_vertices, bool))
+        self.assertEqual(exact.vertices, mesh.info()["vertices"])
         self.assertRaises(smg.InputError, mesh.estimate, "sing")
 
     def test_cache(self):
