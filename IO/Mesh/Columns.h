@@ -51,8 +51,8 @@ inline void clearTuples(std::vector<Column>& columns)
 
 // Names of columns with a known meaning, from files of any format.
 
-/** What all meshes have beside their columns, where it is asked for as one: x, y, z of the vertices,
- * and the corners of the cells. */
+/** What all meshes have beside their columns, where it is asked for as one: x, y, z of the
+ * vertices, and the corners of the cells. */
 inline const ColumnSpec PositionSpec{ "Position", ScalarType::Float64, 3 };
 inline constexpr const char* CornersName = "Corners";
 
