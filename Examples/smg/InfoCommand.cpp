@@ -260,7 +260,7 @@ struct InfoCommand : CommonOptions
     }
     const std::optional<smg::MeshDescription> description = this->describe(*mesh);
     const smg::MeshDescription* described = description ? &*description : nullptr;
-    ordered_json report = ordered_json::parse(smg::meshInfo(*mesh, mesh->info(), this->file, described));
+    ordered_json report = ordered_json::parse(smg::meshInfo(*mesh, this->file, described));
     if (this->check)
     {
       report["checked_blocks"] = checkedBlocks;

@@ -51,11 +51,6 @@ std::filesystem::path OpenedMesh::file() const
   return this->Self->reader->file();
 }
 
-const VsmReader& OpenedMesh::reader() const
-{
-  return *this->Self->reader;
-}
-
 VsmReader& OpenedMesh::reader()
 {
   return *this->Self->reader;

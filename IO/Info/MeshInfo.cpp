@@ -155,12 +155,12 @@ Json entriesOf(const MeshDescription& mesh)
 }
 
 /** What a solve takes, which reorders a file that is no stream. */
-Json expectedSolve(const OpenedMesh& mesh, const std::filesystem::path& file)
+Json expectedSolve(OpenedMesh& mesh, const std::filesystem::path& file)
 {
   StreamInfo info = mesh.info();
   const ConversionReport* conversion = mesh.conversion();
   if (conversion && conversion->order == nameOf(StreamOrder::Keep) &&
-      (file.empty() || kindOfInput(file) == MeshFileKind::Indexed))
+      kindOfInput(file) == MeshFileKind::Indexed)
   {
     info.span = std::min(info.span, usualSpan(info.cellType, info.vertices));
   }
@@ -182,10 +182,11 @@ std::string MeshDescription::json(int indent) const
   return textOf(entriesOf(*this), indent);
 }
 
-std::string meshInfo(const OpenedMesh& mesh, const StreamInfo& info,
-  const std::filesystem::path& file, const MeshDescription* description, int indent)
+std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
+  const MeshDescription* description, int indent)
 {
   const VsmReader& reader = mesh.reader();
+  const StreamInfo& info = reader.info();
   Json json;
   json["file"] = file.string();
   json["cell_type"] = info.cellType == CellType::Triangle ? "triangle" : "tetrahedron";

@@ -6,11 +6,10 @@
 #include "Python/C/Field.h"
 #include "Python/C/JobText.h"
 #include "Python/C/Options.h"
-#include "smg/Describe.h"
+#include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
 
-#include <optional>
 #include <utility>
 
 namespace smg
@@ -40,20 +39,22 @@ std::string columnsText(const StreamInfo& info)
     { "cells", columnsText(info.cellColumns) } });
 }
 
-/** `smg info --report`; with `full` the mesh is read once. */
-std::string infoText(const smg_mesh& mesh, bool full, const ProgressFunction& progress)
+std::string infoText(const smg_mesh& mesh)
 {
-  std::optional<MeshDescription> description;
-  if (full)
-  {
-    const ConversionOptions& opened = mesh.shared->options();
-    DescribeOptions options;
-    options.memoryLimit = opened.memoryLimit > 0 ? opened.memoryLimit : options.memoryLimit;
-    options.progress = progress;
-    description = describe(mesh.stored(), options);
-  }
-  return meshInfo(mesh.shared->mesh(), withoutArguments(mesh.stored().info()),
-    mesh.shared->name(), description ? &*description : nullptr);
+  const StreamInfo info = withoutArguments(mesh.stored().info());
+  nlohmann::ordered_json json;
+  json["file"] = mesh.shared->name().string();
+  json["cell_type"] = info.cellType == CellType::Triangle ? "triangle" : "tetrahedron";
+  json["vertices"] = info.vertices;
+  json["cells"] = info.cells;
+  json["isolated_vertices"] = VsmReader(mesh.stored().file()).isolatedVertices();
+  json["bounds"] = info.bounds;
+  json["positions"] = info.doublePositions ? "float64" : "float32";
+  json["width"] = info.width;
+  json["span"] = info.span;
+  json["columns"] = { { "vertices", columnsText(info.vertexColumns) },
+    { "cells", columnsText(info.cellColumns) } };
+  return textOfJson(json);
 }
 
 /** What a job is expected to cost. `fileOf` makes the file of its result. */
@@ -117,14 +118,14 @@ thread_local std::string FileEstimate;
 } // namespace smg
 
 smg_status smg_info(
-  smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json)
+  smg_mesh* mesh, int /*full*/, smg_progress /*progress*/, void* /*user*/, const char** json)
 {
   return smg::guarded(
     [&]
     {
       smg::required(json, "json") = nullptr;
       smg_mesh& given = smg::required(mesh, "mesh");
-      given.text = smg::infoText(given, full != 0, smg::progressOf(progress, user));
+      given.text = smg::infoText(given);
       *json = given.text.c_str();
     });
 }

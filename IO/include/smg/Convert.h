@@ -180,7 +180,6 @@ public:
 
   /** The reader of the .vsm file, valid as long as this. */
   VsmReader& reader();
-  const VsmReader& reader() const;
   /** What the conversion did, valid as long as this; null if the file is a .vsm file itself. */
   const ConversionReport* conversion() const;
 

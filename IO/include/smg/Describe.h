@@ -155,12 +155,11 @@ SMG_EXPORT MeshDescription describe(const StoredMesh& mesh, const DescribeOption
  * with kind and number of cells and vertices, bounds, width, span, columns, how the file is stored,
  * and under `expected_solve` the expected cost of a solve for one value at each vertex.
  * @param mesh the mesh
- * @param info with the columns to list: mesh.info(), or that of the mesh with further columns
  * @param file what the entry `file` says
  * @param description of the mesh, added under `description`; null: none
  * @param indent as of MeshDescription::json()
  */
-SMG_EXPORT std::string meshInfo(const OpenedMesh& mesh, const StreamInfo& info,
-  const std::filesystem::path& file, const MeshDescription* description = nullptr, int indent = 2);
+SMG_EXPORT std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
+  const MeshDescription* description = nullptr, int indent = 2);
 
 } // namespace smg
