@@ -190,10 +190,13 @@ void printDescription(const smg::MeshDescription& mesh)
   printLine("area", html::number(mesh.area) + (isSurface ? "" : " of the boundary"));
   if (!std::isnan(mesh.volume))
   {
-    printLine("volume", html::number(mesh.volume) + (isSurface ? " enclosed" : "") +
-                          (mesh.turned_volume > 0.0
-                              ? ", of which -" + html::number(mesh.turned_volume) + " wound inwards"
-                              : ""));
+    const bool isTurned = mesh.turned_volume > 0.0 && mesh.volume < 0.0;
+    printLine(
+      "volume", html::number(mesh.volume) + (isSurface ? " enclosed" : "") +
+                  (isTurned                    ? ": wound inwards"
+                    : mesh.turned_volume > 0.0 ? ", of which -" + html::number(mesh.turned_volume) +
+                                                   " by bodies wound inwards, or cavities"
+                                               : ""));
   }
   const smg::MeshDescription::Quality& quality = mesh.quality;
   const std::string bad = countsOf({ { quality.slivers, { "sliver", "slivers" } },

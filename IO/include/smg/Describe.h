@@ -21,8 +21,8 @@ namespace smg
 /** How to describe a mesh. */
 struct DescribeOptions
 {
-  /** Limit of the accounted memory, bytes; more than 0. About 300 bytes for each vertex of the
-   * width of a surface's stream are needed, about 1000 for a solid's. */
+  /** Limit of the accounted memory, bytes; more than 0. About 350 bytes for each vertex of the
+   * width of a surface's stream are needed, 200 for a solid's. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
@@ -113,8 +113,8 @@ struct SMG_EXPORT MeshDescription
   std::int64_t duplicate_cells = 0;  ///< as CellFlags has them
   EdgeLength edge_length;            ///< of the cells
   double area = 0;                   ///< of the surface, or of the boundary of the solid
-  /** Of a solid; enclosed by a surface, positive if its normals point outwards: not a number unless
-   * at each edge as many triangles run in one direction as in the other. */
+  /** Of a solid; enclosed by all triangles of a surface, positive if the normals point outwards:
+   * not a number unless at each edge as many triangles run in one direction as in the other. */
   double volume = 0;
   /** The part of a surface's volume that is of bodies wound inside out, or of cavities of others:
    * it counts as negative in `volume`. Not a number if that is not. */
