@@ -263,7 +263,10 @@ struct InfoCommand : CommonOptions
     }
     const std::optional<smg::MeshDescription> description = this->describe(*mesh);
     const smg::MeshDescription* described = description ? &*description : nullptr;
-    ordered_json report = ordered_json::parse(smg::meshInfo(*mesh, this->file, described));
+    // A solve orders a file that is no stream.
+    const bool reorders = smg::kindOfInput(this->file) == smg::MeshFileKind::Indexed;
+    ordered_json report = ordered_json::parse(
+      smg::meshInfo(*mesh, { this->file, mesh->conversion(), reorders, described }));
     if (this->check)
     {
       report["checked_blocks"] = checkedBlocks;

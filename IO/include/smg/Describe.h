@@ -132,7 +132,7 @@ struct SMG_EXPORT MeshDescription
   /**
    * The description as a JSON object with the names above, except that a surface has
    * `boundary_edges` and `boundary_loops`, a solid `boundary_faces`, `boundary_surfaces` and
-   * `nonmanifold_faces`, and what does not apply is left out. docs/convert.md lists the names.
+   * `nonmanifold_faces`, and what does not apply is left out. docs/info.md lists the names.
    * @param indent spaces by which each level is indented; -1: all on one line
    */
   std::string json(int indent = 2) const;
@@ -150,16 +150,27 @@ struct SMG_EXPORT MeshDescription
  */
 SMG_EXPORT MeshDescription describe(const StoredMesh& mesh, const DescribeOptions& options = {});
 
+/** What meshInfo() says besides what the mesh itself does. */
+struct MeshInfoOptions
+{
+  std::filesystem::path file = {};              ///< the entry `file`
+  const ConversionReport* conversion = nullptr; ///< of the mesh; null: it is a .vsm file
+  /** Whether a solve reads `file` in breadth-first order, not in the order of the mesh: its
+   * expected cost is that of the usual span. */
+  bool reorders = false;
+  const MeshDescription* description = nullptr; ///< the entry `description`; null: none
+  int indent = 2; ///< spaces by which each level is indented; -1: all on one line
+};
+
 /**
- * What is known of an open mesh without reading it, as `smg info --report` writes it: a JSON object
- * with kind and number of cells and vertices, bounds, width, span, columns, how the file is stored,
- * and under `expected_solve` the expected cost of a solve for one value at each vertex.
- * @param mesh the mesh
- * @param file what the entry `file` says
- * @param description of the mesh, added under `description`; null: none
- * @param indent as of MeshDescription::json()
+ * What is known of a mesh without reading it, as `smg info --report` writes it: a JSON object with
+ * kind and number of cells and vertices, bounds, width, span, columns, how the file is stored, and
+ * under `expected_solve` the expected cost of a solve for one value at each vertex. docs/info.md
+ * lists the names.
+ * @param mesh the mesh, in a .vsm file: an OpenedMesh, or with other columns
+ * @param options what else to say
+ * @throws Error if the file cannot be read
  */
-SMG_EXPORT std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
-  const MeshDescription* description = nullptr, int indent = 2);
+SMG_EXPORT std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options = {});
 
 } // namespace smg
