@@ -21,8 +21,8 @@ namespace smg
 /** How to describe a mesh. */
 struct DescribeOptions
 {
-  /** Limit of the accounted memory, bytes; more than 0. About 350 bytes for each vertex of the
-   * width of a surface's stream are needed, 200 for a solid's. */
+  /** Limit of the accounted memory, bytes; more than 0. About 350 bytes of a surface, 200 of a solid
+   * are needed for each vertex that is open at once: in a stream order, about its width. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
@@ -141,8 +141,8 @@ struct SMG_EXPORT MeshDescription
 /**
  * Describes a mesh from one reading of its stream with all columns: bodies, boundary, what is not
  * manifold, lengths, area, volume, quality of the cells, ranges and tags of the columns. The result
- * does not depend on the blocks of the stream. The memory grows with its width, and so like the
- * square root of a surface's number of vertices.
+ * does not depend on the blocks of the stream. The memory grows with its open vertices, and so in a
+ * stream order like the square root of a surface's number of vertices.
  * @param mesh the mesh
  * @param options memory limit and progress
  * @throws Error if the mesh cannot be read or is not valid, or the memory limit is too low
