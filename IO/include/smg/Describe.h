@@ -21,8 +21,8 @@ namespace smg
 /** How to describe a mesh. */
 struct DescribeOptions
 {
-  /** Limit of the accounted memory, bytes; more than 0. About 350 bytes of a surface, 200 of a solid
-   * are needed for each vertex that is open at once: in a stream order, about its width. */
+  /** Limit of the accounted memory, bytes; more than 0. About 350 bytes of a surface, 200 of a
+   * solid are needed for each vertex that is open at once: in a stream order, about its width. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
