@@ -190,10 +190,13 @@ void printDescription(const smg::MeshDescription& mesh)
   printLine("area", html::number(mesh.area) + (isSurface ? "" : " of the boundary"));
   if (!std::isnan(mesh.volume))
   {
-    printLine("volume", html::number(mesh.volume) + (isSurface ? " enclosed" : "") +
-                          (mesh.turned_volume > 0.0
-                              ? ", of which -" + html::number(mesh.turned_volume) + " wound inwards"
-                              : ""));
+    const bool isTurned = mesh.turned_volume > 0.0 && mesh.volume < 0.0;
+    printLine(
+      "volume", html::number(mesh.volume) + (isSurface ? " enclosed" : "") +
+                  (isTurned                    ? ": wound inwards"
+                    : mesh.turned_volume > 0.0 ? ", of which -" + html::number(mesh.turned_volume) +
+                                                   " by bodies wound inwards, or cavities"
+                                               : ""));
   }
   const smg::MeshDescription::Quality& quality = mesh.quality;
   const std::string bad = countsOf({ { quality.slivers, { "sliver", "slivers" } },
@@ -260,7 +263,10 @@ struct InfoCommand : CommonOptions
     }
     const std::optional<smg::MeshDescription> description = this->describe(*mesh);
     const smg::MeshDescription* described = description ? &*description : nullptr;
-    ordered_json report = ordered_json::parse(smg::meshInfo(*mesh, this->file, described));
+    // A solve orders a file that is no stream.
+    const bool reorders = smg::kindOfInput(this->file) == smg::MeshFileKind::Indexed;
+    ordered_json report = ordered_json::parse(
+      smg::meshInfo(*mesh, { this->file, mesh->conversion(), reorders, described }));
     if (this->check)
     {
       report["checked_blocks"] = checkedBlocks;

@@ -176,7 +176,8 @@ public:
     : Info(info)
     , Memory(memoryLimit, DescriptionMemory)
     , Check(info.cellType)
-    , Measures(this->Memory, info.cellType)
+    // As the topology, which tells whether they enclose a volume.
+    , Measures(this->Memory, info.cellType, true)
     , Topology(this->Memory, info.cellType)
     , Shapes(info.cellType)
     , VertexColumns(info.vertexColumns.begin(), info.vertexColumns.end())

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/MeshFile.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/Describe.h"
+#include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <type_traits>
 
 // What is known of a mesh as JSON: the text that `smg info --report` writes and other languages
 // read. Entries are in the order in which they are inserted here; those that do not apply to the
-// kind of cells or of file are left out. docs/convert.md describes them.
+// kind of cells or of file are left out. docs/info.md describes them.
 
 namespace smg
 {
@@ -154,16 +153,9 @@ Json entriesOf(const MeshDescription& mesh)
   return json;
 }
 
-/** What a solve takes, which reorders a file that is no stream. */
-Json expectedSolve(OpenedMesh& mesh, const std::filesystem::path& file)
+Json expectedSolve(StreamInfo info, bool reorders)
 {
-  StreamInfo info = mesh.info();
-  const ConversionReport* conversion = mesh.conversion();
-  if (conversion && conversion->order == nameOf(StreamOrder::Keep) &&
-      kindOfInput(file) == MeshFileKind::Indexed)
-  {
-    info.span = std::min(info.span, usualSpan(info.cellType, info.vertices));
-  }
+  info.span = reorders ? usualSpan(info.cellType, info.vertices) : info.span;
   const Costs costs = solveCosts(info, 1, Weights::Cotangent, SolveOptions());
   return { { "memory_bytes", costs.memory }, { "scratch_bytes", costs.scratch },
     { "passes", costs.passes }, { "cpu_seconds", costs.seconds } };
@@ -182,13 +174,12 @@ std::string MeshDescription::json(int indent) const
   return textOf(entriesOf(*this), indent);
 }
 
-std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
-  const MeshDescription* description, int indent)
+std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options)
 {
-  const VsmReader& reader = mesh.reader();
-  const StreamInfo& info = reader.info();
+  const VsmReader reader(mesh.file());
+  const StreamInfo& info = mesh.info();
   Json json;
-  json["file"] = file.string();
+  json["file"] = options.file.string();
   json["cell_type"] = info.cellType == CellType::Triangle ? "triangle" : "tetrahedron";
   json["vertices"] = info.vertices;
   json["cells"] = info.cells;
@@ -200,7 +191,7 @@ std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
   json["mean_width"] = reader.meanWidth();
   json["columns"] = { { "vertices", entriesOf(info.vertexColumns) },
     { "cells", entriesOf(info.cellColumns) } };
-  if (const ConversionReport* conversion = mesh.conversion())
+  if (const ConversionReport* conversion = options.conversion)
   {
     json["time_steps"] = conversion->time_steps;
     json["partitions"] = conversion->partitions;
@@ -214,12 +205,12 @@ std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
     json["compression"] =
       static_cast<double>(reader.plainBytes()) / static_cast<double>(reader.storedBytes());
   }
-  json["expected_solve"] = expectedSolve(mesh, file);
-  if (description)
+  json["expected_solve"] = expectedSolve(info, options.reorders);
+  if (options.description)
   {
-    json["description"] = entriesOf(*description);
+    json["description"] = entriesOf(*options.description);
   }
-  return textOf(json, indent);
+  return textOf(json, options.indent);
 }
 
 } // namespace smg

@@ -21,8 +21,8 @@ namespace smg
 /** How to describe a mesh. */
 struct DescribeOptions
 {
-  /** Limit of the accounted memory, bytes; more than 0. About 300 bytes for each vertex of the
-   * width of a surface's stream are needed, about 1000 for a solid's. */
+  /** Limit of the accounted memory, bytes; more than 0. About 350 bytes of a surface, 200 of a
+   * solid are needed for each vertex that is open at once: in a stream order, about its width. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
@@ -113,8 +113,8 @@ struct SMG_EXPORT MeshDescription
   std::int64_t duplicate_cells = 0;  ///< as CellFlags has them
   EdgeLength edge_length;            ///< of the cells
   double area = 0;                   ///< of the surface, or of the boundary of the solid
-  /** Of a solid; enclosed by a surface, positive if its normals point outwards: not a number unless
-   * at each edge as many triangles run in one direction as in the other. */
+  /** Of a solid; enclosed by all triangles of a surface, positive if the normals point outwards:
+   * not a number unless at each edge as many triangles run in one direction as in the other. */
   double volume = 0;
   /** The part of a surface's volume that is of bodies wound inside out, or of cavities of others:
    * it counts as negative in `volume`. Not a number if that is not. */
@@ -132,7 +132,7 @@ struct SMG_EXPORT MeshDescription
   /**
    * The description as a JSON object with the names above, except that a surface has
    * `boundary_edges` and `boundary_loops`, a solid `boundary_faces`, `boundary_surfaces` and
-   * `nonmanifold_faces`, and what does not apply is left out. docs/convert.md lists the names.
+   * `nonmanifold_faces`, and what does not apply is left out. docs/info.md lists the names.
    * @param indent spaces by which each level is indented; -1: all on one line
    */
   std::string json(int indent = 2) const;
@@ -141,8 +141,8 @@ struct SMG_EXPORT MeshDescription
 /**
  * Describes a mesh from one reading of its stream with all columns: bodies, boundary, what is not
  * manifold, lengths, area, volume, quality of the cells, ranges and tags of the columns. The result
- * does not depend on the blocks of the stream. The memory grows with its width, and so like the
- * square root of a surface's number of vertices.
+ * does not depend on the blocks of the stream. The memory grows with its open vertices, and so in a
+ * stream order like the square root of a surface's number of vertices.
  * @param mesh the mesh
  * @param options memory limit and progress
  * @throws Error if the mesh cannot be read or is not valid, or the memory limit is too low
@@ -150,16 +150,27 @@ struct SMG_EXPORT MeshDescription
  */
 SMG_EXPORT MeshDescription describe(const StoredMesh& mesh, const DescribeOptions& options = {});
 
+/** What meshInfo() says besides what the mesh itself does. */
+struct MeshInfoOptions
+{
+  std::filesystem::path file = {};              ///< the entry `file`
+  const ConversionReport* conversion = nullptr; ///< of the mesh; null: it is a .vsm file
+  /** Whether a solve reads `file` in breadth-first order, not in the order of the mesh: its
+   * expected cost is that of the usual span. */
+  bool reorders = false;
+  const MeshDescription* description = nullptr; ///< the entry `description`; null: none
+  int indent = 2; ///< spaces by which each level is indented; -1: all on one line
+};
+
 /**
- * What is known of an open mesh without reading it, as `smg info --report` writes it: a JSON object
- * with kind and number of cells and vertices, bounds, width, span, columns, how the file is stored,
- * and under `expected_solve` the expected cost of a solve for one value at each vertex.
- * @param mesh the mesh
- * @param file what the entry `file` says
- * @param description of the mesh, added under `description`; null: none
- * @param indent as of MeshDescription::json()
+ * What is known of a mesh without reading it, as `smg info --report` writes it: a JSON object with
+ * kind and number of cells and vertices, bounds, width, span, columns, how the file is stored, and
+ * under `expected_solve` the expected cost of a solve for one value at each vertex. docs/info.md
+ * lists the names.
+ * @param mesh the mesh, in a .vsm file: an OpenedMesh, or with other columns
+ * @param options what else to say
+ * @throws Error if the file cannot be read
  */
-SMG_EXPORT std::string meshInfo(OpenedMesh& mesh, const std::filesystem::path& file,
-  const MeshDescription* description = nullptr, int indent = 2);
+SMG_EXPORT std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options = {});
 
 } // namespace smg

@@ -34,8 +34,7 @@ void MeshMeasures::add(const MeshBlock& block)
     this->High[k % 3] = std::max(this->High[k % 3], block.positions[k]);
   }
   forAllCells(this->Type, block,
-    [this](const std::int64_t* corners, unsigned flags)
-    { this->addCell(corners, flags == 0 && !hasRepeatedCorner(corners, cornersOf(this->Type))); });
+    [this](const std::int64_t* corners, unsigned flags) { this->addCell(corners, flags); });
   this->Open.close(block.finalized, [this](const Body& body) { this->addBody(body); });
 }
 
@@ -44,7 +43,7 @@ void MeshMeasures::finish()
   this->Open.closeAll([this](const Body& body) { this->addBody(body); });
 }
 
-void MeshMeasures::addCell(const std::int64_t* corners, bool hasWeight)
+void MeshMeasures::addCell(const std::int64_t* corners, unsigned flags)
 {
   std::int64_t root = this->Open.find(corners[0]);
   for (int k = 1; k < cornersOf(this->Type); ++k)
@@ -53,10 +52,23 @@ void MeshMeasures::addCell(const std::int64_t* corners, bool hasWeight)
   }
   Body& body = this->Open.sums(root);
   ++body.cells;
-  if (!hasWeight)
+  if (hasRepeatedCorner(corners, cornersOf(this->Type)))
   {
     return;
   }
+  if (flags == 0)
+  {
+    this->addLengths(corners);
+  }
+  // Only triangles enclose volumes that their winding may turn.
+  if (this->Type == CellType::Triangle && (flags == 0 || this->OfAllCells))
+  {
+    body.volume += this->sixfoldVolume(corners);
+  }
+}
+
+void MeshMeasures::addLengths(const std::int64_t* corners)
+{
   for (int e = 0; e < edgesOf(this->Type); ++e)
   {
     const int* ends = edgeCorners(this->Type, e);
@@ -65,11 +77,6 @@ void MeshMeasures::addCell(const std::int64_t* corners, bool hasWeight)
     // An inner edge counts in each of its cells: to count it once would take a table of edges.
     this->Lengths += std::sqrt(dot(edge, edge));
     ++this->Edges;
-  }
-  // Only triangles enclose volumes that their winding may turn.
-  if (this->Type == CellType::Triangle)
-  {
-    body.volume += this->sixfoldVolume(corners);
   }
 }
 

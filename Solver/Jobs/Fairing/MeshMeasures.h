@@ -26,8 +26,10 @@ namespace smg
 class SMG_EXPORT MeshMeasures
 {
 public:
-  MeshMeasures(Pool& pool, CellType type)
+  /** `ofAllCells`: the volumes are those of flagged cells, too. */
+  MeshMeasures(Pool& pool, CellType type, bool ofAllCells = false)
     : Type(type)
+    , OfAllCells(ofAllCells)
     , Points(pool, 3)
     , Open(pool)
   {
@@ -77,11 +79,13 @@ private:
     }
   };
 
-  void addCell(const std::int64_t* corners, bool hasWeight);
+  void addCell(const std::int64_t* corners, unsigned flags);
+  void addLengths(const std::int64_t* corners);
   double sixfoldVolume(const std::int64_t* corners) const;
   void addBody(const Body& body);
 
   CellType Type;
+  bool OfAllCells;
   Ring<double> Points;
   OpenSets<Body> Open;
   std::int64_t Bodies = 0, Largest = 0, Isolated = 0;
