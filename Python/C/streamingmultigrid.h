@@ -235,7 +235,7 @@ extern "C"
   SMG_C_EXPORT void smg_close_solver(smg_solver* solver);
 
 #ifdef __cplusplus
-}
+} /* extern "C" */
 #endif
 
 #endif

@@ -355,7 +355,14 @@ TEST(CErrors, WhatIsCancelledLeavesNothing)
     {
       Calls calls;
       calls.until = until;
-      expectStatus(function(all, calls), SMG_CANCELLED, "cancelled");
+      const smg_status status = function(all, calls);
+      if (calls.calls < until) // how often it is called may depend on the disk
+      {
+        expectOk(status);
+        std::filesystem::remove(all.out);
+        continue;
+      }
+      expectStatus(status, SMG_CANCELLED, "cancelled");
       EXPECT_FALSE(std::filesystem::exists(all.out));
       const auto rest = std::filesystem::directory_iterator(all.folder / "scratch");
       EXPECT_EQ(std::distance(begin(rest), end(rest)), before);
