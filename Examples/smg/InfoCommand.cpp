@@ -1,79 +1,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
+#include "HtmlReport/Text.h"
 #include "ProgressBar.h"
 
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmFile.h"
+#include "smg/Describe.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace
 {
 
-const char* nameOfCodec(smg::Codec codec)
+using nlohmann::ordered_json;
+
+/** A line of the summary. */
+void printLine(const char* name, const std::string& text)
 {
-  constexpr const char* names[] = { "none", "lz4", "zstd" };
-  return names[static_cast<int>(codec)];
+  std::printf("  %-11s %s\n", name, text.c_str());
 }
 
-nlohmann::ordered_json describe(const std::vector<smg::ColumnSpec>& specs)
+std::string textOf(const smg::MeshDescription::Number& number)
 {
-  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
-  for (const smg::ColumnSpec& spec : specs)
-  {
-    columns.push_back({ { "name", spec.name }, { "type", std::string(nameOf(spec.type)) },
-      { "components", spec.components } });
-  }
-  return columns;
+  return std::visit(
+    []<class T>(T value) -> std::string
+    {
+      if constexpr (std::is_same_v<T, std::monostate>)
+      {
+        return "none";
+      }
+      else if constexpr (std::is_same_v<T, double>)
+      {
+        return html::number(value);
+      }
+      else
+      {
+        return std::to_string(value);
+      }
+    },
+    number);
 }
 
-nlohmann::ordered_json describe(const std::filesystem::path& file, smg::OpenedMesh& mesh)
+/** The values of a column: its tags with their counts, or the range of each component. */
+std::string valuesOf(const smg::MeshDescription::Column& column)
 {
-  const smg::VsmReader& reader = mesh.reader();
-  const smg::StreamInfo& info = reader.info();
-  nlohmann::ordered_json json;
-  json["file"] = file.string();
-  json["cell_type"] = info.cellType == smg::CellType::Triangle ? "triangle" : "tetrahedron";
-  json["vertices"] = info.vertices;
-  json["cells"] = info.cells;
-  json["isolated_vertices"] = reader.isolatedVertices();
-  json["bounds"] = info.bounds;
-  json["positions"] = info.doublePositions ? "float64" : "float32";
-  json["width"] = info.width;
-  json["span"] = info.span;
-  json["mean_width"] = reader.meanWidth();
-  json["columns"] = { { "vertices", describe(info.vertexColumns) },
-    { "cells", describe(info.cellColumns) } };
-  if (const auto& conversion = mesh.conversion())
+  std::string text;
+  for (const smg::MeshDescription::Tag& tag : column.tags)
   {
-    json["time_steps"] = conversion->time_steps;
-    json["partitions"] = conversion->partitions;
+    text += (text.empty() ? ": " : ", ") + textOf(tag.value) + " (" + html::count(tag.count) + ')';
   }
-  else
+  for (std::size_t k = 0; column.tags.empty() && k < column.minimum.size(); ++k)
   {
-    json["blocks"] = { { "vertices", reader.vertexBlocks() }, { "cells", reader.cellBlocks() } };
-    json["codec"] = nameOfCodec(reader.codec());
-    json["bytes"] = reader.storedBytes();
-    json["plain_bytes"] = reader.plainBytes();
-    json["compression"] =
-      static_cast<double>(reader.plainBytes()) / static_cast<double>(reader.storedBytes());
+    text += (text.empty() ? ": [" : " x [") + textOf(column.minimum[k]) + ", " +
+            textOf(column.maximum[k]) + ']';
   }
-  return json;
+  return text +
+         (column.not_finite > 0 ? ", " + html::count(column.not_finite) + " not finite" : "");
 }
 
-void printColumns(const char* of, const std::vector<smg::ColumnSpec>& specs)
+/** The columns; with a description also their values. */
+void printColumns(const char* of, const std::vector<smg::ColumnSpec>& specs,
+  const std::vector<smg::MeshDescription::Column>* described)
 {
-  for (const smg::ColumnSpec& spec : specs)
+  for (std::size_t k = 0; k < specs.size(); ++k)
   {
-    std::printf(
-      "  %s %s (%s x %d)\n", of, spec.name.c_str(), nameOf(spec.type).data(), spec.components);
+    std::printf("  %s %s (%s x %d)%s\n", of, specs[k].name.c_str(), nameOf(specs[k].type).data(),
+      specs[k].components, described ? valuesOf((*described)[k]).c_str() : "");
   }
 }
 
-void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
+void print(const std::filesystem::path& file, smg::OpenedMesh& mesh, const ordered_json& report,
+  const smg::MeshDescription* described)
 {
   const smg::VsmReader& reader = mesh.reader();
   const smg::StreamInfo& info = reader.info();
@@ -94,8 +97,8 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
     100.0 * static_cast<double>(info.width) / vertices, reader.meanWidth());
   std::printf("  span        %lld (%.3f %%)\n", static_cast<long long>(info.span),
     100.0 * static_cast<double>(info.span) / vertices);
-  printColumns("vertex data", info.vertexColumns);
-  printColumns("cell data  ", info.cellColumns);
+  printColumns("vertex data", info.vertexColumns, described ? &described->vertex_columns : nullptr);
+  printColumns("cell data  ", info.cellColumns, described ? &described->cell_columns : nullptr);
   if (const auto& conversion = mesh.conversion())
   {
     if (conversion->partitions > 0)
@@ -109,25 +112,136 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
   {
     std::printf("  blocks      %lld of vertices, %lld of cells\n",
       static_cast<long long>(reader.vertexBlocks()), static_cast<long long>(reader.cellBlocks()));
-    std::printf("  compression %s, %lld of %lld bytes (%.2f : 1)\n", nameOfCodec(reader.codec()),
-      static_cast<long long>(reader.storedBytes()), static_cast<long long>(reader.plainBytes()),
+    std::printf("  compression %s, %lld of %lld bytes (%.2f : 1)\n",
+      report["codec"].get<std::string>().c_str(), static_cast<long long>(reader.storedBytes()),
+      static_cast<long long>(reader.plainBytes()),
       static_cast<double>(reader.plainBytes()) / static_cast<double>(reader.storedBytes()));
+  }
+  const ordered_json& solve = report["expected_solve"];
+  printLine("solve", "about " + html::bytes(solve["memory_bytes"].get<double>()) + " of memory, " +
+                       html::bytes(solve["scratch_bytes"].get<double>()) + " of scratch files, " +
+                       html::counted(solve["passes"].get<std::int64_t>(), "pass", "passes") + ", " +
+                       html::seconds(solve["cpu_seconds"].get<double>()) + " of CPU");
+}
+
+/** The parts of a list that are not 0, each with its number. */
+std::string countsOf(
+  std::initializer_list<std::pair<std::int64_t, std::pair<const char*, const char*>>> counts)
+{
+  std::string text;
+  for (const auto& [number, names] : counts)
+  {
+    if (number > 0)
+    {
+      text += (text.empty() ? "" : ", ") + html::counted(number, names.first, names.second);
+    }
+  }
+  return text;
+}
+
+void printTopology(const smg::MeshDescription& mesh)
+{
+  const bool isSurface = mesh.cell_type == smg::CellType::Triangle;
+  std::string bodies = html::count(mesh.bodies);
+  if (mesh.bodies > 1)
+  {
+    bodies += ", the largest with " + html::counted(mesh.largest_body, "cell", "cells");
+  }
+  printLine("bodies", bodies);
+  const std::string parts = isSurface ? html::counted(mesh.boundary_parts, "loop", "loops")
+                                      : html::counted(mesh.boundary_parts, "surface", "surfaces");
+  const std::string facets = isSurface ? html::counted(mesh.boundary_facets, "edge", "edges")
+                                       : html::counted(mesh.boundary_facets, "face", "faces");
+  printLine(
+    "boundary", mesh.boundary_facets == 0
+                  ? "none: closed"
+                  : facets + " in " + parts +
+                      (isSurface ? ", of length " + html::number(mesh.boundary_length) : ""));
+  const std::string unusual =
+    countsOf({ { isSurface ? 0 : mesh.nonmanifold_facets,
+                 { "face of more than two tetrahedra", "faces of more than two tetrahedra" } },
+      { mesh.nonmanifold_edges, { "non-manifold edge", "non-manifold edges" } },
+      { mesh.nonmanifold_vertices, { "non-manifold vertex", "non-manifold vertices" } } });
+  printLine("manifold", unusual.empty() ? "yes" : "no: " + unusual);
+  const std::string turned = countsOf(
+    { { mesh.turned_edges,
+        { "edge with triangles against each other", "edges with triangles against each other" } },
+      { mesh.inverted_cells, { "inverted tetrahedron", "inverted tetrahedra" } } });
+  printLine("winding", (mesh.consistently_wound ? "consistent" : "not consistent") +
+                         (turned.empty() ? "" : ": " + turned));
+  if (const std::string flaws =
+        countsOf({ { mesh.degenerate_cells, { "degenerate", "degenerate" } },
+          { mesh.coincident_cells,
+            { "of these with vertices at one place", "of these with vertices at one place" } },
+          { mesh.duplicate_cells, { "duplicate", "duplicates" } } });
+      !flaws.empty())
+  {
+    printLine("flawed", flaws);
+  }
+}
+
+void printDescription(const smg::MeshDescription& mesh)
+{
+  printTopology(mesh);
+  const bool isSurface = mesh.cell_type == smg::CellType::Triangle;
+  printLine("edges", html::number(mesh.edge_length.minimum) + " to " +
+                       html::number(mesh.edge_length.maximum) + ", mean " +
+                       html::number(mesh.edge_length.mean));
+  printLine("area", html::number(mesh.area) + (isSurface ? "" : " of the boundary"));
+  if (!std::isnan(mesh.volume))
+  {
+    const bool isTurned = mesh.turned_volume > 0.0 && mesh.volume < 0.0;
+    printLine(
+      "volume", html::number(mesh.volume) + (isSurface ? " enclosed" : "") +
+                  (isTurned                    ? ": wound inwards"
+                    : mesh.turned_volume > 0.0 ? ", of which -" + html::number(mesh.turned_volume) +
+                                                   " by bodies wound inwards, or cavities"
+                                               : ""));
+  }
+  const smg::MeshDescription::Quality& quality = mesh.quality;
+  const std::string bad = countsOf({ { quality.slivers, { "sliver", "slivers" } },
+    { quality.scaled_cells, { "cell scaled down by a solve", "cells scaled down by a solve" } } });
+  printLine("quality", "mean ratio at least " + html::number(quality.minimum, 3) + ", mean " +
+                         html::number(quality.mean, 3) + (bad.empty() ? "" : ", " + bad));
+  if (mesh.resolution.offset >= 10.0)
+  {
+    printLine("offset", html::number(mesh.resolution.offset, 3) + " diagonals from the origin: " +
+                          html::number(mesh.resolution.digits, 3) + " digits are left");
+  }
+  for (const std::string& note : mesh.notes)
+  {
+    std::printf("%s\n", note.c_str());
   }
 }
 
 struct InfoCommand : CommonOptions
 {
+  static constexpr std::int64_t DescriptionMemory = std::int64_t(1) << 30;
+
   std::filesystem::path file;
-  bool check = false;
+  bool check = false, full = false;
 
   void addOptions(CLI::App& command)
   {
     command.add_option("FILE", this->file, "The mesh")->required();
+    command.add_flag("--full", this->full,
+      "Read the mesh and describe it: bodies, boundary, what is not manifold, lengths, quality of "
+      "the cells, ranges and tags of the columns");
     command.add_flag("--check", this->check,
       "Read an entire .vsm file and verify its checksums; an error names the first damaged block");
     this->addInputTo(command);
-    this->addTo(command);
+    this->addTo(command, "256", "; without it, 1024 MiB for --full");
     this->addThreadsTo(command);
+  }
+
+  std::optional<smg::MeshDescription> describe(const smg::OpenedMesh& mesh) const
+  {
+    if (!this->full)
+    {
+      return std::nullopt;
+    }
+    ProgressBar bar("describing", this->quiet);
+    return smg::describe(mesh, { this->memoryBytes(DescriptionMemory), bar.function() });
   }
 
   int run() const
@@ -139,30 +253,43 @@ struct InfoCommand : CommonOptions
         this->file.string() +
         ": only .vsm files have checksums: leave --check out; this one is read as a whole anyhow.");
     }
-    ProgressBar bar("reading", this->quiet);
-    // The figures refer to the order of the file.
-    const std::unique_ptr<smg::OpenedMesh> mesh =
-      this->openInput(this->file, bar.function(), smg::StreamOrder::Keep);
-    nlohmann::ordered_json report = describe(this->file, *mesh);
+    std::unique_ptr<smg::OpenedMesh> mesh;
+    std::int64_t checkedBlocks = 0;
+    {
+      ProgressBar bar("reading", this->quiet);
+      // The figures refer to the order of the file.
+      mesh = this->openInput(this->file, bar.function(), smg::StreamOrder::Keep);
+      checkedBlocks = this->check ? smg::checkVsm(this->file, bar.function()) : 0;
+    }
+    const std::optional<smg::MeshDescription> description = this->describe(*mesh);
+    const smg::MeshDescription* described = description ? &*description : nullptr;
+    // A solve orders a file that is no stream.
+    const bool reorders = smg::kindOfInput(this->file) == smg::MeshFileKind::Indexed;
+    ordered_json report = ordered_json::parse(
+      smg::meshInfo(*mesh, { this->file, mesh->conversion(), reorders, described }));
     if (this->check)
     {
-      report["checked_blocks"] = smg::checkVsm(this->file, bar.function());
+      report["checked_blocks"] = checkedBlocks;
     }
     html::PageFacts facts{ this->file };
     if (this->reportsPage())
     {
       facts.surface = surfaceOf(mesh->reader(), this->memoryBytes(DrawingMemory));
     }
-    this->writeReport(
-      report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace), facts);
-    if (!this->quiet)
+    this->writeReport(report.dump(2), facts);
+    if (this->quiet)
     {
-      print(this->file, *mesh);
+      return 0;
     }
-    if (!this->quiet && this->check)
+    print(this->file, *mesh, report, described);
+    if (described)
+    {
+      printDescription(*described);
+    }
+    if (this->check)
     {
       std::printf("  checksums   those of all %lld blocks are right\n",
-        report["checked_blocks"].get<long long>());
+        static_cast<long long>(checkedBlocks));
     }
     return 0;
   }

@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Vector.h"
 #include "smg/CellWeights.h"
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ inline bool isDistinctCell(const std::int64_t* corners, int count, unsigned flag
 }
 
 /** Whether two corners of a cell of several vertices lie at the same place, up to rounding. */
-bool hasCoincidentCorners(const double* const* corners, int count);
+SMG_EXPORT bool hasCoincidentCorners(const double* const* corners, int count);
 
 /**
  * Weights that are not clamped cancel in the sums of a row. If a cell is so flat that the rounding
@@ -77,7 +78,8 @@ bool hasCoincidentCorners(const double* const* corners, int count);
  * corners, the number of V-cycles grows with it: one such surface took 13 with 1e5, 51 with 1e6,
  * 170 with 1e7.
  */
-double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell);
+SMG_EXPORT double flatnessFactor(
+  CellType type, const double* const* corners, const CellWeights& cell);
 
 /**
  * The floor of the cotangent weight of an edge, which keeps the operator an M-matrix on obtuse

@@ -211,23 +211,25 @@ public:
     for (std::int32_t slot = this->Heads[low]; slot != 0; slot = this->Facets[slot].next)
     {
       const Facet& facet = this->Facets[slot];
-      visit(low + (facet.middle - from), low + (facet.high - from), facet.data == Shared);
+      visit(low + (facet.middle - from), low + (facet.high - from), facet.data < 0);
     }
   }
 
   /** Calls found(middle, high, data) for each facet of exactly one cell whose lowest corner is
    * `low`, in the order in which they were first added. Releases all facets with this lowest
-   * corner. */
+   * corner. Returns how many of them have more than two cells. */
   template <class Found>
-  void take(std::int64_t low, Found&& found)
+  std::int64_t take(std::int64_t low, Found&& found)
   {
     const auto from = static_cast<std::uint32_t>(low);
+    std::int64_t crowded = 0;
     for (std::int32_t slot = this->Heads[low]; slot != 0;)
     {
       const Facet facet = this->Facets[slot];
       this->Facets.give(slot);
       slot = facet.next;
-      if (facet.data != Shared)
+      crowded += facet.data == Crowded ? 1 : 0;
+      if (facet.data >= 0)
       {
         found(low + (facet.middle - from), low + (facet.high - from), facet.data);
       }
@@ -237,16 +239,18 @@ public:
     {
       this->Hubs.erase(low);
     }
+    return crowded;
   }
 
 private:
-  static constexpr std::int32_t Shared = -1;
+  // Instead of the data of a facet: two cells have it, or more.
+  static constexpr std::int32_t Shared = -1, Crowded = -2;
 
   struct Facet
   {
     std::uint32_t middle, high; ///< by their low 32 bits
     std::int32_t next;          ///< with the same lowest corner
-    std::int32_t data;          ///< Shared: of several cells
+    std::int32_t data;          ///< at least 0: of one cell
 
     bool isSame(const Facet& other) const
     {
@@ -255,8 +259,9 @@ private:
     /** The result of add() for a facet that is known. */
     std::int32_t share()
     {
-      const std::int32_t before = std::exchange(this->data, Shared);
-      return before == Shared ? 0 : before;
+      const std::int32_t before = this->data;
+      this->data = before >= 0 ? Shared : Crowded;
+      return std::max(before, 0);
     }
   };
 

@@ -13,7 +13,7 @@ namespace smg
 {
 
 /** Checks that the blocks of a mesh stream are consecutive and valid. */
-class StreamCheck
+class SMG_EXPORT StreamCheck
 {
 public:
   /** `firstCell`: the first cell of the first block, which is not 0 for a part of a mesh. */

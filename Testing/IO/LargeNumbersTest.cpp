@@ -150,7 +150,7 @@ TEST_F(LargeNumbers, OfTheVerticesAroundAVertex)
       const RankRange range = groups.range(group);
       VertexLinks links(this->Space, groups, group, 3);
       links.load(this->Space, groups, group);
-      VertexStar star(this->Space, range, links.largest());
+      VertexStar star(this->Space.pool(), range, links.largest());
       for (std::int64_t rank = range.begin; rank < range.end; ++rank)
       {
         const auto vertex = static_cast<std::uint32_t>(rank);

@@ -33,7 +33,7 @@ protected:
 
   TemporaryFolder Folder;
   Workspace Space{ Folder.path(), Workspace::MinMemory };
-  VertexStar Star{ Space, Range, 64 };
+  VertexStar Star{ Space.pool(), Range, 64 };
 };
 
 TEST_F(VertexStars, DiscHasNoBoundary)

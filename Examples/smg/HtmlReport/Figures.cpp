@@ -129,15 +129,20 @@ std::string table(const Table& table)
 
 std::string tableOf(const Json& objects)
 {
+  Json members; // of any of them
+  for (const Json& object : objects)
+  {
+    members.update(object);
+  }
   Table out;
-  for (const auto& [name, value] : objects.front().items())
+  for (const auto& [name, value] : members.items())
   {
     out.head.push_back(nameText(name));
   }
   for (const Json& object : objects)
   {
     std::vector<std::string>& row = out.rows.emplace_back();
-    for (const auto& [name, value] : objects.front().items())
+    for (const auto& [name, value] : members.items())
     {
       row.push_back(object.contains(name) ? valueText(name, object[name]) : "");
     }

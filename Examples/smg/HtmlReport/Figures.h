@@ -28,7 +28,7 @@ struct Table
 };
 std::string table(const Table& table);
 
-/** A table of objects that have the same members. */
+/** A table of objects; what one of them lacks is left empty. */
 std::string tableOf(const Json& objects);
 
 /** The entries of a report that no other part of the page shows, as names and values, with a table

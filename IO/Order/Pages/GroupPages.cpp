@@ -106,7 +106,7 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
     if (needed <= allowed)
     {
       links.load(this->Space, groups, group);
-      VertexStar star(this->Space, range, links.largest());
+      VertexStar star(this->Space.pool(), range, links.largest());
       Buffer neighbours(
         this->Space.pool(), static_cast<std::size_t>(largest) * sizeof(std::uint32_t));
       const int pageVertices = this->Result.pages.pageVertices();

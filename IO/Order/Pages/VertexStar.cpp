@@ -35,11 +35,12 @@ RankRange CellGroups::range(int group) const
   return { begin, std::min(begin + this->GroupVertices, std::int64_t(this->Begin) + this->Size) };
 }
 
-VertexStar::VertexStar(Workspace& workspace, RankRange range, std::size_t largestLink)
-  : First(static_cast<std::uint32_t>(range.begin))
+VertexStar::VertexStar(Pool& pool, RankRange range, std::size_t largestLink)
+  : Owner(&pool)
+  , First(static_cast<std::uint32_t>(range.begin))
   , Count(static_cast<std::uint32_t>(range.size()))
-  , Slots(workspace.pool(), std::size_t(this->Count) * sizeof(std::uint32_t))
-  , Spokes(workspace.pool(), largestLink * sizeof(Spoke))
+  , Slots(pool, std::size_t(this->Count) * sizeof(std::uint32_t))
+  , Spokes(pool, largestLink * sizeof(Spoke))
 {
   // No entry is of the current vertex: all are far from Begin.
   std::fill_n(this->slots(), this->Count, ~std::uint32_t(0));
@@ -75,7 +76,7 @@ void VertexStar::findOutside(
   this->Outside = this->Found = static_cast<std::uint32_t>(outside);
   for (std::uint32_t i = 0; i < this->Found; ++i)
   {
-    this->spokes()[i] = { 0, i };
+    this->spokes()[i] = { 0, 0, i };
   }
 }
 
@@ -95,7 +96,7 @@ std::uint32_t VertexStar::spoke(std::uint32_t rank, std::span<std::uint32_t> nei
   {
     slot = this->Begin + this->Found;
     neighbours[this->Found] = rank;
-    this->spokes()[this->Found] = { 0, this->Found };
+    this->spokes()[this->Found] = { 0, 0, this->Found };
     ++this->Found;
   }
   return slot - this->Begin;
@@ -117,7 +118,9 @@ void VertexStar::connectTriangles(
   std::uint32_t vertex, std::span<const std::uint32_t> link, std::span<std::uint32_t> neighbours)
 {
   Spoke* spokes = this->spokes();
-  this->Boundary = this->NonManifold = this->Fans = 0;
+  this->Boundary = this->NonManifold = this->Fans = this->Turned = this->Unbalanced = 0;
+  const auto count = [](std::uint16_t& triangles)
+  { triangles = static_cast<std::uint16_t>(triangles + (triangles != UINT16_MAX)); };
   for (std::size_t i = 0; i < link.size(); i += 2)
   {
     const std::uint32_t ends[] = { link[i], link[i + 1] };
@@ -137,7 +140,9 @@ void VertexStar::connectTriangles(
     const std::uint32_t a = this->spoke(ends[0], neighbours);
     const std::uint32_t b = this->spoke(ends[1], neighbours);
     // An edge with its first triangle begins a fan of its own; joining two fans leaves one fewer.
-    this->Fans += (spokes[a].triangles++ == 0) + (spokes[b].triangles++ == 0);
+    this->Fans += (spokes[a].triangles() == 0) + (spokes[b].triangles() == 0);
+    count(spokes[a].to);
+    count(spokes[b].from);
     const std::uint32_t rootA = this->root(a), rootB = this->root(b);
     this->Fans -= rootA != rootB;
     spokes[std::max(rootA, rootB)].parent = std::min(rootA, rootB);
@@ -146,8 +151,11 @@ void VertexStar::connectTriangles(
   {
     // Each edge is counted at its lower end, so once.
     const bool counted = neighbours[i] > vertex;
-    this->Boundary += counted && spokes[i].triangles == 1;
-    this->NonManifold += counted && spokes[i].triangles > 2;
+    const Spoke& edge = spokes[i];
+    this->Boundary += counted && edge.triangles() == 1;
+    this->NonManifold += counted && edge.triangles() > 2;
+    this->Turned += counted && edge.triangles() == 2 && edge.to != 1;
+    this->Unbalanced += counted && edge.to != edge.from;
   }
 }
 
@@ -155,6 +163,10 @@ std::size_t VertexStar::visit(std::uint32_t vertex, std::span<const std::uint32_
   std::size_t corners, std::span<std::uint32_t> neighbours)
 {
   assert(neighbours.size() >= link.size());
+  if (const std::size_t bytes = link.size() * sizeof(Spoke); bytes > this->Spokes.size())
+  {
+    this->Spokes.grow(*this->Owner, bytes + bytes / 2);
+  }
   // Before the numbers overflow, the table is cleared and they begin again.
   if (std::uint64_t(this->Begin) + 2 * link.size() > ~std::uint32_t(0))
   {
@@ -259,7 +271,7 @@ GroupStars::GroupStars(
   this->Counts.nonManifoldVertices = 0;
   VertexLinks links(workspace, groups, group, corners);
   links.load(workspace, groups, group);
-  VertexStar star(workspace, this->Range, links.largest());
+  VertexStar star(workspace.pool(), this->Range, links.largest());
   this->Ranks = Buffer(workspace.pool(), static_cast<std::size_t>(links.bytes()));
   const std::span ranks(
     reinterpret_cast<std::uint32_t*>(this->Ranks.data()), static_cast<std::size_t>(links.size()));

@@ -85,7 +85,8 @@ private:
 
 /**
  * What is around a vertex, from its link (see VertexLinks): its neighbours and, for triangles,
- * whether the mesh is a manifold there. It is used for one vertex of a range after another.
+ * whether the mesh is a manifold there. It is used for one vertex of a range after another; a table
+ * finds neighbours in the range faster than others.
  *
  * Triangles that have a corner twice connect neighbours, but are not counted as triangles; a
  * triangle that occurs twice counts twice.
@@ -93,8 +94,8 @@ private:
 class VertexStar
 {
 public:
-  /** `largestLink`: the most ranks in a link. */
-  VertexStar(Workspace& workspace, RankRange range, std::size_t largestLink);
+  /** `largestLink`: the most ranks in a link; a larger one needs more memory. */
+  VertexStar(Pool& pool, RankRange range, std::size_t largestLink);
   /** Its memory in bytes. */
   static std::int64_t bytes(std::int64_t rangeSize, std::size_t largestLink);
 
@@ -115,13 +116,29 @@ public:
   /** The number of groups of triangles that are connected by edges at the vertex: fans and discs.
    * With more than one, the vertex is not manifold. */
   std::int64_t fans() const { return this->Fans; }
+  /** Whether neighbour `k` is at the other end of an edge with one triangle. */
+  bool isBoundary(std::size_t k) const { return this->spokes()[k].triangles() == 1; }
+
+  // The same, if each pair of the link is in the order in which the triangle runs around the
+  // vertex:
+
+  /** The number of edges to vertices of higher rank with two triangles that run along it in the
+   * same direction: these are wound against each other. */
+  std::int64_t turnedEdges() const { return this->Turned; }
+  /** The number of those along which not as many triangles run in one direction as in the other: if
+   * there is none, the triangles enclose a volume. */
+  std::int64_t unbalancedEdges() const { return this->Unbalanced; }
 
 private:
   /** The data of a neighbour. */
   struct Spoke
   {
-    std::uint32_t triangles; ///< of the edge to it
-    std::uint32_t parent;    ///< in the forest of connected spokes
+    // Of the triangles at the edge, those that run to the neighbour, and from it. No more are
+    // counted than there is room for.
+    std::uint16_t to, from;
+    std::uint32_t parent; ///< in the forest of connected spokes
+
+    int triangles() const { return this->to + this->from; }
   };
 
   std::uint32_t spoke(std::uint32_t rank, std::span<std::uint32_t> neighbours);
@@ -134,12 +151,13 @@ private:
   std::uint32_t* slots() const { return reinterpret_cast<std::uint32_t*>(this->Slots.data()); }
   Spoke* spokes() const { return reinterpret_cast<Spoke*>(this->Spokes.data()); }
 
+  Pool* Owner;
   std::uint32_t First, Count;
   Buffer Slots; ///< of each vertex of the range: Begin at that time + number among the neighbours
   Buffer Spokes;
   std::uint32_t Begin = 0; ///< grows, so that slots of earlier vertices need not be cleared
   std::uint32_t Found = 0, Outside = 0;
-  std::int64_t Boundary = 0, NonManifold = 0, Fans = 0;
+  std::int64_t Boundary = 0, NonManifold = 0, Fans = 0, Turned = 0, Unbalanced = 0;
 };
 
 /** The links of a range of vertices. The link of a vertex is, for each cell around it, the ranks of

@@ -166,6 +166,7 @@ void MeshFairing::survey(Part part)
       }
     });
   check.finish(this->Mesh.info());
+  measures.finish();
   this->requireWelded(check);
   this->Held.endPreparing(boundaryOf(this->Options) == SmoothedBoundary::Fixed);
   if (facets)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 // Measures of a mesh stream, each from one reading in windows of open vertices: extent, mean edge
 // and volumes of the bodies; normals at vertices; and the volume that a moving surface sweeps. All
@@ -18,17 +17,12 @@ namespace smg
 void MeshMeasures::add(const MeshBlock& block)
 {
   this->Points.release(this->Finalized);
-  // Only triangles enclose volumes that their winding may turn.
-  if (this->Type == CellType::Triangle)
-  {
-    this->Parts.release(this->Finalized);
-    this->Parts.extend(block.firstVertex + block.vertices());
-  }
   this->Finalized = block.finalized;
   if (block.vertices() > 0)
   {
     this->Points.extendRaw(block.firstVertex + block.vertices());
     std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
+    this->Open.extend(block.firstVertex + block.vertices());
     if (block.firstVertex == 0)
     {
       std::copy_n(block.positions.begin(), 3, this->Origin.begin());
@@ -39,10 +33,41 @@ void MeshMeasures::add(const MeshBlock& block)
     this->Low[k % 3] = std::min(this->Low[k % 3], block.positions[k]);
     this->High[k % 3] = std::max(this->High[k % 3], block.positions[k]);
   }
-  forCells(this->Type, block, [this](const std::int64_t* corners) { this->addCell(corners); });
+  forAllCells(this->Type, block,
+    [this](const std::int64_t* corners, unsigned flags) { this->addCell(corners, flags); });
+  this->Open.close(block.finalized, [this](const Body& body) { this->addBody(body); });
 }
 
-void MeshMeasures::addCell(const std::int64_t* corners)
+void MeshMeasures::finish()
+{
+  this->Open.closeAll([this](const Body& body) { this->addBody(body); });
+}
+
+void MeshMeasures::addCell(const std::int64_t* corners, unsigned flags)
+{
+  std::int64_t root = this->Open.find(corners[0]);
+  for (int k = 1; k < cornersOf(this->Type); ++k)
+  {
+    root = this->Open.join(root, corners[k]);
+  }
+  Body& body = this->Open.sums(root);
+  ++body.cells;
+  if (hasRepeatedCorner(corners, cornersOf(this->Type)))
+  {
+    return;
+  }
+  if (flags == 0)
+  {
+    this->addLengths(corners);
+  }
+  // Only triangles enclose volumes that their winding may turn.
+  if (this->Type == CellType::Triangle && (flags == 0 || this->OfAllCells))
+  {
+    body.volume += this->sixfoldVolume(corners);
+  }
+}
+
+void MeshMeasures::addLengths(const std::int64_t* corners)
 {
   for (int e = 0; e < edgesOf(this->Type); ++e)
   {
@@ -53,48 +78,29 @@ void MeshMeasures::addCell(const std::int64_t* corners)
     this->Lengths += std::sqrt(dot(edge, edge));
     ++this->Edges;
   }
-  if (this->Type == CellType::Triangle)
+}
+
+/** That of the tetrahedron from the first vertex of the mesh: nearer than the origin of
+ * coordinates, which may be far away, so that less cancels. */
+double MeshMeasures::sixfoldVolume(const std::int64_t* corners) const
+{
+  const auto corner = [&](int k)
+  { return difference(this->Points.at(corners[k]), this->Origin.data()); };
+  return dot(corner(0), cross(corner(1), corner(2)));
+}
+
+/** Adds a body whose cells have all come. */
+void MeshMeasures::addBody(const Body& body)
+{
+  if (body.cells == 0)
   {
-    // Six times the volume of the tetrahedron from the first vertex of the mesh: nearer than the
-    // origin of coordinates, which may be far away, so that less cancels.
-    const auto corner = [&](int k)
-    { return difference(this->Points.at(corners[k]), this->Origin.data()); };
-    this->Parts.join(corners, 3);
-    // By label, since the components are known at the end only.
-    const auto label = static_cast<std::size_t>(this->Parts.label(corners[0]));
-    if (label >= this->Volumes.size())
-    {
-      this->Volumes.resize(label + 1);
-      this->OfVolumes.resize(static_cast<std::int64_t>(this->Volumes.capacity() * sizeof(double)));
-    }
-    this->Volumes[label] += dot(corner(0), cross(corner(1), corner(2)));
+    ++this->Isolated;
+    return;
   }
-}
-
-/** The volumes by component: joined labels are added at their root. */
-std::vector<double> MeshMeasures::bodyVolumes() const
-{
-  std::vector<double> volumes(this->Volumes.size());
-  for (std::size_t label = 0; label < volumes.size(); ++label)
-  {
-    const auto root = static_cast<std::size_t>(this->Bodies.root(static_cast<std::int32_t>(label)));
-    volumes[root] += this->Volumes[label] / 6.0;
-  }
-  return volumes;
-}
-
-double MeshMeasures::volume() const
-{
-  const std::vector<double> volumes = this->bodyVolumes();
-  return std::accumulate(volumes.begin(), volumes.end(), 0.0);
-}
-
-/** Bodies with a negative volume; a body is a component of the mesh. */
-double MeshMeasures::turnedVolume() const
-{
-  const std::vector<double> volumes = this->bodyVolumes();
-  return std::accumulate(volumes.begin(), volumes.end(), 0.0,
-    [](double sum, double volume) { return sum + std::max(0.0, -volume); });
+  ++this->Bodies;
+  this->Largest = std::max(this->Largest, body.cells);
+  this->Volume += body.volume / 6.0;
+  this->TurnedVolume += std::max(0.0, -body.volume / 6.0);
 }
 
 double MeshMeasures::diagonal() const

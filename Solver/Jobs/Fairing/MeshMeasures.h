@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/Components.h"
 #include "Solver/Assembly/Elements.h"
 #include "Solver/Files/VertexFile.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
+#include "Solver/Mesh/OpenSets.h"
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <array>
@@ -19,46 +20,76 @@
 namespace smg
 {
 
-/** The diagonal, the mean edge length and the volumes of the bodies of a mesh, from one reading of
- * its stream. Cells that are flagged or use a vertex twice are left out. */
-class MeshMeasures
+/** The extent, the mean edge length and the bodies of a mesh, from one reading of its stream. A
+ * body is connected by its cells: two cells that share a vertex are of one body. Of the lengths and
+ * volumes, cells that are flagged or use a vertex twice are left out. */
+class SMG_EXPORT MeshMeasures
 {
 public:
-  MeshMeasures(Pool& pool, CellType type)
+  /** `ofAllCells`: the volumes are those of flagged cells, too. */
+  MeshMeasures(Pool& pool, CellType type, bool ofAllCells = false)
     : Type(type)
+    , OfAllCells(ofAllCells)
     , Points(pool, 3)
-    , Bodies(0, &pool)
-    , Closed(this->Bodies)
-    , Parts(pool, this->Bodies, this->Closed)
-    , OfVolumes(pool)
+    , Open(pool)
   {
   }
 
   /** Adds the next block. */
   void add(const MeshBlock& block);
+  /** To be called after the last block. */
+  void finish();
 
+  /** The position of a vertex that was not final before the last block. */
+  const double* point(std::int64_t vertex) const { return this->Points.at(vertex); }
+
+  /** Least and greatest coordinates of the vertices; infinite without vertices. */
+  const std::array<double, 3>& low() const { return this->Low; }
+  const std::array<double, 3>& high() const { return this->High; }
   /** The diagonal of the bounds of the vertices; 0 without vertices. */
   double diagonal() const;
   /** The mean length of the edges of the cells, each counted for each of its cells; 0 without
    * cells. */
   double meanEdge() const;
+
+  // After finish():
+
+  std::int64_t bodies() const { return this->Bodies; }
+  /** The cells of the body that has the most. */
+  std::int64_t largestBody() const { return this->Largest; }
+  /** Vertices of no cell. */
+  std::int64_t isolated() const { return this->Isolated; }
   /** The volume that triangles enclose if they are closed and their normals point outwards. */
-  double volume() const;
+  double volume() const { return this->Volume; }
   /** The sum of the volumes of the bodies that are wound inside out, or are cavities of others. */
-  double turnedVolume() const;
+  double turnedVolume() const { return this->TurnedVolume; }
 
 private:
-  void addCell(const std::int64_t* corners);
-  /** The volume of each body, at the root of its labels; 0 at other labels. */
-  std::vector<double> bodyVolumes() const;
+  /** Of the cells of a body. */
+  struct Body
+  {
+    std::int64_t cells;
+    double volume; ///< six times that of its triangles
+
+    Body& operator+=(const Body& other)
+    {
+      this->cells += other.cells;
+      this->volume += other.volume;
+      return *this;
+    }
+  };
+
+  void addCell(const std::int64_t* corners, unsigned flags);
+  void addLengths(const std::int64_t* corners);
+  double sixfoldVolume(const std::int64_t* corners) const;
+  void addBody(const Body& body);
 
   CellType Type;
+  bool OfAllCells;
   Ring<double> Points;
-  Components Bodies;
-  ComponentLabels Closed;
-  OpenComponents Parts;
-  std::vector<double> Volumes; ///< six times the volume of the triangles of each label
-  Reservation OfVolumes;
+  OpenSets<Body> Open;
+  std::int64_t Bodies = 0, Largest = 0, Isolated = 0;
+  double Volume = 0.0, TurnedVolume = 0.0;
   std::array<double, 3> Low{ Infinity, Infinity, Infinity };
   std::array<double, 3> High{ -Infinity, -Infinity, -Infinity };
   std::array<double, 3> Origin{}; ///< volumes are measured from here: the first vertex
@@ -135,20 +166,30 @@ private:
   std::vector<double> Units; ///< normals to be written
 };
 
-/** Calls visit(corners) for each cell of a block that has distinct corners and is not flagged. */
+/** Calls visit(corners, flags) for each cell of a block; `flags` are bits of CellFlag. */
 template <class Visit>
-void forCells(CellType type, const MeshBlock& block, Visit&& visit)
+void forAllCells(CellType type, const MeshBlock& block, Visit&& visit)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(type));
   const Column* flags = block.flags();
   for (std::size_t c = 0; c < block.corners.size() / corners; ++c)
   {
-    const std::int64_t* corner = block.corners.data() + c * corners;
-    if (!(flags && flags->value(c) != 0.0) && !hasRepeatedCorner(corner, cornersOf(type)))
-    {
-      visit(corner);
-    }
+    visit(block.corners.data() + c * corners, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
   }
+}
+
+/** Calls visit(corners) for each cell of a block that has distinct corners and is not flagged. */
+template <class Visit>
+void forCells(CellType type, const MeshBlock& block, Visit&& visit)
+{
+  forAllCells(type, block,
+    [&](const std::int64_t* corner, unsigned flags)
+    {
+      if (flags == 0 && !hasRepeatedCorner(corner, cornersOf(type)))
+      {
+        visit(corner);
+      }
+    });
 }
 
 /**
