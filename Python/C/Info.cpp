@@ -6,6 +6,7 @@
 #include "Python/C/Field.h"
 #include "Python/C/JobText.h"
 #include "Python/C/Options.h"
+#include "smg/Describe.h"
 #include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
@@ -39,7 +40,8 @@ std::string columnsText(const StreamInfo& info)
     { "cells", columnsText(info.cellColumns) } });
 }
 
-std::string infoText(const smg_mesh& mesh)
+/** `full`: with a description, for which the mesh is read. */
+std::string infoText(const smg_mesh& mesh, bool full, const ProgressFunction& progress)
 {
   const StreamInfo info = withoutArguments(mesh.stored().info());
   nlohmann::ordered_json json;
@@ -54,6 +56,14 @@ std::string infoText(const smg_mesh& mesh)
   json["span"] = info.span;
   json["columns"] = { { "vertices", columnsText(info.vertexColumns) },
     { "cells", columnsText(info.cellColumns) } };
+  if (full)
+  {
+    DescribeOptions options;
+    const std::int64_t memory = limitsOf(mesh.shared->options()).memory;
+    options.memoryLimit = memory > 0 ? memory : options.memoryLimit;
+    options.progress = progress;
+    json["description"] = nlohmann::ordered_json::parse(describe(mesh.stored(), options).json());
+  }
   return textOfJson(json);
 }
 
@@ -117,15 +127,14 @@ thread_local std::string FileEstimate;
 } // namespace
 } // namespace smg
 
-smg_status smg_info(
-  smg_mesh* mesh, int /*full*/, smg_progress /*progress*/, void* /*user*/, const char** json)
+smg_status smg_info(smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json)
 {
   return smg::guarded(
     [&]
     {
       smg::required(json, "json") = nullptr;
       smg_mesh& given = smg::required(mesh, "mesh");
-      given.text = smg::infoText(given);
+      given.text = smg::infoText(given, full != 0, smg::progressOf(progress, user));
       *json = given.text.c_str();
     });
 }
