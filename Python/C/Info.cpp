@@ -7,10 +7,11 @@
 #include "Python/C/JobText.h"
 #include "Python/C/Options.h"
 #include "smg/Describe.h"
-#include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace smg
@@ -40,31 +41,24 @@ std::string columnsText(const StreamInfo& info)
     { "cells", columnsText(info.cellColumns) } });
 }
 
-/** `full`: with a description, for which the mesh is read. */
+/** `smg info --report`; `full`: with a description, for which the mesh is read. */
 std::string infoText(const smg_mesh& mesh, bool full, const ProgressFunction& progress)
 {
-  const StreamInfo info = withoutArguments(mesh.stored().info());
-  nlohmann::ordered_json json;
-  json["file"] = mesh.shared->name().string();
-  json["cell_type"] = info.cellType == CellType::Triangle ? "triangle" : "tetrahedron";
-  json["vertices"] = info.vertices;
-  json["cells"] = info.cells;
-  json["isolated_vertices"] = VsmReader(mesh.stored().file()).isolatedVertices();
-  json["bounds"] = info.bounds;
-  json["positions"] = info.doublePositions ? "float64" : "float32";
-  json["width"] = info.width;
-  json["span"] = info.span;
-  json["columns"] = { { "vertices", columnsText(info.vertexColumns) },
-    { "cells", columnsText(info.cellColumns) } };
+  const ConversionOptions& opened = mesh.shared->options();
+  const std::filesystem::path& file = mesh.shared->name();
+  std::optional<MeshDescription> description;
   if (full)
   {
     DescribeOptions options;
-    const std::int64_t memory = limitsOf(mesh.shared->options()).memory;
-    options.memoryLimit = memory > 0 ? memory : options.memoryLimit;
+    options.memoryLimit = opened.memoryLimit > 0 ? opened.memoryLimit : options.memoryLimit;
     options.progress = progress;
-    json["description"] = nlohmann::ordered_json::parse(describe(mesh.stored(), options).json());
+    description = describe(mesh.stored(), options);
   }
-  return textOfJson(json);
+  MeshInfoOptions options;
+  options.file = file;
+  options.conversion = mesh.shared->mesh().conversion();
+  options.description = description ? &*description : nullptr;
+  return meshInfo(mesh.stored(), options);
 }
 
 /** What a job is expected to cost. `fileOf` makes the file of its result. */
