@@ -52,7 +52,9 @@ public:
   LinearSolver(const StoredMesh& mesh, const ProblemDescription& problem,
     const SolveOptions& options = {}, const std::string& name = "problem");
   ~LinearSolver();
+  /** Takes the equations of the other, which is not to be used after. */
   LinearSolver(LinearSolver&& other) noexcept;
+  /** The same in place of those that it has. */
   LinearSolver& operator=(LinearSolver&& other) noexcept;
 
   /** Number of vertices of the mesh, the rows of A. */
