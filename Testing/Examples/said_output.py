@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""said_output.py SOURCE COMMAND... : expects a lesson to print the output in its first comment,
-except for the memory, which depends on the number of threads."""
+"""said_output.py SOURCE COMMAND... : expects a lesson to print the output in its first comment (of
+a script: anywhere), except for the memory, which depends on the number of threads."""
 
 import re
 import subprocess

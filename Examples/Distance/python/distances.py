@@ -11,8 +11,8 @@ Run it:
 
     python3 distances.py ../../Data/bunny.smb bunny-distance.vsm
 
-    34834 vertices: settled in 2 passes
-      the largest distance is 0.34 m, the mean 0.2 m
+    34834 vertices: settled in 1 pass
+      the largest distance is 0.238477 m, the mean 0.142921 m
 """
 
 import sys

@@ -7,13 +7,13 @@ The fur is a detail of a few millimetres: two implicit steps halve waves of 1 cm
 What this lesson shows:
  1. What a job costs is known before it starts.
  2. A part of the mesh is a region, or a mask: an array of booleans, one a vertex.
- 3. The volume before and after is in the report.
+ 3. Saving writes the mesh with the smoothed points, and returns the report.
 
 Run it:
 
     python3 smoothing.py ../../Data/bunny.smb bunny-smooth.vsm
 
-    34834 vertices: smoothed in 11 passes
+    34834 vertices: converged in 18 passes
 """
 
 import sys
