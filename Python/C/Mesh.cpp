@@ -46,7 +46,9 @@ void addColumn(smg_mesh& mesh, const char* name, bool ofCells, const smg_array* 
   mesh.added = added->isEmpty() ? nullptr : std::move(added);
 }
 
-void saveMesh(smg_mesh& mesh, const char* path, const char* text, const ProgressFunction& progress)
+/** Returns the notes of the writer as a JSON list. */
+std::string saveMesh(
+  smg_mesh& mesh, const char* path, const char* text, const ProgressFunction& progress)
 {
   const nlohmann::json json = optionsText(text, "options");
   const JobLimits limits = argument(
@@ -62,7 +64,8 @@ void saveMesh(smg_mesh& mesh, const char* path, const char* text, const Progress
   const StreamInfo info = withoutArguments(stored.info());
   const auto source = stored.source(columnNames(info.vertexColumns), columnNames(info.cellColumns));
   const std::int64_t memory = limits.memory > 0 ? limits.memory : ConversionOptions::DefaultMemory;
-  out.write(stored, *source, MeshJob::writerMemory(memory), progress);
+  const nlohmann::json notes = out.write(stored, *source, MeshJob::writerMemory(memory), progress);
+  return notes.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace
@@ -118,14 +121,19 @@ smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells)
     });
 }
 
-smg_status smg_save_mesh(
-  smg_mesh* mesh, const char* path, const char* options, smg_progress progress, void* user)
+smg_status smg_save_mesh(smg_mesh* mesh, const char* path, const char* options,
+  smg_progress progress, void* user, const char** notes)
 {
   return smg::guarded(
     [&]
     {
-      smg::saveMesh(smg::required(mesh, "mesh"), &smg::required(path, "path"), options,
-        smg::progressOf(progress, user));
+      smg_mesh& given = smg::required(mesh, "mesh");
+      given.text = smg::saveMesh(
+        given, &smg::required(path, "path"), options, smg::progressOf(progress, user));
+      if (notes)
+      {
+        *notes = given.text.c_str();
+      }
     });
 }
 

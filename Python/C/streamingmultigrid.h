@@ -168,9 +168,10 @@ extern "C"
   SMG_C_EXPORT smg_status smg_save(smg_field* field, const char* path, const char* options,
     smg_progress progress, void* user, const char** report);
 
-  /* Writes a mesh with the columns that were added, likewise. */
-  SMG_C_EXPORT smg_status smg_save_mesh(
-    smg_mesh* mesh, const char* path, const char* options, smg_progress progress, void* user);
+  /* Writes a mesh with the columns that were added, likewise. The notes are a JSON list of a sentence
+   * for each thing that the format cannot hold; they may be NULL. The text as that of smg_info(). */
+  SMG_C_EXPORT smg_status smg_save_mesh(smg_mesh* mesh, const char* path, const char* options,
+    smg_progress progress, void* user, const char** notes);
 
   /* The columns of a mesh, or of a field with its mesh: a JSON object with the lists "vertices" and
    * "cells" of { "name", "type", "components" }. Either handle may be NULL, not both. A field has

@@ -37,7 +37,7 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_report": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
     "smg_shape": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
     "smg_save": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
-    "smg_save_mesh": [c_void_p, c_char_p, c_char_p, *_REPORTED],
+    "smg_save_mesh": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
     "smg_columns": [c_void_p, c_void_p, POINTER(c_char_p)],
     "smg_read": [c_void_p, c_void_p, c_char_p, c_int, *_REPORTED, c_void_p],
     "smg_open_blocks": [c_void_p, c_void_p, c_char_p, POINTER(c_void_p)],

@@ -9,6 +9,7 @@ import os
 import shutil
 import tempfile
 import threading
+import warnings
 import weakref
 from ctypes import byref, c_char_p, c_int64
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
@@ -19,7 +20,7 @@ from . import _jobs as jobs
 from ._arrays import points_and_cells, table
 from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
-from ._errors import Error, InputError, NotConverged
+from ._errors import Error, InputError, NotConverged, ReportWarning
 from ._field import Block, Field, read_blocks, read_column, read_columns
 from ._library import Handle, call, call_reporting, json_text, parse, text, version
 from .progress import part, reporting
@@ -191,10 +192,18 @@ class Mesh:
         Args:
             path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh ...
             options: `memory`, `threads`, `scratch`.
+
+        What the format cannot hold is left out, with a ReportWarning.
         """
+        result = c_char_p()
         options = {**self.defaults("memory", "threads", "scratch"), **options}
         with reporting(progress, "writing") as report, self._handle() as mesh:
-            call_reporting("smg_save_mesh", (mesh, text(path), json_text(options)), report)
+            call_reporting(
+                "smg_save_mesh", (mesh, text(path), json_text(options)), report, byref(result)
+            )
+            notes = parse(result)
+        for note in notes:
+            warnings.warn(note, ReportWarning, stacklevel=2)
 
     # Jobs.
 

@@ -76,6 +76,9 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual((by_value.name, by_name.name), ("Values", "Noise"))
         self.assertEqual(bits(by_value.to_numpy()), bits(by_name.to_numpy()))
         mesh.save("noisy.vsm")
+        with self.assertWarns(smg.ReportWarning) as left_out:
+            mesh.save("noisy.stl")
+        self.assertIn("Noise", str(left_out.warning))
         run("smooth", "noisy.vsm", "quiet.vsm", "--column", "Noise", "--size", "8edges")
         self.assertEqual(bits(by_name.to_numpy()), bits(file_result("quiet.vsm", "Noise")))
 

@@ -150,7 +150,7 @@ TEST(CArrays, AddedColumnsAreThoseOfTheFileInEveryWay)
   for (const char* name : { "mesh.vsm", "mesh.vtu" })
   {
     const std::filesystem::path path = folder / name;
-    expectOk(smg_save_mesh(handle.get(), path.c_str(), nullptr, nullptr, nullptr));
+    expectOk(smg_save_mesh(handle.get(), path.c_str(), nullptr, nullptr, nullptr, nullptr));
     const MeshHandle again = openFile(path);
     ASSERT_TRUE(again) << name;
     EXPECT_EQ(positionsOf(again.get()), mesh.positions) << name;

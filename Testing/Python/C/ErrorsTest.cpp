@@ -78,8 +78,8 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   expectInvalid(smg_shape(f, &number, nullptr), null);
   expectInvalid(smg_save(nullptr, "a.vtu", nullptr, nullptr, nullptr, &text), null);
   expectInvalid(smg_save(f, nullptr, nullptr, nullptr, nullptr, &text), null);
-  expectInvalid(smg_save_mesh(nullptr, "a.vtu", nullptr, nullptr, nullptr), null);
-  expectInvalid(smg_save_mesh(m, nullptr, nullptr, nullptr, nullptr), null);
+  expectInvalid(smg_save_mesh(nullptr, "a.vtu", nullptr, nullptr, nullptr, nullptr), null);
+  expectInvalid(smg_save_mesh(m, nullptr, nullptr, nullptr, nullptr, nullptr), null);
   expectInvalid(smg_columns(nullptr, nullptr, &text), null);
   expectInvalid(smg_columns(m, f, nullptr), null);
   expectInvalid(smg_read(nullptr, nullptr, "Position", 0, nullptr, nullptr, &value), null);
@@ -302,8 +302,10 @@ const std::vector<std::pair<const char*, LongCalls::Function>> Functions{
         self.field.get(), self.out.c_str(), nullptr, Calls::function, &calls, nullptr);
     } },
   { "save_mesh",
-    [](LongCalls& self, Calls& calls) {
-      return smg_save_mesh(self.mesh.get(), self.out.c_str(), nullptr, Calls::function, &calls);
+    [](LongCalls& self, Calls& calls)
+    {
+      return smg_save_mesh(
+        self.mesh.get(), self.out.c_str(), nullptr, Calls::function, &calls, nullptr);
     } },
   { "simplify",
     [](LongCalls& self, Calls& calls)

@@ -68,7 +68,7 @@ std::vector<double> ordered(const StoredMesh& mesh, Solution& solution)
 std::unique_ptr<OpenedMesh> stored(const JobMesh& given, const TemporaryFolder& folder)
 {
   const std::filesystem::path path = folder / "mesh.vsm";
-  expectOk(smg_save_mesh(given.handle.get(), path.c_str(), nullptr, nullptr, nullptr));
+  expectOk(smg_save_mesh(given.handle.get(), path.c_str(), nullptr, nullptr, nullptr, nullptr));
   return smg::openMesh(path);
 }
 
