@@ -68,7 +68,7 @@ extern "C"
   typedef struct smg_array
   {
     const void* data;
-    smg_type type;
+    int32_t type; /* an smg_type */
     int64_t rows, columns;
     int64_t row_stride, column_stride;
   } smg_array;
@@ -168,8 +168,9 @@ extern "C"
   SMG_C_EXPORT smg_status smg_save(smg_field* field, const char* path, const char* options,
     smg_progress progress, void* user, const char** report);
 
-  /* Writes a mesh with the columns that were added, likewise. The notes are a JSON list of a sentence
-   * for each thing that the format cannot hold; they may be NULL. The text as that of smg_info(). */
+  /* Writes a mesh with the columns that were added, likewise. The notes are a JSON list of a
+   * sentence for each thing that the format cannot hold; they may be NULL. The text as that of
+   * smg_info(). */
   SMG_C_EXPORT smg_status smg_save_mesh(smg_mesh* mesh, const char* path, const char* options,
     smg_progress progress, void* user, const char** notes);
 

@@ -188,7 +188,7 @@ TEST(CErrors, AnArraySaysItsRow)
   positions[3 * 9] = std::nan("");
   expectInvalid(open(arrayOf(positions, 3), cells), "points: row 9: a coordinate is not finite");
   smg_array wrong = points;
-  wrong.type = static_cast<smg_type>(77);
+  wrong.type = 77;
   expectInvalid(open(wrong, cells), "points: has a type");
   wrong = points;
   wrong.data = nullptr;
