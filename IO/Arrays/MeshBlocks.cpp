@@ -30,9 +30,10 @@ MeshBlocks::MeshBlocks(const std::filesystem::path& file,
   this->Reader.selectColumns(ofVertices, ofCells);
   const StreamInfo& info = this->Reader.info();
   // A first guess, which the blocks that follow correct.
-  const double cells = 0.7 * static_cast<double>(this->Points) * static_cast<double>(info.cells) /
-                       static_cast<double>(info.vertices);
-  this->Guess = std::max<std::int64_t>(1, static_cast<std::int64_t>(cells));
+  const auto all = static_cast<double>(info.cells);
+  const double cells =
+    0.7 * static_cast<double>(this->Points) * all / static_cast<double>(info.vertices);
+  this->Guess = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(cells, all)));
 }
 
 void MeshBlocks::choose(bool ofCells, const std::optional<std::vector<std::string>>& names,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
+#include "IO/Formats/MeshFile.h"
 #include "Python/C/Call.h"
 #include "Python/C/Handles.h"
 #include "Python/C/JobText.h"
@@ -45,6 +46,10 @@ smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* pat
     {
       smg_mesh& given = smg::required(mesh, "mesh");
       const char* const out = &smg::required(path, "path");
+      if (!given.shared->name().empty())
+      {
+        smg::checkIsNotInput(given.shared->name(), out);
+      }
       smg::SimplifyCall call = smg::simplifyCallOf(description, limitsOf(given.shared->options()));
       call.options.progress = smg::progressOf(progress, user);
       given.text = smg::simplify(given.stored(), call.target, out, call.options).json();

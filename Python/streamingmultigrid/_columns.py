@@ -80,7 +80,11 @@ class Columns:
                 "%s: an array of %d components; it must have %s."
                 % (what, width, " or ".join(map(str, components)))
             )
-        column = Column(name or "#%d" % len(self.added), of_cells, array)
+        used = {column.name for column in self.added}
+        own = "#" + what  # as messages call the argument
+        while own in used:
+            own += "'"
+        column = Column(name or own, of_cells, array)
         self.added.append(column)
         return column
 

@@ -52,7 +52,7 @@ class Block:
         if name not in self._read:
             if self._handle is None:
                 raise Error(
-                    "This block has passed: read %r of a block before the next one is asked for." % name
+                    "This block has passed: read %r of a block inside the loop over the blocks." % name
                 )
             array = Array()
             with self._handle as blocks:
@@ -68,11 +68,13 @@ class Block:
 def read_blocks(
     mesh: Any,
     field: Any,
+    keep: Sequence[Any],
     columns: Dict[str, Dict[str, Any]],
     max_points: int,
     names: Optional[Sequence[str]],
 ) -> Iterator[Block]:
-    """The blocks of a mesh, or of a field with its mesh; `mesh` and `field` are handles or None."""
+    """The blocks of a mesh, or of a field with its mesh; `mesh` and `field` are handles or None, `keep`
+    has the arrays that they use."""
     options: Dict[str, Any] = {"points": max_points}
     if names is not None:
         unknown = [n for n in names if n not in columns["vertices"] and n not in columns["cells"]]
@@ -85,7 +87,7 @@ def read_blocks(
         options["cell_columns"] = [name for name in names if name in columns["cells"]]
     of_cells = ["Corners", "OriginalCellId", *(set(columns["cells"]) - set(columns["vertices"]))]
     source = field or mesh
-    handle = Handle("blocks", source.keep)
+    handle = Handle("blocks", *keep)
     with source as pointer:
         call(
             "smg_open_blocks",
@@ -167,9 +169,18 @@ class Field:
             moved points is "Position".
     """
 
-    def __init__(self, mesh: Any, handle: Handle, job: str, names: Sequence[str]) -> None:
+    def __init__(
+        self,
+        mesh: Any,
+        handle: Handle,
+        job: str,
+        names: Sequence[str],
+        counts: Sequence[int],
+        corners: int,
+    ) -> None:
         self.mesh, self.names, self._job = mesh, tuple(names), job
         self._handle = handle
+        self._counts, self._corners = counts, corners  # those of the mesh
         self._said: set = set()
         self._report: Optional[Report] = None
 
@@ -227,8 +238,8 @@ class Field:
                 name,
                 cells,
                 read_columns(None, field),
-                (self.mesh.n_vertices, self.mesh.n_cells),
-                self.mesh.n_corners,
+                self._counts,
+                self._corners,
                 report,
             )
 
@@ -250,7 +261,7 @@ class Field:
             max_points: the most vertices of a block.
             columns: names of columns; by default all.
         """
-        return read_blocks(None, self._handle, self.columns, max_points, columns)
+        return read_blocks(None, self._handle, self._handle.keep, self.columns, max_points, columns)
 
     def save(self, path: Any, *, progress: Any = None, **options: Any) -> Report:
         """Writes the mesh with the result to a file, in the format of its suffix.
@@ -265,6 +276,7 @@ class Field:
         Returns:
             The report, with notes on what the format cannot hold.
         """
+        self.mesh.check_output(path)
         result = c_char_p()
         options = {**self.mesh.defaults("memory", "threads", "scratch"), **options}
         with reporting(progress, "writing") as report, self._handle as field:
@@ -279,7 +291,7 @@ class Field:
         """The mesh with the result as a pyvista.PolyData or UnstructuredGrid, all in memory."""
         from ._interop import to_pyvista
 
-        return to_pyvista(self.mesh, self)
+        return to_pyvista(self)
 
     def close(self) -> None:
         """Removes the values from the disk; also done when nothing refers to the field any more."""

@@ -87,10 +87,13 @@ def solver(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> 
 
         s = smg.solver(V, F, dirichlet=smg.boundary >> 0)
         x = s.solve(b, tol=1e-10)
-        x, info = scipy.sparse.linalg.cg(s.A, b, M=s.aspreconditioner())
+        x, info = scipy.sparse.linalg.cg(s.A, b, x0=s.precondition(b), M=s.aspreconditioner())
     """
     with _opened(points, cells, options) as opened:
-        return opened.solver(progress=progress, **options)
+        of_mesh = ("scratch", "scratch_limit")
+        return opened.solver(
+            progress=progress, **{k: v for k, v in options.items() if k not in of_mesh}
+        )
 
 
 def _complete_docstrings() -> None:

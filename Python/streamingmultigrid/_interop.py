@@ -13,6 +13,7 @@ from ._mesh import Mesh, mesh
 
 _CORNERS = {3: "triangles", 4: "tetrahedra"}
 _TRIANGLE, _POLYGON, _PIXEL, _QUAD, _TETRA = 5, 7, 8, 9, 10  # cell types of VTK
+_OWN = ("OriginalId", "OriginalCellId", "CellFlags")
 _FLAT = {"triangle": 3, "quad": 4, "polygon": None}  # of meshio
 
 
@@ -60,7 +61,11 @@ def _of_vtk(dataset: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
             "The cells are neither all tetrahedra nor all polygons: give dataset.triangulate(), or "
             "save it as .vtu and open that."
         )
-    return _fans(*_counted(numbers(dataset.faces, "faces")))
+    if getattr(dataset, "n_strips", 0):
+        raise InputError("The cells have triangle strips: give dataset.triangulate().")
+    simplices, polygon = _fans(*_counted(numbers(dataset.faces, "faces")))
+    # VTK numbers vertices and lines of a PolyData before its polygons.
+    return simplices, polygon + getattr(dataset, "n_verts", 0) + getattr(dataset, "n_lines", 0)
 
 
 def _of_blocks(blocks: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
@@ -139,35 +144,33 @@ def from_pyvista(dataset: Any, **options: Any) -> Mesh:
         dataset: a pyvista.PolyData or UnstructuredGrid, a mesh of meshio or trimesh, or any object with
             `points` (or `vertices`), (n, 3), and `cells` or `faces`: (m, 3) triangles, (m, 4)
             tetrahedra, or counted as in VTK. Polygons are cut into triangles, whose cell data are
-            those of the polygon; of meshes with tetrahedra these count.
+            those of the polygon; of meshio's meshes with tetrahedra these count. Columns with which
+            this package numbers and marks meshes (OriginalId, OriginalCellId, CellFlags) stay behind.
         options: as of `smg.mesh`.
     """
     points, simplices, cells = _parts(dataset)
     made = mesh(points, simplices, **options)
     for (name, of_cells), values in _data(dataset, cells).items():
-        if name.startswith("vtk") or name.startswith("#"):
+        if name.startswith(("vtk", "#")) or name in _OWN:
             continue
         made.add(name, values, of_cells)
     return made
 
 
-def to_pyvista(source: Mesh, field: Any = None) -> Any:
-    """A mesh, perhaps with the result of a job, as a pyvista.PolyData or UnstructuredGrid."""
+def to_pyvista(source: Any) -> Any:
+    """A mesh or field as a pyvista.PolyData or UnstructuredGrid."""
     try:
         import pyvista
     except ImportError:
         raise Error("to_pyvista() needs PyVista: pip install pyvista.") from None
-    points, cells = source.points, source.cells
+    points, cells = source.read("Position"), source.read("Corners", cells=True)
     counted = np.concatenate([np.full((len(cells), 1), cells.shape[1]), cells], axis=1).reshape(-1)
-    if field is not None and field.name == "Position":
-        points = field.to_numpy()
     if cells.shape[1] == 3:
         made = pyvista.PolyData(points, counted)
     else:
         made = pyvista.UnstructuredGrid(counted, np.full(len(cells), _TETRA, np.uint8), points)
-    holder = field or source
     for place, data in (("vertices", made.point_data), ("cells", made.cell_data)):
-        for name in holder.columns[place]:
+        for name in source.columns[place]:
             if name != "Position":
-                data[name] = holder.read(name, cells=place == "cells")
+                data[name] = source.read(name, cells=place == "cells")
     return made

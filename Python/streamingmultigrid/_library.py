@@ -19,7 +19,7 @@ from ._arrays import Array, plain
 from ._errors import Error, InputError, MemoryLimitError
 
 PROGRESS = ctypes.CFUNCTYPE(c_int, c_double, c_void_p)
-_INVALID, _MEMORY, _CANCELLED = 2, 3, 4
+_INVALID, _MEMORY = 2, 3
 _NAME = "libstreamingmultigrid.so"
 
 _REPORTED = [PROGRESS, c_void_p]  # progress and its data
@@ -101,6 +101,9 @@ def text(value: Any) -> Optional[bytes]:
 def json_text(description: Mapping[str, Any]) -> bytes:
     """The JSON of a description, without the keys whose value is None."""
     given = {key: value for key, value in description.items() if value is not None}
+    for key in ("memory", "scratch_limit"):
+        if key in given and isinstance(given[key], float) and given[key].is_integer():
+            given[key] = int(given[key])  # 2e9
     try:
         return json.dumps(given, default=plain, allow_nan=False).encode()
     except ValueError as error:
@@ -128,9 +131,22 @@ def call_reporting(name: str, arguments: tuple, report: Any, *results: Any) -> N
     """
     with _progress.Cancellation(report) as cancellation:
         function = PROGRESS(cancellation)
-        status = getattr(library(), name)(*arguments, function, None, *results)
+        _this_thread.calls = True
+        try:
+            status = getattr(library(), name)(*arguments, function, None, *results)
+        finally:
+            _this_thread.calls = False
     cancellation.raise_exception()
     _check(status)
+
+
+_this_thread = threading.local()  # whether it is in call_reporting()
+
+
+def require_no_call() -> None:
+    """A progress function runs in the middle of a call, whose handles it would find half-done."""
+    if getattr(_this_thread, "calls", False):
+        raise Error("A progress function cannot use meshes, fields or solvers: let the call end first.")
 
 
 class Handle:
@@ -148,6 +164,7 @@ class Handle:
 
     def __enter__(self) -> c_void_p:
         """Reserves the handle for this thread."""
+        require_no_call()
         self.lock.acquire()
         if not self._finalizer.alive:
             self.lock.release()
@@ -159,6 +176,7 @@ class Handle:
 
     def close(self) -> None:
         """Closes it and removes its scratch files; twice is nothing."""
+        require_no_call()
         with self.lock:
             self._finalizer()
 

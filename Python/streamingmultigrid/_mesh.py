@@ -22,12 +22,20 @@ from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning
 from ._field import Block, Field, read_blocks, read_column, read_columns
-from ._library import Handle, call, call_reporting, json_text, parse, text, version
+from ._library import Handle, call, call_reporting, json_text, parse, require_no_call, text, version
 from .progress import part, reporting
 from ._report import Estimate, Report, not_converged, warn_of
 
 #: Meshes up to this size show a picture of themselves in notebooks, which reads them.
 _PICTURE_VERTICES = 2_000_000
+
+
+class _Folder:
+    """A folder for a scratch file, removed with this object."""
+
+    def __init__(self, place: Any) -> None:
+        self.path = tempfile.mkdtemp(prefix="smg-simplified-", dir=place)
+        weakref.finalize(self, shutil.rmtree, self.path, True)
 
 
 class Mesh:
@@ -45,6 +53,8 @@ class Mesh:
         self._opening = threading.Lock()
         self._file: Tuple[Any, ...] = ()  # path and options as smg_estimate_file() takes them
         self._own: Dict[Tuple[str, bool], np.ndarray] = {}
+        self._folder: Optional[_Folder] = None  # of a scratch file of its own
+        self._source: Optional[str] = None  # the file whose conversion this is
         self._facts: Dict[bool, Dict[str, Any]] = {}
         #: Of a mesh made by `simplify`: its report.
         self.report: Optional[Report] = None
@@ -52,14 +62,23 @@ class Mesh:
     # Opening, which is done at the first use.
 
     def _handle(self, report: Any = None) -> Handle:
+        require_no_call()
         with self._opening:
             if self._opened is None:
                 with contextlib.ExitStack() as stack:
                     if report is None:
                         report = stack.enter_context(reporting(self._progress, "opening"))
                     self._opened = self._opener(report)
-                self._opened.keep.append(self._own)
             return self._opened
+
+    def _arrays(self) -> List[Any]:
+        """What the library uses of the mesh as it is now: arrays, and its folder."""
+        return [self._folder, *self._own.values()]
+
+    def check_output(self, path: Any) -> None:
+        """Raises InputError if the file would be written over that of the mesh."""
+        if self._source is not None and os.path.exists(path) and os.path.samefile(path, self._source):
+            raise InputError("%s: it is the file of the mesh: choose another name." % os.fspath(path))
 
     def defaults(self, *names: str) -> Dict[str, Any]:
         """Of `memory`, `threads`, `scratch`, `scratch_limit`: those that the mesh was opened with."""
@@ -70,6 +89,7 @@ class Mesh:
         made from it stay."""
         if self._opened is not None:
             self._opened.close()
+        self._folder = None
 
     def __enter__(self) -> "Mesh":
         return self
@@ -184,7 +204,7 @@ class Mesh:
             max_points: the most vertices of a block.
             columns: names of columns of vertices and cells; by default all.
         """
-        return read_blocks(self._handle(), None, self.columns, max_points, columns)
+        return read_blocks(self._handle(), None, self._arrays(), self.columns, max_points, columns)
 
     def save(self, path: Any, *, progress: Any = None, **options: Any) -> None:
         """Writes the mesh with its columns to a file, in the format of its suffix.
@@ -195,6 +215,7 @@ class Mesh:
 
         What the format cannot hold is left out, with a ReportWarning.
         """
+        self.check_output(path)
         result = c_char_p()
         options = {**self.defaults("memory", "threads", "scratch"), **options}
         with reporting(progress, "writing") as report, self._handle() as mesh:
@@ -267,7 +288,7 @@ class Mesh:
             self._handle(part(report, 0, opening))
             described, names = jobs.DESCRIPTIONS[job](columns, *arguments, **options)
             description = json_text(self._with_defaults(job, described))
-            arrays = [*self._own.values(), *(column.values for column in columns.added)]
+            arrays = [*self._arrays(), *(column.values for column in columns.added)]
             handle = Handle("field", *arrays)
             with self.with_columns(columns) as mesh:
                 call_reporting(
@@ -276,7 +297,7 @@ class Mesh:
                     part(report, opening, 1),
                     byref(handle.pointer),
                 )
-        field = Field(self, handle, job, names)
+        field = Field(self, handle, job, names, self._counts(), self.n_corners)
         found = field._read_report(False)
         if strict and not found.get("converged", True):
             raise NotConverged(not_converged(found), field)
@@ -332,29 +353,25 @@ class Mesh:
         description = self._with_defaults("simplify", description)
         folder = None
         if path is None:
-            folder = tempfile.mkdtemp(prefix="smg-simplified-", dir=description.get("scratch"))
-            path = os.path.join(folder, "simplified.vsm")
+            folder = _Folder(description.get("scratch"))
+            path = os.path.join(folder.path, "simplified.vsm")
+        self.check_output(path)
         result = c_char_p()
-        try:
-            with reporting(progress, "simplify") as report:
-                opening = 0.0 if self._opened else 0.3
-                with self._handle(part(report, 0, opening)) as mesh:
-                    call_reporting(
-                        "smg_simplify",
-                        (mesh, json_text(description), text(path)),
-                        part(report, opening, 1),
-                        byref(result),
-                    )
-                    facts = Report(parse(result))
-        except BaseException:
-            if folder:
-                shutil.rmtree(folder, ignore_errors=True)
-            raise
+        with reporting(progress, "simplify") as report:
+            opening = 0.0 if self._opened else 0.3
+            with self._handle(part(report, 0, opening)) as mesh:
+                call_reporting(
+                    "smg_simplify",
+                    (mesh, json_text(description), text(path)),
+                    part(report, opening, 1),
+                    byref(result),
+                )
+                facts = Report(parse(result))
         simplified = open(path, **self._defaults)
         simplified.report = facts
         if folder:
             simplified.name = "%s, simplified" % self.name
-            weakref.finalize(simplified, shutil.rmtree, folder, True)
+            simplified._folder = folder
         warn_of(facts, set())
         return simplified
 
@@ -389,9 +406,9 @@ class Mesh:
 
     def preview_svg(self, field: Optional[Field] = None) -> str:
         """A picture of the mesh as SVG, coloured by a field; empty if the mesh is large or has none."""
-        if self.n_vertices > _PICTURE_VERTICES:
-            return ""
         try:
+            if self.n_vertices > _PICTURE_VERTICES:
+                return ""
             with self.simplify(1500) as small:
                 points, cells, ids = small.points, small.cells, small["OriginalId"]
         except Error:
@@ -491,6 +508,7 @@ def open(  # noqa: A001, the word of the trade
 
     opened = Mesh(path, opener, defaults, progress)
     opened._file = text(path), json_text(options)
+    opened._source = path
     return opened
 
 

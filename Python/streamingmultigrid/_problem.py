@@ -34,6 +34,13 @@ def _entries(values: Any, what: str) -> List[_Entry]:
         isinstance(each, (Placed, Mapping)) for each in values
     ):
         return [entry for each in values for entry in _entries(each, what)]
+    if isinstance(values, Region):
+        raise InputError("%s: the region has no value: write region >> value." % what)
+    if what == "dirichlet":
+        raise InputError(
+            "dirichlet: say where: region >> value, as smg.boundary >> 0 or smg.mask(array) >> values, "
+            "or {vertex: value}; smg.everywhere >> values prescribes all."
+        )
     return [(everywhere, values)]
 
 
@@ -87,6 +94,8 @@ class _Data:
         apart = [self._per_vertex(ids, value) for value in values]
         if ids is None or not any(apart):
             return [{**region.where(self.columns), **write(*values)}]
+        if len(np.unique(ids)) != len(ids):
+            raise InputError("%s: a vertex has several values: give each vertex once." % what)
         rows = [
             numbers(value, what) if own else [value] * len(ids) for own, value in zip(apart, values)
         ]

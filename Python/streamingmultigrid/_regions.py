@@ -220,6 +220,11 @@ def as_region(value: Any) -> Region:
     if array.dtype.kind == "b":
         return mask(value)
     if array.dtype.kind in "iu":
+        if array.size > 2 and array.max(initial=0) <= 1:  # a mask that a column has kept
+            raise InputError(
+                "An array of 0 and 1: smg.mask(array) if it is a mask, smg.vertices([0, 1]) if these "
+                "are numbers of vertices."
+            )
         return vertices(np.atleast_1d(array))
     raise InputError(
         "%r is no region: use smg.sphere(), smg.mask() ..., a mask (an array of booleans), or "

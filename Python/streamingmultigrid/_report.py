@@ -32,6 +32,10 @@ def in_bytes(count: float) -> str:
     return "%.0f %s" % (count, unit) if unit == "bytes" or count >= 10 else "%.1f %s" % (count, unit)
 
 
+def _residual(value: Any) -> str:
+    return "not finite" if value is None else "%.2e" % value
+
+
 class Report(_Facts):
     """The report of a job: a dict with the entries of ``smg --report``, which are attributes, too.
 
@@ -53,7 +57,7 @@ class Report(_Facts):
             residuals = self.get("residuals") or []
             outcome = "converged" if self["converged"] else "NOT CONVERGED"
             if residuals:
-                outcome += " after %d V-cycles, residual %.2e" % (self["cycles"], residuals[-1])
+                outcome += " after %d V-cycles, residual %s" % (self["cycles"], _residual(residuals[-1]))
             lines.append("  %s, %d passes" % (outcome, self.get("passes", 0)))
         if "error" in self:
             lines.append("  error %s" % self["error"])
@@ -130,8 +134,8 @@ def not_converged(report: Report) -> str:
     """The sentence of a job that did not converge."""
     residuals = report.get("residuals") or []
     if residuals:
-        return "Not converged after %d V-cycles: the relative residual is %.2e." % (
+        return "Not converged after %d V-cycles: the relative residual is %s." % (
             report.get("cycles", len(residuals)),
-            residuals[-1],
+            _residual(residuals[-1]),
         )
     return "Not settled after %d passes." % report.get("passes", 0)

@@ -33,6 +33,11 @@ class Solver:
             for name in ("memory", "threads", "sweeps")
             if options.get(name) is not None
         }
+        for name in ("source", "flux", "field", "initial"):
+            if options.get(name) is not None:
+                raise InputError(
+                    "solver: %s is part of the right-hand side, which solve() gets: leave it out." % name
+                )
         columns = Columns(mesh)
         problem, _ = jobs.solve(columns, **{k: v for k, v in options.items() if k not in own})
         used = {key: value for key, value in problem.items() if value is not None}
@@ -131,22 +136,28 @@ class Solver:
 
     @property
     def A(self) -> Any:  # noqa: N802, the letter of the equations
-        """A as a scipy.sparse.linalg.LinearOperator."""
+        """A as a scipy.sparse.linalg.LinearOperator.
+
+        It is symmetric on vectors that are 0 at vertices with a Dirichlet condition: begin conjugate
+        gradients with a vector that has the prescribed values, for instance ``precondition(b)``.
+        """
         return self._operator(self.multiply)
 
     def aspreconditioner(self) -> Any:
-        """M as a scipy.sparse.linalg.LinearOperator, for ``cg(A, b, M=solver.aspreconditioner())``."""
-        return self._operator(self.precondition)
+        """M as a scipy.sparse.linalg.LinearOperator, which is symmetric:
+        ``cg(s.A, b, x0=s.precondition(b), M=s.aspreconditioner())``.
+        """
+        return self._operator(self.precondition, rmatvec=lambda r: self.precondition(np.reshape(r, -1)))
 
-    def _operator(self, function: Any) -> Any:
+    def _operator(self, function: Any, **transposed: Any) -> Any:
         from scipy.sparse.linalg import LinearOperator
 
         return LinearOperator(
             self.shape,
             matvec=lambda x: function(np.reshape(x, -1)),
-            rmatvec=lambda x: function(np.reshape(x, -1)),  # both are symmetric on free vertices
             matmat=function,
             dtype=self.dtype,
+            **transposed,
         )
 
     def close(self) -> None:

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of any type and stride give the same bits, without copies; wrong ones a clear error."""
 
+import gc
 import unittest
+import weakref
 
-from testing import bits, cube, np, smg, sphere
+from testing import bits, cube, np, smg, sphere, write_off
 
 
 class TypesTest(unittest.TestCase):
@@ -150,8 +152,51 @@ class ErrorsTest(unittest.TestCase):
         with self.assertRaisesRegex(smg.Error, "closed"):
             mesh.info(full=True)
         u.save("closed.vsm")  # a field has what it needs of its mesh
+        self.assertEqual(bits(u.to_numpy()), bits(values))
+        self.assertEqual(sum(block.n_cells for block in u.blocks()), len(u.read("Corners", cells=True)))
+        self.assertTrue(u.report.converged)
         with smg.open("closed.vsm") as saved:
             self.assertEqual(bits(saved["Solution"]), bits(values))
+
+
+class LifetimesTest(unittest.TestCase):
+    def test_blocks_keep_the_arrays_that_they_read(self):
+        mesh = smg.mesh(*sphere(3))
+        heat = np.arange(mesh.n_vertices, dtype=float)
+        mesh["heat"] = heat
+        expected, gone = heat.copy(), weakref.ref(heat)
+        del heat
+        blocks = mesh.blocks(max_points=100)
+        first = next(blocks)
+        found = {int(i): v for i, v in zip(first["OriginalId"], first["heat"])}
+        mesh["heat"] = np.zeros(mesh.n_vertices)
+        mesh.close()
+        self.assertIsNotNone(gone())
+        for block in blocks:
+            found.update(zip(block["OriginalId"].tolist(), block["heat"].tolist()))
+        np.testing.assert_array_equal([found[i] for i in range(len(expected))], expected)
+        del blocks, first, block
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_a_simplified_mesh_lives_as_long_as_its_blocks(self):
+        blocks = smg.mesh(*sphere(3)).simplify(100).blocks(max_points=30)
+        self.assertGreater(sum(block.n_cells for block in blocks), 100)
+
+    def test_the_file_of_a_mesh_is_not_overwritten(self):
+        name = write_off("kept.off", *sphere(2))
+        with open(name, "rb") as file:
+            before = file.read()
+        mesh = smg.open(name, cache="cache")
+        for call in (
+            lambda: mesh.save(name),
+            lambda: mesh.smooth().save(name),
+            lambda: mesh.simplify(50, path=name),
+        ):
+            with self.assertRaisesRegex(smg.InputError, "kept.off"):
+                call()
+        with open(name, "rb") as file:
+            self.assertEqual(file.read(), before)
 
 
 unittest.main(verbosity=2)

@@ -14,7 +14,7 @@ import time
 import unittest
 import weakref
 
-from testing import bits, np, smg, sphere
+from testing import BUNNY, bits, np, smg, sphere
 
 POINTS, CELLS = sphere(5)
 PROBLEM = {"dirichlet": {0: 0.0, 99: 1.0}}
@@ -174,6 +174,16 @@ class ThreadsTest(unittest.TestCase):
 
 
 class ScratchTest(unittest.TestCase):
+    def test_a_progress_function_cannot_use_what_is_in_use(self):
+        mesh = smg.mesh(POINTS, CELLS)
+        for use in (lambda _: mesh.n_vertices, lambda _: mesh.close(), lambda _: mesh.info()):
+            with self.assertRaisesRegex(smg.Error, "progress function"):
+                mesh.smooth(progress=use)
+        opened = smg.open(BUNNY)
+        with self.assertRaisesRegex(smg.Error, "progress function"):
+            opened.solve(dirichlet={0: 0}, progress=lambda _: opened.n_cells)
+        self.assertEqual(mesh.smooth().shape, POINTS.shape)
+
     def test_nothing_is_left(self):
         with tempfile.TemporaryDirectory() as scratch:
             mesh = smg.mesh(POINTS, CELLS, scratch=scratch)

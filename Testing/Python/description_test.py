@@ -12,6 +12,7 @@ import jsonschema  # noqa: E402
 
 from streamingmultigrid._columns import Columns  # noqa: E402
 from streamingmultigrid._problem import handles, problem  # noqa: E402
+from streamingmultigrid._regions import as_region  # noqa: E402
 
 with open(os.path.join(SOURCE, "docs", "problem.schema.json"), encoding="utf-8") as schema_file:
     SCHEMA = json.load(schema_file)
@@ -38,6 +39,21 @@ class ProblemTest(unittest.TestCase):
         written, added = said(**given)
         self.assertEqual(written, expected)
         return added
+
+    def test_what_is_not_clear_is_refused(self):
+        mask = np.arange(8) > 3
+        for given, words in (
+            ({"dirichlet": mask}, "say where"),
+            ({"dirichlet": 0}, "say where"),
+            ({"dirichlet": smg.boundary}, "no value"),
+            ({"flux": smg.boundary}, "no value"),
+            ({"dirichlet": {0.5: 1}}, "numbers of vertices"),
+        ):
+            with self.subTest(given=given), self.assertRaisesRegex(smg.InputError, words):
+                said(**given)
+        for mask in (mask.astype(np.uint8), mask.astype(int)):  # as a column keeps it
+            with self.assertRaisesRegex(smg.InputError, "smg.mask"):
+                as_region(mask)
 
     def test_regions(self):
         for region, where in (
@@ -68,11 +84,11 @@ class ProblemTest(unittest.TestCase):
 
     def test_masks_become_columns(self):
         mask = np.arange(8) < 3
-        (column,) = self.check({"dirichlet": [{"mask": "#0", "value": 1}]}, dirichlet=smg.mask(mask) >> 1)
-        self.assertEqual((column.name, column.cells), ("#0", False))
+        (column,) = self.check({"dirichlet": [{"mask": "#mask", "value": 1}]}, dirichlet=smg.mask(mask) >> 1)
+        self.assertEqual((column.name, column.cells), ("#mask", False))
         self.assertTrue(np.shares_memory(column.values, mask))
         (column,) = self.check(
-            {"dirichlet": [{"mask": "#0", "value": 1}]}, dirichlet=smg.mask(np.ones(12)) >> 1)
+            {"dirichlet": [{"mask": "#mask", "value": 1}]}, dirichlet=smg.mask(np.ones(12)) >> 1)
         self.assertTrue(column.cells)
 
     def test_every_datum(self):
@@ -96,7 +112,7 @@ class ProblemTest(unittest.TestCase):
             {"columns": 2, "dirichlet": [{"boundary": True, "value": [1, 2]}], "source": [3, 3]},
             dirichlet=smg.boundary >> [1, 2], source=3)
         self.check({"columns": 2, "source": [1, 2]}, source=np.array([1, 2]), columns=2)
-        (column,) = self.check({"columns": 2, "source": "#0"}, source=np.ones((8, 2)))
+        (column,) = self.check({"columns": 2, "source": "#source"}, source=np.ones((8, 2)))
         self.assertEqual(column.values.shape, (8, 2))
         self.check({"columns": 3, "dirichlet": [{"boundary": True, "value": "position"}]},
                    dirichlet=smg.boundary >> "position")
@@ -132,7 +148,7 @@ class ProblemTest(unittest.TestCase):
         self.check({"source": 1, "conductivity": [1, 2, 3, 0, 0, 0]}, source=1, conductivity=[1, 2, 3])
         for shape, components in (((12,), ()), ((12, 3), (3,)), ((12, 6), (6,)), ((12, 3, 3), (6,))):
             values = np.ones(shape) if shape != (12, 3, 3) else np.tile(tensor, (12, 1, 1))
-            (column,) = self.check({"source": 1, "conductivity": "#0"}, source=1, conductivity=values)
+            (column,) = self.check({"source": 1, "conductivity": "#conductivity"}, source=1, conductivity=values)
             self.assertEqual((column.values.shape[1:], column.cells), (components, True))
         self.assertEqual(column.values[7].tolist(), [1, 2, 3, 4, 5, 6])
         with self.assertRaisesRegex(smg.InputError, "symmetric"):
@@ -141,12 +157,12 @@ class ProblemTest(unittest.TestCase):
             said(source=1, conductivity=np.ones(8))
 
     def test_densities_of_cells(self):
-        (column,) = self.check({"source": "#0"}, source=np.ones(12))
+        (column,) = self.check({"source": "#source"}, source=np.ones(12))
         self.assertTrue(column.cells)
         source, screening = self.check(
-            {"source": "#0", "screening": "#1"}, source=np.ones(8), screening=np.ones(12))
+            {"source": "#source", "screening": "#screening"}, source=np.ones(8), screening=np.ones(12))
         self.assertEqual((source.cells, screening.cells), (False, True))
-        (column,) = self.check({"columns": 2, "source": [1, 1], "field": "#0"}, source=1, columns=2,
+        (column,) = self.check({"columns": 2, "source": [1, 1], "field": "#field"}, source=1, columns=2,
                                field=np.ones((12, 6)))
         self.assertTrue(column.cells)
 
@@ -196,7 +212,7 @@ class HandlesTest(unittest.TestCase):
         self.check([{"region": {"nearest": [[0, 0, 0], [1, 0, 0]]}, "target": [[0, 0, 1], [1, 0, 1]]}],
                    smg.handle(smg.nearest([[0, 0, 0], [1, 0, 0]]), target=[[0, 0, 1], [1, 0, 1]]))
         added = self.check(
-            [{"region": {"vertices": [1, 2]}, "target": "#0", "rotation": [0, 0, 1], "logScale": "#1"}],
+            [{"region": {"vertices": [1, 2]}, "target": "#target", "rotation": [0, 0, 1], "logScale": "#logScale"}],
             smg.handle([1, 2], target=np.ones((8, 3)), rotation=[0, 0, 1], log_scale=np.zeros(8)))
         self.assertEqual([column.values.shape for column in added], [(8, 3), (8,)])
 

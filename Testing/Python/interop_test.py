@@ -89,6 +89,16 @@ class PyVistaTest(unittest.TestCase):
         u = mesh.solve(dirichlet=smg.plane(x=0) >> 0, flux=smg.tag("part", 7) >> 1)
         self.assertTrue(np.isfinite(u.to_numpy()).all())
 
+    def test_lines_come_before_polygons(self):
+        points, cells = sphere(2)
+        dataset = pyvista.PolyData(points, counted(cells))
+        dataset.n_verts, dataset.n_lines, dataset.GetPolys = 1, 2, None  # as a vtkPolyData has it
+        part = np.arange(3 + len(cells))
+        dataset.cell_data["part"] = part
+        np.testing.assert_array_equal(smg.from_pyvista(dataset).read("part", cells=True), part[3:])
+        dataset.n_strips = 1
+        self.assertRaisesRegex(smg.InputError, "strips", smg.from_pyvista, dataset)
+
     def test_solids(self):
         points, cells = cube(2)
         grid = pyvista.UnstructuredGrid(counted(cells), np.full(len(cells), 10, np.uint8), points)
@@ -108,6 +118,8 @@ class PyVistaTest(unittest.TestCase):
         points, cells = sphere(3)
         dataset = pyvista.PolyData(points, counted(cells))
         moved = dataset.smg.smooth(size="8edges")
+        again = moved.smg.smooth(size="8edges")  # what it makes is what it takes
+        self.assertEqual(again.points.shape, points.shape)
         self.assertEqual(bits(moved.points), bits(smg.smooth(points, cells, size="8edges")))
         self.assertLessEqual(len(dataset.smg.simplify(100).points), 100)
         solved = dataset.smg.solve(dirichlet={0: 0.0, 99: 1.0})
