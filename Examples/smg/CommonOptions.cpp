@@ -266,20 +266,26 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
 
 } // namespace
 
+void checkOverwrites(const std::filesystem::path& file, const std::string& what,
+  std::initializer_list<std::filesystem::path> others)
+{
+  for (const std::filesystem::path& other : others)
+  {
+    if (!other.empty() && sameFile(file, other))
+    {
+      throw smg::Error(file.string() + ": the " + what +
+                       " would overwrite it: choose another name for the " + what + '.');
+    }
+  }
+}
+
 void CommonOptions::checkReport(std::initializer_list<std::filesystem::path> others) const
 {
   if (this->report.empty())
   {
     return;
   }
-  for (const std::filesystem::path& other : others)
-  {
-    if (!other.empty() && sameFile(this->report, other))
-    {
-      throw smg::Error(this->report.string() +
-                       ": the report would overwrite it: choose another name for the report.");
-    }
-  }
+  checkOverwrites(this->report, "report", others);
   if (std::filesystem::is_directory(this->report))
   {
     failReport(this->report, std::strerror(EISDIR));

@@ -99,6 +99,9 @@ struct CommonOptions
   void writeReport(const std::string& json, const html::PageFacts& facts) const;
 };
 
+/** Throws smg::Error if `file`, a new `what`, would overwrite one of the others. */
+void checkOverwrites(const std::filesystem::path& file, const std::string& what,
+  std::initializer_list<std::filesystem::path> others);
 /** Checks that the value of an option is one of these; the error lists them. */
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
 /** Checks that the value of an option is a whole number from 0 on. */

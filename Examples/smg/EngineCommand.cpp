@@ -3,6 +3,7 @@
 
 #include "ProgressBar.h"
 
+#include "IO/Files/TextOutput.h"
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
@@ -69,6 +70,12 @@ void EngineCommand::addEngineTo(CLI::App& command)
   this->MaxCycles = command.get_option("--max-cycles");
   command.add_flag("--explain", this->Explain,
     "Print the levels with their windows in memory, and the stages of the passes with their times");
+  command
+    .add_option("--trace", this->Trace,
+      "Write a table (CSV) of how the passes move over the levels: the nodes that each stage "
+      "passes "
+      "in each step, and those in memory")
+    ->type_name("FILE");
 }
 
 void EngineCommand::print(const smg::Report& report) const
@@ -114,7 +121,7 @@ void EngineCommand::compute()
 {
   if (!this->isForProcesses())
   {
-    this->SolvingCommand::compute();
+    this->computeTraced();
     return;
   }
   constexpr int MaxIterations = 200;
@@ -144,15 +151,35 @@ void EngineCommand::compute()
   this->computeOn(distributedEngine(), job);
 }
 
+/** On this process, with a trace if one is requested. */
+void EngineCommand::computeTraced()
+{
+  if (this->Trace.empty() || this->isDryRun())
+  {
+    this->SolvingCommand::compute();
+    return;
+  }
+  checkOverwrites(this->Trace, "trace", { this->In, this->Out, this->File, this->report });
+  smg::TextOutput table(this->Trace);
+  table << "pass,step,level,stage,first,end\n";
+  this->job().options().trace = [&table](const smg::TraceEntry& entry)
+  {
+    table << entry.pass << ',' << entry.step << ',' << entry.level << ",\"" << entry.stage << "\","
+          << entry.first << ',' << entry.end << '\n';
+  };
+  this->SolvingCommand::compute();
+  table.finish();
+}
+
 /** Reports foreseeable failures. */
 void EngineCommand::checkDistributed()
 {
   const smg::SolveOptions& options = this->solveOptions();
-  if (options.inCore || !this->checkpoint.empty() || this->isDryRun() ||
+  if (options.inCore || !this->checkpoint.empty() || this->isDryRun() || !this->Trace.empty() ||
       options.operators != "extended")
   {
-    throw smg::Error("--engine hypre has no --in-core, --checkpoint, --dry-run or --operators: "
-                     "leave them out.");
+    throw smg::Error("--engine hypre has no --in-core, --checkpoint, --dry-run, --trace or "
+                     "--operators: leave them out.");
   }
   if (smg::kindOfInput(this->In) != smg::MeshFileKind::Vsm)
   {

@@ -4,6 +4,7 @@
 #include "DistributedEngine.h"
 #include "SolvingCommand.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -14,7 +15,7 @@ class EngineCommand : public SolvingCommand
 protected:
   using SolvingCommand::SolvingCommand;
 
-  /** Adds the options --engine and --explain; addSolverOptions() comes first. */
+  /** Adds the options --engine, --explain and --trace; addSolverOptions() comes first. */
   void addEngineTo(CLI::App& command);
   bool isForProcesses() const override { return this->Engine == "hypre"; }
   void compute() override;
@@ -35,10 +36,12 @@ protected:
     const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override;
 
 private:
+  void computeTraced();
   void checkDistributed();
 
   std::string Engine = "streaming";
   bool Explain = false;
+  std::filesystem::path Trace; ///< file of the trace; empty: none
   CLI::Option* MaxCycles = nullptr;
   /** The solution of the processes of mpiexec, which the first one writes. */
   smg::Solution* Whole = nullptr;

@@ -3,6 +3,7 @@
 
 #include "IO/External/WriteBehind.h"
 #include "Solver/Files/FileDescriptor.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace smg
 {
 
 /** Writes a file from begin to end. finish() renames it; without finish() it is removed. */
-class SequentialOutput
+class SMG_EXPORT SequentialOutput
 {
 public:
   explicit SequentialOutput(std::filesystem::path path);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program smg as a black box: commands, reports, exit codes and remaining files."""
 
+import csv
 import json
 import os
 import resource
@@ -208,7 +209,9 @@ def test_files_of_the_command_are_not_overwritten():
                     ("solve", "torus.vsm", "torus.vsm", *solve),
                     ("solve", "torus.vsm", "problem.vsm", "--problem", "problem.vsm"),
                     ("deform", "torus.vsm", "problem.vsm", "--handles", "problem.vsm"),
-                    ("solve", "torus.vsm", "link.vsm", *solve)):
+                    ("solve", "torus.vsm", "link.vsm", *solve),
+                    ("solve", "torus.vsm", "o3.vsm", *solve, "--trace", "o3.vsm"),
+                    ("solve", "torus.vsm", "o3.vsm", *solve, "--trace", name)):
         assert "choose another name" in run(*command, code=1).stderr
     for file, content in before.items():
         assert open(file, "rb").read() == content, file
@@ -236,6 +239,29 @@ def test_stages_are_explained():
         assert 0 < finest["window"] <= finest["nodes"], finest
         for text in ("P^T A P" if threads == 4 else "coarsen", "restrict the residual", "in memory"):
             assert text in done.stdout, done.stdout
+
+
+def test_passes_are_traced():
+    """The trace is a table whose stages end with the level; nothing of it is left where it fails."""
+    name = problem(dirichlet=[{"halfspace": [1, 0, 0, 2], "value": [1]}], source=[1])
+    with open("handles.json", "w", encoding="utf-8") as file:
+        json.dump({"handles": [{"region": {"vertices": [0]}, "fixed": True}]}, file)
+    for command, *task in (("solve", "--problem", name), ("deform", "--handles", "handles.json")):
+        run(command, "torus.vsm", "traced.vsm", *task, "--trace", "trace.csv", "--report", "traced.json")
+        report = load("traced.json")
+        with open("trace.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        assert {int(row["pass"]) for row in rows} == set(range(1, report["passes"] + 1))
+        for number in range(1, report["passes"] + 1):
+            of = [row for row in rows if int(row["pass"]) == number and row["stage"] == "restrict the residual"
+                  and row["level"] == "0"]
+            assert sum(int(row["end"]) - int(row["first"]) for row in of) == 7200, (command, number)
+        os.remove("trace.csv")
+        run(command, "torus.vsm", "traced.vsm", *task, "--trace", "trace.csv", "--dry-run")
+        run(command, "torus.vsm", "traced.vsm", *task, "--trace", "trace.csv", "--memory", "1", code=1)
+        assert not [file for file in os.listdir(".") if file.startswith("trace.csv")], os.listdir(".")
+    assert "no/trace.csv" in run("solve", "torus.vsm", "traced.vsm", "--problem", name,
+                                 "--trace", "no/trace.csv", code=1).stderr
 
 
 def test_reports_go_where_they_are_wanted():
@@ -336,7 +362,7 @@ def test_interrupt_cleans_up():
 
 for each in (test_convert_and_info, test_the_commands_are_listed, test_vtk_xml, test_solve,
              test_solutions_have_the_order_of_their_mesh, test_errors,
-             test_files_of_the_command_are_not_overwritten, test_stages_are_explained,
+             test_files_of_the_command_are_not_overwritten, test_stages_are_explained, test_passes_are_traced,
              test_reports_go_where_they_are_wanted,
              test_outputs_go_where_links_lead, test_devices_and_pipes_are_no_outputs, test_check,
              test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):

@@ -217,6 +217,18 @@ public:
     }
   }
 
+  /** Traces what this and the coarser levels have in memory. */
+  void addWindows(StepTrace& trace) const
+  {
+    const LevelWindow<Real>& window = this->Window;
+    trace.addWindow(
+      window.index(), [&window] { return window.first(); }, [&window] { return window.loaded(); });
+    if (!this->Coarse->core())
+    {
+      this->Coarse->addWindows(trace);
+    }
+  }
+
   /** Releases written data that no stage needs any more; between two steps. */
   void release()
   {

@@ -41,16 +41,20 @@ void addDownward(Level<Real>& level, Schedule& schedule)
   }
   const int index = level.window().index();
   const auto nodes = static_cast<double>(level.window().nodes());
+  const LevelCursors& at = level.cursors();
   for (std::size_t s = 0; s < level.sweeps(); ++s)
   {
     schedule.add(
-      { "relax before restriction", index, nodes, std::bind_front(&Stages::preSweep, &level, s) });
+      { "relax before restriction", index, nodes, std::bind_front(&Stages::preSweep, &level, s) },
+      [&at, s] { return std::int64_t(at.preSweep[s]); }, s + 1);
   }
   // Without acceleration the stage only passes the cursor on.
   schedule.add({ "combine iterates", index, level.isAccelerated() ? CombineCost * nodes : 0.0,
-    std::bind_front(&Stages::combine, &level) });
+                 std::bind_front(&Stages::combine, &level) },
+    [&at] { return std::int64_t(at.combined); });
   schedule.add({ "restrict the residual", index, RestrictCost * nodes,
-    std::bind_front(&Stages::restrict, &level) });
+                 std::bind_front(&Stages::restrict, &level) },
+    [&at] { return std::int64_t(at.restricted); });
   addDownward(level.coarse(), schedule);
 }
 
@@ -66,12 +70,15 @@ void addUpward(Level<Real>& level, Schedule& schedule)
   addUpward(level.coarse(), schedule);
   const int index = level.window().index();
   const auto nodes = static_cast<double>(level.window().nodes());
+  const LevelCursors& at = level.cursors();
   schedule.add({ "prolong the correction", index, ProlongCost * nodes,
-    std::bind_front(&Stages::prolong, &level) });
+                 std::bind_front(&Stages::prolong, &level) },
+    [&at] { return std::int64_t(at.prolonged); });
   for (std::size_t s = 0; s < level.sweeps(); ++s)
   {
     schedule.add(
-      { "relax after prolongation", index, nodes, std::bind_front(&Stages::postSweep, &level, s) });
+      { "relax after prolongation", index, nodes, std::bind_front(&Stages::postSweep, &level, s) },
+      [&at, s] { return std::int64_t(at.postSweep[s]); }, s + 1);
   }
 }
 

@@ -125,21 +125,25 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
   {
     recorder->startPass({});
   }
-  Schedule schedule;
+  Schedule schedule(this->Run.trace());
   // Task 0, which asks the problem, runs on the thread of the caller.
   schedule.add({ apart ? "weigh cells" : "assemble rows", 0, 0.0,
-    [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } });
+                 [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } },
+    [&assembly] { return assembly.vertices(); });
   if (apart)
   {
     schedule.startChain();
     schedule.add({ "connect edges", 0, 0.0, [&](bool) { waits ? void() : assembly.connect(); } });
     schedule.startChain();
-    schedule.add({ "close rows", 0, 0.0, [&](bool) { waits ? void() : assembly.closeRows(); } });
+    schedule.add({ "close rows", 0, 0.0, [&](bool) { waits ? void() : assembly.closeRows(); } },
+      [&assembly] { return assembly.vertices() - assembly.openVertices(); });
   }
   builder.addStages(schedule);
   const std::size_t downward = schedule.stages().size();
   schedule.startChain();
   addDownward(finest, schedule);
+  schedule.trace().addWindow(
+    0, [&finest] { return finest.window().first(); }, [&assembly] { return assembly.vertices(); });
   schedule.addBeside([&blocks] { blocks.read(); });
   finest.addWriters(schedule);
   schedule.perform(

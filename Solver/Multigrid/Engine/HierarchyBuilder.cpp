@@ -4,6 +4,7 @@
 #include "Solver/Multigrid/Cycle/RowBlockPacker.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace smg
@@ -49,25 +50,39 @@ void HierarchyBuilder::addStages(Schedule& schedule)
   {
     const char* name;
     void (Step::*advance)();
+    std::int64_t (Step::*cursor)() const;
   };
-  for (int l = 0; l < this->ApartLevels; ++l)
+  constexpr Part Parts[] = {
+    { "choose C-points, P0", &Step::advanceChoice, &Step::chosen },
+    { "relax P", &Step::advanceInterpolation, &Step::interpolated },
+    { "A P", &Step::advanceProducts, &Step::multiplied },
+    { "P^T A P", &Step::advanceGathering, &Step::gathered },
+    { "sparsify, finish rows", &Step::advanceCoarseRows, &Step::finished },
+  };
+  for (int l = 0; l < this->FirstCore; ++l)
   {
-    Step* step = this->Steps[static_cast<std::size_t>(l)].get();
-    for (const Part part : { Part{ "choose C-points, P0", &Step::advanceChoice },
-           Part{ "relax P", &Step::advanceInterpolation }, Part{ "A P", &Step::advanceProducts },
-           Part{ "P^T A P", &Step::advanceGathering },
-           Part{ "sparsify, finish rows", &Step::advanceCoarseRows } })
+    const auto k = static_cast<std::size_t>(l);
+    Step* step = this->Steps[k].get();
+    const bool apart = l < this->ApartLevels;
+    for (const Part part : Parts)
     {
-      schedule.startChain();
-      schedule.add({ part.name, l, 0.0, [step, part](bool) { (step->*part.advance)(); } });
+      if (apart)
+      {
+        schedule.startChain();
+        schedule.add({ part.name, l, 0.0, [step, part](bool) { (step->*part.advance)(); } });
+      }
+      schedule.trace().addStage(part.name, l, std::bind_front(part.cursor, step));
     }
     schedule.startChain();
-    schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } });
-  }
-  for (int l = this->ApartLevels; l < this->FirstCore; ++l)
-  {
-    schedule.startChain();
-    schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
+    apart ? schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } })
+          : schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
+    schedule.trace().addStage("pack rows", l, [this, k] { return this->Packed[k]; });
+    if (l > 0)
+    {
+      schedule.trace().addWindow(
+        l, [this, k] { return this->Built.coarse[k - 1]->window().first(); },
+        [this, k] { return this->Rows[k]->end(); });
+    }
   }
 }
 

@@ -71,7 +71,7 @@ catch (const MemoryLimitError& error)
 Schedule Pass::scheduleOf(const Further& further, int chains)
 {
   auto& finest = this->Levels.finest();
-  Schedule schedule;
+  Schedule schedule(this->Run.trace());
   addUpward(finest, schedule);
   if (further.beforeDown)
   {
@@ -90,6 +90,7 @@ Schedule Pass::scheduleOf(const Further& further, int chains)
   }
   finest.addReaders(schedule);
   finest.addWriters(schedule);
+  finest.addWindows(schedule.trace());
   return schedule;
 }
 
@@ -99,7 +100,7 @@ void Pass::begin()
   this->Levels.startPass(true);
   auto& finest = this->Levels.finest();
   finest.setScale(1.0);
-  Schedule schedule;
+  Schedule schedule(this->Run.trace());
   addDownward(finest, schedule);
   schedule.advance();
   finest.settle();

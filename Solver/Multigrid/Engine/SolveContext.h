@@ -43,6 +43,8 @@ struct SMG_EXPORT SolveContext
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
 
+  /** Of the pass that begins. */
+  StepTrace trace() const { return { this->options.trace, this->report.passes + 1 }; }
   /** Adds the times of a schedule's stages to the report. */
   void note(const Schedule& schedule, bool isFirstPass);
   /** How the parts of a solve save and restore what later passes need. */

@@ -42,6 +42,14 @@ void Schedule::add(Stage stage)
   this->Ends.back() = this->Stages.size();
 }
 
+void Schedule::add(Stage stage, StepTrace::Node cursor, std::size_t sweep)
+{
+  const std::string name = stage.name;
+  this->Trace.addStage(
+    sweep > 0 ? name + ", " + std::to_string(sweep) : name, stage.level, std::move(cursor));
+  this->add(std::move(stage));
+}
+
 void Schedule::startChain()
 {
   // The last chain has no stages if it was started before.
@@ -118,6 +126,7 @@ void Schedule::advance(std::size_t first)
     this->Stages[s].advance(true);
     this->Seconds[s] += timer.seconds();
   }
+  this->Trace.endStep();
 }
 
 void Schedule::perform(
@@ -155,6 +164,7 @@ void Schedule::perform(
       order.sort();
     }
     settle();
+    this->Trace.endStep();
   }
 }
 

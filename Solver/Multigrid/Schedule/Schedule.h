@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Timer.h"
 #include "Solver/Core/Workers.h"
+#include "Solver/Multigrid/Schedule/StepTrace.h"
 #include "smg/Export.h"
 
 #include <algorithm>
@@ -130,8 +131,19 @@ struct SMG_EXPORT StepThreads
 class SMG_EXPORT Schedule
 {
 public:
+  Schedule() = default;
+  /** `trace` is told of each step. */
+  explicit Schedule(StepTrace trace)
+    : Trace(std::move(trace))
+  {
+  }
+
   /** Appends a stage, which nodes pass after those before it, to the last chain. */
   void add(Stage stage);
+  /** The same, of a stage whose next node is `cursor`, for traces; `sweep`: its number there, 0 if
+   * it is none. */
+  void add(Stage stage, StepTrace::Node cursor, std::size_t sweep = 0);
+  StepTrace& trace() { return this->Trace; }
   /** The next stage begins another chain. */
   void startChain();
   /** Adds a task that may run beside all stages. */
@@ -167,7 +179,7 @@ public:
 
   /** Performs a task of a step. Different tasks may run at the same time. */
   void run(int task);
-  /** Advances all stages, or those from this one on, each following the one before it. */
+  /** Advances all stages, or those from this one on, each following the one before it: a step. */
   void advance(std::size_t first = 0);
   /** The seconds that a stage has taken so far. */
   double seconds(std::size_t stage) const { return this->Seconds[stage]; }
@@ -180,6 +192,7 @@ public:
     const std::function<void()>& settle);
 
 private:
+  StepTrace Trace;
   std::vector<Stage> Stages;
   std::vector<double> Seconds;   // by stage
   std::vector<std::size_t> Ends; // of each chain, the end of its stages in Stages

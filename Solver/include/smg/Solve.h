@@ -14,6 +14,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -58,6 +59,23 @@ struct CheckpointOptions
    * folder. */
   std::string problem;
 };
+
+/** What a stage of a pass did in a step, or what a level has in memory after it. */
+struct TraceEntry
+{
+  int pass;          ///< from 1 on
+  std::int64_t step; ///< of the pass, from 1 on
+  int level;         ///< of the stage; 0: the finest
+  /** The stage, with the number of the sweep if it is one; of a level, "in memory".
+   * docs/architecture.md lists them. */
+  std::string_view stage;
+  /** The nodes [first, end) that the stage has passed in this step, or that are in memory. "P^T A
+   * P" and "sparsify, finish rows" count nodes of the next coarser level. */
+  std::int64_t first, end;
+};
+/** Called between two steps, by the thread of solve(), for each stage that has advanced and each
+ * level whose window has moved. */
+using TraceFunction = std::function<void(const TraceEntry& entry)>;
 
 /** How to solve. The defaults suit a mesh of any size. */
 struct SolveOptions
@@ -109,6 +127,8 @@ struct SolveOptions
   std::int64_t coreNodes = 50000;
   /** Progress callback; empty: none. */
   ProgressFunction progress{};
+  /** Told how the passes move over the levels, step by step; empty: none. */
+  TraceFunction trace{};
 };
 
 /** What to compute from a solution. */
