@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests on a Debian 12 or 13 machine (as root, or as a user with sudo). By default the first
 # of these configurations; continuous integration runs the first four:
-#   main        build/             ParaView's VTK, plugin, Python; all tests except the long ones; unity
-#                                  build: names in unnamed namespaces must differ
+#   main        build/             ParaView's VTK, plugin, Python, benchmarks on tiny meshes; all tests
+#                                  except the long ones; unity build: names in unnamed namespaces must
+#                                  differ
 #   vtk         build-vtk/         Debian's standalone VTK, on the libraries Solver and IOCore of build/; the
 #                                  tests that use VTK; unity build; with assertions
 #   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; unity build; with
@@ -36,7 +37,9 @@ configure_build() {
   echo "== $1: configure, build ($(date +%T))"
   local launcher=()
   ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  cmake --preset "$1" "${launcher[@]}" -DSMG_TEST_DATA_DIR="$data"
+  local options=(-DSMG_TEST_DATA_DIR="$data")
+  [ "$1" != release ] || options+=(-DSMG_BUILD_BENCHMARKS=ON) # their packages are installed
+  cmake --preset "$1" "${launcher[@]}" "${options[@]}"
   cmake --build --preset "$1" --parallel "$jobs"
 }
 

@@ -2,6 +2,7 @@
 # Functions that add tests. Limits of time are at least ten times the usual time: they end what hangs,
 # and no test fails because a machine is slow or busy. Labels:
 #   unit, vtk, paraview, install         what the test needs or checks
+#   benchmark                            runs a benchmark on a tiny mesh, whatever the time it takes
 #   lint                                 judges the source: for developers and continuous integration
 #   data                                 needs SMG_TEST_DATA_DIR; skipped if that is empty
 #   law                                  scaling of errors, rates or memory with the size of the mesh:

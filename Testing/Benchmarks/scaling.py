@@ -9,24 +9,15 @@ holds the finest tetrahedra in memory; neither that of triangles nor the solver 
 """
 import argparse
 import json
-import os
 import pathlib
 import subprocess
 import sys
 
 import scaling_law
+from machine import machine
 
 CHILDREN = {"triangle": 4, "tetrahedron": 8}
 SUFFIX = {"triangle": ".ply", "tetrahedron": ".vtk"}
-
-
-def machine():
-    """The machine of the measurement."""
-    with open("/proc/cpuinfo", encoding="utf-8") as lines:
-        models = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
-    pages = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    return {"processor": models[0] if models else "", "cores": os.cpu_count(),
-            "memory_gib": round(pages / (1 << 30))}
 
 
 class Series:

@@ -10,12 +10,11 @@ do not.
 """
 import argparse
 import json
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
-import time
+
+from bent_meshes import measured
 
 TABLE = """| step | time, s | CPU, s | CPU, us a vertex | resident memory, MiB | passes | bytes of the file |
 |---|---|---|---|---|---|---|
@@ -34,17 +33,7 @@ class Story:
 
     def run(self, step, out, *command):
         """Runs a command and measures the process from outside."""
-        command = [str(part) for part in command]
-        print(" ".join(command), file=sys.stderr, flush=True)
-        start = time.monotonic()
-        process = subprocess.Popen(command, stdout=sys.stderr)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode:
-            sys.exit(f"{step} failed: {' '.join(command)}")
-        self.steps.append({"step": step, "seconds": time.monotonic() - start,
-                           "cpu_seconds": usage.ru_utime + usage.ru_stime,
-                           "rss_mib": usage.ru_maxrss / 1024, "bytes": out.stat().st_size})
+        self.steps.append({"step": step, **measured(*command), "bytes": out.stat().st_size})
         return self.steps[-1]
 
     def smg(self, command, *arguments):
