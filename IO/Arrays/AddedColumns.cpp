@@ -18,7 +18,7 @@ namespace
 bool hasMeaning(const std::string& name)
 {
   return isReservedColumn(name) || name == OriginalIdName || name == OriginalCellIdName ||
-         name == CellFlagsName || name == "Ghost";
+         name == CellFlagsName;
 }
 
 /** Of the vertices or of the cells of a source: which of its columns are added, in the order in
@@ -205,7 +205,8 @@ AddedColumns::AddedColumns(
 {
 }
 
-void AddedColumns::add(bool ofCells, const std::string& name, const ArrayView& values)
+void AddedColumns::add(
+  bool ofCells, const std::string& name, const ArrayView& values, bool isArgument)
 {
   const OriginalRows& rows = ofCells ? this->Order->cells() : this->Order->vertices();
   if (name.empty() || hasMeaning(name))
@@ -219,9 +220,18 @@ void AddedColumns::add(bool ofCells, const std::string& name, const ArrayView& v
                         " rows, but the mesh has " + std::to_string(rows.count) +
                         (ofCells ? " cells." : " vertices."));
   }
+  const Added* const before = this->find(ofCells, name);
+  const std::vector<ColumnSpec>& have = ofCells ? this->Info.cellColumns : this->Info.vertexColumns;
+  if (isArgument && !(before && before->isArgument) &&
+      std::ranges::find(have, name, &ColumnSpec::name) != have.end())
+  {
+    throw ArgumentError('\'' + name +
+                        "': the mesh has a column of this name: give the argument "
+                        "another one.");
+  }
   this->remove(ofCells, name);
   (ofCells ? this->OfCells : this->OfVertices)
-    .push_back({ { name, values.type, static_cast<int>(values.columns) }, values });
+    .push_back({ { name, values.type, static_cast<int>(values.columns) }, values, isArgument });
   this->setInfo();
 }
 
@@ -230,6 +240,17 @@ void AddedColumns::remove(bool ofCells, const std::string& name)
   std::erase_if(ofCells ? this->OfCells : this->OfVertices,
     [&name](const Added& other) { return other.spec.name == name; });
   this->setInfo();
+}
+
+std::shared_ptr<const AddedColumns> AddedColumns::withoutArguments() const
+{
+  auto others = std::make_shared<AddedColumns>(*this);
+  for (std::vector<Added>* columns : { &others->OfVertices, &others->OfCells })
+  {
+    std::erase_if(*columns, [](const Added& column) { return column.isArgument; });
+  }
+  others->setInfo();
+  return others->isEmpty() ? nullptr : others;
 }
 
 void AddedColumns::setInfo()

@@ -23,9 +23,10 @@ public:
   /** A mesh with a StoredMesh::file(), and its order. */
   AddedColumns(std::shared_ptr<const StoredMesh> mesh, std::shared_ptr<const OriginalOrder> order);
 
-  /** Adds a column, in place of one of this name. Throws ArgumentError if the array has another
-   * number of rows or the name is one that the library gives a meaning of its own. */
-  void add(bool ofCells, const std::string& name, const ArrayView& values);
+  /** Adds a column, in place of one of this name. `isArgument`: one that jobs alone have. Throws
+   * ArgumentError if the array has another number of rows, the name is one that the library gives a
+   * meaning of its own, or that of an argument is the name of a column of the mesh. */
+  void add(bool ofCells, const std::string& name, const ArrayView& values, bool isArgument = false);
 
   /** Takes an added column away, if there is one of this name. */
   void remove(bool ofCells, const std::string& name);
@@ -47,10 +48,14 @@ public:
   {
     ColumnSpec spec;
     ArrayView values;
+    bool isArgument; ///< of jobs, no part of the mesh
   };
   /** The column of this name if it was added, else null. */
   const Added* find(bool ofCells, const std::string& name) const;
   const OriginalOrder& order() const { return *this->Order; }
+
+  /** The same without the arguments; null: no column is left. */
+  std::shared_ptr<const AddedColumns> withoutArguments() const;
 
 private:
   void setInfo();

@@ -1,43 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Arrays/AddedColumns.h"
 #include "smg/MeshSource.h"
 
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace smg
 {
 
-/** Whether a column is an argument of jobs alone, by its name: results and files do not have it. */
-constexpr bool isArgument(std::string_view name)
+// Results of a job do not have the columns that were its arguments. `added`: those that the mesh
+// had for the job; null: none.
+
+/** Whether a column of the vertices or of the cells was an argument. */
+inline bool isArgument(const AddedColumns* added, bool ofCells, const ColumnSpec& column)
 {
-  return name.starts_with('#');
+  const AddedColumns::Added* const found = added ? added->find(ofCells, column.name) : nullptr;
+  return found && found->isArgument;
 }
 
-/** The specs without those of arguments. */
-inline std::vector<ColumnSpec> withoutArguments(std::vector<ColumnSpec> specs)
+/** What a stream has without arguments. */
+inline StreamInfo withoutArguments(StreamInfo info, const AddedColumns* added)
 {
-  std::erase_if(specs, [](const ColumnSpec& spec) { return isArgument(spec.name); });
-  return specs;
-}
-
-/** The same of vertices and cells. */
-inline StreamInfo withoutArguments(StreamInfo info)
-{
-  info.vertexColumns = withoutArguments(std::move(info.vertexColumns));
-  info.cellColumns = withoutArguments(std::move(info.cellColumns));
+  std::erase_if(info.vertexColumns,
+    [added](const ColumnSpec& column) { return isArgument(added, false, column); });
+  std::erase_if(info.cellColumns,
+    [added](const ColumnSpec& column) { return isArgument(added, true, column); });
   return info;
 }
 
-/** A stream without the columns that are arguments. The source must outlive it. */
+/** A stream without arguments. The source and the columns must outlive it. */
 class WithoutArguments : public MeshSource
 {
 public:
-  explicit WithoutArguments(MeshSource& source)
+  WithoutArguments(MeshSource& source, const AddedColumns* added)
     : Source(source)
-    , Info(withoutArguments(source.info()))
+    , Added(added)
+    , Info(withoutArguments(source.info(), added))
   {
   }
 
@@ -48,15 +48,16 @@ public:
     {
       return false;
     }
-    for (std::vector<Column>* columns : { &block.vertexColumns, &block.cellColumns })
-    {
-      std::erase_if(*columns, [](const Column& column) { return isArgument(column.spec.name); });
-    }
+    std::erase_if(block.vertexColumns,
+      [this](const Column& column) { return isArgument(this->Added, false, column.spec); });
+    std::erase_if(block.cellColumns,
+      [this](const Column& column) { return isArgument(this->Added, true, column.spec); });
     return true;
   }
 
 private:
   MeshSource& Source;
+  const AddedColumns* Added;
   StreamInfo Info;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Arrays/MeshBlocks.h"
 
-#include "IO/Arrays/ArgumentColumns.h"
 #include "IO/Arrays/ReadColumn.h"
 #include "IO/Mesh/Columns.h"
 
@@ -41,10 +40,9 @@ void MeshBlocks::choose(bool ofCells, const std::optional<std::vector<std::strin
 {
   const StoredMesh& mesh =
     this->Added ? static_cast<const StoredMesh&>(*this->Added) : this->Reader;
-  const StreamInfo info = withoutArguments(mesh.info());
+  const StreamInfo& info = mesh.info();
   const std::string& numbers =
     ofCells ? this->Order->cells().column : this->Order->vertices().column;
-  const std::string own = ofCells ? OriginalCellIdName : OriginalIdName;
   for (const std::string& name :
     names.value_or(columnNames(ofCells ? info.cellColumns : info.vertexColumns)))
   {
@@ -55,13 +53,13 @@ void MeshBlocks::choose(bool ofCells, const std::optional<std::vector<std::strin
     {
       part.added.push_back(found);
     }
-    else if (name != own && name != PositionSpec.name && name != CornersName &&
+    else if (name != PositionSpec.name && name != CornersName &&
              std::ranges::find(stored, name) == stored.end())
     {
       stored.push_back(name);
     }
   }
-  if (!numbers.empty())
+  if (!numbers.empty() && std::ranges::find(stored, numbers) == stored.end())
   {
     stored.push_back(numbers);
   }
@@ -105,16 +103,14 @@ void MeshBlocks::complete(bool ofCells, Part& part)
   const OriginalRows& places = ofCells ? this->Order->cells() : this->Order->vertices();
   const std::vector<Column>& columns =
     ofCells ? this->Piece.cellColumns : this->Piece.vertexColumns;
-  const auto numbers = std::ranges::find(
-    columns, places.column, [](const Column& column) { return column.spec.name; });
+  const Column* const numbers = places.numbersIn(columns);
   const auto count = static_cast<std::size_t>(ofCells ? this->CellCount : this->Piece.vertices());
   part.rows.resize(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::int64_t index =
       ofCells ? this->Piece.firstCell + static_cast<std::int64_t>(i) : this->Piece.ids[i];
-    part.rows[i] =
-      places.column.empty() ? places.row(index, nullptr, 0) : places.row(index, &*numbers, i);
+    part.rows[i] = numbers ? places.row(index, numbers, i) : places.row(index, nullptr, 0);
   }
   part.columns.resize(part.added.size());
   for (std::size_t k = 0; k < part.added.size(); ++k)
@@ -141,21 +137,24 @@ ArrayView viewOfValues(const void* data, ScalarType type, std::size_t rows, int 
 
 } // namespace
 
+ArrayView MeshBlocks::rows(bool ofCells) const
+{
+  const std::vector<std::int64_t>& rows = (ofCells ? this->OfCells : this->OfVertices).rows;
+  return viewOfValues(rows.data(), ScalarType::Int64, rows.size(), 1);
+}
+
+ArrayView MeshBlocks::ghosts() const
+{
+  return viewOfValues(this->Piece.ghost.data(), ScalarType::UInt8, this->Piece.ghost.size(), 1);
+}
+
 ArrayView MeshBlocks::array(bool ofCells, const std::string& name) const
 {
   const Part& part = ofCells ? this->OfCells : this->OfVertices;
   const MeshPiece& piece = this->Piece;
-  if (name == (ofCells ? OriginalCellIdName : OriginalIdName))
-  {
-    return viewOfValues(part.rows.data(), ScalarType::Int64, part.rows.size(), 1);
-  }
   if (!ofCells && name == PositionSpec.name)
   {
     return viewOfValues(piece.positions.data(), ScalarType::Float64, piece.positions.size() / 3, 3);
-  }
-  if (!ofCells && name == "Ghost")
-  {
-    return viewOfValues(piece.ghost.data(), ScalarType::UInt8, piece.ghost.size(), 1);
   }
   if (ofCells && name == CornersName)
   {

@@ -43,9 +43,14 @@ public:
   std::int64_t vertices() const { return this->Piece.vertices(); }
   std::int64_t cells() const { return this->CellCount; }
 
-  /** An array of the block, until next(): "Position", "OriginalId" (rows of the original order),
-   * "Ghost" (uint8; 1: an earlier block has the vertex) and columns of the vertices, "Corners"
-   * (rows of the block), "OriginalCellId" and columns of the cells. Throws ArgumentError. */
+  // Arrays of the block, until next().
+
+  /** The rows of its vertices or cells in the original order, int64. */
+  ArrayView rows(bool ofCells) const;
+  /** Which of its vertices an earlier block has, too: 1, else 0; uint8. */
+  ArrayView ghosts() const;
+  /** "Position" and columns of the vertices, "Corners" (rows of the block) and columns of the
+   * cells. Throws ArgumentError. */
   ArrayView array(bool ofCells, const std::string& name) const;
 
 private:

@@ -45,6 +45,11 @@ private:
   bool AreRows = true;
 };
 
+bool hasNumbers(const StoredMesh& mesh)
+{
+  return findColumn(mesh.info().vertexColumns, OriginalIdSpec) >= 0;
+}
+
 /** The places of these numbers in ascending order, equal ones in their own order. */
 std::vector<std::int64_t> ranksOf(const std::vector<std::int64_t>& numbers)
 {
@@ -64,14 +69,12 @@ OriginalOrder::OriginalOrder(
   const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
   : StreamVertices(mesh.info().vertices)
 {
-  const VsmReader reader(mesh.file());
-  this->Vertices.count = this->StreamVertices + reader.isolatedVertices();
+  this->Vertices.count = countVertices(mesh, conversion);
   this->Cells.count = mesh.info().cells;
   const bool isTold = conversion && !conversion->keeps_numbers;
-  if (isTold && findColumn(mesh.info().vertexColumns, OriginalIdSpec) >= 0)
+  if (isTold && hasNumbers(mesh))
   {
     this->Vertices.column = OriginalIdName;
-    this->Vertices.count += conversion->merged_points;
   }
   else
   {
@@ -88,9 +91,17 @@ OriginalOrder::OriginalOrder(
   }
 }
 
+std::int64_t OriginalOrder::countVertices(
+  const StoredMesh& mesh, const ConversionReport* conversion)
+{
+  const bool isTold = conversion && !conversion->keeps_numbers && hasNumbers(mesh);
+  return mesh.info().vertices + VsmReader(mesh.file()).isolatedVertices() +
+         (isTold ? conversion->merged_points : 0);
+}
+
 void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction& progress)
 {
-  if (findColumn(mesh.info().vertexColumns, OriginalIdSpec) < 0)
+  if (!hasNumbers(mesh))
   {
     return;
   }

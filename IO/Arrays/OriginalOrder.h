@@ -6,6 +6,7 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -25,6 +26,22 @@ struct OriginalRows
   std::vector<std::string> columns() const
   {
     return this->column.empty() ? std::vector<std::string>{} : std::vector{ this->column };
+  }
+  /** That column among those that were read; null: there is none. */
+  const Column* numbersIn(const std::vector<Column>& columns) const
+  {
+    const auto found = std::ranges::find(columns, this->column,
+      [](const Column& read) -> const std::string& { return read.spec.name; });
+    return this->column.empty() || found == columns.end() ? nullptr : &*found;
+  }
+  /** Appends the rows of the vertices of a block that was read with columns(). */
+  void append(const MeshBlock& block, std::vector<std::int64_t>& rows) const
+  {
+    const Column* const numbers = this->numbersIn(block.vertexColumns);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
+    {
+      rows.push_back(this->row(block.firstVertex, numbers, i));
+    }
   }
   /** The row of tuple `i` of a block whose first one has the stream index `first`. `numbers`: the
    * column of the block; null if there is none. */
@@ -61,6 +78,9 @@ public:
    */
   explicit OriginalOrder(const StoredMesh& mesh, const ConversionReport* conversion = nullptr,
     const ProgressFunction& progress = {});
+
+  /** The number of vertices in the original order, for which nothing is read but the header. */
+  static std::int64_t countVertices(const StoredMesh& mesh, const ConversionReport* conversion);
 
   const OriginalRows& vertices() const { return this->Vertices; }
   const OriginalRows& cells() const { return this->Cells; }

@@ -67,14 +67,6 @@ private:
   ColumnSpec Spec;
 };
 
-/** The column of numbers of a block that was read with it as the last but the flags of cells. */
-const Column* numbersOf(const OriginalRows& rows, const std::vector<Column>& columns)
-{
-  const auto found =
-    std::ranges::find(columns, rows.column, [](const Column& column) { return column.spec.name; });
-  return rows.column.empty() ? nullptr : &*found;
-}
-
 /** A column and, unless it is that, the one that says the rows. */
 std::vector<std::string> withNumbers(std::vector<std::string> names, const OriginalRows& rows)
 {
@@ -154,7 +146,7 @@ void readVertices(const StoredMesh& mesh, const OriginalRows& places, const Rows
   visitBlocks(*source, progress, 0.0, 1.0,
     [&](const MeshBlock& block)
     {
-      const Column* const numbers = numbersOf(places, block.vertexColumns);
+      const Column* const numbers = places.numbersIn(block.vertexColumns);
       const std::byte* const tuples = tuplesOf(column, block.positions, block.vertexColumns);
       for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
       {
@@ -172,7 +164,7 @@ void readCells(const StoredMesh& mesh, const OriginalOrder& order, const Rows& r
   visitBlocks(*source, progress, 0.0, 1.0,
     [&](const MeshBlock& block)
     {
-      const Column* const numbers = numbersOf(places, block.cellColumns);
+      const Column* const numbers = places.numbersIn(block.cellColumns);
       const Column& column = block.cellColumns.front();
       for (std::size_t i = 0; i < column.tuples(); ++i)
       {
@@ -193,12 +185,8 @@ void readCorners(const StoredMesh& mesh, const OriginalOrder& order, const Rows&
   visitBlocks(*source, progress, 0.0, 1.0,
     [&](const MeshBlock& block)
     {
-      const Column* const vertexNumbers = numbersOf(vertices, block.vertexColumns);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
-      {
-        rowsOfVertices.push_back(vertices.row(block.firstVertex, vertexNumbers, i));
-      }
-      const Column* const cellNumbers = numbersOf(cells, block.cellColumns);
+      vertices.append(block, rowsOfVertices);
+      const Column* const cellNumbers = cells.numbersIn(block.cellColumns);
       std::array<std::int64_t, 4> tuple{};
       for (std::size_t i = 0; i < block.corners.size() / corners; ++i)
       {
@@ -275,7 +263,7 @@ void readSolution(const StoredMesh& mesh, const OriginalOrder& order, const Adde
       {
         number = static_cast<float>(number);
       }
-      const Column* const ids = numbersOf(places, block.vertexColumns);
+      const Column* const ids = places.numbersIn(block.vertexColumns);
       dispatch(column.type,
         [&]<class T>(T)
         {

@@ -3,6 +3,7 @@
 
 #include "IO/Jobs/MovedResult.h"
 #include "Solver/Jobs/Estimate/Costs.h"
+#include "smg/Error.h"
 #include "smg/Smooth.h"
 #include "smg/SolvedMesh.h"
 
@@ -28,7 +29,13 @@ std::vector<ColumnSpec> SmoothJob::solutionColumns(const StreamInfo& info) const
   {
     return { PositionSpec };
   }
-  return { *std::ranges::find(info.vertexColumns, this->smoothing.column, &ColumnSpec::name) };
+  const auto found =
+    std::ranges::find(info.vertexColumns, this->smoothing.column, &ColumnSpec::name);
+  if (found == info.vertexColumns.end())
+  {
+    throw Error("'" + this->smoothing.column + "': the vertices have no column of this name");
+  }
+  return { *found };
 }
 
 bool SmoothJob::keeps(const ColumnSpec& column, const StreamInfo& info) const

@@ -2,6 +2,7 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Arrays/MeshBlocks.h"
 #include "IO/Arrays/ReadColumn.h"
+#include "IO/Files/PartialProgress.h"
 #include "Python/C/Call.h"
 #include "Python/C/Field.h"
 #include "Python/C/Options.h"
@@ -56,7 +57,7 @@ bool isOfResult(const smg_field& field, bool ofCells, const std::string& name)
 void readOf(smg_field& field, bool ofCells, const std::string& name, std::byte* values,
   const ProgressFunction& progress)
 {
-  columnOf(field.job->resultOn(field.stored().info()), ofCells, name);
+  columnOf(field.info(), ofCells, name);
   if (!ofCells && readSolutionOf(field, name, values, progress))
   {
     return;
@@ -100,6 +101,24 @@ MeshBlocksOptions blocksOptions(const char* text)
     });
 }
 
+/** An array of the block, by a function of the blocks. */
+template <class Function>
+smg_status arrayOf(const smg_blocks* blocks, smg_array* array, const Function& function)
+{
+  return guarded(
+    [&]
+    {
+      const smg_blocks& given = required(blocks, "blocks");
+      if (!given.isAtBlock)
+      {
+        throw ArgumentError("blocks: there is no block here: call smg_next_block() before.");
+      }
+      const ArrayView view = function(*given.blocks);
+      required(array, "array") = { view.data, static_cast<smg_type>(view.type), view.rows,
+        view.columns, view.rowStride, view.columnStride };
+    });
+}
+
 } // namespace
 } // namespace smg
 
@@ -117,35 +136,36 @@ smg_status smg_read(smg_mesh* mesh, smg_field* field, const char* name, int cell
         smg::readOf(*field, cells != 0, column, room, reported);
         return;
       }
-      const smg_mesh& given = smg::required(mesh, "mesh and field");
+      const smg_mesh given = smg::required(mesh, "mesh and field").withoutArguments();
       smg::readColumn(given.stored(), *given.shared->order(reported), given.added.get(), cells != 0,
         column, room, reported);
     });
 }
 
-smg_status smg_open_blocks(
-  smg_mesh* mesh, smg_field* field, const char* options, smg_blocks** blocks)
+smg_status smg_open_blocks(smg_mesh* mesh, smg_field* field, const char* options,
+  smg_progress progress, void* user, smg_blocks** blocks)
 {
   return smg::guarded(
     [&]
     {
       smg::required(blocks, "blocks") = nullptr;
       const smg::MeshBlocksOptions given = smg::blocksOptions(options);
+      const smg::ProgressFunction reported = smg::progressOf(progress, user);
       auto made = std::make_unique<smg_blocks>();
       if (field)
       {
         made->shared = field->shared;
-        const std::filesystem::path& file = field->file({});
+        const std::filesystem::path& file = field->file(smg::partOf(reported, 0.0, 0.9));
         made->scratch = field->scratch();
-        made->blocks =
-          std::make_unique<smg::MeshBlocks>(file, field->shared->order(), nullptr, given);
+        made->blocks = std::make_unique<smg::MeshBlocks>(
+          file, field->shared->order(smg::partOf(reported, 0.9, 1.0)), nullptr, given);
       }
       else
       {
-        const smg_mesh& of = smg::required(mesh, "mesh and field");
+        const smg_mesh of = smg::required(mesh, "mesh and field").withoutArguments();
         made->shared = of.shared;
         made->blocks = std::make_unique<smg::MeshBlocks>(
-          of.stored().file(), of.shared->order(), of.added, given);
+          of.stored().file(), of.shared->order(reported), of.added, given);
       }
       *blocks = made.release();
     });
@@ -167,18 +187,19 @@ smg_status smg_next_block(smg_blocks* blocks, int64_t* vertices, int64_t* cells)
 
 smg_status smg_block_array(smg_blocks* blocks, const char* name, int cells, smg_array* array)
 {
-  return smg::guarded(
-    [&]
-    {
-      const smg_blocks& given = smg::required(blocks, "blocks");
-      if (!given.isAtBlock)
-      {
-        throw smg::ArgumentError("blocks: there is no block here: call smg_next_block() before.");
-      }
-      const smg::ArrayView view = given.blocks->array(cells != 0, &smg::required(name, "name"));
-      smg::required(array, "array") = { view.data, static_cast<smg_type>(view.type), view.rows,
-        view.columns, view.rowStride, view.columnStride };
-    });
+  return smg::arrayOf(blocks, array,
+    [&](const smg::MeshBlocks& of) { return of.array(cells != 0, &smg::required(name, "name")); });
+}
+
+smg_status smg_block_rows(smg_blocks* blocks, int cells, smg_array* rows)
+{
+  return smg::arrayOf(
+    blocks, rows, [cells](const smg::MeshBlocks& of) { return of.rows(cells != 0); });
+}
+
+smg_status smg_block_ghosts(smg_blocks* blocks, smg_array* ghosts)
+{
+  return smg::arrayOf(blocks, ghosts, [](const smg::MeshBlocks& of) { return of.ghosts(); });
 }
 
 void smg_close_blocks(smg_blocks* blocks)

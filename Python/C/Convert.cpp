@@ -52,7 +52,8 @@ smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* pat
       }
       smg::SimplifyCall call = smg::simplifyCallOf(description, limitsOf(given.shared->options()));
       call.options.progress = smg::progressOf(progress, user);
-      given.text = smg::simplify(given.stored(), call.target, out, call.options).json();
+      given.text =
+        smg::simplify(given.withoutArguments().stored(), call.target, out, call.options).json();
       if (report)
       {
         *report = given.text.c_str();

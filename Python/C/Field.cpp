@@ -2,6 +2,7 @@
 #include "Python/C/Field.h"
 
 #include "IO/Arrays/ArgumentColumns.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Formats/MeshFile.h"
 #include "Python/C/Call.h"
 #include "Python/C/JobText.h"
@@ -9,15 +10,20 @@
 #include "Solver/Mesh/VisitBlocks.h"
 #include "smg/WriteMesh.h"
 
-#include <algorithm>
+#include <utility>
+
+smg::StreamInfo smg_field::info() const
+{
+  return smg::withoutArguments(this->job->resultOn(this->stored().info()), this->added.get());
+}
 
 void smg_field::pass(const smg::MeshJob::Reader& read, const smg::ProgressFunction& progress)
 {
   smg::Report report = this->solution->report();
   // The job may need columns that its result does not have.
-  const auto readResult = [&read](smg::MeshSource& result, const smg::ProgressFunction& reading)
+  const auto readResult = [&](smg::MeshSource& result, const smg::ProgressFunction& reading)
   {
-    smg::WithoutArguments without(result);
+    smg::WithoutArguments without(result, this->added.get());
     read(without, reading);
   };
   this->job->passResult(this->stored(), *this->solution, readResult, report, progress);
@@ -45,14 +51,14 @@ const std::filesystem::path& smg_field::file(const smg::ProgressFunction& progre
   if (this->File.empty())
   {
     const smg::ConversionOptions& options = this->shared->options();
-    this->Scratch = std::make_shared<smg::ScratchFolder>(options.scratch, options.scratchLimit);
-    const std::filesystem::path path = *this->Scratch / "result.vsm";
+    auto scratch = std::make_shared<smg::ScratchFolder>(options.scratch, options.scratchLimit);
+    const std::filesystem::path path = *scratch / "result.vsm";
     this->pass(
       [&](smg::MeshSource& result, const smg::ProgressFunction& writing)
       {
         smg::WriteMeshOptions write;
         write.codec = smg::Codec::Lz4;
-        write.scratch = this->Scratch->path();
+        write.scratch = scratch->path();
         write.isolatedFrom = this->stored().file();
         write.completeIsolated = smg::isolatedOf(this->added);
         write.threads = options.threads;
@@ -60,6 +66,7 @@ const std::filesystem::path& smg_field::file(const smg::ProgressFunction& progre
         smg::writeMesh(result, path, write);
       },
       progress);
+    this->Scratch = std::move(scratch);
     this->File = path;
   }
   return this->File;
@@ -105,22 +112,16 @@ void run(const smg_mesh& mesh, const char* job, const char* description,
   made->shared = mesh.shared;
   made->added = mesh.added;
   made->job = jobOf(job, description, limitsOf(mesh.shared->options()));
+  mesh.shared->requireRows(optionsText(description, job), partOf(progress, 0.0, 0.05));
   made->job->prepareOn(made->stored());
-  made->solution = made->job->solveOn(made->stored(), progress);
+  made->solution = made->job->solveOn(made->stored(), partOf(progress, 0.05, 1.0));
   field = made.release();
 }
 
 std::string save(
   smg_field& field, const char* path, const char* text, const ProgressFunction& progress)
 {
-  const nlohmann::json json = optionsText(text, "options");
-  JobLimits limits = argument(
-    [&]
-    {
-      const JsonNode node(json, "options");
-      node.requireObject({ "memory", "threads", "scratch" });
-      return limitsIn(node, limitsOf(field.shared->options()));
-    });
+  const JobLimits limits = writingLimits(text, limitsOf(field.shared->options()));
   ResultFile out = resultFile(*field.shared, field.added, field.job.get(), path, limits);
   const ConversionReport* const conversion = field.shared->mesh().conversion();
   out.chooseOrder(field.stored().info(), conversion);
@@ -131,7 +132,10 @@ std::string save(
     { notes = out.write(field.stored(), result, memory, writing); },
     progress);
   Report report = field.report({});
-  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  for (const std::string& note : notes)
+  {
+    report.warn(note);
+  }
   if (conversion)
   {
     const std::vector<std::string> more = out.notesOn(*conversion, *field.job);
@@ -176,7 +180,7 @@ smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns
     [&]
     {
       const smg_field& given = smg::required(field, "field");
-      smg::required(vertices, "vertices") = given.shared->order()->vertices().count;
+      smg::required(vertices, "vertices") = given.shared->vertices();
       smg::required(columns, "columns") = given.solution->columns();
     });
 }

@@ -28,6 +28,8 @@ struct smg_field
     return this->added ? static_cast<const smg::StoredMesh&>(*this->added) : this->shared->mesh();
   }
 
+  /** What the mesh has with the result. */
+  smg::StreamInfo info() const;
   /** Passes the mesh with the result to `read` and completes the report. Throws Error; Cancelled.
    */
   void pass(const smg::MeshJob::Reader& read, const smg::ProgressFunction& progress);

@@ -7,6 +7,9 @@
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -34,10 +37,16 @@ public:
   const OpenedMesh& mesh() const { return *this->Mesh; }
   /** The file that was opened; empty: the mesh was made of arrays. */
   const std::filesystem::path& name() const { return this->Name; }
+  /** The number of vertices in the original order. */
+  std::int64_t vertices() const
+  {
+    return OriginalOrder::countVertices(*this->Mesh, this->Mesh->conversion());
+  }
   /** How it was opened, without the progress function. */
   const ConversionOptions& options() const { return this->Options; }
-  /** The original order, found when it is first asked for. Throws Error; Cancelled. */
-  std::shared_ptr<const OriginalOrder> order(const ProgressFunction& progress = {})
+  /** The original order, found when it is first asked for: others wait for that, therefore the
+   * progress function must not use the mesh. Throws Error; Cancelled. */
+  std::shared_ptr<const OriginalOrder> order(const ProgressFunction& progress)
   {
     const std::lock_guard lock(this->Mutex);
     if (!this->Order)
@@ -47,6 +56,10 @@ public:
     }
     return this->Order;
   }
+
+  /** Throws ArgumentError if a description names vertices by numbers and those that the mesh has
+   * are not its rows: the same number would be one vertex here and another one in arrays. */
+  void requireRows(const nlohmann::json& description, const ProgressFunction& progress);
 
 private:
   std::unique_ptr<OpenedMesh> Mesh;
@@ -65,9 +78,14 @@ struct smg_mesh
   std::shared_ptr<const smg::AddedColumns> added; ///< null: none
   std::string text;                               ///< the one last returned
 
-  /** The mesh with its added columns. */
+  /** The mesh with its added columns, as jobs see it. */
   const smg::StoredMesh& stored() const
   {
     return this->added ? static_cast<const smg::StoredMesh&>(*this->added) : this->shared->mesh();
+  }
+  /** The same without columns that are arguments. */
+  smg_mesh withoutArguments() const
+  {
+    return { this->shared, this->added ? this->added->withoutArguments() : nullptr, {} };
   }
 };

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Arrays/ArgumentColumns.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Python/C/Call.h"
@@ -45,20 +44,20 @@ std::string columnsText(const StreamInfo& info)
 std::string infoText(const smg_mesh& mesh, bool full, const ProgressFunction& progress)
 {
   const ConversionOptions& opened = mesh.shared->options();
-  const std::filesystem::path& file = mesh.shared->name();
+  const smg_mesh own = mesh.withoutArguments();
   std::optional<MeshDescription> description;
   if (full)
   {
     DescribeOptions options;
     options.memoryLimit = opened.memoryLimit > 0 ? opened.memoryLimit : options.memoryLimit;
     options.progress = progress;
-    description = describe(mesh.stored(), options);
+    description = describe(own.stored(), options);
   }
   MeshInfoOptions options;
-  options.file = file;
+  options.file = mesh.shared->name();
   options.conversion = mesh.shared->mesh().conversion();
   options.description = description ? &*description : nullptr;
-  return meshInfo(mesh.stored(), options);
+  return meshInfo(own.stored(), options);
 }
 
 /** What a job is expected to cost. `fileOf` makes the file of its result. */
@@ -91,7 +90,7 @@ std::string estimateText(
   ConversionOptions options;
   apply(limitsOf(opened), options);
   EstimatedInput in(mesh.stored().file(), options);
-  in.info = withoutArguments(mesh.stored().info());
+  in.info = mesh.withoutArguments().stored().info();
   return estimateText(in, kind, description, path, options,
     [&](const MeshJob& job)
     { return resultFile(*mesh.shared, mesh.added, &job, path, limitsOf(opened)); });
@@ -167,13 +166,12 @@ smg_status smg_columns(smg_mesh* mesh, smg_field* field, const char** json)
       smg::required(json, "json") = nullptr;
       if (field)
       {
-        field->text =
-          smg::columnsText(smg::withoutArguments(field->job->resultOn(field->stored().info())));
+        field->text = smg::columnsText(field->info());
         *json = field->text.c_str();
         return;
       }
       smg_mesh& given = smg::required(mesh, "mesh and field");
-      given.text = smg::columnsText(smg::withoutArguments(given.stored().info()));
+      given.text = smg::columnsText(given.withoutArguments().stored().info());
       *json = given.text.c_str();
     });
 }

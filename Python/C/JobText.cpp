@@ -21,8 +21,6 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t MaxCount = 1000000;
-
 /** Throws Error unless the description has no other keys than these and those of all jobs. */
 void requireKeys(const JsonNode& node, std::initializer_list<const char*> own, bool solves = true)
 {
@@ -33,16 +31,6 @@ void requireKeys(const JsonNode& node, std::initializer_list<const char*> own, b
   }
   keys.insert(keys.end(), LimitKeys);
   node.requireObject(keys);
-}
-
-double toleranceIn(const JsonNode& node)
-{
-  const double tolerance = node.number();
-  if (tolerance <= 0.0 || tolerance >= 1.0)
-  {
-    node.fail("must be between 0 and 1, both excluded");
-  }
-  return tolerance;
 }
 
 /** The options that all jobs have that solve. `canBeAutomatic`: the tolerance. */
@@ -62,7 +50,7 @@ void readSolving(const JsonNode& node, SolvingJob& job, bool canBeAutomatic = fa
   }
   if (node.has("max_cycles"))
   {
-    options.maxCycles = static_cast<int>(node.member("max_cycles").integer(1, MaxCount));
+    options.maxCycles = countIn(node.member("max_cycles"));
   }
   if (node.has("in_core"))
   {
@@ -130,7 +118,7 @@ std::unique_ptr<MeshJob> deformJob(const JsonNode& node)
     {
       node.member("cycles").fail("does not go with tolerance: leave one out");
     }
-    job->deforming.cycles = static_cast<int>(node.member("cycles").integer(1, MaxCount));
+    job->deforming.cycles = countIn(node.member("cycles"));
   }
   job->normals = normalsIn(node);
   readCheckpoint(node, "handles", *job);
@@ -237,7 +225,7 @@ std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
   }
   if (node.has("max_passes"))
   {
-    job->options.maxPasses = static_cast<int>(node.member("max_passes").integer(1, MaxCount));
+    job->options.maxPasses = countIn(node.member("max_passes"));
   }
   return job;
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Arrays/ArgumentColumns.h"
 #include "IO/Conversion/OpenArrays.h"
 #include "IO/Mesh/Columns.h"
 #include "Python/C/Call.h"
@@ -7,12 +6,20 @@
 #include "Python/C/Options.h"
 #include "smg/VsmReader.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace smg
 {
 namespace
 {
+
+/** Whether a description has a WHERE with numbers of vertices. */
+bool namesVertices(const nlohmann::json& node)
+{
+  return node.is_structured() && ((node.is_object() && node.contains("vertices")) ||
+                                   std::ranges::any_of(node, &namesVertices));
+}
 
 smg_mesh* handleOf(
   std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, const ConversionOptions& options)
@@ -28,40 +35,38 @@ ConversionOptions optionsOf(const char* text, bool isFile)
   return argument([&] { return conversionIn(JsonNode(json, "options"), isFile); });
 }
 
-void addColumn(smg_mesh& mesh, const char* name, bool ofCells, const smg_array* values)
+void addColumn(smg_mesh& mesh, const std::string& name, bool ofCells, const smg_array& values,
+  bool isArgument, const ProgressFunction& progress)
 {
-  const std::shared_ptr<const OriginalOrder> order = mesh.shared->order();
-  auto added = mesh.added
-                 ? std::make_shared<AddedColumns>(*mesh.added)
-                 : std::make_shared<AddedColumns>(
-                     std::shared_ptr<const StoredMesh>(mesh.shared, &mesh.shared->mesh()), order);
-  if (values)
+  const ArrayView view = viewOf(&values, "values");
+  auto added = mesh.added ? std::make_shared<AddedColumns>(*mesh.added)
+                          : std::make_shared<AddedColumns>(
+                              std::shared_ptr<const StoredMesh>(mesh.shared, &mesh.shared->mesh()),
+                              mesh.shared->order(progress));
+  added->add(ofCells, name, view, isArgument);
+  mesh.added = std::move(added);
+}
+
+void removeColumn(smg_mesh& mesh, const std::string& name, bool ofCells)
+{
+  if (mesh.added)
   {
-    added->add(ofCells, name, viewOf(values, "values"));
+    auto others = std::make_shared<AddedColumns>(*mesh.added);
+    others->remove(ofCells, name);
+    mesh.added = others->isEmpty() ? nullptr : std::move(others);
   }
-  else
-  {
-    added->remove(ofCells, name);
-  }
-  mesh.added = added->isEmpty() ? nullptr : std::move(added);
 }
 
 /** Returns the notes of the writer as a JSON list. */
 std::string saveMesh(
   smg_mesh& mesh, const char* path, const char* text, const ProgressFunction& progress)
 {
-  const nlohmann::json json = optionsText(text, "options");
-  const JobLimits limits = argument(
-    [&]
-    {
-      const JsonNode node(json, "options");
-      node.requireObject({ "memory", "threads", "scratch" });
-      return limitsIn(node, limitsOf(mesh.shared->options()));
-    });
-  ResultFile out = resultFile(*mesh.shared, mesh.added, nullptr, path, limits);
-  const StoredMesh& stored = mesh.stored();
-  out.chooseOrder(stored.info(), mesh.shared->mesh().conversion());
-  const StreamInfo info = withoutArguments(stored.info());
+  const JobLimits limits = writingLimits(text, limitsOf(mesh.shared->options()));
+  const smg_mesh own = mesh.withoutArguments();
+  ResultFile out = resultFile(*own.shared, own.added, nullptr, path, limits);
+  const StoredMesh& stored = own.stored();
+  const StreamInfo& info = stored.info();
+  out.chooseOrder(info, own.shared->mesh().conversion());
   const auto source = stored.source(columnNames(info.vertexColumns), columnNames(info.cellColumns));
   const std::int64_t memory = limits.memory > 0 ? limits.memory : ConversionOptions::DefaultMemory;
   const nlohmann::json notes = out.write(stored, *source, MeshJob::writerMemory(memory), progress);
@@ -69,6 +74,19 @@ std::string saveMesh(
 }
 
 } // namespace
+
+void SharedMesh::requireRows(const nlohmann::json& description, const ProgressFunction& progress)
+{
+  if (namesVertices(description) &&
+      findColumn(this->Mesh->info().vertexColumns, OriginalIdSpec) >= 0 &&
+      this->order(progress)->vertices().column.empty())
+  {
+    throw ArgumentError("vertices: the column OriginalId of this mesh has the numbers of another "
+                        "mesh, as that of a simplified one: choose vertices by a mask, or the "
+                        "nearest to points.");
+  }
+}
+
 } // namespace smg
 
 smg_status smg_open(
@@ -102,12 +120,32 @@ smg_status smg_open_arrays(const smg_array* points, const smg_array* cells, cons
     });
 }
 
-smg_status smg_add_column(smg_mesh* mesh, const char* name, int cells, const smg_array* values)
+smg_status smg_add_column(smg_mesh* mesh, const char* name, int cells, const smg_array* values,
+  smg_progress progress, void* user)
 {
   return smg::guarded(
-    [&] {
-      smg::addColumn(smg::required(mesh, "mesh"), &smg::required(name, "name"), cells != 0, values);
+    [&]
+    {
+      smg::addColumn(smg::required(mesh, "mesh"), &smg::required(name, "name"), cells != 0,
+        smg::required(values, "values"), false, smg::progressOf(progress, user));
     });
+}
+
+smg_status smg_add_argument(smg_mesh* mesh, const char* name, int cells, const smg_array* values,
+  smg_progress progress, void* user)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::addColumn(smg::required(mesh, "mesh"), &smg::required(name, "name"), cells != 0,
+        smg::required(values, "values"), true, smg::progressOf(progress, user));
+    });
+}
+
+smg_status smg_remove_column(smg_mesh* mesh, const char* name, int cells)
+{
+  return smg::guarded([&]
+    { smg::removeColumn(smg::required(mesh, "mesh"), &smg::required(name, "name"), cells != 0); });
 }
 
 smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells)
@@ -115,9 +153,9 @@ smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells)
   return smg::guarded(
     [&]
     {
-      const auto order = smg::required(mesh, "mesh").shared->order();
-      smg::required(vertices, "vertices") = order->vertices().count;
-      smg::required(cells, "cells") = order->cells().count;
+      const smg::SharedMesh& given = *smg::required(mesh, "mesh").shared;
+      smg::required(vertices, "vertices") = given.vertices();
+      smg::required(cells, "cells") = given.mesh().info().cells;
     });
 }
 

@@ -2,6 +2,7 @@
 #include "Python/C/Options.h"
 
 #include "IO/Description/Sizes.h"
+#include "Python/C/Call.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -73,6 +74,22 @@ bool flagIn(const JsonNode& node)
   return node.isTrue();
 }
 
+double toleranceIn(const JsonNode& node)
+{
+  const double tolerance = node.number();
+  if (tolerance <= 0.0 || tolerance >= 1.0)
+  {
+    node.fail("must be between 0 and 1, both excluded");
+  }
+  return tolerance;
+}
+
+int countIn(const JsonNode& node)
+{
+  constexpr std::int64_t MaxCount = 1000000;
+  return static_cast<int>(node.integer(1, MaxCount));
+}
+
 JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults)
 {
   constexpr std::int64_t MaxThreads = 1024;
@@ -94,6 +111,18 @@ JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults)
     limits.scratchLimit = bytesIn(object.member("scratch_limit"));
   }
   return limits;
+}
+
+JobLimits writingLimits(const char* options, const JobLimits& defaults)
+{
+  const nlohmann::json json = optionsText(options, "options");
+  return argument(
+    [&]
+    {
+      const JsonNode node(json, "options");
+      node.requireObject({ "memory", "threads", "scratch" });
+      return limitsIn(node, defaults);
+    });
 }
 
 ConversionOptions conversionIn(

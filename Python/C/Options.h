@@ -21,12 +21,19 @@ std::int64_t bytesIn(const JsonNode& node);
 std::size_t choiceIn(const JsonNode& node, std::initializer_list<const char*> choices);
 /** true or false. */
 bool flagIn(const JsonNode& node);
+/** A relative residual at which to stop. */
+double toleranceIn(const JsonNode& node);
+/** A number of V-cycles or passes, at least 1. */
+int countIn(const JsonNode& node);
 
 /** The keys of limitsIn(). */
 inline constexpr std::initializer_list<const char*> LimitKeys{ "memory", "threads", "scratch",
   "scratch_limit" };
 /** The limits of an object; those that it does not have are `defaults`. */
 JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults = {});
+
+/** The limits with which a file is written: the only keys of these options. */
+JobLimits writingLimits(const char* options, const JobLimits& defaults);
 
 /** How to open a mesh. `isFile`: of a file, not of arrays. `more`: keys of the caller. */
 ConversionOptions conversionIn(

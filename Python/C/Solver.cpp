@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Description/ParseDescriptions.h"
+#include "IO/Files/PartialProgress.h"
 #include "Python/C/Call.h"
 #include "Python/C/Handles.h"
 #include "Python/C/Options.h"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 /** Equations with their hierarchy, and the rows of the vertices in the order of the caller. Nothing
@@ -36,24 +38,16 @@ namespace
 {
 
 /** The rows of the vertices of a stream; empty: they are in order. */
-std::vector<std::int64_t> rowsOf(const StoredMesh& mesh, const OriginalRows& places)
+std::vector<std::int64_t> rowsOf(
+  const StoredMesh& mesh, const OriginalRows& places, const ProgressFunction& progress)
 {
   if (places.column.empty())
   {
     return places.table;
   }
   std::vector<std::int64_t> rows;
-  const auto source = mesh.source(places.columns(), {});
-  visitBlocks(*source, {}, 0.0, 1.0,
-    [&](const MeshBlock& block)
-    {
-      const auto numbers = std::ranges::find(
-        block.vertexColumns, places.column, [](const Column& column) { return column.spec.name; });
-      for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
-      {
-        rows.push_back(places.row(block.firstVertex, &*numbers, i));
-      }
-    });
+  visitBlocks(*mesh.source(places.columns(), {}), progress, 0.0, 1.0,
+    [&](const MeshBlock& block) { places.append(block, rows); });
   return rows;
 }
 
@@ -99,7 +93,6 @@ struct Ending
 
 Ending endingIn(const char* text)
 {
-  constexpr std::int64_t MaxCount = 1000000;
   const nlohmann::json json = optionsText(text, "options");
   return argument(
     [&]
@@ -109,15 +102,11 @@ Ending endingIn(const char* text)
       Ending ending;
       if (node.has("tolerance"))
       {
-        ending.tolerance = node.member("tolerance").number();
-        if (ending.tolerance <= 0.0 || ending.tolerance >= 1.0)
-        {
-          node.member("tolerance").fail("must be between 0 and 1, both excluded");
-        }
+        ending.tolerance = toleranceIn(node.member("tolerance"));
       }
       if (node.has("max_cycles"))
       {
-        ending.maxCycles = static_cast<int>(node.member("max_cycles").integer(1, MaxCount));
+        ending.maxCycles = countIn(node.member("max_cycles"));
       }
       return ending;
     });
@@ -196,10 +185,14 @@ smg_status smg_open_solver(
       smg::required(solver, "solver") = nullptr;
       const smg_mesh& given = smg::required(mesh, "mesh");
       smg::Equations asked = smg::equationsIn(options, smg::limitsOf(given.shared->options()));
-      asked.options.progress = smg::progressOf(progress, user);
-      const smg::OriginalRows& places = given.shared->order()->vertices();
-      *solver = new smg_solver{ { given.stored(), asked.problem, asked.options },
-        smg::rowsOf(given.stored(), places), places.count, {} };
+      const smg::ProgressFunction reported = smg::progressOf(progress, user);
+      const auto order = given.shared->order(smg::partOf(reported, 0.0, 0.05));
+      given.shared->requireRows(smg::optionsText(options, "options"), {});
+      std::vector<std::int64_t> rows =
+        smg::rowsOf(given.stored(), order->vertices(), smg::partOf(reported, 0.05, 0.1));
+      asked.options.progress = smg::partOf(reported, 0.1, 1.0);
+      *solver = new smg_solver{ { given.stored(), asked.problem, asked.options }, std::move(rows),
+        order->vertices().count, {} };
     });
 }
 

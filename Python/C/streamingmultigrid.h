@@ -17,7 +17,7 @@
  * Vertices and cells have two orders. The *original* one is that of the file or of the arrays, with
  * the vertices of no cell; the *stream* order is that in which a mesh is read. Numbers in JSON,
  * rows of arrays that are given, and smg_read() refer to the original order; blocks come in stream
- * order.
+ * order. Numbers of vertices are refused where the mesh has those of another one in OriginalId.
  *
  * A handle may be used by one thread at a time, different handles by different threads. A field,
  * its blocks and a solver keep what they need of their mesh: handles may be closed in any order.
@@ -74,7 +74,7 @@ extern "C"
   } smg_array;
 
   /* Takes the part that is done, from 0 to 1; returns 0 to go on, anything else to cancel. It is
-   * called on the thread that called the function. */
+   * called on the thread that called the function, and must not use handles. */
   typedef int (*smg_progress)(double done, void* user);
 
   /* The version of the library, for example "0.3.0". */
@@ -98,14 +98,26 @@ extern "C"
 
   /* Adds a column to the vertices (cells = 0) or cells (1), a row for each in the original order,
    * in place of one of this name. The array is not copied: it must not change or go as long as the
-   * mesh has it, and fields, blocks and solvers are open that were made until then. `values` NULL
-   * takes an added column away. One whose name begins with # is an argument of jobs alone: files,
-   * blocks and smg_columns() do not have it. */
-  SMG_C_EXPORT smg_status smg_add_column(
-    smg_mesh* mesh, const char* name, int cells, const smg_array* values);
+   * mesh has it, and fields, blocks and solvers are open that were made until then. The first time,
+   * a mesh whose order is not known may be read. */
+  SMG_C_EXPORT smg_status smg_add_column(smg_mesh* mesh, const char* name, int cells,
+    const smg_array* values, smg_progress progress, void* user);
+
+  /* Adds a column that is an argument of jobs alone: they find it by its name, which must not be
+   * that of a column of the mesh; nothing else has it, neither files, blocks and results nor what
+   * is said of the mesh. */
+  SMG_C_EXPORT smg_status smg_add_argument(smg_mesh* mesh, const char* name, int cells,
+    const smg_array* values, smg_progress progress, void* user);
+
+  /* Takes a column away that was added, if there is one of this name. */
+  SMG_C_EXPORT smg_status smg_remove_column(smg_mesh* mesh, const char* name, int cells);
 
   /* What is known of a mesh: the JSON of `smg info --report`; with `full` that of `smg info
-   * --full`, which reads the mesh. The text is valid until the next call with this mesh. */
+   * --full`, which reads the mesh. It is that of the mesh as it was opened, with added columns:
+   * "width", "span", "mean_width", "expected_solve" and the memory of the description are those of
+   * the "order" of smg_open(), where smg info has the file in its own order ("order": "keep") and
+   * expects a solve in that of a conversion. The text is valid until the next call with this mesh.
+   */
   SMG_C_EXPORT smg_status smg_info(
     smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json);
 
@@ -163,8 +175,8 @@ extern "C"
   SMG_C_EXPORT smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns);
 
   /* Writes the mesh with the result, in the format of the suffix and in the order of the command
-   * line. options: "memory", "threads", "scratch". The report is that of smg_report(), with notes
-   * on what the format cannot hold; it may be NULL. */
+   * line. options: "memory", "threads", "scratch". The report is that of smg_report(), with a
+   * warning of each thing that the format cannot hold; it may be NULL. */
   SMG_C_EXPORT smg_status smg_save(smg_field* field, const char* path, const char* options,
     smg_progress progress, void* user, const char** report);
 
@@ -188,19 +200,24 @@ extern "C"
 
   /* Reads a mesh, or a field with its mesh, in blocks of consecutive cells with all their vertices.
    * options: "points" (the most vertices of a block; 1,000,000 by default), "columns" (names of
-   * columns of the vertices), "cell_columns" (of the cells); by default all. */
-  SMG_C_EXPORT smg_status smg_open_blocks(
-    smg_mesh* mesh, smg_field* field, const char* options, smg_blocks** blocks);
+   * columns of the vertices), "cell_columns" (of the cells); by default all. A field is written to
+   * a scratch file the first time. */
+  SMG_C_EXPORT smg_status smg_open_blocks(smg_mesh* mesh, smg_field* field, const char* options,
+    smg_progress progress, void* user, smg_blocks** blocks);
 
   /* Goes to the next block; `cells` is 0 at the end. */
   SMG_C_EXPORT smg_status smg_next_block(smg_blocks* blocks, int64_t* vertices, int64_t* cells);
 
   /* An array of the block, valid until the next call of smg_next_block(). Vertices (cells = 0):
-   * "Position", "OriginalId" (the numbers in the original order), "Ghost" (uint8; 1: an earlier
-   * block has the vertex, too), and columns; cells (1): "Corners" (int64, rows of this block),
-   * "OriginalCellId", and columns. */
+   * "Position" and columns; cells (1): "Corners" (int64, rows of this block) and columns. */
   SMG_C_EXPORT smg_status smg_block_array(
     smg_blocks* blocks, const char* name, int cells, smg_array* array);
+
+  /* The rows of the vertices or cells of the block in the original order (int64), likewise. */
+  SMG_C_EXPORT smg_status smg_block_rows(smg_blocks* blocks, int cells, smg_array* rows);
+
+  /* 1 at vertices that an earlier block has, too, else 0 (uint8), likewise. */
+  SMG_C_EXPORT smg_status smg_block_ghosts(smg_blocks* blocks, smg_array* ghosts);
 
   /* The equations A x = b of a problem ("problem") with their hierarchy, in memory: A is the
    * stiffness with screening, Robin and soft terms. Rows of vectors are vertices in the original

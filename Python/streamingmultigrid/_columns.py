@@ -17,17 +17,20 @@ class Column(NamedTuple):
     name: str
     cells: bool  # of the cells, else of the vertices
     values: np.ndarray
+    is_argument: bool  # of the job alone, no part of its result
 
 
 class Columns:
-    """The columns that the description of a job adds to a mesh, while it is made.
-
-    Columns named by this class begin with #: they are arguments of the job, not part of results.
-    """
+    """The columns that the description of a job adds to a mesh, while it is made."""
 
     def __init__(self, mesh: Any) -> None:
         self.mesh = mesh
         self.added: List[Column] = []
+        self.is_matrix = False  # whether values of the result were given as an array (n, 1)
+
+    def shape_as(self, values: np.ndarray) -> None:
+        """The result has the shape of values that were given."""
+        self.is_matrix = self.is_matrix or values.ndim == 2 and values.shape[1] == 1
 
     def diagonal(self) -> float:
         """The diagonal of the bounds of the mesh."""
@@ -57,7 +60,7 @@ class Columns:
             what: the argument, for messages.
             cells: True, False, or by the number of rows; vertices if both have as many.
             components: those that are allowed; empty: any.
-            name: for a column of the result.
+            name: for a column of the result; default: it is an argument of the job alone.
         """
         array = numbers(values, what)
         of_cells = self.rows(array, cells)
@@ -80,25 +83,32 @@ class Columns:
                 "%s: an array of %d components; it must have %s."
                 % (what, width, " or ".join(map(str, components)))
             )
-        used = {column.name for column in self.added}
-        own = "#" + what  # as messages call the argument
-        while own in used:
-            own += "'"
-        column = Column(name or own, of_cells, array)
+        column = Column(name or self._free_name(what), of_cells, array, name is None)
         self.added.append(column)
         return column
+
+    def _free_name(self, what: str) -> str:
+        """A name that no column has, by which messages call an argument."""
+        used = {column.name for column in self.added}.union(*self.mesh.columns.values())
+        own = "#" + what
+        while own in used:
+            own += "'"
+        return own
 
     def named(self, values: Any, what: str, default: str) -> List[str]:
         """Names of columns of the vertices: given as a name, names, {name: array}, or an array."""
         if isinstance(values, str):
             return [values]
         if isinstance(values, Mapping):
-            return [
-                self.add(array, what, cells=False, name=name).name for name, array in values.items()
-            ]
+            return [self._result(array, what, name) for name, array in values.items()]
         if isinstance(values, (list, tuple)) and all(isinstance(each, str) for each in values):
             return list(values)
-        return [self.add(values, what, cells=False, name=default).name]
+        return [self._result(values, what, default)]
+
+    def _result(self, values: Any, what: str, name: str) -> str:
+        column = self.add(values, what, cells=False, name=name)
+        self.shape_as(column.values)
+        return name
 
     def components(self, name: str) -> Optional[int]:
         """Of a column of the vertices of the mesh; None if there is none of this name."""

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What can go wrong: the errors and warnings of this package."""
 
+import sys
+import warnings
+
 
 class Error(RuntimeError):
     """An error of a mesh, a file, the disk or a solve; its text is the sentence of the command line.
@@ -34,3 +37,11 @@ class NotConvergedWarning(UserWarning):
 
 class ReportWarning(UserWarning):
     """A warning of a report: the result may not be what was meant."""
+
+
+def warn(sentence, category):
+    """A warning at the line of the program that has called this package."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back and frame.f_globals.get("__name__", "").split(".")[0] == __package__:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(sentence, category, stacklevel=level)

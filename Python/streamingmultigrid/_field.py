@@ -10,7 +10,7 @@ import numpy as np
 
 from ._arrays import Array, copy, shaped
 from ._errors import Error, InputError
-from ._library import Handle, call, call_reporting, json_text, parse, text
+from ._library import NativeHandle, call, call_reporting, json_text, parse, text
 from .progress import reporting
 from ._report import Report, warn_of
 
@@ -25,18 +25,20 @@ class Block:
         points: (n, 3) float64, in the unit of the mesh.
         cells: (m, 3) or (m, 4) int64, rows of `points`.
         n_points, n_cells: n and m.
+        rows, cell_rows: (n,) and (m,) int64, where the vertices and cells are in the original order:
+            ``mesh.points[block.rows]`` is `points`.
+        ghost: (n,) bool, the vertices that an earlier block has, too: leave these out to count each
+            vertex once.
 
     ``block["Temperature"]`` is a column, (n,) or (n, k) of the vertices, else (m,) or (m, k) of the
-    cells. ``block["OriginalId"]`` (int64) has the numbers of the vertices in the original order,
-    ``block["OriginalCellId"]`` those of the cells, and ``block["Ghost"]`` (uint8) is 1 at vertices
-    that an earlier block has, too: leave these out to count each vertex once.
+    cells.
     """
 
-    def __init__(self, handle: Handle, n_points: int, n_cells: int, of_cells: Sequence[str]) -> None:
+    def __init__(self, handle: NativeHandle, n_points: int, n_cells: int, of_cells: Sequence[str]) -> None:
         self.n_points, self.n_cells = n_points, n_cells
-        self._handle: Optional[Handle] = handle
+        self._handle: Optional[NativeHandle] = handle
         self._of_cells = set(of_cells)
-        self._read: Dict[str, np.ndarray] = {}
+        self._read: Dict[tuple, np.ndarray] = {}
 
     @property
     def points(self) -> np.ndarray:
@@ -48,18 +50,37 @@ class Block:
         """The corners of the cells, (m, 3) or (m, 4) int64, as rows of `points`."""
         return self["Corners"]
 
+    @property
+    def rows(self) -> np.ndarray:
+        """The rows of the vertices in the original order, (n,) int64."""
+        return self._array("smg_block_rows", 0)
+
+    @property
+    def cell_rows(self) -> np.ndarray:
+        """The rows of the cells in the original order, (m,) int64."""
+        return self._array("smg_block_rows", 1)
+
+    @property
+    def ghost(self) -> np.ndarray:
+        """Whether an earlier block has a vertex, too, (n,) bool."""
+        return self._array("smg_block_ghosts").view(bool)
+
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._read:
+        return self._array("smg_block_array", text(name), int(name in self._of_cells))
+
+    def _array(self, function: str, *arguments: Any) -> np.ndarray:
+        """What a function of the library says of the block; read once."""
+        key = (function, *arguments)
+        if key not in self._read:
             if self._handle is None:
                 raise Error(
-                    "This block has passed: read %r of a block inside the loop over the blocks." % name
+                    "This block has passed: read what you need of it inside the loop over the blocks."
                 )
             array = Array()
             with self._handle as blocks:
-                cells = name in self._of_cells
-                call("smg_block_array", blocks, text(name), int(cells), byref(array))
-                self._read[name] = copy(array)
-        return self._read[name]
+                call(function, blocks, *arguments, byref(array))
+                self._read[key] = copy(array)
+        return self._read[key]
 
     def __repr__(self) -> str:
         return "<Block of %d vertices and %d cells>" % (self.n_points, self.n_cells)
@@ -75,7 +96,12 @@ def read_blocks(
 ) -> Iterator[Block]:
     """The blocks of a mesh, or of a field with its mesh; `mesh` and `field` are handles or None, `keep`
     has the arrays that they use."""
-    options: Dict[str, Any] = {"points": max_points}
+    if isinstance(max_points, bool) or not hasattr(max_points, "__index__") or max_points < 4:
+        raise InputError(
+            "max_points: %r: it must be an integer of at least 4, so that a block can have a cell."
+            % (max_points,)
+        )
+    options: Dict[str, Any] = {"points": int(max_points)}
     if names is not None:
         unknown = [n for n in names if n not in columns["vertices"] and n not in columns["cells"]]
         if unknown:
@@ -85,16 +111,13 @@ def read_blocks(
             )
         options["columns"] = [name for name in names if name in columns["vertices"]]
         options["cell_columns"] = [name for name in names if name in columns["cells"]]
-    of_cells = ["Corners", "OriginalCellId", *(set(columns["cells"]) - set(columns["vertices"]))]
+    of_cells = ["Corners", *(set(columns["cells"]) - set(columns["vertices"]))]
     source = field or mesh
-    handle = Handle("blocks", *keep)
+    handle = NativeHandle("blocks", *keep)
     with source as pointer:
-        call(
-            "smg_open_blocks",
-            pointer if field is None else None,
-            pointer if field is not None else None,
-            json_text(options),
-            byref(handle.pointer),
+        handles = (pointer, None) if field is None else (None, pointer)
+        call_reporting(
+            "smg_open_blocks", (*handles, json_text(options)), None, byref(handle.pointer)
         )
     vertices, cells = c_int64(), c_int64()
     block = None
@@ -172,14 +195,16 @@ class Field:
     def __init__(
         self,
         mesh: Any,
-        handle: Handle,
+        handle: NativeHandle,
         job: str,
         names: Sequence[str],
         counts: Sequence[int],
         corners: int,
+        is_matrix: bool,
     ) -> None:
         self.mesh, self.names, self._job = mesh, tuple(names), job
         self._handle = handle
+        self._is_matrix = is_matrix  # the values are (n, k) even of k = 1, as those given
         self._counts, self._corners = counts, corners  # those of the mesh
         self._said: set = set()
         self._report: Optional[Report] = None
@@ -191,11 +216,14 @@ class Field:
 
     @property
     def shape(self) -> tuple:
-        """(n,) of one value at each vertex, else (n, k); n counts vertices of no cell, too."""
+        """(n,) of one value at each vertex, else (n, k); (n, 1) if the job was given such values. n
+        counts vertices of no cell, too."""
         vertices, columns = c_int64(), c_int64()
         with self._handle as field:
             call("smg_shape", field, byref(vertices), byref(columns))
-        return (vertices.value,) if columns.value == 1 else (vertices.value, columns.value)
+        if columns.value == 1 and not self._is_matrix:
+            return (vertices.value,)
+        return vertices.value, columns.value
 
     @property
     def columns(self) -> Dict[str, Dict[str, Any]]:
@@ -227,7 +255,7 @@ class Field:
             (n,), or (n, k) of k right-hand sides or components; at vertices of no cell a solution is
             NaN.
         """
-        return self.read(self.name)
+        return self.read(self.name).reshape(self.shape)
 
     def read(self, name: str, cells: Optional[bool] = None, progress: Any = None) -> np.ndarray:
         """A whole column of the result or of its mesh, as `Mesh.read`."""
@@ -252,6 +280,8 @@ class Field:
     def __getitem__(self, name: str) -> np.ndarray:
         return self.read(name)
 
+    __iter__ = None  # of numbers, as Python would try them
+
     def blocks(
         self, max_points: int = 1_000_000, columns: Optional[Sequence[str]] = None
     ) -> Iterator[Block]:
@@ -263,7 +293,15 @@ class Field:
         """
         return read_blocks(None, self._handle, self._handle.keep, self.columns, max_points, columns)
 
-    def save(self, path: Any, *, progress: Any = None, **options: Any) -> Report:
+    def save(
+        self,
+        path: Any,
+        *,
+        memory: Any = None,
+        threads: Optional[int] = None,
+        scratch: Any = None,
+        progress: Any = None,
+    ) -> Report:
         """Writes the mesh with the result to a file, in the format of its suffix.
 
         The order and everything else is as of the command line: from a mesh file to .ply, .vtk, .vtp
@@ -271,20 +309,20 @@ class Field:
 
         Args:
             path: .vsm, .ply, .vtk, .vtp, .vtu, .vtkhdf ...
-            options: `memory`, `threads`, `scratch`, as of `Mesh.solve`.
+            memory, threads, scratch: as of `Mesh.solve`.
 
         Returns:
-            The report, with notes on what the format cannot hold.
+            The report. What the format cannot hold is left out, with a ReportWarning.
         """
         self.mesh.check_output(path)
         result = c_char_p()
-        options = {**self.mesh.defaults("memory", "threads", "scratch"), **options}
+        options = self.mesh.saving(memory, threads, scratch)
         with reporting(progress, "writing") as report, self._handle as field:
             call_reporting(
                 "smg_save", (field, text(path), json_text(options)), report, byref(result)
             )
             self._report = Report(parse(result))
-        warn_of(self._report, self._said)
+        warn_of(self._report, set(self._said))
         return self._report
 
     def to_pyvista(self) -> Any:

@@ -23,7 +23,7 @@ def _read(field: Any) -> _Values:
     """The values; of several columns all, by their names."""
     if len(field.names) == 1:
         return field.to_numpy()
-    return {name: field.read(name) for name in field.names}
+    return {field.name: field.to_numpy(), **{name: field.read(name) for name in field.names[1:]}}
 
 
 @jobs.with_arguments_of("solve", ("points", "cells"))

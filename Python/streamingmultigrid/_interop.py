@@ -145,13 +145,14 @@ def from_pyvista(dataset: Any, **options: Any) -> Mesh:
             `points` (or `vertices`), (n, 3), and `cells` or `faces`: (m, 3) triangles, (m, 4)
             tetrahedra, or counted as in VTK. Polygons are cut into triangles, whose cell data are
             those of the polygon; of meshio's meshes with tetrahedra these count. Columns with which
-            this package numbers and marks meshes (OriginalId, OriginalCellId, CellFlags) stay behind.
+            this package numbers and marks meshes (OriginalId, OriginalCellId, CellFlags), and
+            those of VTK itself (vtk...), stay behind.
         options: as of `smg.mesh`.
     """
     points, simplices, cells = _parts(dataset)
     made = mesh(points, simplices, **options)
     for (name, of_cells), values in _data(dataset, cells).items():
-        if name.startswith(("vtk", "#")) or name in _OWN:
+        if name.startswith("vtk") or name in _OWN:
             continue
         made.add(name, values, of_cells)
     return made

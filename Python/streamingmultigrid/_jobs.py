@@ -20,6 +20,11 @@ def _where(added: Columns, regions: Any) -> Any:
     return None if regions is None else [each.where(added) for each in as_regions(regions)]
 
 
+def _given(arguments: Dict[str, Any]) -> Dict[str, Any]:
+    """The arguments of a job, which are the entries of its description unless it says otherwise."""
+    return {name: value for name, value in arguments.items() if name != "added"}
+
+
 def solve(
     added: Columns,
     *,
@@ -96,36 +101,10 @@ def solve(
         InputError: an argument is wrong. MemoryLimitError: the mesh needs more; the sentence says how
         much. Error: the problem has no solution, a region no vertex, the disk is full.
     """
-    given = {
-        "dirichlet": dirichlet,
-        "source": source,
-        "flux": flux,
-        "robin": robin,
-        "soft": soft,
-        "conductivity": conductivity,
-        "screening": screening,
-        "field": field,
-        "initial": initial,
-        "weights": weights,
-        "outputs": outputs,
-        "columns": columns,
-        "problem": problem,
-    }
-    described = problems.problem(added, given)
+    given = _given(locals())
+    described = problems.problem(added, {name: given.pop(name) for name in problems.DATA})
     names = ["Solution", *(name.capitalize() for name in described.get("outputs", []))]
-    return {
-        "problem": described,
-        "tolerance": tolerance,
-        "acceleration": acceleration,
-        "max_cycles": max_cycles,
-        "sweeps": sweeps,
-        "in_core": in_core,
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-        "checkpoint": checkpoint,
-    }, names
+    return {"problem": described, **given}, names
 
 
 def deform(
@@ -160,21 +139,7 @@ def deform(
     Returns:
         The positions: (n, 3) float64. Components that no handle holds, and vertices of no cell, stay.
     """
-    return {
-        "handles": problems.handles(added, handles),
-        "weights": weights,
-        "tolerance": tolerance,
-        "cycles": cycles,
-        "normals": normals,
-        "max_cycles": max_cycles,
-        "sweeps": sweeps,
-        "in_core": in_core,
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-        "checkpoint": checkpoint,
-    }, ["Position"]
+    return {**_given(locals()), "handles": problems.handles(added, handles)}, ["Position"]
 
 
 def smooth(
@@ -216,30 +181,14 @@ def smooth(
     Returns:
         The smoothed positions, (n, 3) float64, or the smoothed column, of its type.
     """
-    name = None
+    given = _given(locals())
+    names = ["Position"]
     if column is not None:
         names = added.named(column, "column", "Values")
         if len(names) != 1:
             raise InputError("column: one column is smoothed at a time.")
-        (name,) = names
-    return {
-        "size": size,
-        "steps": steps,
-        "hold": _where(added, hold),
-        "boundary": boundary,
-        "keep_volume": keep_volume,
-        "keep_edges": keep_edges,
-        "column": name,
-        "normals": normals,
-        "tolerance": tolerance,
-        "max_cycles": max_cycles,
-        "sweeps": sweeps,
-        "in_core": in_core,
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-    }, [name or "Position"]
+        given["column"] = names[0]
+    return {**given, "hold": _where(added, hold)}, names
 
 
 def blend(
@@ -275,24 +224,11 @@ def blend(
     Returns:
         The blended column, of its type; of several the first one, the others by their names.
     """
+    given = _given(locals())
     names = added.named(columns, "columns", "Values")
     if not isinstance(patch, str):
-        patch = added.add(patch, "patch", components=(1,)).name
-    return {
-        "columns": names,
-        "patch": patch,
-        "hold": _where(added, hold),
-        "anchor": anchor,
-        "seam": seam,
-        "tolerance": tolerance,
-        "max_cycles": max_cycles,
-        "sweeps": sweeps,
-        "in_core": in_core,
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-    }, names
+        given["patch"] = added.add(patch, "patch", components=(1,)).name
+    return {**given, "columns": names, "hold": _where(added, hold)}, names
 
 
 def distance(
@@ -323,20 +259,12 @@ def distance(
     Returns:
         The distances: (n,) float64, in the unit of the mesh; infinite where no path leads.
     """
+    given = _given(locals())
+    del given["sources"]
     if sources is None and not wall:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
     names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceDirection"] * bool(direction)
-    return {
-        "from": _where(added, sources),
-        "wall": wall,
-        "source": source,
-        "direction": direction,
-        "max_passes": max_passes,
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-    }, names
+    return {**given, "from": _where(added, sources)}, names
 
 
 def simplify(
@@ -351,14 +279,7 @@ def simplify(
 ) -> _Description:
     if vertices is None and error is None:
         raise InputError("simplify: give the number of vertices, or the error, or both.")
-    return {
-        "vertices": vertices,
-        "error": error,
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "checkpoint": checkpoint,
-    }, ["Position"]
+    return _given(locals()), ["Position"]
 
 
 #: By the names that the library knows them by.

@@ -8,6 +8,7 @@ import functools
 import glob
 import json
 import os
+import re
 import sysconfig
 import threading
 import weakref
@@ -26,7 +27,9 @@ _REPORTED = [PROGRESS, c_void_p]  # progress and its data
 _FUNCTIONS = {  # their arguments; they return a status
     "smg_open": [c_char_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
     "smg_open_arrays": [POINTER(Array), POINTER(Array), c_char_p, *_REPORTED, POINTER(c_void_p)],
-    "smg_add_column": [c_void_p, c_char_p, c_int, POINTER(Array)],
+    "smg_add_column": [c_void_p, c_char_p, c_int, POINTER(Array), *_REPORTED],
+    "smg_add_argument": [c_void_p, c_char_p, c_int, POINTER(Array), *_REPORTED],
+    "smg_remove_column": [c_void_p, c_char_p, c_int],
     "smg_info": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
     "smg_counts": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
     "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],
@@ -40,9 +43,11 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_save_mesh": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
     "smg_columns": [c_void_p, c_void_p, POINTER(c_char_p)],
     "smg_read": [c_void_p, c_void_p, c_char_p, c_int, *_REPORTED, c_void_p],
-    "smg_open_blocks": [c_void_p, c_void_p, c_char_p, POINTER(c_void_p)],
+    "smg_open_blocks": [c_void_p, c_void_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
     "smg_next_block": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
     "smg_block_array": [c_void_p, c_char_p, c_int, POINTER(Array)],
+    "smg_block_rows": [c_void_p, c_int, POINTER(Array)],
+    "smg_block_ghosts": [c_void_p, POINTER(Array)],
     "smg_open_solver": [c_void_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
     "smg_solver_solve": [
         c_void_p, POINTER(Array), c_void_p, c_char_p, *_REPORTED, POINTER(c_char_p),
@@ -94,8 +99,13 @@ def version() -> str:
 
 
 def text(value: Any) -> Optional[bytes]:
-    """A path or name as the C interface takes it."""
-    return None if value is None else os.fsencode(value)
+    """A path or name as the C interface takes it. Raises InputError if it contains a zero byte."""
+    if value is None:
+        return None
+    encoded = os.fsencode(value)
+    if b"\0" in encoded:
+        raise InputError("%r: a name cannot contain the character 0." % (value,))
+    return encoded
 
 
 def json_text(description: Mapping[str, Any]) -> bytes:
@@ -105,11 +115,29 @@ def json_text(description: Mapping[str, Any]) -> bytes:
         if key in given and isinstance(given[key], float) and given[key].is_integer():
             given[key] = int(given[key])  # 2e9
     try:
-        return json.dumps(given, default=plain, allow_nan=False).encode()
+        encoded = json.dumps(given, default=plain, allow_nan=False)
     except ValueError as error:
         if isinstance(error, Error):
             raise
         raise InputError("A number is infinite or NaN: %s." % ", ".join(given)) from None
+    if re.search(r"(?<!\\)(\\\\)*\\u0000", encoded):
+        raise InputError("A name cannot contain the character 0: %s." % ", ".join(given))
+    return encoded.encode()
+
+
+def json_file(path: Any, what: str) -> Any:
+    """The contents of a JSON file that is an argument; `what` is its name."""
+    try:
+        name = os.fspath(path)
+    except TypeError:
+        raise InputError("%s: %r is neither a dict nor the name of a file." % (what, path)) from None
+    try:
+        with open(name, encoding="utf-8") as file:
+            return json.load(file)
+    except OSError as error:
+        raise Error("%s: cannot be opened: %s." % (name, error.strerror)) from None
+    except ValueError as error:  # no JSON, no UTF-8, or a zero byte in the name
+        raise Error("%s: this is not valid JSON: %s." % (name, error)) from None
 
 
 def _check(status: int) -> None:
@@ -149,7 +177,7 @@ def require_no_call() -> None:
         raise Error("A progress function cannot use meshes, fields or solvers: let the call end first.")
 
 
-class Handle:
+class NativeHandle:
     """A handle of the C interface, closed with this object, and used by one thread at a time.
 
     `keep` holds what must live as long as the handle, as arrays that the library reads.

@@ -9,7 +9,6 @@ import os
 import shutil
 import tempfile
 import threading
-import warnings
 import weakref
 from ctypes import byref, c_char_p, c_int64
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
@@ -20,9 +19,9 @@ from . import _jobs as jobs
 from ._arrays import points_and_cells, table
 from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
-from ._errors import Error, InputError, NotConverged, ReportWarning
+from ._errors import Error, InputError, NotConverged, ReportWarning, warn
 from ._field import Block, Field, read_blocks, read_column, read_columns
-from ._library import Handle, call, call_reporting, json_text, parse, require_no_call, text, version
+from ._library import NativeHandle, call, call_reporting, json_text, parse, require_no_call, text, version
 from .progress import part, reporting
 from ._report import Estimate, Report, not_converged, warn_of
 
@@ -34,7 +33,10 @@ class _Folder:
     """A folder for a scratch file, removed with this object."""
 
     def __init__(self, place: Any) -> None:
-        self.path = tempfile.mkdtemp(prefix="smg-simplified-", dir=place)
+        try:
+            self.path = tempfile.mkdtemp(prefix="smg-simplified-", dir=place)
+        except OSError as error:
+            raise Error("scratch: %s: %s." % (error.filename, error.strerror)) from None
         weakref.finalize(self, shutil.rmtree, self.path, True)
 
 
@@ -49,7 +51,7 @@ class Mesh:
     def __init__(self, name: str, opener: Any, defaults: Dict[str, Any], progress: Any = None) -> None:
         self.name = name
         self._opener, self._defaults, self._progress = opener, defaults, progress
-        self._opened: Optional[Handle] = None
+        self._opened: Optional[NativeHandle] = None
         self._opening = threading.Lock()
         self._file: Tuple[Any, ...] = ()  # path and options as smg_estimate_file() takes them
         self._own: Dict[Tuple[str, bool], np.ndarray] = {}
@@ -61,7 +63,7 @@ class Mesh:
 
     # Opening, which is done at the first use.
 
-    def _handle(self, report: Any = None) -> Handle:
+    def _handle(self, report: Any = None) -> NativeHandle:
         require_no_call()
         with self._opening:
             if self._opened is None:
@@ -84,6 +86,12 @@ class Mesh:
         """Of `memory`, `threads`, `scratch`, `scratch_limit`: those that the mesh was opened with."""
         return {name: self._defaults[name] for name in names if self._defaults.get(name) is not None}
 
+    def saving(self, memory: Any, threads: Optional[int], scratch: Any) -> Dict[str, Any]:
+        """The options with which a file is written."""
+        given = {"memory": memory, "threads": threads, "scratch": scratch}
+        own = {name: value for name, value in given.items() if value is not None}
+        return {**self.defaults(*given), **own}
+
     def close(self) -> None:
         """Removes scratch files; also done when nothing refers to the mesh any more. Fields that were
         made from it stay."""
@@ -105,12 +113,12 @@ class Mesh:
         Args:
             full: read the mesh for bodies, boundary, quality of cells, ranges of columns and more.
         """
-        if full not in self._facts:
-            result = c_char_p()
-            with reporting(progress, "reading") as report, self._handle() as mesh:
+        with reporting(progress, "reading") as report, self._handle() as mesh:
+            if full not in self._facts:
+                result = c_char_p()
                 call_reporting("smg_info", (mesh, int(full)), report, byref(result))
                 self._facts[full] = parse(result)
-        return self._facts[full]
+            return self._facts[full]
 
     def _counts(self) -> Tuple[int, int]:
         vertices, cells = c_int64(), c_int64()
@@ -174,6 +182,8 @@ class Mesh:
     def __getitem__(self, name: str) -> np.ndarray:
         return self.read(name)
 
+    __iter__ = None  # of numbers, as Python would try them
+
     def __setitem__(self, name: str, values: Any) -> None:
         self.add(name, values)
 
@@ -183,15 +193,15 @@ class Mesh:
         The array is used where it is: do not change it while the mesh or a field of it is used.
 
         Args:
-            name: not beginning with #.
+            name: any but those with a meaning of their own, as Position and OriginalId.
             values: (n,) or (n, k), a row for each vertex or each cell.
             cells: True, False, or by the number of rows; vertices if there are as many of both.
         """
-        if not isinstance(name, str) or name.startswith("#"):
-            raise InputError("%r: a name is a text that does not begin with #." % (name,))
+        if not isinstance(name, str):
+            raise InputError("%r: the name of a column is a text." % (name,))
         column = Columns(self).add(values, name, cells, name=name)
         with self._handle() as mesh:
-            self._set_column(mesh, column, byref(table(column.values)))
+            self._add_column(mesh, column)
             self._own[name, column.cells] = column.values
             self._facts.clear()
 
@@ -206,25 +216,33 @@ class Mesh:
         """
         return read_blocks(self._handle(), None, self._arrays(), self.columns, max_points, columns)
 
-    def save(self, path: Any, *, progress: Any = None, **options: Any) -> None:
+    def save(
+        self,
+        path: Any,
+        *,
+        memory: Any = None,
+        threads: Optional[int] = None,
+        scratch: Any = None,
+        progress: Any = None,
+    ) -> None:
         """Writes the mesh with its columns to a file, in the format of its suffix.
 
         Args:
             path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh ...
-            options: `memory`, `threads`, `scratch`.
+            memory, threads, scratch: as of `smg.open`; default: those of the mesh.
 
         What the format cannot hold is left out, with a ReportWarning.
         """
         self.check_output(path)
         result = c_char_p()
-        options = {**self.defaults("memory", "threads", "scratch"), **options}
+        options = self.saving(memory, threads, scratch)
         with reporting(progress, "writing") as report, self._handle() as mesh:
             call_reporting(
                 "smg_save_mesh", (mesh, text(path), json_text(options)), report, byref(result)
             )
             notes = parse(result)
         for note in notes:
-            warnings.warn(note, ReportWarning, stacklevel=2)
+            warn(note, ReportWarning)
 
     # Jobs.
 
@@ -271,15 +289,19 @@ class Mesh:
                     )
             try:
                 for column in columns.added:
-                    self._set_column(pointer, column, byref(table(column.values)))
+                    self._add_column(pointer, column)
                 yield pointer
             finally:
                 for column in columns.added:
-                    self._set_column(pointer, column, None)
+                    call("smg_remove_column", pointer, text(column.name), int(column.cells))
 
     @staticmethod
-    def _set_column(pointer: Any, column: Column, array: Any) -> None:
-        call("smg_add_column", pointer, text(column.name), int(column.cells), array)
+    def _add_column(pointer: Any, column: Column) -> None:
+        call_reporting(
+            "smg_add_argument" if column.is_argument else "smg_add_column",
+            (pointer, text(column.name), int(column.cells), byref(table(column.values))),
+            None,
+        )
 
     def _run(self, job: str, progress: Any, strict: bool, arguments: tuple, options: dict) -> Field:
         columns = Columns(self)
@@ -289,7 +311,7 @@ class Mesh:
             described, names = jobs.DESCRIPTIONS[job](columns, *arguments, **options)
             description = json_text(self._with_defaults(job, described))
             arrays = [*self._arrays(), *(column.values for column in columns.added)]
-            handle = Handle("field", *arrays)
+            handle = NativeHandle("field", *arrays)
             with self.with_columns(columns) as mesh:
                 call_reporting(
                     "smg_run",
@@ -297,11 +319,11 @@ class Mesh:
                     part(report, opening, 1),
                     byref(handle.pointer),
                 )
-        field = Field(self, handle, job, names, self._counts(), self.n_corners)
+        field = Field(self, handle, job, names, self._counts(), self.n_corners, columns.is_matrix)
         found = field._read_report(False)
         if strict and not found.get("converged", True):
             raise NotConverged(not_converged(found), field)
-        warn_of(found, field._said, stacklevel=4)
+        warn_of(found, field._said)
         return field
 
     @jobs.with_arguments_of("solve", ("self",))
@@ -423,15 +445,28 @@ class Mesh:
         return surface_svg(points, cells, values)
 
 
+def _files(path: str) -> List[str]:
+    """The files of a mesh: those of TetGen are two, of which `path` is one."""
+    name, suffix = os.path.splitext(path[:-3] if path.lower().endswith(".gz") else path)
+    if suffix.lower() not in (".node", ".ele"):
+        return [path]
+    others = [name + each + packed for each in (".node", ".ele") for packed in ("", ".gz")]
+    return [path, *(other for other in others if os.path.exists(other))]
+
+
 def _cached(path: str, cache: Any, options: Dict[str, Any]) -> str:
     """Where the conversion of a file is kept: its name depends on the file and on the options."""
     if cache is True:
         home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
         cache = os.path.join(home, "streamingmultigrid")
     folder = os.path.dirname(path) if cache == "beside" else os.fspath(cache)
-    state = os.stat(path)
-    key = repr((path, state.st_size, state.st_mtime_ns, version(), sorted(options.items())))
-    os.makedirs(folder, exist_ok=True)
+    states = [(name, os.stat(name)) for name in _files(path)]
+    files = [(name, state.st_size, state.st_mtime_ns) for name, state in states]
+    key = repr((files, version(), sorted(options.items())))
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise Error("cache: %s: %s." % (folder, error.strerror)) from None
     digest = hashlib.sha256(key.encode()).hexdigest()[:12]
     return os.path.join(folder, "%s.%s.vsm" % (os.path.basename(path), digest))
 
@@ -476,6 +511,7 @@ def open(  # noqa: A001, the word of the trade
         FileNotFoundError: there is no such file. Error, at the first use: it cannot be read.
     """
     path = os.path.abspath(os.fspath(path))
+    text(path)  # InputError
     os.stat(path)  # FileNotFoundError at once, not at the first use
     own = {
         "cells": cells,
@@ -493,7 +529,7 @@ def open(  # noqa: A001, the word of the trade
     }
     options = {**own, **defaults}
 
-    def opener(report: Any) -> Handle:
+    def opener(report: Any) -> NativeHandle:
         file = path
         if cache is not None and cache is not False and not path.endswith(".vsm"):
             file = _cached(path, cache, own)
@@ -502,7 +538,7 @@ def open(  # noqa: A001, the word of the trade
                     "smg_convert", (text(path), text(file), json_text(options)), report, None
                 )
         given = options if file == path else defaults
-        handle = Handle("mesh")
+        handle = NativeHandle("mesh")
         call_reporting("smg_open", (text(file), json_text(given)), report, byref(handle.pointer))
         return handle
 
@@ -512,20 +548,37 @@ def open(  # noqa: A001, the word of the trade
     return opened
 
 
-def mesh(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> Mesh:
+def mesh(
+    points: Any,
+    cells: Any,
+    *,
+    memory: Any = None,
+    threads: Optional[int] = None,
+    scratch: Any = None,
+    scratch_limit: Any = None,
+    weld: Optional[float] = None,
+    order: Optional[str] = None,
+    progress: Any = None,
+) -> Mesh:
     """A mesh of arrays, which are read during this call: they may change or go afterwards.
 
     Args:
         points: (n, 3) numbers of any type, in any unit of length.
         cells: (m, 3), triangles, or (m, 4), tetrahedra: integers of any type, rows of `points`.
-        options: `memory`, `threads`, `scratch`, `scratch_limit`, `weld`, `order`, as of `smg.open`.
+        memory, threads, scratch, scratch_limit, weld, order, progress: as of `smg.open`.
     """
     points, cells = points_and_cells(points, cells)
-    defaults = {name: options.get(name) for name in ("memory", "threads", "scratch", "scratch_limit")}
+    defaults = {
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }
+    options = {**defaults, "weld": weld, "order": order}
     arrays = table(points), table(cells)
 
-    def opener(report: Any) -> Handle:
-        handle = Handle("mesh")
+    def opener(report: Any) -> NativeHandle:
+        handle = NativeHandle("mesh")
         arguments = (byref(arrays[0]), byref(arrays[1]), json_text(options))
         call_reporting("smg_open_arrays", arguments, report, byref(handle.pointer))
         return handle

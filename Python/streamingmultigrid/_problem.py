@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import json
-import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
@@ -12,8 +10,14 @@ import numpy as np
 from ._arrays import numbers
 from ._columns import Columns
 from ._errors import InputError
+from ._library import json_file
 from ._regions import Placed, Region, as_region, everywhere, vertices
 
+#: The arguments of `Mesh.solve` that are data of the problem.
+DATA = (
+    "dirichlet", "source", "flux", "robin", "soft", "conductivity", "screening", "field", "initial",
+    "weights", "outputs", "columns", "problem",
+)  # fmt: skip
 #: More values of single vertices than this become a column.
 _FEW = 64
 _MOST_COLUMNS = 64
@@ -74,11 +78,17 @@ class _Data:
         if isinstance(value, str):
             return value
         array = numbers(value, what)
+        self.columns.shape_as(array)
         width = self.width or 1
         if array.ndim == 0:
             return [array.item()] * width if width > 1 else array.item()
         rows = self.columns.rows(array, cells) is not None
-        if array.shape == (width,) and not (rows and width == 1):
+        if rows and array.shape == (width,) and width > 1:
+            raise InputError(
+                "%s: %d numbers may be one for each right-hand side, or one for each row: give an array "
+                "(%d, %d)." % (what, width, width, width)
+            )
+        if array.shape == (width,) and not rows:
             return array.tolist()
         return self.columns.add(array, what, cells, (width,)).name
 
@@ -134,13 +144,25 @@ def _conductivity(value: Any, columns: Columns) -> Any:
     if isinstance(value, str) or np.ndim(value) == 0:
         return value
     array = numbers(value, "conductivity")
+    if array.shape in ((3,), (6,), (3, 3)) and array.shape[0] == columns.mesh.n_cells:
+        raise InputError(
+            "conductivity: of a mesh of %d cells, an array of the shape %s may be a tensor or a row for "
+            "each cell: give the tensor as %s, or the rows as an array (%d, %d)."
+            % (
+                len(array),
+                array.shape,
+                "its six numbers" if array.shape[0] == 3 else "a matrix (3, 3)",
+                len(array),
+                6 if array.ndim == 2 else 1,
+            )
+        )
     if array.ndim >= 2 and array.shape[-2:] == (3, 3):
         if not np.array_equal(array, np.swapaxes(array, -1, -2)):
             raise InputError("conductivity: a tensor must be symmetric.")
         array = array[..., (0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2)]  # xx yy zz xy yz xz
     if array.shape == (3,):
         array = np.concatenate([array, np.zeros(3)])
-    if array.shape == (6,) and columns.mesh.n_cells != 6:
+    if array.shape == (6,):
         return array.tolist()
     return columns.add(array, "conductivity", True, (1, 3, 6)).name
 
@@ -156,8 +178,7 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
     """The JSON of a problem file, of the arguments of `Mesh.solve`; arrays are added to `columns`."""
     base = given.get("problem") or {}
     if not isinstance(base, Mapping):
-        with open(os.fspath(base), encoding="utf-8") as file:
-            base = json.load(file)
+        base = json_file(base, "problem")
     found = dict(base)
     placed = {
         name: _entries(given[name], name)
@@ -337,5 +358,4 @@ def handles(columns: Columns, given: Any) -> Dict[str, Any]:
         return {"handles": [each.description(columns) for each in given]}
     if isinstance(given, Mapping):
         return dict(given)
-    with open(os.fspath(given), encoding="utf-8") as file:
-        return json.load(file)
+    return json_file(given, "handles")

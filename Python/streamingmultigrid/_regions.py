@@ -33,6 +33,17 @@ class Region:
     def __repr__(self) -> str:
         return "smg.%s(%r)" % (self._kind, self._value)
 
+    def __and__(self, _: Any) -> Any:
+        raise InputError(
+            "Regions are not combined: give several as a list, and what a list cannot say as a mask, "
+            "smg.mask(array)."
+        )
+
+    __or__ = __xor__ = __sub__ = __rand__ = __ror__ = __and__
+
+    def __invert__(self) -> Any:
+        return self & self
+
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> Any:
         raise InputError("A region stands before the value: region >> value.")
 
@@ -170,7 +181,8 @@ def sphere(center: Sequence[float], radius: float) -> Region:
 
 
 def vertices(numbers_: Iterable[int]) -> Region:
-    """Vertices by their numbers in the file or the rows of the arrays, from 0.
+    """Vertices by their numbers in the file or the rows of the arrays, from 0; an error for a simplified
+    mesh, whose column OriginalId has other numbers.
 
     As a value, an array with a row for each of the numbers gives each its own:
     ``vertices([4, 7]) >> [1.0, 2.0]``.
@@ -226,6 +238,10 @@ def as_region(value: Any) -> Region:
                 "are numbers of vertices."
             )
         return vertices(np.atleast_1d(array))
+    if array.dtype.kind == "f":
+        raise InputError(
+            "%r: numbers of vertices are integers, and a mask has booleans: use smg.mask(array)." % (value,)
+        )
     raise InputError(
         "%r is no region: use smg.sphere(), smg.mask() ..., a mask (an array of booleans), or "
         "numbers of vertices." % (value,)

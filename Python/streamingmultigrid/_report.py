@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any, Dict, List
 
 from ._display import estimate_html, report_html
-from ._errors import NotConvergedWarning, ReportWarning
+from ._errors import NotConvergedWarning, ReportWarning, warn
 
 
 class _Facts(Dict[str, Any]):
@@ -117,17 +116,17 @@ class Estimate(_Facts):
         return estimate_html(self)
 
 
-def warn_of(report: Report, said: set, stacklevel: int = 3) -> None:
+def warn_of(report: Report, said: set) -> None:
     """Turns what a report warns of into warnings of Python, each sentence once."""
     converged = report.get("converged", True)
     for sentence in report.get("warnings") or []:
         if sentence not in said:
             said.add(sentence)
             kind = ReportWarning if converged else NotConvergedWarning
-            warnings.warn(sentence, kind, stacklevel)
+            warn(sentence, kind)
     if not converged and NotConvergedWarning not in said:
         said.add(NotConvergedWarning)
-        warnings.warn(not_converged(report), NotConvergedWarning, stacklevel)
+        warn(not_converged(report), NotConvergedWarning)
 
 
 def not_converged(report: Report) -> str:

@@ -12,7 +12,7 @@ from . import _jobs as jobs
 from ._arrays import numbers, table, vector
 from ._columns import Columns
 from ._errors import InputError, NotConverged
-from ._library import Handle, call, call_reporting, json_text, parse
+from ._library import NativeHandle, call, call_reporting, json_text, parse
 from .progress import reporting
 from ._report import Report, not_converged, warn_of
 
@@ -47,7 +47,7 @@ class Solver:
                 "solver: %s is no argument of it, but perhaps of its solve()." % sorted(unknown)[0]
             )
         description = {**mesh.defaults("memory", "threads"), **own, **used}
-        self._handle = Handle("solver", *(column.values for column in columns.added))
+        self._handle = NativeHandle("solver", *(column.values for column in columns.added))
         with reporting(progress, "solver") as report, mesh.with_columns(columns) as pointer:
             call_reporting(
                 "smg_open_solver",

@@ -98,7 +98,7 @@ void DistributedRun::assemble(Problem& problem)
     if (const double share = this->System.components->incompatibility(); share > 0.0)
     {
       r.removed_source = this->System.components->shiftedSums();
-      r.notes.push_back(incompatibilityNote(share));
+      noteIncompatibility(r, share);
     }
   }
   r.seconds.build += wall.seconds();

@@ -101,6 +101,8 @@ class ErrorsTest(unittest.TestCase):
     def test_jobs(self):
         points, cells = sphere(2)
         mesh = smg.mesh(points, cells)
+        with open("wrong.json", "w", encoding="utf-8") as file:
+            file.write("{")
         for call, error, words in (
             (lambda: mesh.solve(source=np.ones(7)), smg.InputError, "162 vertices or 320 cells"),
             (lambda: mesh.solve(dirichlet=smg.tag("part", 1) >> 0), smg.Error, "part"),
@@ -117,14 +119,31 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.Error, "."),
             (lambda: mesh.blend("Light", patch="scan"), smg.Error, "scan|Light"),
             (lambda: mesh["Light"], smg.InputError, "Light"),
-            (lambda: mesh.add("#1", np.ones(162)), smg.InputError, "#"),
+            (lambda: mesh.add("a\0b", np.ones(162)), smg.InputError, "character 0"),
+            (lambda: mesh.add(7, np.ones(162)), smg.InputError, "text"),
+            (lambda: mesh.solve(source="a\0b"), smg.InputError, "character 0"),
+            (lambda: mesh.save("a.vsm\0b"), smg.InputError, "character 0"),
+            (lambda: smg.open("a.vsm\0b"), smg.InputError, "character 0"),
+            (lambda: mesh.smooth(column="Light"), smg.Error, "Light"),
+            (lambda: mesh.deform(None), smg.InputError, "handles: None"),
+            (lambda: mesh.deform("nowhere.json"), smg.Error, "nowhere.json: cannot be opened: No such"),
+            (lambda: mesh.solve(problem="nowhere.json"), smg.Error, "nowhere.json: cannot be opened"),
+            (lambda: mesh.solve(problem="wrong.json"), smg.Error, "wrong.json: this is not valid JSON"),
+            (lambda: mesh.distance([1.5]), smg.InputError, "integers"),
+            (lambda: mesh.distance(smg.boundary & smg.above(z=0)), smg.InputError, "smg.mask"),
+            (lambda: mesh.distance(~smg.boundary), smg.InputError, "smg.mask"),
+            (lambda: mesh.simplify(50, scratch="nowhere"), smg.Error, "nowhere.*: No such"),
             (lambda: mesh.save("x.unknown"), smg.Error, "unknown"),
             (lambda: mesh.simplify(), smg.InputError, "vertices"),
             (lambda: smg.open("nowhere.ply"), FileNotFoundError, "nowhere.ply"),
         ):
             with self.subTest(words=words), self.assertRaisesRegex(error, words):
                 call()
-        self.assertRaises(TypeError, mesh.solve, dirichlets={0: 1.0})
+        for call in (mesh.solve, mesh.solver, lambda **o: mesh.estimate("solve", **o),
+                     lambda **o: mesh.save("a.vsm", **o), lambda **o: mesh.distance([0]).save("a.vsm", **o),
+                     lambda **o: smg.solve(points, cells, **o), lambda **o: smg.mesh(points, cells, **o),
+                     lambda **o: mesh.simplify(50, **o)):  # fmt: skip
+            self.assertRaisesRegex(TypeError, "'dirichlets'", call, dirichlets={0: 1.0})
         # NaN where nothing is read from an array is no fault.
         held = points[:, 2] > 0.5
         values = np.where(held, 1.0, np.nan)
@@ -159,6 +178,29 @@ class ErrorsTest(unittest.TestCase):
             self.assertEqual(bits(saved["Solution"]), bits(values))
 
 
+class NamesTest(unittest.TestCase):
+    def test_a_number_sign_is_a_character_as_any_other(self):
+        """Arguments of jobs are told from columns by what they are, not by their names."""
+        points, cells = sphere(3)
+        mesh = smg.mesh(points, cells)
+        mesh["#source"], mesh["#"] = points[:, 0], np.arange(len(cells))
+        u = mesh.solve(source=points[:, 1], dirichlet={0: 0.0})
+        expected = smg.solve(points, cells, source=points[:, 1], dirichlet={0: 0.0})
+        self.assertEqual(bits(u.to_numpy()), bits(expected))
+        self.assertEqual(bits(mesh.solve(source="#source", dirichlet={0: 0.0}).to_numpy()),
+                         bits(smg.solve(points, cells, source=points[:, 0], dirichlet={0: 0.0})))
+        for source in (mesh, u):
+            source.save("names.vsm")
+            with smg.open("names.vsm") as saved:
+                self.assertEqual(bits(saved["#source"]), bits(points[:, 0]))
+                np.testing.assert_array_equal(saved["#"], np.arange(len(cells)))
+                names = {*saved.columns["vertices"], *saved.columns["cells"]}
+                self.assertEqual(names - {"Solution"}, {"#source", "#", "OriginalId", "OriginalCellId"})
+                self.assertEqual(set(saved.columns["vertices"]), set(source.columns["vertices"]))
+        self.assertIn("#source", [column["name"] for column in mesh.info()["columns"]["vertices"]])
+        self.assertIn("#source", mesh.simplify(100).columns["vertices"])
+
+
 class LifetimesTest(unittest.TestCase):
     def test_blocks_keep_the_arrays_that_they_read(self):
         mesh = smg.mesh(*sphere(3))
@@ -168,12 +210,12 @@ class LifetimesTest(unittest.TestCase):
         del heat
         blocks = mesh.blocks(max_points=100)
         first = next(blocks)
-        found = {int(i): v for i, v in zip(first["OriginalId"], first["heat"])}
+        found = {int(i): v for i, v in zip(first.rows, first["heat"])}
         mesh["heat"] = np.zeros(mesh.n_vertices)
         mesh.close()
         self.assertIsNotNone(gone())
         for block in blocks:
-            found.update(zip(block["OriginalId"].tolist(), block["heat"].tolist()))
+            found.update(zip(block.rows.tolist(), block["heat"].tolist()))
         np.testing.assert_array_equal([found[i] for i in range(len(expected))], expected)
         del blocks, first, block
         gc.collect()

@@ -19,10 +19,10 @@ class BlocksTest(unittest.TestCase):
             self.assertEqual(len(block.cells), block.n_cells)
             self.assertTrue((block.cells >= 0).all() and (block.cells < block.n_points).all())
             self.assertEqual(len(np.unique(block.cells)), block.n_points)
-            own = block["Ghost"] == 0
-            ids.append(block["OriginalId"][own])
-            cell_ids.append(block["OriginalCellId"])
-            corners.append(block["OriginalId"][block.cells])
+            own = ~block.ghost
+            ids.append(block.rows[own])
+            cell_ids.append(block.cell_rows)
+            corners.append(block.rows[block.cells])
             for name in ("Position", *names):
                 values[name].append(block[name][own])
             for name in cell_names:
@@ -79,8 +79,29 @@ class BlocksTest(unittest.TestCase):
         with self.assertRaisesRegex(smg.Error, "has passed"):
             first.cells
         blocks.close()
-        with self.assertRaises(smg.Error):
-            list(mesh.blocks(max_points=1))
+        for wrong in (0, 3, -1, 10.0, "many", True):
+            with self.assertRaisesRegex(smg.InputError, "max_points: .*at least 4"):
+                list(mesh.blocks(max_points=wrong))
+
+    def test_columns_of_blocks_are_those_of_the_mesh(self):
+        """Also where OriginalId has the numbers of another mesh, and no column a meaning."""
+        mesh = smg.mesh(*sphere(4)).simplify(500)
+        mesh["Ghost"] = np.arange(mesh.n_vertices) + 7
+        for job in (mesh.solve, mesh.solver):
+            with self.assertRaisesRegex(smg.InputError, "OriginalId"):  # 99 is another vertex there
+                job(dirichlet={0: 0.0, 99: 1.0})
+        for source in (mesh, mesh.solve(dirichlet=smg.mask(np.arange(mesh.n_vertices) < 2) >> 0, source=1)):
+            for name in ("OriginalId", "Ghost"):
+                whole = source[name]
+                for block in source.blocks(max_points=100):
+                    np.testing.assert_array_equal(block[name], whole[block.rows])
+                    np.testing.assert_array_equal(block.points, mesh.points[block.rows])
+        self.assertGreater(mesh["OriginalId"].max(), mesh.n_vertices)
+
+    def test_nothing_iterates_over_numbers(self):
+        mesh = smg.mesh(*sphere(2))
+        for thing in (mesh, mesh.distance([0]), next(mesh.blocks())):
+            self.assertRaises(TypeError, list, thing)
 
 
 unittest.main(verbosity=2)

@@ -85,7 +85,7 @@ class ProblemTest(unittest.TestCase):
     def test_masks_become_columns(self):
         mask = np.arange(8) < 3
         (column,) = self.check({"dirichlet": [{"mask": "#mask", "value": 1}]}, dirichlet=smg.mask(mask) >> 1)
-        self.assertEqual((column.name, column.cells), ("#mask", False))
+        self.assertEqual((column.name, column.cells, column.is_argument), ("#mask", False, True))
         self.assertTrue(np.shares_memory(column.values, mask))
         (column,) = self.check(
             {"dirichlet": [{"mask": "#mask", "value": 1}]}, dirichlet=smg.mask(np.ones(12)) >> 1)
@@ -118,6 +118,8 @@ class ProblemTest(unittest.TestCase):
                    dirichlet=smg.boundary >> "position")
         self.check({"columns": 3, "source": "Flow"}, source="Flow")
         self.check({"columns": 4, "source": [1, 1, 1, 1]}, source=1, columns=4)
+        with self.assertRaisesRegex(smg.InputError, r"\(8, 8\)"):
+            said(source=np.ones(8), columns=8)
         with self.assertRaisesRegex(smg.InputError, "2 and 3 components"):
             said(source=[1, 2], initial="Flow")
 
@@ -151,6 +153,15 @@ class ProblemTest(unittest.TestCase):
             (column,) = self.check({"source": 1, "conductivity": "#conductivity"}, source=1, conductivity=values)
             self.assertEqual((column.values.shape[1:], column.cells), (components, True))
         self.assertEqual(column.values[7].tolist(), [1, 2, 3, 4, 5, 6])
+        # Of three or six cells, they may be numbers of the cells.
+        for count, shape, words in ((3, (3,), r"\(3, 1\)"), (6, (6,), r"\(6, 1\)"), (3, (3, 3), r"\(3, 6\)")):
+            Mesh.n_cells = count
+            try:
+                with self.assertRaisesRegex(smg.InputError, words):
+                    said(source=1, conductivity=np.ones(shape))
+                said(source=1, conductivity=np.ones((count, 1)))
+            finally:
+                Mesh.n_cells = 12
         with self.assertRaisesRegex(smg.InputError, "symmetric"):
             said(source=1, conductivity=[[1, 2, 0], [0, 1, 0], [0, 0, 1]])
         with self.assertRaisesRegex(smg.InputError, "12 cells"):

@@ -3,6 +3,7 @@
 
 import json
 import os
+import shutil
 import unittest
 import warnings
 
@@ -124,6 +125,31 @@ class CommandLineTest(unittest.TestCase):
             self.assertTrue(np.isfinite(small.points).all())
 
 
+    def test_info(self):
+        """The report of smg info; what depends on the order is that of the mesh as it was opened."""
+        def rounded(text):
+            return json.loads(text, parse_float=lambda number: float("%.9e" % float(number)))
+
+        ball = os.path.abspath(write_off("ball.off", *sphere(5)))
+        run("convert", ball, "ball.vsm")
+        for file, options, others in (
+            (BUNNY, {}, set()),  # a stream
+            (os.path.abspath("ball.vsm"), {}, set()),
+            (ball, {"order": "keep"}, {"expected_solve"}),
+            (ball, {}, {"expected_solve", "width", "span", "mean_width", "pool_bytes_peak"}),
+        ):
+            with self.subTest(file=file, options=options):
+                run("info", file, "--full", "--report", "info.json")
+                with open("info.json", encoding="utf-8") as report:
+                    said = rounded(report.read())
+                found = rounded(json.dumps(smg.open(file, **options).info(full=True)))
+                self.assertEqual(list(found), list(said))
+                different = {key for key in said if key != "description" and found[key] != said[key]}
+                different |= {key for key, value in said["description"].items()
+                              if found["description"][key] != value}  # fmt: skip
+                self.assertEqual(different, others)
+
+
 class ArraysTest(unittest.TestCase):
     """Arrays and the file of the same mesh have the same results."""
 
@@ -223,6 +249,43 @@ class ResultTest(unittest.TestCase):
             warnings.simplefilter("error")
             mesh.solve(dirichlet={0: 0, 99: 1})
 
+    def test_sources_that_cannot_be_balanced(self):
+        points, cells = sphere(4)
+        for job in (lambda **o: smg.solve(points, cells, **o), smg.mesh(points, cells).solve):
+            with self.assertWarnsRegex(smg.ReportWarning, "do not sum to zero") as caught:
+                job(source=1.0)
+            self.assertEqual(caught.filename, __file__)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                job(source=points[:, 0])
+
+    def test_what_a_format_cannot_hold(self):
+        points, cells = sphere(3)
+        mesh = smg.mesh(points, cells)
+        mesh["Flow"] = points * 2
+        u = mesh.solve(dirichlet={0: 0.0, 99: 1.0})
+        for save in (mesh.save, u.save, u.save):
+            with self.assertWarnsRegex(smg.ReportWarning, "'Flow'.*'Flow_0' to 'Flow_2'") as caught:
+                save("flow.ply")
+            self.assertEqual(caught.filename, __file__)
+            os.remove("flow.ply")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            u.save("flow.vtu")
+
+    def test_results_have_the_shape_of_what_was_given(self):
+        points, cells = sphere(2)
+        one = points[:, :1]
+        mesh = smg.mesh(points, cells)
+        for job in (lambda v: mesh.solve(source=v, dirichlet={0: 0.0}),
+                    lambda v: mesh.solve(dirichlet=smg.mask(points[:, 2] > 0) >> v),
+                    lambda v: mesh.smooth(column=v), lambda v: mesh.blend(v, patch=points[:, 2] > 0)):
+            flat, matrix = job(one[:, 0]), job(one)
+            self.assertEqual((flat.shape, matrix.shape), ((len(points),), (len(points), 1)))
+            self.assertEqual(matrix.to_numpy().shape, matrix.shape)
+            self.assertEqual(bits(flat.to_numpy()), bits(matrix.to_numpy()))
+        self.assertEqual(smg.solve(points, cells, source=one, dirichlet={0: 0}).shape, one.shape)
+
     def test_estimates(self):
         mesh = smg.open(BUNNY)
         estimate = mesh.estimate("smooth", size="8edges")
@@ -254,6 +317,17 @@ class ResultTest(unittest.TestCase):
         write_off("cached.off", points * 2, cells)
         smg.open(file, cache="cache").info()
         self.assertEqual(len(os.listdir("cache")), 2)
+        # Of two files, either may change.
+        for scale in (1, 3):
+            smg.mesh(points * scale, cells).save("scaled%d.ele" % scale)
+            shutil.copy("scaled%d.node" % scale, "pair.node")
+            if scale == 1:
+                shutil.copy("scaled1.ele", "pair.ele")
+            bounds = smg.open("pair.ele", cache="two").bounds
+            np.testing.assert_allclose(bounds, np.array(mesh.bounds) * scale)
+            self.assertEqual(smg.open("pair.node", cache="two").bounds, bounds)
+        with self.assertRaisesRegex(smg.Error, "cache: .*cached.off"):
+            smg.open(file, cache="cached.off").info()
 
 
 unittest.main(verbosity=2)

@@ -96,10 +96,19 @@ TEST(FreeComponents, AnIncompatibleRightSideLosesItsMeanAndThatIsSaid)
       const Solved solved = solveMesh(mesh, problem, options);
       EXPECT_TRUE(solved.report.converged);
       EXPECT_TRUE(hasNote(solved.report, "do not sum to zero"));
+      EXPECT_EQ(solved.report.warnings.size(), 1u);
       EXPECT_LT(solved.report.residuals.back(), 1e-10);
       EXPECT_LT(relativeError(solved.values, solveDirectly(mesh, problem)), 1e-7);
     }
   }
+}
+
+TEST(FreeComponents, WhatTheDiscretisationLeavesIsNoWarning)
+{
+  Report report;
+  noteIncompatibility(report, 5e-4);
+  EXPECT_TRUE(hasNote(report, "0.05 % of their size"));
+  EXPECT_TRUE(report.warnings.empty());
 }
 
 TEST(FreeComponents, ACompatibleRightSideIsNotTouched)

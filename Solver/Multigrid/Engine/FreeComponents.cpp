@@ -10,12 +10,22 @@
 namespace smg
 {
 
-std::string incompatibilityNote(double share)
+void noteIncompatibility(Report& report, double share)
 {
+  constexpr double OfDiscretisation = 1e-3;
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g", 100.0 * share);
-  return "the sources of a component without prescribed value do not sum to zero: their mean, " +
-         std::string(text) + " % of their size, was taken from them";
+  const std::string note =
+    "the sources of a component without prescribed value do not sum to zero: their mean, " +
+    std::string(text) + " % of their size, was taken from them";
+  if (share > OfDiscretisation)
+  {
+    report.warn(note);
+  }
+  else
+  {
+    report.notes.push_back(note);
+  }
 }
 
 void noteFreeComponents(Report& report)

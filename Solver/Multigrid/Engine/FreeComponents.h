@@ -15,9 +15,10 @@
 namespace smg
 {
 
-/** The note that the sources of free components do not sum to zero; `share`: see
+/** Says that the sources of free components did not sum to zero: a warning, unless their sum is so
+ * small that the discretisation of a balanced source may have left it. `share`: of
  * Components::incompatibility(). */
-SMG_EXPORT std::string incompatibilityNote(double share);
+SMG_EXPORT void noteIncompatibility(Report& report, double share);
 /** Notes how many components are free; as a warning if others are not. */
 SMG_EXPORT void noteFreeComponents(Report& report);
 
@@ -132,7 +133,7 @@ bool FreeComponents::projectRightSide(State& level, Report& report)
         });
     });
   report.removed_source = this->Parts.shiftedSums();
-  report.notes.push_back(incompatibilityNote(share));
+  noteIncompatibility(report, share);
   return true;
 }
 

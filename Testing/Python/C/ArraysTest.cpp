@@ -139,8 +139,8 @@ TEST(CArrays, AddedColumnsAreThoseOfTheFileInEveryWay)
   std::iota(part.begin(), part.end(), std::int16_t(-7));
   const MeshHandle handle = openMesh(mesh);
   const smg_array colours = arrayOf(colour, 3), parts = arrayOf(part);
-  expectOk(smg_add_column(handle.get(), "colour", 0, &colours));
-  expectOk(smg_add_column(handle.get(), "part", 1, &parts));
+  expectOk(smg_add_column(handle.get(), "colour", 0, &colours, nullptr, nullptr));
+  expectOk(smg_add_column(handle.get(), "part", 1, &parts, nullptr, nullptr));
   EXPECT_EQ(columnNames(handle.get(), nullptr, "vertices"),
     (std::vector<std::string>{ "OriginalId", "colour" }));
   EXPECT_EQ(read<float>(handle.get(), nullptr, "colour", false, 3, mesh.vertices()), colour);
@@ -169,16 +169,16 @@ TEST(CArrays, AColumnIsReplacedAndTakenAway)
   const std::vector<double> first(static_cast<std::size_t>(mesh.vertices()), 1.0);
   const std::vector<std::uint8_t> second(static_cast<std::size_t>(mesh.vertices()), 2);
   const smg_array ofFirst = arrayOf(first), ofSecond = arrayOf(second);
-  expectOk(smg_add_column(handle.get(), "a", 0, &ofFirst));
-  expectOk(smg_add_column(handle.get(), "a", 0, &ofSecond));
+  expectOk(smg_add_column(handle.get(), "a", 0, &ofFirst, nullptr, nullptr));
+  expectOk(smg_add_column(handle.get(), "a", 0, &ofSecond, nullptr, nullptr));
   EXPECT_EQ(read<std::uint8_t>(handle.get(), nullptr, "a", false, 1, mesh.vertices()), second);
-  expectOk(smg_add_column(handle.get(), "a", 0, nullptr));
+  expectOk(smg_remove_column(handle.get(), "a", 0));
   EXPECT_EQ(
     columnNames(handle.get(), nullptr, "vertices"), (std::vector<std::string>{ "OriginalId" }));
-  expectOk(smg_add_column(handle.get(), "a", 0, nullptr));
+  expectOk(smg_remove_column(handle.get(), "a", 0));
 }
 
-TEST(CArrays, ColumnsOfANumberSignAreArgumentsOfJobsAlone)
+TEST(CArrays, ArgumentsAreOfJobsAlone)
 {
   const TemporaryFolder folder;
   const IndexedTestMesh mesh = shuffled(sphere(2));
@@ -186,7 +186,13 @@ TEST(CArrays, ColumnsOfANumberSignAreArgumentsOfJobsAlone)
   std::vector<double> value(static_cast<std::size_t>(mesh.vertices()));
   std::iota(value.begin(), value.end(), 0.0);
   const smg_array values = arrayOf(value);
-  expectOk(smg_add_column(handle.get(), "#0", 0, &values));
+  const std::vector<float> kept(value.size(), 3.0F);
+  const smg_array keeps = arrayOf(kept);
+  expectOk(smg_add_column(handle.get(), "#1", 0, &keeps, nullptr, nullptr));
+  EXPECT_EQ(smg_add_argument(handle.get(), "#1", 0, &values, nullptr, nullptr), SMG_INVALID);
+  EXPECT_NE(std::string(smg_error()).find("has a column of this name"), std::string::npos);
+  expectOk(smg_add_argument(handle.get(), "#0", 0, &keeps, nullptr, nullptr));
+  expectOk(smg_add_argument(handle.get(), "#0", 0, &values, nullptr, nullptr));
   const FieldHandle field = run(handle.get(), "solve",
     R"({"problem": {"dirichlet": [{"halfspace": [0, 0, 1, 0], "value": "#0"}]}})");
   const std::vector<double> u =
@@ -199,13 +205,23 @@ TEST(CArrays, ColumnsOfANumberSignAreArgumentsOfJobsAlone)
     }
   }
   EXPECT_EQ(columnNames(nullptr, field.get(), "vertices"),
-    (std::vector<std::string>{ "OriginalId", "Solution" }));
-  EXPECT_EQ(
-    columnNames(handle.get(), nullptr, "vertices"), (std::vector<std::string>{ "OriginalId" }));
+    (std::vector<std::string>{ "OriginalId", "#1", "Solution" }));
+  const std::vector<std::string> own{ "OriginalId", "#1" };
+  EXPECT_EQ(columnNames(handle.get(), nullptr, "vertices"), own);
+  const char* text = nullptr;
+  expectOk(smg_info(handle.get(), 1, nullptr, nullptr, &text));
+  const nlohmann::json info = nlohmann::json::parse(text);
+  EXPECT_EQ(info.at("columns").at("vertices").size(), 2u);
+  EXPECT_EQ(info.at("description").at("columns").at("vertices").size(), 2u);
+  EXPECT_EQ(smg_read(handle.get(), nullptr, "#0", 0, nullptr, nullptr, value.data()), SMG_INVALID);
+  const std::filesystem::path small = folder / "small.vsm";
+  expectOk(
+    smg_simplify(handle.get(), R"({"vertices": 50})", small.c_str(), nullptr, nullptr, nullptr));
+  EXPECT_EQ(columnNames(openFile(small).get(), nullptr, "vertices"), own);
   const std::filesystem::path path = folder / "u.vtu";
   expectOk(smg_save(field.get(), path.c_str(), nullptr, nullptr, nullptr, nullptr));
   const FileMesh file = readFileMesh(path);
-  EXPECT_EQ(file.pointData.size(), 1u);
+  EXPECT_EQ(file.pointData.size(), 2u);
   EXPECT_EQ(file.pointData.at("Solution"), u);
 }
 
@@ -228,7 +244,7 @@ TEST(CArrays, TheCellsOfAPolygonFollowEachOther)
                      { 1, 2, 6 }, { 1, 6, 5 }, { 2, 3, 6 }, { 0, 1, 5 }, { 0, 5, 4 } }));
   const std::vector<std::int32_t> part{ 0, 1, 2, 3, 4 };
   const smg_array parts = arrayOf(part);
-  expectOk(smg_add_column(handle.get(), "part", 1, &parts));
+  expectOk(smg_add_column(handle.get(), "part", 1, &parts, nullptr, nullptr));
   EXPECT_EQ(read<std::int32_t>(handle.get(), nullptr, "part", true, 1, 5), part);
 }
 

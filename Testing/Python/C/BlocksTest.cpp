@@ -16,11 +16,9 @@ namespace
 
 /** An array of the block, packed. */
 template <class T>
-std::vector<T> arrayIn(smg_blocks* blocks, const char* name, bool ofCells)
+std::vector<T> packed(const smg_array& array)
 {
-  smg_array array{};
-  expectOk(smg_block_array(blocks, name, ofCells ? 1 : 0, &array));
-  EXPECT_EQ(array.type, static_cast<smg_type>(scalarTypeOf<T>())) << name;
+  EXPECT_EQ(array.type, static_cast<smg_type>(scalarTypeOf<T>()));
   EXPECT_EQ(array.row_stride, array.columns * static_cast<std::int64_t>(sizeof(T)));
   std::vector<T> values(static_cast<std::size_t>(array.rows * array.columns));
   if (!values.empty())
@@ -28,6 +26,28 @@ std::vector<T> arrayIn(smg_blocks* blocks, const char* name, bool ofCells)
     std::memcpy(values.data(), array.data, values.size() * sizeof(T));
   }
   return values;
+}
+
+template <class T>
+std::vector<T> arrayIn(smg_blocks* blocks, const char* name, bool ofCells)
+{
+  smg_array array{};
+  expectOk(smg_block_array(blocks, name, ofCells ? 1 : 0, &array));
+  return packed<T>(array);
+}
+
+std::vector<std::int64_t> rowsIn(smg_blocks* blocks, bool ofCells)
+{
+  smg_array array{};
+  expectOk(smg_block_rows(blocks, ofCells ? 1 : 0, &array));
+  return packed<std::int64_t>(array);
+}
+
+std::vector<std::uint8_t> ghostsIn(smg_blocks* blocks)
+{
+  smg_array array{};
+  expectOk(smg_block_ghosts(blocks, &array));
+  return packed<std::uint8_t>(array);
 }
 
 /** What all blocks have together, by original numbers. */
@@ -56,8 +76,8 @@ Union unionOf(const BlocksHandle& blocks, const IndexedTestMesh& mesh, const cha
       return all;
     }
     all.largest = std::max(all.largest, vertices);
-    const auto ids = arrayIn<std::int64_t>(blocks.get(), "OriginalId", false);
-    const auto ghosts = arrayIn<std::uint8_t>(blocks.get(), "Ghost", false);
+    const auto ids = rowsIn(blocks.get(), false);
+    const auto ghosts = ghostsIn(blocks.get());
     const auto positions = arrayIn<double>(blocks.get(), "Position", false);
     const auto values = arrayIn<double>(blocks.get(), column, false);
     EXPECT_EQ(ids.size(), static_cast<std::size_t>(vertices));
@@ -69,7 +89,7 @@ Union unionOf(const BlocksHandle& blocks, const IndexedTestMesh& mesh, const cha
       std::copy_n(&positions[3 * v], 3, &all.positions[3 * row]);
       all.value[row] = values[v];
     }
-    const auto cellIds = arrayIn<std::int64_t>(blocks.get(), "OriginalCellId", true);
+    const auto cellIds = rowsIn(blocks.get(), true);
     const auto corners = arrayIn<std::int64_t>(blocks.get(), "Corners", true);
     EXPECT_EQ(cellIds.size(), static_cast<std::size_t>(cells));
     for (std::size_t c = 0; c < cellIds.size(); ++c)
@@ -86,7 +106,7 @@ Union unionOf(const BlocksHandle& blocks, const IndexedTestMesh& mesh, const cha
 BlocksHandle blocksOf(smg_mesh* mesh, smg_field* field, const std::string& options)
 {
   smg_blocks* blocks = nullptr;
-  expectOk(smg_open_blocks(mesh, field, options.c_str(), &blocks));
+  expectOk(smg_open_blocks(mesh, field, options.c_str(), nullptr, nullptr, &blocks));
   return BlocksHandle(blocks);
 }
 
@@ -102,7 +122,7 @@ TEST(CBlocks, TogetherAreTheMeshAndKeepTheirPromise)
     }
     const MeshHandle handle = openMesh(mesh);
     const smg_array values = arrayOf(value);
-    expectOk(smg_add_column(handle.get(), "value", 0, &values));
+    expectOk(smg_add_column(handle.get(), "value", 0, &values, nullptr, nullptr));
     for (const std::int64_t points : { 4, 100, 731, 1000000 })
     {
       const Union all =
@@ -149,7 +169,7 @@ TEST(CBlocks, OfMovedVerticesHaveTheNewPositions)
   const BlocksHandle blocks = blocksOf(nullptr, field.get(), R"({"columns": []})");
   std::int64_t vertices = 0, cells = 0;
   expectOk(smg_next_block(blocks.get(), &vertices, &cells));
-  const auto ids = arrayIn<std::int64_t>(blocks.get(), "OriginalId", false);
+  const auto ids = rowsIn(blocks.get(), false);
   const auto positions = arrayIn<double>(blocks.get(), "Position", false);
   for (std::size_t v = 0; v < ids.size(); ++v)
   {
@@ -158,6 +178,34 @@ TEST(CBlocks, OfMovedVerticesHaveTheNewPositions)
       EXPECT_EQ(positions[3 * v + k], moved[static_cast<std::size_t>(3 * ids[v]) + k]);
     }
   }
+}
+
+TEST(CBlocks, AColumnIsWhatItIsElsewhere)
+{
+  // The numbers of another mesh are no rows of this one, and no name but Position means something.
+  const IndexedTestMesh mesh = shuffled(sphere(3));
+  const TemporaryFolder folder;
+  const std::string small = (folder / "small.vsm").string();
+  const MeshHandle handle = openMesh(mesh);
+  expectOk(
+    smg_simplify(handle.get(), R"({"vertices": 100})", small.c_str(), nullptr, nullptr, nullptr));
+  const MeshHandle simple = openFile(small);
+  const std::int64_t count = Counts(simple.get()).vertices;
+  const std::vector<float> ghost(static_cast<std::size_t>(count), 0.5F);
+  const smg_array ghosts = arrayOf(ghost);
+  expectOk(smg_add_column(simple.get(), "Ghost", 0, &ghosts, nullptr, nullptr));
+  const auto whole = read<std::int64_t>(simple.get(), nullptr, "OriginalId", false, 1, count);
+  const BlocksHandle blocks = blocksOf(simple.get(), nullptr, R"({"points": 60})");
+  std::int64_t vertices = 0, cells = 0;
+  expectOk(smg_next_block(blocks.get(), &vertices, &cells));
+  const auto rows = rowsIn(blocks.get(), false);
+  const auto ids = arrayIn<std::int64_t>(blocks.get(), "OriginalId", false);
+  EXPECT_NE(ids, rows);
+  for (std::size_t v = 0; v < rows.size(); ++v)
+  {
+    EXPECT_EQ(ids[v], whole[static_cast<std::size_t>(rows[v])]);
+  }
+  EXPECT_EQ(arrayIn<float>(blocks.get(), "Ghost", false), std::vector<float>(rows.size(), 0.5F));
 }
 
 } // namespace

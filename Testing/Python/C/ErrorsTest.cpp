@@ -54,8 +54,14 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   expectInvalid(smg_open_arrays(nullptr, &points, nullptr, nullptr, nullptr, &mesh), null);
   expectInvalid(smg_open_arrays(&points, nullptr, nullptr, nullptr, nullptr, &mesh), null);
   expectInvalid(smg_open_arrays(&points, &points, nullptr, nullptr, nullptr, nullptr), null);
-  expectInvalid(smg_add_column(nullptr, "a", 0, &points), null);
-  expectInvalid(smg_add_column(m, nullptr, 0, &points), null);
+  for (const auto add : { smg_add_column, smg_add_argument })
+  {
+    expectInvalid(add(nullptr, "a", 0, &points, nullptr, nullptr), null);
+    expectInvalid(add(m, nullptr, 0, &points, nullptr, nullptr), null);
+    expectInvalid(add(m, "a", 0, nullptr, nullptr, nullptr), null);
+  }
+  expectInvalid(smg_remove_column(nullptr, "a", 0), null);
+  expectInvalid(smg_remove_column(m, nullptr, 0), null);
   expectInvalid(smg_info(nullptr, 0, nullptr, nullptr, &text), null);
   expectInvalid(smg_info(m, 0, nullptr, nullptr, nullptr), null);
   expectInvalid(smg_counts(nullptr, &number, &number), null);
@@ -85,10 +91,12 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   expectInvalid(smg_read(nullptr, nullptr, "Position", 0, nullptr, nullptr, &value), null);
   expectInvalid(smg_read(m, nullptr, nullptr, 0, nullptr, nullptr, &value), null);
   expectInvalid(smg_read(m, nullptr, "Position", 0, nullptr, nullptr, nullptr), null);
-  expectInvalid(smg_open_blocks(nullptr, nullptr, nullptr, &blocks), null);
-  expectInvalid(smg_open_blocks(m, nullptr, nullptr, nullptr), null);
+  expectInvalid(smg_open_blocks(nullptr, nullptr, nullptr, nullptr, nullptr, &blocks), null);
+  expectInvalid(smg_open_blocks(m, nullptr, nullptr, nullptr, nullptr, nullptr), null);
   expectInvalid(smg_next_block(nullptr, &number, &number), null);
   expectInvalid(smg_block_array(nullptr, "Position", 0, &array), null);
+  expectInvalid(smg_block_rows(nullptr, 0, &array), null);
+  expectInvalid(smg_block_ghosts(nullptr, &array), null);
   smg_close_mesh(nullptr);
   smg_close_field(nullptr);
   smg_close_blocks(nullptr);
@@ -151,9 +159,11 @@ TEST(CErrors, OptionsSayWhereTheyAreWrong)
   expectInvalid(
     smg_open_arrays(&points, &cells, R"({"time_step": 1})", nullptr, nullptr, &mesh), "time_step");
   expectInvalid(
-    smg_open_blocks(given.handle.get(), nullptr, R"({"points": 3})", &blocks), "points");
-  expectInvalid(
-    smg_open_blocks(given.handle.get(), nullptr, R"({"columns": ["none"]})", &blocks), "none");
+    smg_open_blocks(given.handle.get(), nullptr, R"({"points": 3})", nullptr, nullptr, &blocks),
+    "points");
+  expectInvalid(smg_open_blocks(given.handle.get(), nullptr, R"({"columns": ["none"]})", nullptr,
+                  nullptr, &blocks),
+    "none");
   expectInvalid(smg_convert("a.ply", "b.vsm", R"({"restore": true, "order": "bfs"})", nullptr,
                   nullptr, nullptr),
     "options: order: does not go with restore");
@@ -200,13 +210,16 @@ TEST(CErrors, AColumnMustFitTheMesh)
   const ErrorMesh given;
   const std::vector<double> few(3);
   const smg_array array = arrayOf(few);
-  expectInvalid(smg_add_column(given.handle.get(), "a", 0, &array), "'a': has 3 rows");
-  expectInvalid(smg_add_column(given.handle.get(), "a", 1, &array), "has 1200 cells");
+  expectInvalid(
+    smg_add_column(given.handle.get(), "a", 0, &array, nullptr, nullptr), "'a': has 3 rows");
+  expectInvalid(
+    smg_add_column(given.handle.get(), "a", 1, &array, nullptr, nullptr), "has 1200 cells");
   const std::vector<double> values(600);
   const smg_array fitting = arrayOf(values);
-  for (const char* name : { "", "Position", "OriginalId", "Ghost", "vtkGhostType" })
+  for (const char* name : { "", "Position", "OriginalId", "vtkGhostType" })
   {
-    expectInvalid(smg_add_column(given.handle.get(), name, 0, &fitting), "cannot have this name");
+    expectInvalid(smg_add_column(given.handle.get(), name, 0, &fitting, nullptr, nullptr),
+      "cannot have this name");
   }
 }
 
@@ -248,16 +261,20 @@ struct LongCalls
   TemporaryFolder folder;
   std::string options = "{\"scratch\": \"" + (this->folder / "scratch").string() + "\"}";
   std::string file = (this->folder / "mesh.off").string();
+  std::string stream = (this->folder / "mesh.vsm").string();
   std::string out = (this->folder / "out.vtu").string();
   MeshHandle mesh;
   FieldHandle field;
   std::vector<double> room;
+  std::vector<float> values = std::vector<float>(120 * 90);
 
   LongCalls()
   {
     std::filesystem::create_directory(this->folder / "scratch");
     writeBytes(this->file, meshText(shuffled(torus(120, 90, 0.1))));
     this->mesh = openFile(this->file, this->options);
+    expectOk(
+      smg_save_mesh(this->mesh.get(), this->stream.c_str(), nullptr, nullptr, nullptr, nullptr));
     this->field = this->solved();
     this->room.resize(3 * 120 * 90);
   }
@@ -306,6 +323,44 @@ const std::vector<std::pair<const char*, LongCalls::Function>> Functions{
     {
       return smg_save_mesh(
         self.mesh.get(), self.out.c_str(), nullptr, Calls::function, &calls, nullptr);
+    } },
+  { "add_column",
+    [](LongCalls& self, Calls& calls)
+    {
+      // Of a file, the first time.
+      const MeshHandle mesh = openFile(self.stream);
+      const smg_array values = arrayOf(self.values);
+      return smg_add_column(mesh.get(), "a", 0, &values, Calls::function, &calls);
+    } },
+  { "open_blocks",
+    [](LongCalls& self, Calls& calls)
+    {
+      const MeshHandle mesh = openFile(self.stream);
+      smg_blocks* blocks = nullptr;
+      const smg_status status =
+        smg_open_blocks(mesh.get(), nullptr, nullptr, Calls::function, &calls, &blocks);
+      smg_close_blocks(blocks);
+      return status;
+    } },
+  { "open_blocks of a field",
+    [](LongCalls& self, Calls& calls)
+    {
+      const FieldHandle field = self.solved();
+      smg_blocks* blocks = nullptr;
+      const smg_status status =
+        smg_open_blocks(nullptr, field.get(), nullptr, Calls::function, &calls, &blocks);
+      smg_close_blocks(blocks);
+      return status;
+    } },
+  { "open_solver",
+    [](LongCalls& self, Calls& calls)
+    {
+      const MeshHandle mesh = openFile(self.stream);
+      smg_solver* solver = nullptr;
+      const smg_status status =
+        smg_open_solver(mesh.get(), nullptr, Calls::function, &calls, &solver);
+      smg_close_solver(solver);
+      return status;
     } },
   { "simplify",
     [](LongCalls& self, Calls& calls)

@@ -33,8 +33,8 @@ struct JobMesh
       this->value.push_back(x * x + (x > 0.0 ? 0.5 : 0.0));
     }
     const smg_array patches = arrayOf(this->patch), values = arrayOf(this->value);
-    expectOk(smg_add_column(this->handle.get(), "patch", 0, &patches));
-    expectOk(smg_add_column(this->handle.get(), "value", 0, &values));
+    expectOk(smg_add_column(this->handle.get(), "patch", 0, &patches, nullptr, nullptr));
+    expectOk(smg_add_column(this->handle.get(), "value", 0, &values, nullptr, nullptr));
   }
 
   IndexedTestMesh mesh;
@@ -162,7 +162,7 @@ TEST(CJobs, AFieldOutlivesItsMeshAndKeepsTheColumnsThatItWasComputedWith)
     R"({"problem": {"dirichlet": [{"tag": ["patch", 1], "value": "value"}]}})");
   const std::vector<double> others(given.value.size(), 7.0);
   const smg_array array = arrayOf(others);
-  expectOk(smg_add_column(given.handle.get(), "value", 0, &array));
+  expectOk(smg_add_column(given.handle.get(), "value", 0, &array, nullptr, nullptr));
   given.handle.reset();
   const std::vector<double> solution =
     read<double>(nullptr, field.get(), "Solution", false, 1, given.mesh.vertices());
