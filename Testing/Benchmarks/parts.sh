@@ -105,7 +105,7 @@ convert_part() {
   if [ ${#meshes[@]} -eq 0 ]; then
     meshes=("$(refined "$(made torus 250000 ply)" 1 ply)" "$(refined "$(made box 64000 vtk)" 1 vtk)")
   fi
-  [ -z "$quick" ] || options+=(--memory 16,64)
+  [ -z "$quick" ] || options+=(--memory "16,64")
   for mesh in "${meshes[@]}"; do
     measure_conversion "$mesh"
   done
