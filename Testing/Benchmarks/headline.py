@@ -102,6 +102,12 @@ class Headline:
             stream.unlink()
             deformed.unlink()
 
+    def write(self):
+        """What is there so far."""
+        numbers = {"machine": machine(), "steps": self.steps, "orders": self.orders, "picture": self.picture}
+        (self.options.out / "headline.json").write_text(json.dumps(numbers, indent=2) + "\n")
+        (self.options.out / "headline.md").write_text(self.table())
+
     def table(self):
         on = machine()
         lines = [f"Measured on {on['processor']}, {on['cores']} cores, {on['memory_gib']} GiB of memory. MB of 1e6 bytes.\n\n",
@@ -145,16 +151,17 @@ def main():
     headline = Headline(options)
     tasks = [(options.mesh, 0, options.times, options.memory)] if options.mesh else [
         (options.data / file, *rest) for file, *rest in HEADLINES]
-    for k, task in enumerate(tasks):
-        before, after = headline.bend(*task)
-        if k == 0:
-            headline.draw(before, after)
-        after.unlink()
+    before, after = headline.bend(*tasks[0])
+    headline.draw(before, after)
+    after.unlink()
+    headline.write()
     for mesh in [options.mesh] if options.mesh else [options.data / file for file in ORDERED]:
         headline.bend_in_orders(mesh)
-    (options.out / "headline.json").write_text(json.dumps(
-        {"machine": machine(), "steps": headline.steps, "orders": headline.orders, "picture": headline.picture}, indent=2) + "\n")
-    (options.out / "headline.md").write_text(headline.table())
+    for task in tasks[1:]:
+        headline.write()
+        _, after = headline.bend(*task)
+        after.unlink()
+    headline.write()
     print(headline.table(), end="")
 
 

@@ -9,3 +9,7 @@ def machine():
     pages = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     return {"processor": models[0] if models else "", "cores": os.cpu_count(),
             "memory_gib": round(pages / (1 << 30))}
+
+
+if __name__ == "__main__":
+    print("{processor}, {cores} cores, {memory_gib} GiB of memory".format(**machine()))
