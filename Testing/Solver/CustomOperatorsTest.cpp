@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Examples/CustomOperators/cxx/PaperOperators.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Multigrid/RowOperators.h"
 #include "Testing/Solver/SolveTesting.h"
@@ -176,6 +177,7 @@ struct AllOwn : DirectRows<AllOwn>
 
 static_assert(OperatorSet<Extended> && OperatorSet<Custom>);
 static_assert(OperatorSet<Direct> && canRunApart<Direct> && OperatorSet<AllOwn>);
+static_assert(canRunApart<PaperOperators> && canRunApart<FullPaperOperators>);
 static_assert(Relaxation<OverRelaxation> && Relaxation<GaussSeidel>);
 static_assert(!Relaxation<WithoutSweep> && !Relaxation<OnlyInDouble>);
 static_assert(!OperatorSet<BadRelaxation> && !OperatorSet<GaussSeidel>);
@@ -188,14 +190,29 @@ Solved solveWithSet(const StreamMesh& mesh, Problem& problem, const SolveOptions
   return { valuesOf(*solution), solution->report() };
 }
 
+/** The target of an edge: turned about z, the more the higher its middle is. */
+void twist(const double* p, const double* q, double* target)
+{
+  const double angle = 0.7 * (p[2] + q[2]);
+  target[0] = std::cos(angle) * (p[0] - q[0]) - std::sin(angle) * (p[1] - q[1]);
+  target[1] = std::sin(angle) * (p[0] - q[0]) + std::cos(angle) * (p[1] - q[1]);
+  target[2] = p[2] - q[2];
+}
+
 std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
 {
   std::vector<std::pair<StreamMesh, ArrayProblem>> list;
   const StreamMesh surface = toStream(shuffled(torus(80, 50, 0.3)));
   list.emplace_back(surface, heldEnds(surface, 3, Weights::Clamped));
   list.emplace_back(surface, heldEnds(surface, 1, Weights::Uniform));
+  // The positions of a deformation: three columns, with a target for each edge, here twisted.
+  list.emplace_back(surface, fixedEnds(surface));
+  list.back().second.Target = twist;
   const StreamMesh solid = toStream(shuffled(tetBox(13, 12, 14, 0.1)));
   list.emplace_back(solid, heldEnds(solid, 1, Weights::Clamped));
+  // Weights of either sign.
+  list.emplace_back(surface, heldEnds(surface, 1, Weights::Cotangent));
+  list.emplace_back(solid, heldEnds(solid, 3, Weights::Cotangent));
   return list;
 }
 
@@ -256,7 +273,7 @@ template <OperatorSet Operators>
 class OwnSets : public ::testing::Test
 {
 };
-using AllOwnSets = ::testing::Types<Custom, Direct, AllOwn>;
+using AllOwnSets = ::testing::Types<Custom, Direct, AllOwn, PaperOperators, FullPaperOperators>;
 TYPED_TEST_SUITE(OwnSets, AllOwnSets);
 
 TYPED_TEST(OwnSets, ConvergeToTheDirectSolution)

@@ -184,6 +184,30 @@ struct CoarseningRecord
   TestLevel raw; ///< P^T A P before sparsification
   std::vector<bool> rawStiff;
 
+  /** Records row i of P, which was just appended. */
+  void addParents(const CoarseningData& data, std::int64_t i)
+  {
+    auto& row = this->parents.emplace_back();
+    const InterpolationEntry* entry = data.interpolation.row(i);
+    for (std::int64_t e = 0; e < data.interpolation.size(i); ++e)
+    {
+      const std::int64_t near = data.coarseNodes;
+      row.push_back({ near + entry[e].offset(near), entry[e].quanta() });
+    }
+  }
+  /** Records row c of the product before sparsification. */
+  void addRaw(const CoarseningData& data, std::int64_t c)
+  {
+    auto& row = this->raw.rows.emplace_back();
+    const CoarseEntry* entry = data.raw.row(c);
+    for (const CoarseEntry* end = entry + data.raw.size(c); entry != end; ++entry)
+    {
+      row.push_back({ entry->offset(c), entry->value() });
+    }
+    this->raw.rowSum.push_back(data.rawAlpha[c]);
+    this->rawStiff.push_back(data.rawStrongest[c].stiff());
+  }
+
   std::int64_t coarseNodes() const { return this->raw.nodes(); }
   Eigen::MatrixXd interpolation() const
   {
@@ -253,26 +277,13 @@ public:
   void interpolate(CoarseningData& data, std::int64_t i)
   {
     appendRounded(data, i, data.relaxed[i]);
-    auto& parents = this->record->parents.emplace_back();
-    const InterpolationEntry* entry = data.interpolation.row(i);
-    for (std::int64_t e = 0; e < data.interpolation.size(i); ++e)
-    {
-      const std::int64_t near = data.coarseNodes;
-      parents.push_back({ near + entry[e].offset(near), entry[e].quanta() });
-    }
+    this->record->addParents(data, i);
   }
   void productAP(CoarseningData& data, std::int64_t i) { this->Product.productAP(data, i); }
   void productPtAP(CoarseningData& data, std::int64_t c) { this->Product.productPtAP(data, c); }
   void sparsify(CoarseningData& data, std::int64_t c) const
   {
-    auto& row = this->record->raw.rows.emplace_back();
-    const CoarseEntry* entry = data.raw.row(c);
-    for (const CoarseEntry* end = entry + data.raw.size(c); entry != end; ++entry)
-    {
-      row.push_back({ entry->offset(c), entry->value() });
-    }
-    this->record->raw.rowSum.push_back(data.rawAlpha[c]);
-    this->record->rawStiff.push_back(data.rawStrongest[c].stiff());
+    this->record->addRaw(data, c);
     Sparsification{ this->tolerance, this->dropsNegative }(data, c);
   }
 
@@ -307,15 +318,17 @@ struct CoarsenedLevel
   TestLevel coarse;
 };
 
-/** Coarsens a level whose rows are appended in batches; copies are kept as in a solve. */
-inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
+/** Coarsens a level whose rows are appended in batches; copies are kept as in a solve. The
+ * operators have a `record`. */
+template <OperatorSet Operators = RecordingOperators>
+CoarsenedLevel coarsen(const TestLevel& fine, Operators operators,
   std::int64_t batch = std::numeric_limits<std::int64_t>::max(), SliverRows stiff = {})
 {
   operators.record = std::make_shared<CoarseningRecord>();
   Pool pool(std::int64_t(1) << 32);
   LevelRows fineRows(pool);
   LevelRows coarseRows(pool);
-  Coarsening<RecordingOperators> step(pool, operators, fineRows, coarseRows, stiff);
+  Coarsening<Operators> step(pool, operators, fineRows, coarseRows, stiff);
   for (std::int64_t begin = 0; begin < fine.nodes();)
   {
     const std::int64_t end = begin + std::min(batch, fine.nodes() - begin);

@@ -18,7 +18,7 @@
  *
  * Not of the paper: (5) without its term g, the error on the edges, and a Galerkin product instead
  * of (6) to (10), with which V-cycles would not converge to the solution. Of more than five lifted
- * neighbours, which only tetrahedra and coarse levels have, P keeps those with the largest weights.
+ * neighbours, rare on surfaces, P keeps those with the largest weights.
  *
  * Cost: linear in the entries of the row.
  */
