@@ -104,7 +104,9 @@ TEST_F(WritePly, NamesPropertiesOfOtherColumns)
   const std::vector<std::string> renamed{
     "The column 'two words' is called 'two_words_1' in the file.",
     "The column 'x' is called 'x_1' in the file.",
-    "The column 'vertex_indices' is called 'vertex_indices_1' in the file."
+    "The column 'vertex_indices' is called 'vertex_indices_1' in the file.",
+    "The column 'two_words_1' of 2 components comes back as the columns 'two_words_1_0' to "
+    "'two_words_1_1'."
   };
   EXPECT_EQ(this->writeAsPly(mesh), renamed);
   const ReadMesh back = importWhole(this->Folder / "out.ply");
@@ -156,6 +158,20 @@ TEST_F(WritePly, KeepsFormerNumbersUnderAnotherName)
   }
   EXPECT_EQ(column("OriginalId_1", ScalarType::Float64).bytes, former.bytes);
   EXPECT_GE(findColumn(back.cellColumns, { "OriginalCellId", ScalarType::Int64, 1 }), 0);
+}
+
+TEST_F(WritePly, SaysWhatComesBackAsSeveralColumns)
+{
+  StreamMesh mesh = toStream(sphere(0));
+  for (const ColumnSpec& spec :
+    { ColumnSpec{ "Normals", ScalarType::Float32, 3 }, ColumnSpec{ "Colors", ScalarType::UInt8, 4 },
+      ColumnSpec{ "one", ScalarType::Int8, 1 }, ColumnSpec{ "flow", ScalarType::Float64, 3 } })
+  {
+    mesh.vertexColumns.push_back(randomColumn(spec, mesh.vertices(), 3));
+  }
+  EXPECT_EQ(this->writeAsPly(mesh),
+    std::vector<std::string>{ "The column 'flow' of 3 components comes back as the columns "
+                              "'flow_0' to 'flow_2'." });
 }
 
 TEST_F(WritePly, SaysWhatWasRounded)

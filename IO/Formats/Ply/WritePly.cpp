@@ -40,6 +40,8 @@ struct WrittenPly
 {
   /** Columns with another name in the file, and that name. */
   std::vector<std::pair<std::string, std::string>> renamedColumns;
+  /** Columns of several components that are as many properties, and how many. */
+  std::vector<std::pair<std::string, int>> splitColumns;
   /** Columns of 64-bit integers with values beyond 2^53, which were rounded. */
   std::vector<std::string> roundedColumns;
 };
@@ -52,6 +54,12 @@ WriteNotes notesOn(const WrittenPly& written)
   {
     notes.push_back(
       "The column " + inQuotes(column) + " is called " + inQuotes(name) + " in the file.");
+  }
+  for (const auto& [name, components] : written.splitColumns)
+  {
+    notes.push_back("The column " + inQuotes(name) + " of " + std::to_string(components) +
+                    " components comes back as the columns " + inQuotes(name + "_0") + " to " +
+                    inQuotes(name + '_' + std::to_string(components - 1)) + '.');
   }
   for (const std::string& name : written.roundedColumns)
   {
@@ -208,6 +216,10 @@ void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written
     if (name != columns[i].name)
     {
       written.renamedColumns.emplace_back(columns[i].name, name);
+    }
+    if (names[i].front() == name + "_0")
+    {
+      written.splitColumns.emplace_back(name, columns[i].components);
     }
     const ScalarType type = isLongInteger(columns[i].type) ? ScalarType::Float64 : columns[i].type;
     this->Places.push_back(static_cast<std::ptrdiff_t>(this->RecordBytes));
