@@ -168,6 +168,7 @@ void EngineCommand::computeTraced()
           << entry.first << ',' << entry.end << '\n';
   };
   this->SolvingCommand::compute();
+  this->job().options().trace = nullptr;
   table.finish();
 }
 

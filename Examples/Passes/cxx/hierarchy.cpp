@@ -6,7 +6,7 @@ What this lesson shows:
  1. An operator set may look at what another one does: this one is the default set, and notes each
     row of the interpolation P when it is final, together with the row of the matrix.
  2. What the hierarchy is: a C-point has a coarse node of its own; the row of P of any other node
-says from which coarse nodes it takes how much.
+    says from which coarse nodes it takes how much.
  3. Nodes of the finest level are the vertices, in stream order. Those of a coarse level are in the
     order of their C-points: so each level is a stream like the mesh.
 

@@ -129,7 +129,7 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
   // Task 0, which asks the problem, runs on the thread of the caller.
   schedule.add({ apart ? "weigh cells" : "assemble rows", 0, 0.0,
                  [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } },
-    [&assembly] { return assembly.vertices(); });
+    [&assembly, apart] { return assembly.vertices() - (apart ? 0 : assembly.openVertices()); });
   if (apart)
   {
     schedule.startChain();
@@ -187,6 +187,7 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
     });
   schedule.advance(downward);
   finest.settle();
+  schedule.trace().endStep();
   this->Run.note(schedule, true);
   if (assembly.vertices() == 0)
   {

@@ -53,11 +53,11 @@ void HierarchyBuilder::addStages(Schedule& schedule)
     std::int64_t (Step::*cursor)() const;
   };
   constexpr Part Parts[] = {
-    { "choose C-points, P0", &Step::advanceChoice, &Step::chosen },
-    { "relax P", &Step::advanceInterpolation, &Step::interpolated },
-    { "A P", &Step::advanceProducts, &Step::multiplied },
-    { "P^T A P", &Step::advanceGathering, &Step::gathered },
-    { "sparsify, finish rows", &Step::advanceCoarseRows, &Step::finished },
+    { "choose C-points, P0", &Step::advanceChoice, &Step::atInitial },
+    { "relax P", &Step::advanceInterpolation, &Step::atInterpolation },
+    { "A P", &Step::advanceProducts, &Step::atProduct },
+    { "P^T A P", &Step::advanceGathering, &Step::atGathering },
+    { "sparsify, finish rows", &Step::advanceCoarseRows, &Step::atFinish },
   };
   for (int l = 0; l < this->FirstCore; ++l)
   {

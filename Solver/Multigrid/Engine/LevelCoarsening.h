@@ -142,11 +142,13 @@ public:
   /** The end of the rows of A P: their interpolation and the patches of their neighbours are
    * final. As published to the stages after productAP(). */
   std::int64_t multiplied() const { return this->Multiplied.published(); }
-  /** The cursors of the other stages, for traces; between two steps. */
-  std::int64_t chosen() const { return this->Initial; }
-  std::int64_t interpolated() const { return this->Interpolated; }
-  std::int64_t gathered() const { return this->Gathered; }
-  std::int64_t finished() const { return this->Finished; }
+  // Between two steps, for traces: the next node of the stages up to the initial P, of P, A P and
+  // P^T A P, and the next coarse row.
+  std::int64_t atInitial() const { return this->Initial; }
+  std::int64_t atInterpolation() const { return this->Interpolated; }
+  std::int64_t atProduct() const { return this->Multiplied; }
+  std::int64_t atGathering() const { return this->Gathered; }
+  std::int64_t atFinish() const { return this->Finished; }
   /** Declares that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 

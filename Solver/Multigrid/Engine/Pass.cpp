@@ -57,6 +57,7 @@ try
   finest.publish();
   schedule.advance();
   finest.settle();
+  schedule.trace().endStep();
   this->Run.note(schedule, false);
   this->Levels.noteWindows();
   this->Levels.endPass();
@@ -76,7 +77,8 @@ Schedule Pass::scheduleOf(const Further& further, int chains)
   if (further.beforeDown)
   {
     schedule.add({ "begin the next problem", 0, static_cast<double>(this->Levels.window().nodes()),
-      further.beforeDown });
+                   further.beforeDown },
+      [&finest] { return std::int64_t(finest.cursors().renewed); });
   }
   addDownward(finest, schedule);
   if (StepRecorder* recorder = this->Run.threads.recorder)
@@ -102,8 +104,10 @@ void Pass::begin()
   finest.setScale(1.0);
   Schedule schedule(this->Run.trace());
   addDownward(finest, schedule);
+  finest.addWindows(schedule.trace());
   schedule.advance();
   finest.settle();
+  schedule.trace().endStep();
   this->Levels.endPass();
 }
 

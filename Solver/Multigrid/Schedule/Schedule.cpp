@@ -44,9 +44,12 @@ void Schedule::add(Stage stage)
 
 void Schedule::add(Stage stage, StepTrace::Node cursor, std::size_t sweep)
 {
-  const std::string name = stage.name;
-  this->Trace.addStage(
-    sweep > 0 ? name + ", " + std::to_string(sweep) : name, stage.level, std::move(cursor));
+  if (this->Trace.isTold())
+  {
+    const std::string name = stage.name;
+    this->Trace.addStage(
+      sweep > 0 ? name + ", " + std::to_string(sweep) : name, stage.level, std::move(cursor));
+  }
   this->add(std::move(stage));
 }
 
@@ -126,7 +129,6 @@ void Schedule::advance(std::size_t first)
     this->Stages[s].advance(true);
     this->Seconds[s] += timer.seconds();
   }
-  this->Trace.endStep();
 }
 
 void Schedule::perform(

@@ -179,7 +179,7 @@ public:
 
   /** Performs a task of a step. Different tasks may run at the same time. */
   void run(int task);
-  /** Advances all stages, or those from this one on, each following the one before it: a step. */
+  /** Advances all stages, or those from this one on, each following the one before it. */
   void advance(std::size_t first = 0);
   /** The seconds that a stage has taken so far. */
   double seconds(std::size_t stage) const { return this->Seconds[stage]; }

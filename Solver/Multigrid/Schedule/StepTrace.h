@@ -3,6 +3,7 @@
 
 #include "smg/Solve.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,6 +29,9 @@ public:
   {
   }
 
+  /** Whether anybody is told. */
+  bool isTold() const { return this->Tell != nullptr; }
+
   /** Adds a stage: `cursor` is the next node that it will process. */
   void addStage(std::string name, int level, Node cursor)
   {
@@ -39,13 +43,15 @@ public:
     this->add({ "in memory", level, std::move(first), std::move(end) });
   }
 
+  /** Tells of a step. To be called when no task runs. */
   void endStep()
   {
     ++this->Step;
     for (Traced& traced : this->All)
     {
       const std::int64_t end = traced.end();
-      const std::int64_t first = traced.first ? traced.first() : traced.lastEnd;
+      // What is released as a whole block may end behind the last node.
+      const std::int64_t first = traced.first ? std::min(traced.first(), end) : traced.lastEnd;
       if (end != traced.lastEnd || (traced.first && first != traced.lastFirst))
       {
         (*this->Tell)({ this->Pass, this->Step, traced.level, traced.name, first, end });
@@ -66,7 +72,7 @@ private:
 
   void add(Traced traced)
   {
-    if (this->Tell)
+    if (this->isTold())
     {
       this->All.push_back(std::move(traced));
     }

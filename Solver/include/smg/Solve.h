@@ -63,18 +63,19 @@ struct CheckpointOptions
 /** What a stage of a pass did in a step, or what a level has in memory after it. */
 struct TraceEntry
 {
-  int pass;          ///< from 1 on
+  int pass;          ///< of the solve, from 1 on
   std::int64_t step; ///< of the pass, from 1 on
   int level;         ///< of the stage; 0: the finest
-  /** The stage, with the number of the sweep if it is one; of a level, "in memory".
-   * docs/architecture.md lists them. */
+  /** The stage, with the number of the sweep if it is one; of a level, "in memory". Valid during
+   * the call. docs/architecture.md lists them. */
   std::string_view stage;
-  /** The nodes [first, end) that the stage has passed in this step, or that are in memory. "P^T A
-   * P" and "sparsify, finish rows" count nodes of the next coarser level. */
+  /** The nodes [first, end) that the stage has passed in this step, or whose rows are in memory;
+   * in the first pass, on the finest level, also vertices that wait for their cells. "P^T A P" and
+   * "sparsify, finish rows" count nodes of the next coarser level. */
   std::int64_t first, end;
 };
 /** Called between two steps, by the thread of solve(), for each stage that has advanced and each
- * level whose window has moved. */
+ * level whose window has moved. What it throws ends the solve. */
 using TraceFunction = std::function<void(const TraceEntry& entry)>;
 
 /** How to solve. The defaults suit a mesh of any size. */
