@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <gtest/gtest.h>
