@@ -79,15 +79,15 @@ std::string microseconds(const json& result, const char* key, std::int64_t verti
 void printTable(const std::vector<std::string>& peers, const json& results, std::int64_t vertices)
 {
   std::cout << "| solver | CPU us/vertex: assemble | set up | solve | total | peak bytes/vertex | "
-               "iterations | relative residual |\n"
-            << "|---|---|---|---|---|---|---|---|\n";
+               "million vertices per GiB | iterations | relative residual |\n"
+            << "|---|---|---|---|---|---|---|---|---|\n";
   for (const std::string& peer : peers)
   {
     const json& result = results[peer];
     if (result.contains("failed"))
     {
       std::cout << "| " << peer << " | failed: " << result["failed"].get<std::string>()
-                << " | | | | | | |\n";
+                << " | | | | | | | |\n";
       continue;
     }
     std::cout << "| " << peer;
@@ -95,9 +95,10 @@ void printTable(const std::vector<std::string>& peers, const json& results, std:
     {
       std::cout << " | " << microseconds(result, key, vertices);
     }
-    std::cout << " | "
-              << std::llround(result["peak_bytes"].get<double>() / static_cast<double>(vertices))
-              << " | " << result["iterations"] << " | ";
+    const double bytes = result["peak_bytes"].get<double>() / static_cast<double>(vertices);
+    std::cout << " | " << std::llround(bytes) << " | "
+              << smg::benchmark::text("%.1f", static_cast<double>(1 << 30) / bytes / 1e6) << " | "
+              << result["iterations"] << " | ";
     if (result.contains("relative_residual"))
     {
       std::cout << result["relative_residual"].get<double>();

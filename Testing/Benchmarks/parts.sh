@@ -53,11 +53,13 @@ made() {
   echo "$results/$1-$2.$suffix"
 }
 
-# refined MESH TIMES SUFFIX : the mesh refined and shuffled, prints its name
+# refined MESH TIMES SUFFIX : the mesh refined and shuffled, triangles as .ply and tetrahedra as .vtk;
+# prints its name, which has the number of cells that a cell becomes
 refined() {
-  local name
+  local name children=4
+  [ "$3" = ply ] || children=8
   name=$(basename "$1")
-  name=$results/${name%.*}-x$2.$3
+  name=$results/${name%.*}-x$((children ** $2)).$3
   [ -e "$name" ] || "$bin/make_mesh" finer "$1" "$2" "$name" --shuffle >&2
   echo "$name"
 }

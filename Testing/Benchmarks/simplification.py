@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Simplification of surfaces beside two codes that have the mesh in memory: vtkQuadricDecimation and
-meshoptimizer (libmeshoptimizer2d). Needs VTK's Python modules, as /usr/bin/python3 has with ParaView.
+meshoptimizer (libmeshoptimizer-dev). Needs VTK's Python modules, as /usr/bin/python3 has with ParaView.
 
 simplification.py SMG VERTICES MESH.ply...: each mesh simplified to VERTICES vertices, or to a share of them below 1.
 Prints processor seconds and peak resident MiB of each process, the mean distance and the largest one between
@@ -69,7 +69,7 @@ def by_vtk(name, out, vertices):
 
 def by_meshoptimizer(name, out, vertices):
     points, cells = arrays(read(name))
-    library = ctypes.CDLL("libmeshoptimizer.so.%s" % os.environ.get("SMG_MESHOPTIMIZER", "0.18"))
+    library = ctypes.CDLL("libmeshoptimizer.so")
     library.meshopt_simplify.restype = ctypes.c_size_t
     single = np.ascontiguousarray(points, "f4")
     corners = np.ascontiguousarray(cells, "u4").ravel()
