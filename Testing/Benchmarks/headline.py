@@ -6,7 +6,7 @@ to the default tolerance and with 3 V-cycles a step. The error is the largest di
 puts it, over the diagonal of the bounding box. Then draws the first mesh, before and after, piece by piece, and bends meshes
 in each order that `smg convert` knows. BIN is the folder of the programs. Without MESH, the meshes are those of --data, the
 archive: the dragon in the memory that the paper's solver took for 14 million vertices, and the Armadillo in twice as much. The output is
-OUT/headline.json, OUT/headline.md and, where pvpython and --plugin are, OUT/headline.png.
+OUT/headline.json, OUT/headline.md and, where pvpython and --plugin are, OUT/headline.jpg.
 """
 import argparse
 import json
@@ -88,7 +88,7 @@ class Headline:
         script = pathlib.Path(__file__).with_name("headline_picture.py")
         numbers = self.file("picture.json")
         costs = measured("xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", "pvpython", script,
-                         self.options.plugin, self.options.out / "headline.png", numbers, json.dumps(bounds),
+                         self.options.plugin, self.options.out / "headline.jpg", numbers, json.dumps(bounds),
                          infos[0]["cells"], *streams)
         self.picture = {**costs, **json.loads(numbers.read_text()), "triangles": sum(info["cells"] for info in infos)}
         numbers.unlink()
