@@ -22,6 +22,9 @@ from machine import machine
 HEADLINES = (("dragon.ply", 56500, 4, 84), ("armadillo43k.obj", 0, 5, 160))
 ORDERED = ("head_mri_1m.ply", "dragon.ply")
 ORDERS = ("bfs", "spectral", "axis", "keep")
+# What is kept of the reports.
+KEPT = ("vertices", "cells", "passes", "steps", "residuals", "seconds", "cpu_seconds", "peak_nodes", "pool_bytes_peak",
+        "rss_bytes_peak", "scratch_bytes_peak", "bytes_read", "bytes_written", "inverted", "threads", "notes")
 MB = 10 ** 6
 
 STEPS = """| mesh | vertices | step | limit, MB | accounted, MB | resident, MB | passes | time, s | CPU, s | CPU, us a vertex | million vertices per GiB | error |
@@ -47,7 +50,8 @@ class Headline:
         """Runs a command of smg whose `arguments` begin with IN and OUT: its costs and its report."""
         report = self.file("report.json")
         costs = measured(self.options.bin / "smg", command, *arguments, "--quiet", "--report", report)
-        costs["report"] = json.loads(report.read_text())
+        everything = json.loads(report.read_text())
+        costs["report"] = {key: everything[key] for key in KEPT if key in everything}
         report.unlink()
         return costs
 
@@ -132,7 +136,7 @@ class Headline:
                 f"{run['cpu_seconds'] / first['cpu_seconds']:.2f} |\n")
         if self.picture:
             lines.append("\nThe picture of {triangles:,} triangles, in {pieces} pieces a mesh: {seconds:.0f} s, {cpu_seconds:.0f} s of "
-                         "CPU, {largest_mib:.0f} MiB, {before_mib:.0f} of them before the first piece.\n".format(**self.picture))
+                         "CPU; {largest_mib:.0f} MiB resident, {before_mib:.0f} of them before the first piece.\n".format(**self.picture))
         return "".join(lines)
 
 
