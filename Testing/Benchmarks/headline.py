@@ -6,7 +6,7 @@ to the default tolerance and with 3 V-cycles a step. The error is the largest di
 puts it, over the diagonal of the bounding box. Then draws the first mesh, before and after, piece by piece, and bends meshes
 in each order that `smg convert` knows. BIN is the folder of the programs. Without MESH, the meshes are those of --data, the
 archive: the dragon in the memory that the paper's solver took for 14 million vertices, and the Armadillo in twice as much. The output is
-OUT/headline.json, OUT/headline.md and, where pvpython and --plugin are, OUT/headline.png.
+OUT/headline.json, OUT/headline.md and, where pvpython and --plugin are, OUT/headline.jpg.
 """
 import argparse
 import json
@@ -22,6 +22,9 @@ from machine import machine
 HEADLINES = (("dragon.ply", 56500, 4, 84), ("armadillo43k.obj", 0, 5, 160))
 ORDERED = ("head_mri_1m.ply", "dragon.ply")
 ORDERS = ("bfs", "spectral", "axis", "keep")
+# What is kept of the reports.
+KEPT = ("vertices", "cells", "passes", "steps", "residuals", "seconds", "cpu_seconds", "peak_nodes", "pool_bytes_peak",
+        "rss_bytes_peak", "scratch_bytes_peak", "bytes_read", "bytes_written", "inverted", "threads", "notes")
 MB = 10 ** 6
 
 STEPS = """| mesh | vertices | step | limit, MB | accounted, MB | resident, MB | passes | time, s | CPU, s | CPU, us a vertex | million vertices per GiB | error |
@@ -47,7 +50,8 @@ class Headline:
         """Runs a command of smg whose `arguments` begin with IN and OUT: its costs and its report."""
         report = self.file("report.json")
         costs = measured(self.options.bin / "smg", command, *arguments, "--quiet", "--report", report)
-        costs["report"] = json.loads(report.read_text())
+        everything = json.loads(report.read_text())
+        costs["report"] = {key: everything[key] for key in KEPT if key in everything}
         report.unlink()
         return costs
 
@@ -88,7 +92,7 @@ class Headline:
         script = pathlib.Path(__file__).with_name("headline_picture.py")
         numbers = self.file("picture.json")
         costs = measured("xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", "pvpython", script,
-                         self.options.plugin, self.options.out / "headline.png", numbers, json.dumps(bounds),
+                         self.options.plugin, self.options.out / "headline.jpg", numbers, json.dumps(bounds),
                          infos[0]["cells"], *streams)
         self.picture = {**costs, **json.loads(numbers.read_text()), "triangles": sum(info["cells"] for info in infos)}
         numbers.unlink()
@@ -132,7 +136,7 @@ class Headline:
                 f"{run['cpu_seconds'] / first['cpu_seconds']:.2f} |\n")
         if self.picture:
             lines.append("\nThe picture of {triangles:,} triangles, in {pieces} pieces a mesh: {seconds:.0f} s, {cpu_seconds:.0f} s of "
-                         "CPU, {largest_mib:.0f} MiB, {before_mib:.0f} of them before the first piece.\n".format(**self.picture))
+                         "CPU; {largest_mib:.0f} MiB resident, {before_mib:.0f} of them before the first piece.\n".format(**self.picture))
         return "".join(lines)
 
 

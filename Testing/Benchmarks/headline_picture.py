@@ -10,7 +10,7 @@ import json
 import sys
 
 from paraview.simple import *
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkJPEGWriter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 import vtkmodules.vtkRenderingOpenGL2  # implements the classes above
 
@@ -71,7 +71,8 @@ def main():
     image.SetInput(window)
     image.ReadFrontBufferOff()
     image.ShouldRerenderOff()
-    writer = vtkPNGWriter()
+    writer = vtkJPEGWriter()
+    writer.SetQuality(90)
     writer.SetFileName(picture)
     writer.SetInputConnection(image.GetOutputPort())
     writer.Write()

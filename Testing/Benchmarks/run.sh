@@ -34,7 +34,7 @@
 #             up to 1 million vertices.
 #               --threads N          of each run (1)
 #   headline  a deformation of 14 and one of 44 million vertices from file to file, a picture of
-#             every triangle, and memory by stream orders; headline.md, .json and .png. MESH is
+#             every triangle, and memory by stream orders; headline.md, .json and .jpg. MESH is
 #             refined; without one these are made of the archive, or of a torus of 4 thousand vertices.
 #               --times N            refinements of MESH, each with four times the vertices (4)
 #               --memory MB          limit for MESH (84)
