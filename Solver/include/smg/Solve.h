@@ -69,10 +69,10 @@ struct TraceEntry
   /** The stage, with the number of the sweep if it is one; of a level, "in memory". Valid during
    * the call. docs/architecture.md lists them. */
   std::string_view stage;
-  /** The nodes [first, end) that the stage has passed in this step, or whose rows are in memory;
-   * in the first pass, on the finest level, also vertices that wait for their cells. "P^T A P" and
-   * "sparsify, finish rows" count nodes of the next coarser level. */
-  std::int64_t first, end;
+  std::int64_t first; ///< the first node that the stage has passed in this step, or in memory
+  /** Behind the last one. In the first pass vertices that wait for their cells are in memory, too.
+   * "P^T A P" and "sparsify, finish rows" count nodes of the next coarser level. */
+  std::int64_t end;
 };
 /** Called between two steps, by the thread of solve(), for each stage that has advanced and each
  * level whose window has moved. What it throws ends the solve. */
