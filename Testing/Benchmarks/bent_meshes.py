@@ -48,6 +48,15 @@ def measured(*command):
             "rss_mib": usage.ru_maxrss / 1024}
 
 
+def reported(smg, folder, command, *arguments):
+    """Runs a command of smg: its costs, as measured(), and its report."""
+    file = folder / "report.json"
+    costs = measured(smg, command, *arguments, "--quiet", "--report", file)
+    costs["report"] = json.loads(file.read_text())
+    file.unlink()
+    return costs
+
+
 class Meshes:
     """Streams in a folder, made by the programs in `bin` unless they are there already."""
 
@@ -59,17 +68,20 @@ class Meshes:
         print(" ".join(command), file=sys.stderr, flush=True)
         subprocess.run(command, check=True, stdout=sys.stderr)
 
+    def file(self, mesh, vertices, times, suffix):
+        """The file of this folder for a mesh so treated."""
+        name = mesh.stem + (f"-{vertices}" if vertices else "") + (f"-x{4 ** times}" if times else "")
+        return self.folder / f"{name}.{suffix}"
+
     def refined(self, mesh, vertices, times):
         """A mesh simplified to at most `vertices` unless 0, and refined `times` times unless 0, then
         in a random order: a .ply file of this folder."""
         source = pathlib.Path(mesh)
-        name = source.stem
+        result = self.file(source, vertices, times, "ply")
         if vertices:
-            name += f"-{vertices}"
-            source = self.folder / f"{name}.ply"
+            source = self.file(source, vertices, 0, "ply")
             self.run("smg", "simplify", mesh, source, "--vertices", vertices, "--quiet")
         if times:
-            result = self.folder / f"{name}-x{4 ** times}.ply"
             self.run("make_mesh", "finer", source, times, result, "--shuffle")
             if vertices:
                 source.unlink()
@@ -81,8 +93,7 @@ class Meshes:
         mesh = pathlib.Path(mesh)
         if mesh.suffix == ".vsm":
             return mesh
-        name = mesh.stem + (f"-{vertices}" if vertices else "") + (f"-x{4 ** times}" if times else "")
-        stream = self.folder / f"{name}.vsm"
+        stream = self.file(mesh, vertices, times, "vsm")
         if not stream.exists():
             file = self.refined(mesh, vertices, times)
             self.run("smg", "convert", file, stream, "--quiet")
@@ -99,11 +110,7 @@ class Meshes:
 
     def info(self, mesh):
         """The report of smg info."""
-        report = self.folder / "info.json"
-        self.run("smg", "info", mesh, "--quiet", "--report", report)
-        numbers = json.loads(report.read_text())
-        report.unlink()
-        return numbers
+        return reported(self.programs / "smg", self.folder, "info", mesh)["report"]
 
     def handles(self, mesh):
         """A file with the handles of a mesh."""

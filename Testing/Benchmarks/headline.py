@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-from bent_meshes import Meshes, measured
+from bent_meshes import Meshes, measured, reported
 from machine import machine
 
 # File, vertices to which it is simplified (0: not), refinements, limit of memory in MB.
@@ -48,11 +48,8 @@ class Headline:
 
     def smg(self, command, *arguments):
         """Runs a command of smg whose `arguments` begin with IN and OUT: its costs and its report."""
-        report = self.file("report.json")
-        costs = measured(self.options.bin / "smg", command, *arguments, "--quiet", "--report", report)
-        everything = json.loads(report.read_text())
-        costs["report"] = {key: everything[key] for key in KEPT if key in everything}
-        report.unlink()
+        costs = reported(self.options.bin / "smg", self.options.out, command, *arguments)
+        costs["report"] = {key: costs["report"][key] for key in KEPT if key in costs["report"]}
         return costs
 
     def bend(self, mesh, vertices, times, limit):

@@ -10,7 +10,7 @@ import json
 import pathlib
 import sys
 
-from bent_meshes import Meshes, bend, measured
+from bent_meshes import Meshes, bend, reported
 from machine import machine
 
 CONVERT_MIB, SOLVE_MIB = 512, 256
@@ -26,11 +26,7 @@ def main():
     meshes = Meshes(options.bin, options.out)
 
     def smg(command, *arguments):
-        numbers = options.out / "largest-report.json"
-        costs = measured(options.bin / "smg", command, *arguments, "--quiet", "--report", numbers)
-        costs["report"] = json.loads(numbers.read_text())
-        numbers.unlink()
-        return costs
+        return reported(options.bin / "smg", options.out, command, *arguments)
 
     ply = meshes.refined(options.mesh, 0, options.times)
     stream, solved = options.out / "largest.vsm", options.out / "largest-solved.vsm"

@@ -14,7 +14,7 @@ import pathlib
 import shutil
 import sys
 
-from bent_meshes import measured
+from bent_meshes import measured, reported
 
 TABLE = """| step | time, s | CPU, s | CPU, us a vertex | resident memory, MiB | passes | bytes of the file |
 |---|---|---|---|---|---|---|
@@ -34,15 +34,12 @@ class Story:
     def run(self, step, out, *command):
         """Runs a command and measures the process from outside."""
         self.steps.append({"step": step, **measured(*command), "bytes": out.stat().st_size})
-        return self.steps[-1]
 
     def smg(self, command, *arguments):
         """Runs a command of smg within the memory limit; `arguments` begin with IN and OUT."""
-        report = self.file("report.json")
-        step = self.run(command, arguments[1], self.options.bin / "smg", command, *arguments,
-                        "--report", report, "--memory", self.options.memory, "--quiet")
-        step["report"] = json.loads(report.read_text())
-        report.unlink()
+        costs = reported(self.options.bin / "smg", self.options.out, command, *arguments,
+                         "--memory", self.options.memory)
+        self.steps.append({"step": command, **costs, "bytes": arguments[1].stat().st_size})
 
     def tell(self):
         noisy, stream = self.file("noisy.ply"), self.file("noisy.vsm")
