@@ -73,8 +73,7 @@ void EngineCommand::addEngineTo(CLI::App& command)
   command
     .add_option("--trace", this->Trace,
       "Write a table (CSV) of how the passes move over the levels: the nodes that each stage "
-      "passes "
-      "in each step, and those in memory")
+      "passes in each step, and those in memory")
     ->type_name("FILE");
 }
 

@@ -225,9 +225,8 @@ void AddedColumns::add(
   if (isArgument && !(before && before->isArgument) &&
       std::ranges::find(have, name, &ColumnSpec::name) != have.end())
   {
-    throw ArgumentError('\'' + name +
-                        "': the mesh has a column of this name: give the argument "
-                        "another one.");
+    throw ArgumentError(
+      '\'' + name + "': the mesh has a column of this name: give the argument another one.");
   }
   this->remove(ofCells, name);
   (ofCells ? this->OfCells : this->OfVertices)

@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-// How the passes of a solve move over the levels, as SolveOptions::trace tells it.
+// How the passes of a solve move over the levels, as SolveOptions::trace reports it.
 
 namespace smg::testing
 {
 namespace
 {
 
-struct Told
+struct Entry
 {
   int pass;
   std::int64_t step;
@@ -30,7 +30,7 @@ struct Told
 struct TracedSolve
 {
   Solved solved;
-  std::vector<Told> told;
+  std::vector<Entry> entries;
   std::int64_t vertices;
 };
 
@@ -46,12 +46,12 @@ SolveOptions manner(int threads, std::int64_t blockNodes, bool inCore)
 
 TracedSolve solveTraced(const StreamMesh& mesh, ArrayProblem problem, SolveOptions options)
 {
-  std::vector<Told> told;
-  options.trace = [&told](const TraceEntry& e) {
-    told.push_back({ e.pass, e.step, e.level, std::string(e.stage), e.first, e.end });
+  std::vector<Entry> entries;
+  options.trace = [&entries](const TraceEntry& e) {
+    entries.push_back({ e.pass, e.step, e.level, std::string(e.stage), e.first, e.end });
   };
   Solved solved = solveMesh(mesh, problem, options, 500);
-  return { std::move(solved), std::move(told), mesh.vertices() };
+  return { std::move(solved), std::move(entries), mesh.vertices() };
 }
 
 /** Calls check(traced, where) for a surface and a solid, out of core and in core, on one thread and
@@ -95,7 +95,7 @@ TEST(Trace, EachStagePassesEachNode)
     {
       std::map<std::tuple<int, int, std::string>, std::int64_t> ends;
       int passes = 0;
-      for (const Told& e : traced.told)
+      for (const Entry& e : traced.entries)
       {
         passes = std::max(passes, e.pass);
         if (e.stage != "in memory")
@@ -169,7 +169,7 @@ TEST(Trace, StagesFollowEachOther)
           }
         }
       };
-      for (const Told& e : traced.told)
+      for (const Entry& e : traced.entries)
       {
         if (std::pair(e.pass, e.step) != std::pair(pass, step))
         {
@@ -193,17 +193,17 @@ TEST(Trace, StagesWorkOnWhatIsInMemory)
       // By level: what was in memory after the step before, and after this one.
       std::map<int, std::pair<std::int64_t, std::int64_t>> before, now;
       int pass = 0;
-      for (std::size_t begin = 0, end = 0; begin < traced.told.size(); begin = end)
+      for (std::size_t begin = 0, end = 0; begin < traced.entries.size(); begin = end)
       {
-        const Told& head = traced.told[begin];
+        const Entry& head = traced.entries[begin];
         before = head.pass == pass ? now : decltype(now){};
         now = before;
         pass = head.pass;
-        for (end = begin; end < traced.told.size() && traced.told[end].pass == head.pass &&
-                          traced.told[end].step == head.step;
+        for (end = begin; end < traced.entries.size() && traced.entries[end].pass == head.pass &&
+                          traced.entries[end].step == head.step;
              ++end)
         {
-          const Told& e = traced.told[end];
+          const Entry& e = traced.entries[end];
           if (e.stage == "in memory")
           {
             EXPECT_LE(e.first, e.end);
@@ -214,7 +214,7 @@ TEST(Trace, StagesWorkOnWhatIsInMemory)
         }
         for (std::size_t k = begin; k < end; ++k)
         {
-          const Told& e = traced.told[k];
+          const Entry& e = traced.entries[k];
           const int level = countedLevel(e.level, e.stage);
           // Rows of P^T A P are rows of the level when they are sparsified.
           if (e.stage != "in memory" && e.stage != "P^T A P" && now.contains(level))
@@ -234,10 +234,10 @@ TEST(Trace, WindowsAreSmallOutOfCoreAndEmptyAtTheEnd)
   {
     const TracedSolve traced =
       solveTraced(mesh, heldEnds(mesh, 1, Weights::Cotangent), manner(threads, 300, false));
-    std::map<int, Told> last; // of the finest level, by pass
+    std::map<int, Entry> last; // of the finest level, by pass
     std::int64_t widest = 0;
     bool isApart = false;
-    for (const Told& e : traced.told)
+    for (const Entry& e : traced.entries)
     {
       isApart = isApart || e.stage == "weigh cells";
       if (e.stage == "in memory" && e.level == 0)
@@ -289,7 +289,7 @@ TEST(Trace, ChangesNothing)
     const TracedSolve traced = solveTraced(mesh, problem, options);
     EXPECT_TRUE(sameBits(plain.values, traced.solved.values));
     EXPECT_EQ(plain.report.passes, traced.solved.report.passes);
-    EXPECT_FALSE(traced.told.empty());
+    EXPECT_FALSE(traced.entries.empty());
   }
 }
 

@@ -44,7 +44,7 @@ void Schedule::add(Stage stage)
 
 void Schedule::add(Stage stage, StepTrace::Node cursor, std::size_t sweep)
 {
-  if (this->Trace.isTold())
+  if (this->Trace.isEnabled())
   {
     const std::string name = stage.name;
     this->Trace.addStage(

@@ -132,7 +132,7 @@ class SMG_EXPORT Schedule
 {
 public:
   Schedule() = default;
-  /** `trace` is told of each step. */
+  /** `trace` reports each step. */
   explicit Schedule(StepTrace trace)
     : Trace(std::move(trace))
   {

@@ -13,24 +13,23 @@
 namespace smg
 {
 
-/** Tells a TraceFunction, after each step of a pass, which nodes each stage has passed and which
- * ones each level has in memory, where that is not as after the step before. */
+/** Calls a TraceFunction after each step of a pass with the nodes that each stage has passed and
+ * those that each level has in memory, where these are not as after the step before. */
 class StepTrace
 {
 public:
   using Node = std::function<std::int64_t()>;
 
-  /** Tells nothing, at no cost. */
+  /** Disabled, at no cost. */
   StepTrace() = default;
-  /** Of a pass, the first being 1. An empty function is told nothing. */
-  StepTrace(const TraceFunction& tell, int pass)
-    : Tell(tell ? &tell : nullptr)
+  /** Of a pass, the first being 1. Disabled if the function is empty; it must outlive this. */
+  StepTrace(const TraceFunction& function, int pass)
+    : Function(function ? &function : nullptr)
     , Pass(pass)
   {
   }
 
-  /** Whether anybody is told. */
-  bool isTold() const { return this->Tell != nullptr; }
+  bool isEnabled() const { return this->Function != nullptr; }
 
   /** Adds a stage: `cursor` is the next node that it will process. */
   void addStage(std::string name, int level, Node cursor)
@@ -43,7 +42,7 @@ public:
     this->add({ "in memory", level, std::move(first), std::move(end) });
   }
 
-  /** Tells of a step. To be called when no task runs. */
+  /** Reports a step. To be called when no task runs. */
   void endStep()
   {
     ++this->Step;
@@ -54,7 +53,7 @@ public:
       const std::int64_t first = traced.first ? std::min(traced.first(), end) : traced.lastEnd;
       if (end != traced.lastEnd || (traced.first && first != traced.lastFirst))
       {
-        (*this->Tell)({ this->Pass, this->Step, traced.level, traced.name, first, end });
+        (*this->Function)({ this->Pass, this->Step, traced.level, traced.name, first, end });
       }
       traced.lastFirst = first;
       traced.lastEnd = end;
@@ -72,13 +71,13 @@ private:
 
   void add(Traced traced)
   {
-    if (this->isTold())
+    if (this->isEnabled())
     {
       this->All.push_back(std::move(traced));
     }
   }
 
-  const TraceFunction* Tell = nullptr;
+  const TraceFunction* Function = nullptr;
   int Pass = 0;
   std::int64_t Step = 0;
   std::vector<Traced> All;

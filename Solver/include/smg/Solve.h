@@ -128,7 +128,7 @@ struct SolveOptions
   std::int64_t coreNodes = 50000;
   /** Progress callback; empty: none. */
   ProgressFunction progress{};
-  /** Told how the passes move over the levels, step by step; empty: none. */
+  /** Called with how the passes move over the levels, step by step; empty: none. */
   TraceFunction trace{};
 };
 
