@@ -20,7 +20,7 @@ smg_test_packages=(
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-pip
   python3-venv python3-tqdm)
 smg_benchmark_packages=(
-  libbenchmark-dev libhypre-dev libpetsc-real-dev libopenmpi-dev python3 python3-matplotlib)
+  libbenchmark-dev libhypre-dev libpetsc-real-dev libopenmpi-dev python3 python3-matplotlib python3-scipy)
 smg_verification_packages=(
   libbenchmark-dev libhypre-dev libopenmpi-dev
   python3 python3-numpy python3-scipy python3-getfem python3-matplotlib)

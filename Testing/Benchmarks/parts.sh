@@ -8,8 +8,8 @@ bin=$(realpath "$1")
 mkdir -p "$2"
 results=$(realpath "$2")
 shift 2
-all_parts=(solve convergence discretisation table3 headline scaling schedule convert estimates story
-  python kernels roofline checkpoint distance simplification smoothing largest)
+all_parts=(solve convergence discretisation scaling schedule convert estimates python kernels roofline
+  checkpoint distance simplification smoothing story table3 headline largest)
 part=solve
 if [[ " all ${all_parts[*]} " == *" ${1:-solve} "* ]]; then
   part=${1:-solve}
@@ -18,9 +18,18 @@ fi
 meshes=()
 options=()
 quick=
+from=
 while [ $# -gt 0 ]; do
   case "$part$1" in
     *--quick) quick=--quick ;;
+    all--from)
+      from=${2:?"$1 needs a part"}
+      shift
+      [[ " ${all_parts[*]} " == *" $from "* ]] || {
+        echo "there is no part $from: see run.sh" >&2
+        exit 2
+      }
+      ;;
     convert--memory | convert--orders | convert--address-space | scaling--to | scaling--peers-to | \
       table3--threads | headline--times | headline--memory | headline--plugin | roofline--scratch | \
       roofline--threads | roofline--file | story--times | story--memory | story--size | \
@@ -166,10 +175,15 @@ kernels_part() {
 }
 
 convergence_part() {
+  local mesh out
   convert_meshes
   [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 250000)" "$(made box 250000)")
   "$bin/benchmark_convergence" "${meshes[@]}" --json "$results/convergence.json" |
     tee "$results/convergence.md"
+  for mesh in "${meshes[@]}"; do
+    out=$results/$(basename "$mesh" .vsm)-hypre
+    "$bin/benchmark_peers" "$mesh" --peers smg,hypre --json "$out.json" | tee "$out.md"
+  done
 }
 
 discretisation_part() {
@@ -270,42 +284,52 @@ arguments_of() {
   case $1 in
     solve) refined "$armadillo" 2 ply && refined "$armadillo" 3 ply ;;
     convergence | discretisation)
-      refined "$armadillo" 2 ply && refined "$armadillo" 3 ply && refined "$head" 1 vtk
-      printf '%s\n' "$data/dragon.ply" "$head" "$data/bunny_tet.mesh"
-      [ "$1" = discretisation ] || made gyroid 860000
+      refined "$armadillo" 2 ply && refined "$head" 1 vtk && made gyroid 860000
+      printf '%s\n' "$data"/{dragon.ply,bunny_tet.mesh} "$head"
+      [ "$1" = convergence ] || refined "$armadillo" 3 ply
       ;;
     scaling) printf '%s\n' --to 12000000 --peers-to 100000 "$armadillo" "$head" ;;
     schedule) refined "$armadillo" 3 ply && refined "$head" 2 vtk ;;
     convert)
-      refined "$armadillo" 3 ply && refined "$armadillo" 4 ply && refined "$armadillo" 5 ply
-      refined "$data/head_mri_1m.ply" 2 ply && refined "$head" 2 vtk
+      printf '%s\n' --memory 256 --orders bfs "$data/head_mri_1m.ply"
+      refined "$armadillo" 3 ply && refined "$armadillo" 4 ply && refined "$head" 2 vtk
       ;;
-    estimates) printf '%s\n' "$data/brain168k.vtk" "$head" "$data/head_mri_1m.ply" ;;
+    estimates) printf '%s\n' "$data"/{brain168k.vtk,head_tet336k.vtk,head_mri_1m.ply} ;;
     story)
       printf '%s\n' --times 5 "$armadillo"
       [ -z "$plugin" ] || printf '%s\n' --plugin "$plugin"
       ;;
     checkpoint) refined "$armadillo" 4 ply ;;
     distance) printf '%s\n' "$armadillo" && refined "$armadillo" 2 ply && refined "$armadillo" 3 ply ;;
-    simplification) printf '%s\n' "$data/dragon.ply" "$data/head_mri_1m.ply" ;;
-    smoothing) refined "$armadillo" 2 ply ;;
+    simplification) printf '%s\n' "$data"/{dragon,head_mri_1m}.ply ;;
+    smoothing) refined "$armadillo" 2 ply && echo "$data/dragon.ply" ;;
     largest) printf '%s\n' "$armadillo" ;;
   esac
 }
 
+# all.md says what was measured where, and how long each part took.
 all_part() {
-  local lines arguments failed=()
-  "$python" "$here/machine.py"
+  local lines arguments begin outcome failed=()
+  [ -n "$from" ] || {
+    "$python" "$here/machine.py"
+    git -C "$here" log -1 --format='The programs are of the commit %h of %as.' 2> /dev/null || true
+    printf '\n| part | minutes |\n|---|---|\n'
+  } > all.md
   for part in "${all_parts[@]}"; do
+    [ "$part" != "$from" ] || from=
+    [ -z "$from" ] || continue
     echo "== $part ($(date +%T))"
+    begin=$SECONDS
+    outcome=failed
     lines=
-    if [ -n "$data" ] && ! lines=$(arguments_of "$part"); then
-      failed+=("$part")
-      continue
+    if [ -z "$data" ] || lines=$(arguments_of "$part"); then
+      mapfile -t arguments < <(printf '%s' "$lines")
+      bash "$here/parts.sh" "$bin" "$results" "$part" $quick "${arguments[@]}" && outcome=
     fi
-    mapfile -t arguments < <(printf '%s' "$lines")
-    bash "$here/parts.sh" "$bin" "$results" "$part" $quick "${arguments[@]}" || failed+=("$part")
+    [ -z "$outcome" ] || failed+=("$part")
+    echo "| $part | $(((SECONDS - begin + 30) / 60)) $outcome |" >> all.md
   done
+  cat all.md
   [ ${#failed[@]} -eq 0 ] || echo "These parts failed: ${failed[*]}" >&2
   return ${#failed[@]}
 }

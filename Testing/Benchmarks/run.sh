@@ -7,7 +7,9 @@
 #
 #   all       every part below, one after the other: all tables of docs/performance.md, with the meshes
 #             that these have, made of those in SMG_TEST_DATA_DIR, the unpacked archive of test meshes
-#             (takes hours, and 60 GB of disk); without that with the parts' own
+#             (takes hours, and 60 GB of disk); without that with the parts' own. all.md has the machine,
+#             the commit, and the time of each part.
+#               --from PART          leaves out what comes before it, to go on where a run was stopped
 #   solve     (default) the solver, hypre, PETSc and CHOLMOD, and the interactive deformation of
 #             each mesh's preview. Its own meshes: tori of 0.25 and 1 million vertices, a box of
 #             tetrahedra of 0.25 million, and a bumpy surface like a scan of 1 million, where
@@ -41,7 +43,7 @@
 #               --plugin FILE        StreamingMultigrid.so, for the picture
 #   kernels   nanoseconds per node of each kernel. Its own mesh: a torus of 0.25 million vertices.
 #   convergence  V-cycles with and without acceleration, the factors of a V-cycle and of two levels
-#             alone, by level, and at which vertices the slowest error sits. Its own meshes: a torus
+#             alone, by level, and at which vertices the slowest error sits; beside hypre's iterations. Its own meshes: a torus
 #             and a box of tetrahedra of 0.25 million vertices.
 #   schedule  how much faster a solve becomes with more threads: a model from the times of its stages
 #             on one thread, for 1 to 64 threads. Its own meshes: a torus of 1 million vertices, and a
