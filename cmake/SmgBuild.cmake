@@ -63,7 +63,10 @@ endfunction ()
 # The shared library StreamingMultigrid::<name>, and <target>Static of the same objects for tests and
 # benchmarks, which use hidden symbols.
 function (smg_library target name headers)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS;EXPORT" "DEPENDENCIES;PUBLIC")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS;STATIC_OBJECTS;EXPORT" "DEPENDENCIES;PUBLIC")
+  if (NOT arg_STATIC_OBJECTS)
+    set(arg_STATIC_OBJECTS ${arg_OBJECTS})
+  endif ()
   if (NOT arg_EXPORT)
     set(arg_EXPORT StreamingMultigrid)
   endif ()
@@ -84,7 +87,7 @@ function (smg_library target name headers)
       COMPONENT libraries NAMELINK_COMPONENT development
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT libraries)
 
-  add_library(${target}Static STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${arg_OBJECTS}>)
+  add_library(${target}Static STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${arg_STATIC_OBJECTS}>)
   set_target_properties(${target}Static PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(${target}Static INTERFACE "${headers}")
   target_link_libraries(${target}Static INTERFACE ${arg_DEPENDENCIES})

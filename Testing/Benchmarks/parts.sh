@@ -285,7 +285,8 @@ arguments_of() {
     solve) refined "$armadillo" 2 ply && refined "$armadillo" 3 ply ;;
     convergence | discretisation)
       refined "$armadillo" 2 ply && refined "$head" 1 vtk && made gyroid 860000
-      printf '%s\n' "$data"/{dragon.ply,bunny_tet.mesh} "$head"
+      printf '%s\n' "$data/dragon.ply" "$head" "$results/bunny_tet.vsm"
+      "$bin/smg" convert "$data/bunny_tet.mesh" "$results/bunny_tet.vsm" --cells tets --quiet
       [ "$1" = convergence ] || refined "$armadillo" 3 ply
       ;;
     scaling) printf '%s\n' --to 12000000 --peers-to 100000 "$armadillo" "$head" ;;
