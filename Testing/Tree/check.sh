@@ -7,6 +7,7 @@
 #   licence  every source file begins with its SPDX line
 #   sizes    no file above 2 MB, no source file above 600 lines, no
 #            function above 80
+#   results  the tables of documents are those of Testing/Benchmarks/results
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -87,24 +88,22 @@ format() {
 licence() {
   local found
   found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
-    while read -r file; do
-      head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
-    done)
+    xargs -r awk '
+      FNR == 1 { if (NR > 1 && !is_licensed) print file; file = FILENAME; is_licensed = 0 }
+      FNR <= 3 && /SPDX-License-Identifier: BSD-3-Clause/ { is_licensed = 1 }
+      FNR == 4 { nextfile }
+      END { if (!is_licensed) print file }')
   [ -z "$found" ] || fail "no SPDX-License-Identifier: BSD-3-Clause in the first three lines of:
 $found"
 }
 
 sizes() {
   local found
-  found=$(files | while read -r file; do
-    [ "$(stat -c %s "$file")" -le 2000000 ] || echo "$file"
-  done)
+  found=$(files | tr '\n' '\0' | xargs -r0 stat -c '%s %n' | awk '$1 > 2000000')
   [ -z "$found" ] || fail "files above 2 MB:
 $found"
-  found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' | while read -r file; do
-    lines=$(wc -l < "$file")
-    [ "$lines" -le 600 ] || echo "$file: $lines lines, 600 are allowed"
-  done)
+  found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' | xargs -r awk '
+    FNR == 601 { print FILENAME ": 600 lines are allowed" }')
   [ -z "$found" ] || fail "source files that are too long:
 $found"
   # As clang-format lays functions out: between a brace alone in a line and one below it, while
@@ -119,10 +118,12 @@ $found"
 $found"
 }
 
+results() { python3 Testing/Benchmarks/document.py --check; }
+
 case "${1:-}" in
-  layers | cycles | format | licence | sizes) "$1" ;;
+  layers | cycles | format | licence | sizes | results) "$1" ;;
   *)
-    sed -n '3,9s/^# //p' "$0" >&2
+    sed -n '3,10s/^# //p' "$0" >&2
     exit 2
     ;;
 esac

@@ -8,9 +8,11 @@ DOCS/verification.md the tables between the lines `<!-- NAME -->` and `<!-- end 
 """
 import json
 import pathlib
-import re
 import shutil
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
+from documented_tables import replace_tables  # noqa: E402
 
 
 def row(*fields):
@@ -110,11 +112,7 @@ def main(results, docs):
               "orders": (results / "convergence.md").read_text(),
               "peers": peers(results)}
     page = docs / "verification.md"
-    text = page.read_text()
-    for name, table in tables.items():
-        text = re.sub(f"(<!-- {name} -->\n).*?(<!-- end -->)",
-                      lambda found: found[1] + table + found[2], text, flags=re.DOTALL)
-    page.write_text(text)
+    page.write_text(replace_tables(page, tables)[1])
 
 
 if __name__ == "__main__":

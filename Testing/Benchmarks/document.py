@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""document.py [RESULTS] : writes what run.sh measured into the documents.
+
+RESULTS is the folder of its results (build-benchmarks/results), of which a part may be missing. In README.md and
+docs/performance.md the tables between the lines `<!-- NAME -->` and `<!-- end -->` are replaced; NAME is that of a method
+of Tables or of a .md file of RESULTS, with `:N` its Nth table. The files that were used are copied to
+Testing/Benchmarks/results, without the paths of the machine. With --check, the documents must have what the files there
+say.
+"""
+import argparse
+import json
+import pathlib
+import re
+import sys
+
+TREE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(TREE / "Testing" / "Support"))
+from documented_tables import replace_tables  # noqa: E402
+
+KEPT = TREE / "Testing" / "Benchmarks" / "results"
+PAGES = (TREE / "README.md", TREE / "docs" / "performance.md")
+MESHES = {
+    "armadillo43k-x16": "armadillo43k, refined twice",
+    "armadillo43k-x64": "armadillo43k, refined three times",
+    "armadillo43k-x256": "armadillo43k, refined four times",
+    "gyroid-860000": "gyroid by marching tetrahedra",
+    "head_tet336k-x8": "head_tet336k, refined once",
+    "head_tet336k-x64": "head_tet336k, refined twice",
+}
+SOLVERS = {
+    "smg": "streaming, out of core (build + solve)",
+    "smg-in-core": "the same code in core",
+    "hypre": "hypre BoomerAMG-PCG (assembly, set-up, solve)",
+    "petsc": "PETSc GAMG-PCG (assembly, set-up, solve)",
+    "cholmod": "CHOLMOD, simplicial (assembly, factor, solve)",
+}
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
+def per_gib(vertices, size):
+    """Millions of vertices."""
+    millions = vertices / size * 2**30 / 1e6
+    return f"{millions:.0f}" if millions >= 10 else f"{millions:.1f}"
+
+
+class Tables:
+    """What documents have of the results of a folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.used = {}  # files and their text
+
+    def read(self, name):
+        """The text of a file, in which paths are names of files."""
+        if name not in self.used:
+            text = (self.folder / name).read_text(encoding="utf-8")
+            self.used[name] = re.sub(r'"/[^"]*/([^"/]+)"', r'"\1"', text)
+        return self.used[name]
+
+    def json(self, name):
+        return json.loads(self.read(f"{name}.json"))
+
+    def text(self, name):
+        """The text NAME of the page; None if what it needs has not been measured."""
+        name, _, argument = name.partition(":")
+        try:
+            if name.endswith(".md"):
+                text = self.read(name)
+                return text if not argument else re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)[int(argument) - 1]
+            return getattr(self, name)(*[argument] * bool(argument))
+        except FileNotFoundError:
+            return None
+
+    def peers(self, mesh):
+        """The solvers on a mesh."""
+        numbers = self.json(mesh)
+        vertices, rows = numbers["vertices"], []
+        for solver, title in SOLVERS.items():
+            result = numbers["results"].get(solver)
+            if not result:
+                continue
+            if "failed" in result:
+                rows.append([title, "failed", "", "", ""])
+                continue
+            cycles = result["iterations"]
+            rows.append([title, f"{1e6 * result['cpu_total'] / vertices:.1f}", f"{result['peak_bytes'] / vertices:.0f}",
+                         per_gib(vertices, result["peak_bytes"]),
+                         {"smg": f"{cycles} V-cycles in {cycles + 1} passes", "cholmod": "direct"}.get(solver, cycles)])
+        millions = f"{vertices / 1e6:.2f}M vertices"
+        return table([millions, "CPU us/vertex", "peak bytes/vertex", "million vertices per GiB", "iterations"], rows)
+
+    def convergence(self):
+        """What holds V-cycles up."""
+        def count(solve):
+            return solve["cycles"] if solve["converged"] else f"more than {solve['cycles']}"
+
+        def row(mesh):
+            plain, finest = mesh["plain"]["residuals"], mesh["levels"][0]
+            return [MESHES.get(mesh["mesh"], mesh["mesh"]), f"{mesh['vertices']:,}", count(mesh["accelerated"]),
+                    count(mesh["plain"]), f"{plain[-1] / plain[-2]:.2f}", f"{finest['two_grid']:.2f}",
+                    f"{finest['v_cycle']:.2f}", f"{100 * mesh['slowest'][1]['share']:.0f} %"]
+        return table(["mesh", "vertices", "V-cycles", "without acceleration", "their last factor", "two-grid", "V",
+                      "the worst 100"], map(row, self.json("convergence")))
+
+    def hypre(self):
+        """V-cycles beside hypre's iterations."""
+        rows = []
+        for mesh in (result["mesh"] for result in self.json("convergence")):
+            numbers = self.json(f"{mesh}-hypre")
+            vertices, smg, hypre = numbers["vertices"], numbers["results"]["smg"], numbers["results"]["hypre"]
+            size = f"{smg['peak_bytes'] / vertices:.0f}"
+            row = [MESHES.get(mesh, mesh), f"{vertices:,}", smg["iterations"]]
+            if "failed" in hypre:
+                row += ["did not converge", f"{size}, -", "-"]
+            else:
+                row += [f"{hypre['iterations'] / 3:.0f}", f"{size}, {hypre['peak_bytes'] / vertices:.0f}",
+                        f"{smg['cpu_total'] / hypre['cpu_total']:.2f}"]
+            rows.append(row)
+        return table(["mesh", "vertices", "V-cycles of smg", "iterations of hypre, mean of three columns",
+                      "memory, bytes per vertex", "CPU time of smg over hypre's"], rows)
+
+    def schedule(self):
+        """The model of threads, and what this machine took."""
+        surface, solid = (self.json(f"{mesh}-schedule")["model"] for mesh in ("armadillo43k-x64", "head_tet336k-x64"))
+        rows = []
+        for pair in zip(surface["rows"][1:], solid["rows"][1:]):
+            cells = [pair[0]["threads"]]
+            for row, model in zip(pair, (surface, solid)):
+                cells += [f"{row[key]:.2f}" for key in ("speed_up", "first_pass", "later_passes")]
+                cells.append(f"{model['rows'][0]['wall'] / row['wall']:.2f}" if "wall" in row else "")
+            rows.append(cells)
+        rows.append(["any, if no stage waited for another", f"{surface['limit']:.2f}", "", "", "",
+                     f"{solid['limit']:.2f}", "", "", ""])
+        return table(["threads", "surface, 2.8M vertices: solve", "first pass", "later passes", "measured",
+                      "tetrahedra, 3.7M: solve", "first pass", "later passes", "measured"], rows)
+
+    def convert(self):
+        """A line for each mesh."""
+        found = [self.json(file.stem) for file in self.folder.glob("*-convert.json")]
+        if not found:
+            raise FileNotFoundError
+        rows = []
+        for numbers in sorted(found, key=lambda numbers: numbers["results"][0]["vertices"]):
+            result, in_core = numbers["results"][0], numbers["in_core"]
+            vertices, mesh = result["vertices"], pathlib.Path(numbers["mesh"]).stem
+            quality = ", ".join(f"{result['quality'][key] / in_core[key]:.2f}" for key in ("span", "mean_window")) \
+                if in_core and "span" in in_core else ""
+            rows.append([MESHES.get(mesh, mesh), f"{vertices:,}", f"{1e6 * result['cpu_seconds'] / vertices:.1f}",
+                         f"{result['wall_seconds'] / result['cpu_seconds']:.2f}", f"{result['peak_bytes'] / 1e6:.0f} MB",
+                         ", ".join(f"{result[f'scratch_bytes_{what}'] / vertices:.0f}" for what in ("written", "read", "peak")),
+                         quality])
+        return table(["mesh", "vertices", "CPU us/vertex", "wall time over CPU", "resident memory",
+                      "bytes of scratch per vertex: written, read, largest", "span, mean window over breadth-first in core"],
+                     rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=pathlib.Path, nargs="?", default=TREE / "build-benchmarks" / "results")
+    parser.add_argument("--check", action="store_true", help="of what the tree has; writes nothing")
+    options = parser.parse_args()
+    tables, differ = Tables(KEPT if options.check else options.results), False
+    for page in PAGES:
+        names = set(re.findall(r"^<!-- (\S+) -->$", page.read_text(encoding="utf-8"), re.MULTILINE)) - {"end"}
+        texts = {name: tables.text(name) for name in sorted(names)}
+        missing = [name for name, text in texts.items() if text is None]
+        if missing:
+            print(f"{page.relative_to(TREE)}: not measured: {', '.join(missing)}", file=sys.stderr)
+        before, after = replace_tables(page, {name: text for name, text in texts.items() if text is not None})
+        if not options.check:
+            page.write_text(after, encoding="utf-8")
+        elif before != after or missing:
+            print(f"{page.relative_to(TREE)}: its tables are not those of the results: run document.py", file=sys.stderr)
+            differ = True
+    if not options.check:
+        for name, text in tables.used.items():
+            (KEPT / name).write_text(text, encoding="utf-8")
+    return differ
+
+
+if __name__ == "__main__":
+    sys.exit(main())
