@@ -94,6 +94,18 @@ class Tables:
         millions = f"{vertices / 1e6:.2f}M vertices"
         return table([millions, "CPU us/vertex", "peak bytes/vertex", "million vertices per GiB", "iterations"], rows)
 
+    def preview(self, mesh):
+        """Updates while a handle is dragged."""
+        names = {"start": "the first one, with the hierarchy", "update/3_cycles": "3 V-cycles a step",
+                 "update/6_cycles": "6 V-cycles a step", "update/tolerance_1e-4": "to a tolerance of 1e-4"}
+        runs = {run["name"]: run for run in self.json(f"{mesh}-interactive")["benchmarks"]}
+        rows = []
+        for name, title in names.items():
+            times = [next((run["real_time"] for key, run in runs.items() if key.startswith(name) and key.endswith(weights)), None)
+                     for weights in ("cotangent", "uniform")]
+            rows.append([title, *(f"{time:.0f}" for time in times)])
+        return table(["update, ms", "cotangent weights", "uniform weights"], rows)
+
     def convergence(self):
         """What holds V-cycles up."""
         def count(solve):
