@@ -35,12 +35,19 @@ def torus(vertices):
     return points, np.concatenate([np.stack([p, q, r], 1), np.stack([p, r, s], 1)])
 
 
+def areas_and_load(points, triangles, source):
+    """The areas of the triangles, and the load of linear elements."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return area, np.bincount(triangles.ravel(), np.repeat(area / 3, 3), len(points)) * source
+
+
 def system(points, triangles, source):
     """The stiffness (sparse) and load of linear elements, with u = 0 at vertex 0."""
     from scipy.sparse import coo_matrix
 
     corners = points[triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    area, load = areas_and_load(points, triangles, source)
     rows, columns, values = [], [], []
     for k in range(3):
         i, j = triangles[:, (k + 1) % 3], triangles[:, (k + 2) % 3]
@@ -49,7 +56,6 @@ def system(points, triangles, source):
         for x, y, w in ((i, j, -weight), (j, i, -weight), (i, i, weight), (j, j, weight)):
             rows.append(x), columns.append(y), values.append(w)
     n = len(points)
-    load = np.bincount(triangles.ravel(), np.repeat(area / 3, 3), n) * source
     matrix = coo_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (n, n)).tocsc()
     return matrix[1:, 1:], load[1:]
 
@@ -90,11 +96,10 @@ def solve(way, vertices, smg_program):
     else:
         import streamingmultigrid as smg
 
+        _, load = areas_and_load(points, triangles, source)
         before, begin, cpu = forget_peak(), time.time(), time.process_time()
         if way == "kept hierarchy":
             solver = smg.solver(points, triangles, dirichlet={0: 0.0})
-            load = np.zeros(len(points))
-            _, load[1:] = system(points, triangles, source)
             begin, cpu = time.time(), time.process_time()  # what a further right-hand side takes
             values = solver.solve(load, tol=TOLERANCE)
         else:
