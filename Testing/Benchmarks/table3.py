@@ -29,9 +29,10 @@ PAPER = {
     "Lucy, large": (14027872, (428.08, 153.71, 1306.90, 1888.69, 257.0, 84), None),
     "XYZ RGB Dragon": (14438400, (440.60, 156.50, 1355.39, 1952.50, 239.7, 79), None),
 }
-# Meshes of the archive: file, vertices to which it is simplified, refinements.
-ARCHIVE = (("bunny.ply", 0, 0), ("elephant44k.off", 0, 0), ("armadillo43k.obj", 0, 1), ("dragon.ply", 0, 0),
-           ("lucy50k.ply", 14640, 3), ("head_mri_1m.ply", 0, 0), ("lucy50k.ply", 0, 4), ("dragon.ply", 55000, 4))
+# Meshes of the archive: the model, file, vertices to which it is simplified, refinements.
+ARCHIVE = (("Bunny", "bunny.ply", 0, 0), ("Elephant", "elephant44k.off", 0, 0), ("Armadillo", "armadillo43k.obj", 0, 1),
+           ("Dragon", "dragon.ply", 0, 0), ("Lucy", "lucy50k.ply", 14640, 3), ("Lucy", "head_mri_1m.ply", 0, 0),
+           ("Lucy, large", "lucy50k.ply", 0, 4), ("XYZ RGB Dragon", "dragon.ply", 55000, 4))
 LARGEST_MADE = 1_000_000  # vertices
 
 DETAILS = """| model | vertices / levels | solver | I/O | hierarchy | operations | total | CPU | peak nodes | accounted memory | process |
@@ -46,6 +47,7 @@ CYCLES = """| mesh | V-cycles, error | CPU us a vertex | million vertices per Gi
 
 
 def nearest_model(vertices):
+    """Of a mesh that is not of the archive."""
     return min(PAPER, key=lambda model: abs(math.log(PAPER[model][0] / vertices)))
 
 
@@ -68,7 +70,8 @@ def details(row):
         times = " | ".join(f"{run[key]:.2f}" for key in ("io_seconds", "hierarchy_seconds", "operations_seconds",
                                                          "total_seconds", "cpu_seconds"))
         what = f"{row['mesh']} | {row['vertices']} / {run['levels']}" if k == 0 else " | "
-        yield (f"{what} | {name} | {times} | {run['peak_nodes'] / 1e3:.1f}K | {run['pool_bytes'] / 1e6:.1f} | "
+        star = "" if k or row["limit_bytes"] else "*"
+        yield (f"{what} | {name} | {times} | {run['peak_nodes'] / 1e3:.1f}K | {run['pool_bytes'] / 1e6:.1f}{star} | "
                f"{run['process_bytes'] / 1e6:.1f}")
 
 
@@ -99,7 +102,7 @@ def table(numbers):
     on = numbers["machine"]
     rows = numbers["rows"]
     lines = [f"Measured on {on['processor']}, {on['cores']} cores, {on['memory_gib']} GiB of memory, with one thread. "
-             "Seconds of wall time and of the processor; MB of 1e6 bytes.\n\n", DETAILS]
+             "Seconds of wall time and of the processor; MB of 1e6 bytes; * without a limit of memory.\n\n", DETAILS]
     lines += [f"| {line} |\n" for row in rows for line in details(row)]
     lines += ["\n", RATIOS, *(f"| {ratios(row)} |\n" for row in rows)]
     lines += ["\n", CYCLES, *(f"| {cycles(row)} |\n" for row in rows)]
@@ -107,12 +110,12 @@ def table(numbers):
 
 
 def models(meshes, options):
-    """The streams to measure."""
+    """The streams to measure, each with its model unless that is the nearest one."""
     if options.meshes:
-        return [meshes.stream(mesh) for mesh in options.meshes]
+        return [(None, meshes.stream(mesh)) for mesh in options.meshes]
     if options.data:
-        return [meshes.stream(options.data / file, vertices, times) for file, vertices, times in ARCHIVE]
-    return [meshes.made("scan", vertices) for vertices, *_ in PAPER.values() if vertices < LARGEST_MADE]
+        return [(model, meshes.stream(options.data / file, *treated)) for model, file, *treated in ARCHIVE]
+    return [(None, meshes.made("scan", vertices)) for vertices, *_ in PAPER.values() if vertices < LARGEST_MADE]
 
 
 def main():
@@ -125,18 +128,19 @@ def main():
     options = parser.parse_args()
     meshes = Meshes(options.bin, options.out)
     rows = []
-    for stream in models(meshes, options):
+    for model, stream in models(meshes, options):
         vertices = meshes.info(stream)["vertices"]
-        model = nearest_model(vertices)
+        model = model or nearest_model(vertices)
         limit = PAPER[model][1][5] * 10**6
         numbers = options.out / "table3-numbers.json"
         arguments = (stream, meshes.handles(stream), "--threads", options.threads, "--repeats", 3 if vertices < 2e6 else 1,
                      "--json", numbers)
         try:
             meshes.run("benchmark_table3", *arguments, "--memory", limit)
-        except subprocess.CalledProcessError:  # where the limit is too low for a mesh of one's own
+        except subprocess.CalledProcessError:  # where the limit is too low for a mesh
+            limit = None
             meshes.run("benchmark_table3", *arguments)
-        rows.append({"model": model, **json.loads(numbers.read_text())})
+        rows.append({"model": model, "limit_bytes": limit, **json.loads(numbers.read_text())})
         numbers.unlink()
     results = {"machine": machine(), "rows": rows}
     (options.out / "table3.json").write_text(json.dumps(results, indent=2) + "\n")
