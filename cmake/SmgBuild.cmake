@@ -60,8 +60,8 @@ endfunction ()
 
 # smg_library(<target> <name> <public headers> OBJECTS <target> [STATIC_OBJECTS <target>]
 #   DEPENDENCIES <target>... [PUBLIC <target>...] [EXPORT <set>])
-# The shared library StreamingMultigrid::<name>, and <target>Static of the same objects, or others, for
-# tests and benchmarks, which use hidden symbols.
+# The shared library StreamingMultigrid::<name>, and <target>Static of the same objects, or of
+# STATIC_OBJECTS, for tests and benchmarks, which use hidden symbols.
 function (smg_library target name headers)
   cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS;STATIC_OBJECTS;EXPORT" "DEPENDENCIES;PUBLIC")
   if (NOT arg_STATIC_OBJECTS)

@@ -87,7 +87,7 @@ def main(smg, mesh, passes=4):
         print("| %d | %d | %s | %.2f | %.2f |" % (report["vertices"], report["passes"], what, *row))
     if is_killed:
         rest_cpu, rest_wall = rows[-1][1]
-        print("\nA checkpoint takes %.1f %% more CPU and %.0f MiB (%.0f bytes a vertex); the rest after pass %d "
+        print("\nA checkpoint takes %+.1f %% of CPU and %.0f MiB (%.0f bytes a vertex); the rest after pass %d "
               "takes %.0f %% of the CPU and %.0f %% of the time of a whole solve with a checkpoint." % (
                   100 * (kept_cpu / cpu - 1), size / 2**20, size / report["vertices"], reached,
                   100 * rest_cpu / kept_cpu, 100 * rest_wall / kept_wall))

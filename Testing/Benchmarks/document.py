@@ -16,7 +16,7 @@ import sys
 
 TREE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TREE / "Testing" / "Support"))
-from documented_tables import replace_tables  # noqa: E402
+from documented_tables import markdown, replace_tables  # noqa: E402
 
 KEPT = TREE / "Testing" / "Benchmarks" / "results"
 PAGES = (TREE / "README.md", TREE / "docs" / "performance.md")
@@ -37,11 +37,6 @@ SOLVERS = {
 }
 
 
-def table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
-
-
 def per_gib(vertices, size):
     """Millions of vertices."""
     millions = vertices / size * 2**30 / 1e6
@@ -54,13 +49,20 @@ class Tables:
     def __init__(self, folder):
         self.folder = folder
         self.used = {}  # files and their text
+        self.reading = {}  # those of the table that is made
 
     def read(self, name):
         """The text of a file, in which paths are names of files."""
-        if name not in self.used:
-            text = (self.folder / name).read_text(encoding="utf-8")
-            self.used[name] = re.sub(r'"/[^"]*/([^"/]+)"', r'"\1"', text)
-        return self.used[name]
+        text = (self.folder / name).read_text(encoding="utf-8")
+        if name.endswith(".json"):
+            numbers = json.loads(text)
+            if isinstance(numbers, dict):
+                numbers.pop("context", None)  # Google Benchmark's, of the host
+            text = json.dumps(numbers, indent=1) + "\n"
+        if not name.endswith(".svg"):
+            text = re.sub(r"(?<![\w.])(?:\.\.?)?(?:/[\w.+-]+)+/([\w.+-]+)", r"\1", text)
+        self.reading[name] = text
+        return text
 
     def json(self, name):
         return json.loads(self.read(f"{name}.json"))
@@ -68,13 +70,23 @@ class Tables:
     def text(self, name):
         """The text NAME of the page; None if what it needs has not been measured."""
         name, _, argument = name.partition(":")
+        self.reading = {}
         try:
             if name.endswith(".md"):
                 text = self.read(name)
-                return text if not argument else re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)[int(argument) - 1]
-            return getattr(self, name)(*[argument] * bool(argument))
-        except FileNotFoundError:
+                if argument:
+                    text = re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)[int(argument) - 1]
+                    text = re.sub(r"^\| ([\w-]+)\.vsm \| (\d+) \|", lambda cells: (
+                        f"| {MESHES.get(cells[1], cells[1])} | {int(cells[2]):,} |"), text, flags=re.MULTILINE)
+                for numbers in (f"{name[:-3]}.json", f"{name[:-3]}.svg"):
+                    if (self.folder / numbers).exists():
+                        self.read(numbers)
+            else:
+                text = getattr(self, name)(*[argument] * bool(argument))
+        except (FileNotFoundError, IndexError, KeyError):
             return None
+        self.used.update(self.reading)
+        return text
 
     def peers(self, mesh):
         """The solvers on a mesh."""
@@ -92,7 +104,7 @@ class Tables:
                          per_gib(vertices, result["peak_bytes"]),
                          {"smg": f"{cycles} V-cycles in {cycles + 1} passes", "cholmod": "direct"}.get(solver, cycles)])
         millions = f"{vertices / 1e6:.2f}M vertices"
-        return table([millions, "CPU us/vertex", "peak bytes/vertex", "million vertices per GiB", "iterations"], rows)
+        return markdown([millions, "CPU us/vertex", "peak bytes/vertex", "million vertices per GiB", "iterations"], rows)
 
     def preview(self, mesh):
         """Updates while a handle is dragged."""
@@ -101,10 +113,10 @@ class Tables:
         runs = {run["name"]: run for run in self.json(f"{mesh}-interactive")["benchmarks"]}
         rows = []
         for name, title in names.items():
-            times = [next((run["real_time"] for key, run in runs.items() if key.startswith(name) and key.endswith(weights)), None)
+            times = [next(run["real_time"] for key, run in runs.items() if key.startswith(name) and key.endswith(weights))
                      for weights in ("cotangent", "uniform")]
             rows.append([title, *(f"{time:.0f}" for time in times)])
-        return table(["update, ms", "cotangent weights", "uniform weights"], rows)
+        return markdown(["update, ms", "cotangent weights", "uniform weights"], rows)
 
     def convergence(self):
         """What holds V-cycles up."""
@@ -116,7 +128,7 @@ class Tables:
             return [MESHES.get(mesh["mesh"], mesh["mesh"]), f"{mesh['vertices']:,}", count(mesh["accelerated"]),
                     count(mesh["plain"]), f"{plain[-1] / plain[-2]:.2f}", f"{finest['two_grid']:.2f}",
                     f"{finest['v_cycle']:.2f}", f"{100 * mesh['slowest'][1]['share']:.0f} %"]
-        return table(["mesh", "vertices", "V-cycles", "without acceleration", "their last factor", "two-grid", "V",
+        return markdown(["mesh", "vertices", "V-cycles", "without acceleration", "their last factor", "two-grid", "V",
                       "the worst 100"], map(row, self.json("convergence")))
 
     def hypre(self):
@@ -133,7 +145,7 @@ class Tables:
                 row += [f"{hypre['iterations'] / 3:.0f}", f"{size}, {hypre['peak_bytes'] / vertices:.0f}",
                         f"{smg['cpu_total'] / hypre['cpu_total']:.2f}"]
             rows.append(row)
-        return table(["mesh", "vertices", "V-cycles of smg", "iterations of hypre, mean of three columns",
+        return markdown(["mesh", "vertices", "V-cycles of smg", "iterations of hypre, mean of three columns",
                       "memory, bytes per vertex", "CPU time of smg over hypre's"], rows)
 
     def schedule(self):
@@ -148,25 +160,23 @@ class Tables:
             rows.append(cells)
         rows.append(["any, if no stage waited for another", f"{surface['limit']:.2f}", "", "", "",
                      f"{solid['limit']:.2f}", "", "", ""])
-        return table(["threads", "surface, 2.8M vertices: solve", "first pass", "later passes", "measured",
+        return markdown(["threads", "surface, 2.8M vertices: solve", "first pass", "later passes", "measured",
                       "tetrahedra, 3.7M: solve", "first pass", "later passes", "measured"], rows)
 
     def convert(self):
         """A line for each mesh."""
-        found = [self.json(file.stem) for file in self.folder.glob("*-convert.json")]
-        if not found:
-            raise FileNotFoundError
         rows = []
-        for numbers in sorted(found, key=lambda numbers: numbers["results"][0]["vertices"]):
+        for mesh in ("head_mri_1m", "armadillo43k-x64", "head_tet336k-x64", "armadillo43k-x256"):
+            numbers = self.json(f"{mesh}-convert")
             result, in_core = numbers["results"][0], numbers["in_core"]
-            vertices, mesh = result["vertices"], pathlib.Path(numbers["mesh"]).stem
+            vertices = result["vertices"]
             quality = ", ".join(f"{result['quality'][key] / in_core[key]:.2f}" for key in ("span", "mean_window")) \
                 if in_core and "span" in in_core else ""
             rows.append([MESHES.get(mesh, mesh), f"{vertices:,}", f"{1e6 * result['cpu_seconds'] / vertices:.1f}",
                          f"{result['wall_seconds'] / result['cpu_seconds']:.2f}", f"{result['peak_bytes'] / 1e6:.0f} MB",
                          ", ".join(f"{result[f'scratch_bytes_{what}'] / vertices:.0f}" for what in ("written", "read", "peak")),
                          quality])
-        return table(["mesh", "vertices", "CPU us/vertex", "wall time over CPU", "resident memory",
+        return markdown(["mesh", "vertices", "CPU us/vertex", "wall time over CPU", "resident memory",
                       "bytes of scratch per vertex: written, read, largest", "span, mean window over breadth-first in core"],
                      rows)
 

@@ -46,7 +46,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 data=${SMG_TEST_DATA_DIR:+$(realpath "$SMG_TEST_DATA_DIR")}
-[ ! -d "$data/meshes" ] || data=$data/meshes
+[ -z "$data" ] || [ ! -d "$data/meshes" ] || data=$data/meshes
 [ -z "$quick" ] || data=
 python=/usr/bin/python3 # Debian's, for which matplotlib and ParaView's modules are installed
 plugin=$(ls "$here"/../../build/lib/paraview-*/plugins/StreamingMultigrid/StreamingMultigrid.so 2> /dev/null || true)
@@ -69,7 +69,9 @@ refined() {
   [ "$3" = ply ] || children=8
   name=$(basename "$1")
   name=$results/${name%.*}-x$((children ** $2)).$3
-  [ -e "$name" ] || "$bin/make_mesh" finer "$1" "$2" "$name" --shuffle >&2
+  if [ ! -e "$name" ]; then
+    "$bin/make_mesh" finer "$1" "$2" "$name.part.$3" --shuffle >&2 && mv "$name.part.$3" "$name" || return 1
+  fi
   echo "$name"
 }
 
@@ -284,16 +286,16 @@ arguments_of() {
   case $1 in
     solve) refined "$armadillo" 2 ply && refined "$armadillo" 3 ply ;;
     convergence | discretisation)
-      refined "$armadillo" 2 ply && refined "$head" 1 vtk && made gyroid 860000
-      printf '%s\n' "$data/dragon.ply" "$head" "$results/bunny_tet.vsm"
-      "$bin/smg" convert "$data/bunny_tet.mesh" "$results/bunny_tet.vsm" --cells tets --quiet
-      [ "$1" = convergence ] || refined "$armadillo" 3 ply
+      "$bin/smg" convert "$data/bunny_tet.mesh" "$results/bunny_tet.vsm" --cells tets --quiet >&2 &&
+        refined "$armadillo" 2 ply && refined "$head" 1 vtk && made gyroid 860000 &&
+        printf '%s\n' "$data/dragon.ply" "$head" "$results/bunny_tet.vsm" &&
+        { [ "$1" = convergence ] || refined "$armadillo" 3 ply; }
       ;;
     scaling) printf '%s\n' --to 12000000 --peers-to 100000 "$armadillo" "$head" ;;
     schedule) refined "$armadillo" 3 ply && refined "$head" 2 vtk ;;
     convert)
-      printf '%s\n' --memory 256 --orders bfs "$data/head_mri_1m.ply"
-      refined "$armadillo" 3 ply && refined "$armadillo" 4 ply && refined "$head" 2 vtk
+      printf '%s\n' --memory 256 --orders bfs "$data/head_mri_1m.ply" &&
+        refined "$armadillo" 3 ply && refined "$armadillo" 4 ply && refined "$head" 2 vtk
       ;;
     estimates) printf '%s\n' "$data"/{brain168k.vtk,head_tet336k.vtk,head_mri_1m.ply} ;;
     story)
@@ -308,13 +310,13 @@ arguments_of() {
   esac
 }
 
-# all.md says what was measured where, and how long each part took.
+# all.md says what was measured where, of which commit, and how long each part took.
 all_part() {
-  local lines arguments begin outcome failed=()
+  local lines arguments commit begin outcome failed=()
+  commit=$(git -C "$here" log -1 --format=%h 2> /dev/null || true)
   [ -n "$from" ] || {
     "$python" "$here/machine.py"
-    git -C "$here" log -1 --format='The programs are of the commit %h of %as.' 2> /dev/null || true
-    printf '\n| part | minutes |\n|---|---|\n'
+    printf '\n| part | commit | seconds |\n|---|---|---|\n'
   } > all.md
   for part in "${all_parts[@]}"; do
     [ "$part" != "$from" ] || from=
@@ -328,7 +330,7 @@ all_part() {
       bash "$here/parts.sh" "$bin" "$results" "$part" $quick "${arguments[@]}" && outcome=
     fi
     [ -z "$outcome" ] || failed+=("$part")
-    echo "| $part | $(((SECONDS - begin + 30) / 60)) $outcome |" >> all.md
+    echo "| $part | $commit | $((SECONDS - begin))${outcome:+ $outcome} |" >> all.md
   done
   cat all.md
   [ ${#failed[@]} -eq 0 ] || echo "These parts failed: ${failed[*]}" >&2

@@ -5,10 +5,10 @@
 # a .vsm is used unchanged; without one a part generates its own, with --quick tiny ones, which show
 # that the part works. The parts:
 #
-#   all       every part below, one after the other: all tables of docs/performance.md, with the meshes
-#             that these have, made of those in SMG_TEST_DATA_DIR, the unpacked archive of test meshes
-#             (takes hours, and 60 GB of disk); without that with the parts' own. all.md has the machine,
-#             the commit, and the time of each part.
+#   all       every part below, one after the other, with the meshes of docs/performance.md, made of those
+#             in SMG_TEST_DATA_DIR, the unpacked archive of test meshes (takes hours, and 60 GB of disk);
+#             without that with the parts' own. all.md has the machine, and of each part the commit and
+#             the time. Testing/Benchmarks/document.py puts the results into the documents.
 #               --from PART          leaves out what comes before it, to go on where a run was stopped
 #   solve     (default) the solver, hypre, PETSc and CHOLMOD, and the interactive deformation of
 #             each mesh's preview. Its own meshes: tori of 0.25 and 1 million vertices, a box of
@@ -28,8 +28,7 @@
 #             exponents of the growth.
 #               --to VERTICES        most vertices of a mesh (3000000)
 #               --peers-to VERTICES  most vertices of a mesh for the other solvers (1000000)
-#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices. The results
-#             shown in the README are in Testing/Benchmarks/results.
+#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices.
 #   table3    Table 3 of the paper: the deformation of meshes of the sizes of its models, out of core
 #             and in core, the paper's numbers beside ours; table3.md and .json. Its own meshes: with
 #             SMG_TEST_DATA_DIR of the archive (15 million vertices, 5 GB of memory), else bumpy surfaces
@@ -43,8 +42,8 @@
 #               --plugin FILE        StreamingMultigrid.so, for the picture
 #   kernels   nanoseconds per node of each kernel. Its own mesh: a torus of 0.25 million vertices.
 #   convergence  V-cycles with and without acceleration, the factors of a V-cycle and of two levels
-#             alone, by level, and at which vertices the slowest error sits; beside hypre's iterations. Its own meshes: a torus
-#             and a box of tetrahedra of 0.25 million vertices.
+#             alone, by level, and at which vertices the slowest error sits; beside hypre's iterations.
+#             Its own meshes: a torus and a box of tetrahedra of 0.25 million vertices.
 #   schedule  how much faster a solve becomes with more threads: a model from the times of its stages
 #             on one thread, for 1 to 64 threads. Its own meshes: a torus of 1 million vertices, and a
 #             box of tetrahedra of 0.25 million. Beside it, wall times with the cores of this machine.
@@ -68,8 +67,8 @@
 #   estimates what --dry-run says, and the truth. Meshes as for schedule.
 #   python    solves from arrays in Python.
 #               --vertices N         of a torus (1000000)
-#   checkpoint, distance, simplification, smoothing   the tables of docs/reliability.md, distance.md,
-#             simplify.md and smooth.md. Their own mesh: a torus of 0.25 million vertices; smoothing
+#   checkpoint, distance, simplification, smoothing   what docs/reliability.md, distance.md,
+#             simplify.md and smooth.md show. Their own mesh: a torus of 0.25 million vertices; smoothing
 #             and simplification need VTK's Python modules and .ply files.
 #
 # Scratch files go to TMPDIR, which should be a disk. To repeat a measurement: keep the machine

@@ -2,11 +2,16 @@
 """The results of scaling.py: exponents of the growth, Markdown tables and a plot."""
 import json
 import math
+import pathlib
+import sys
 
 import matplotlib
 
 matplotlib.use("svg")
 from matplotlib import pyplot  # noqa: E402
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
+from documented_tables import markdown  # noqa: E402
 
 MEBIBYTE = 1 << 20
 SOLVERS = {  # in the plot: colour and label
@@ -50,11 +55,6 @@ def growth(points):
 
 def mebibytes(value, digits=0):
     return f"{value / MEBIBYTE:.{digits}f}"
-
-
-def markdown(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines) + "\n"
 
 
 def streaming_table(series):
@@ -144,5 +144,5 @@ def write(out, numbers):
     (out / "scaling.json").write_text(json.dumps(numbers, indent=1) + "\n")
     (out / "scaling.md").write_text(
         f'Measured on {machine["processor"]}, {machine["cores"]} cores, {machine["memory_gib"]} '
-        f"GiB of memory:\n\n{streaming_table(series)}{growth_table(series)}{peer_table(series)}")
+        f"GiB of memory:\n\n{streaming_table(series)}\n{growth_table(series)}\n{peer_table(series)}")
     plot(series, out / "scaling.svg")

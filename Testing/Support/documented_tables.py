@@ -3,6 +3,12 @@
 import re
 
 
+def markdown(head, rows):
+    """A table in Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
 def replace_tables(page, tables):
     """Replaces the tables of a document by `tables`, Markdown by name; those of other names stay. Returns its text
     before and after, and writes nothing."""

@@ -88,7 +88,7 @@ format() {
 licence() {
   local found
   found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
-    xargs -r awk '
+    tr '\n' '\0' | xargs -r0 awk '
       FNR == 1 { if (NR > 1 && !is_licensed) print file; file = FILENAME; is_licensed = 0 }
       FNR <= 3 && /SPDX-License-Identifier: BSD-3-Clause/ { is_licensed = 1 }
       FNR == 4 { nextfile }
@@ -103,7 +103,7 @@ sizes() {
   [ -z "$found" ] || fail "files above 2 MB:
 $found"
   found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' | xargs -r awk '
-    FNR == 601 { print FILENAME ": 600 lines are allowed" }')
+    FNR == 601 { print FILENAME ": more than 600 lines" }')
   [ -z "$found" ] || fail "source files that are too long:
 $found"
   # As clang-format lays functions out: between a brace alone in a line and one below it, while
