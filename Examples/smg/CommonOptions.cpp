@@ -22,16 +22,23 @@
 namespace
 {
 
-/** Replaces a size with a unit by whole MiB; a plain number is in MiB. */
-std::string toMebibytes(std::string& text)
+/** Replaces a size with a unit, or a number of MiB, by its bytes. Returns what is wrong with it. */
+std::string toBytes(std::string& text)
 {
+  constexpr std::int64_t Most = std::int64_t(1) << 30; // MiB
   try
   {
     if (const std::optional<double> bytes = smg::bytesOf(text))
     {
-      text = std::to_string(static_cast<std::int64_t>(*bytes / (1 << 20)));
+      text = std::to_string(static_cast<std::int64_t>(*bytes));
+      return {};
     }
-    return {};
+    std::string error = CLI::Range(std::int64_t(1), Most)(text);
+    if (error.empty())
+    {
+      text = std::to_string(std::stoll(text) << 20);
+    }
+    return error;
   }
   catch (const smg::Error& error)
   {
@@ -44,7 +51,6 @@ std::string toMebibytes(std::string& text)
 void CommonOptions::addTo(
   CLI::App& command, const std::string& memoryDefault, const std::string& moreOnMemory)
 {
-  constexpr std::int64_t MaxMemory = std::int64_t(1) << 30;
   command
     .add_option("--report", this->report,
       "Write the report to this file: in JSON, or with the suffix .html as a page with figures and "
@@ -56,8 +62,7 @@ void CommonOptions::addTo(
       "to "
       "TB (of 1000)" +
         moreOnMemory)
-    ->check(CLI::Range(std::int64_t(1), MaxMemory))
-    ->transform(CLI::Validator(toMebibytes, ""))
+    ->transform(CLI::Validator(toBytes, ""))
     ->default_str(memoryDefault)
     ->type_name("MiB");
   command.add_option("--scratch", this->scratch, "Folder for scratch files")
@@ -69,13 +74,12 @@ void CommonOptions::addTo(
       "--scratch-limit",
       [this](std::int64_t limit)
       {
-        this->scratchLimit = limit << 20;
+        this->scratchLimit = limit;
         smg::ScratchAccount::process().setLimit(this->scratchLimit);
       },
       "Limit of the bytes of scratch files that exist at once, in MiB or with a unit; without it "
       "there is none")
-    ->check(CLI::Range(std::int64_t(1), MaxMemory))
-    ->transform(CLI::Validator(toMebibytes, ""))
+    ->transform(CLI::Validator(toBytes, ""))
     ->type_name("MiB");
   command.add_flag_callback(
     "--no-sync", [] { smg::FileDescriptor::setDurable(false); },

@@ -35,7 +35,7 @@ struct CommonOptions
 {
   InputOptions input;
   std::filesystem::path report;     ///< file for the report; empty: none
-  std::int64_t memory = 0;          ///< MiB; 0: the default of the operation
+  std::int64_t memory = 0;          ///< bytes; 0: the default of the operation
   int threads = 0;                  ///< 0: one per core
   std::filesystem::path scratch;    ///< empty: the system's temporary folder
   std::int64_t scratchLimit = 0;    ///< bytes of the scratch files at once; 0: none
@@ -83,7 +83,7 @@ struct CommonOptions
   /** The memory limit in bytes, or `fallback` if none was given. */
   std::int64_t memoryBytes(std::int64_t fallback) const
   {
-    return this->memory > 0 ? this->memory << 20 : fallback;
+    return this->memory > 0 ? this->memory : fallback;
   }
 
   /** Prints what the command is expected to cost, and which limits are below that. */

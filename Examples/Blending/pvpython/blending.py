@@ -15,7 +15,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython blending.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython blending.py --output .
 
 It writes bunny-blended.vsm, bunny-blended.json (the report) and bunny-blended.png.
 """

@@ -16,7 +16,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython deformation.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython deformation.py --output .
 
     34834 vertices, 69451 cells: converged in 11 passes, relative residual 8.7e-08
     bunny-deformed.vsm
@@ -28,7 +28,7 @@ Options select another mesh (--mesh), other handles (--handles), the viewing dir
 (--view, from the mesh to the eye; y points up) and its size (--size). For example the Stanford
 Armadillo, scaled to a box of about 1 x 1 x 1, with fixed feet, turned head and raised arm:
 
-    xvfb-run -a pvpython deformation.py --output . \\
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython deformation.py --output . \\
         --mesh armadillo.obj --handles ../armadillo.json --view 0.3 0.2 1 --size 1200 700
 """
 

@@ -13,7 +13,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython distances.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython distances.py --output .
 
 It writes bunny-distance.vsm, bunny-distance.json (the report) and bunny-distance.png.
 """

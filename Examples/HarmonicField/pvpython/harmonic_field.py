@@ -15,7 +15,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython harmonic_field.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython harmonic_field.py --output .
 
     34834 vertices, 69451 cells: converged after 6 cycles, relative residual 6.1e-09
     bunny-harmonic.png

@@ -16,7 +16,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython heat_conduction.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython heat_conduction.py --output .
 
     2116 vertices, 6822 cells: converged after 8 cycles, relative residual 7.2e-09
     peak: 67.8414 degrees at vertex 36 of the file

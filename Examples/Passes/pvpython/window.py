@@ -16,7 +16,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython window.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython window.py --output .
 
     34834 vertices, 4 levels in the passes
     bunny-window.png

@@ -14,7 +14,7 @@ What this lesson shows:
 
 Run it under a display, or under xvfb-run:
 
-    xvfb-run -a pvpython smoothing.py --output .
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython smoothing.py --output .
 
 It writes bunny-smooth.vsm, bunny-smooth.json (the report) and bunny-smooth.png.
 """
