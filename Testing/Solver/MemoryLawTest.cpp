@@ -44,7 +44,7 @@ TEST(MemoryLaw, TheErrorOfALowLimitNamesOneThatSuffices)
     for (const int threads : { 1, 4 })
     {
       options.threads = threads;
-      for (const std::int64_t percent : { 1, 50, 70 })
+      for (const std::int64_t percent : { 1, 25, 50, 60, 70 })
       {
         options.memoryLimit = need * percent / 100;
         const std::string sentence = messageOf([&] { solveMesh(mesh, problem, options); });
@@ -79,7 +79,7 @@ TEST(MemoryLaw, ALimitThatSufficesForTheFirstPassSufficesForAll)
     options.maxCycles = 4;
     options.acceleration = AccelerationKind::ConjugateGradients;
     Report last;
-    for (const int percent : { 103, 110, 120, 150, 200 })
+    for (const int percent : { 103, 106, 110, 114, 120, 130, 150, 200 })
     {
       options.memoryLimit = need * percent / 100;
       options.threads = 1;
