@@ -129,7 +129,7 @@ class Tables:
                     count(mesh["plain"]), f"{plain[-1] / plain[-2]:.2f}", f"{finest['two_grid']:.2f}",
                     f"{finest['v_cycle']:.2f}", f"{100 * mesh['slowest'][1]['share']:.0f} %"]
         return markdown(["mesh", "vertices", "V-cycles", "without acceleration", "their last factor", "two-grid", "V",
-                      "the worst 100"], map(row, self.json("convergence")))
+                         "the worst 100"], map(row, self.json("convergence")))
 
     def hypre(self):
         """V-cycles beside hypre's iterations."""
@@ -146,7 +146,7 @@ class Tables:
                         f"{smg['cpu_total'] / hypre['cpu_total']:.2f}"]
             rows.append(row)
         return markdown(["mesh", "vertices", "V-cycles of smg", "iterations of hypre, mean of three columns",
-                      "memory, bytes per vertex", "CPU time of smg over hypre's"], rows)
+                         "memory, bytes per vertex", "CPU time of smg over hypre's"], rows)
 
     def schedule(self):
         """The model of threads, and what this machine took."""
@@ -161,7 +161,7 @@ class Tables:
         rows.append(["any, if no stage waited for another", f"{surface['limit']:.2f}", "", "", "",
                      f"{solid['limit']:.2f}", "", "", ""])
         return markdown(["threads", "surface, 2.8M vertices: solve", "first pass", "later passes", "measured",
-                      "tetrahedra, 3.7M: solve", "first pass", "later passes", "measured"], rows)
+                         "tetrahedra, 3.7M: solve", "first pass", "later passes", "measured"], rows)
 
     def convert(self):
         """A line for each mesh."""
@@ -177,8 +177,8 @@ class Tables:
                          ", ".join(f"{result[f'scratch_bytes_{what}'] / vertices:.0f}" for what in ("written", "read", "peak")),
                          quality])
         return markdown(["mesh", "vertices", "CPU us/vertex", "wall time over CPU", "resident memory",
-                      "bytes of scratch per vertex: written, read, largest", "span, mean window over breadth-first in core"],
-                     rows)
+                         "bytes of scratch per vertex: written, read, largest", "span, mean window over breadth-first in core"],
+                        rows)
 
 
 def main():
