@@ -28,15 +28,15 @@ std::string toBytes(std::string& text)
   constexpr std::int64_t Most = std::int64_t(1) << 30; // MiB
   try
   {
-    if (const std::optional<double> bytes = smg::bytesOf(text))
-    {
-      text = std::to_string(static_cast<std::int64_t>(*bytes));
-      return {};
-    }
-    std::string error = CLI::Range(std::int64_t(1), Most)(text);
+    const std::optional<double> bytes = smg::bytesOf(text);
+    std::string mebibytes =
+      bytes ? std::to_string(static_cast<std::int64_t>(*bytes / (1 << 20))) : text;
+    std::string error = CLI::Range(std::int64_t(1), Most)(mebibytes);
     if (error.empty())
     {
-      text = std::to_string(std::stoll(text) << 20);
+      std::int64_t number = 0;
+      CLI::detail::lexical_cast(mebibytes, number);
+      text = std::to_string(bytes ? static_cast<std::int64_t>(*bytes) : number << 20);
     }
     return error;
   }

@@ -100,8 +100,10 @@ def test_errors():
     places = ("--from", '{"vertices": [0]}', "--quiet")
     for size in ("64", "64M", "64MiB", "0.1G", "0.1 GiB", "200MB", "1e5kb"):
         run("distance", "torus.obj", "out.vtp", *places, "--memory", size, "--scratch-limit", size)
+    run("distance", "torus.obj", "out.vtp", *places, "--memory", "20.5MB", "--dry-run", "--report", "dry.json")
+    assert load("dry.json")["memory_limit"] == 20_500_000  # not whole MiB
     os.remove("out.vtp")
-    for size, sentence in (("2X", "'2X' has another unit"), ("1K", "'1K' is not a size"), ("0", "range"),
+    for size, sentence in (("2000000T", "range"), ("2X", "'2X' has another unit"), ("1K", "'1K' is not a size"), ("0", "range"),
                            ("-3G", "'-3G' is not a size"), ("nanG", "'nanG' is not a size"), ("M", "M")):
         assert sentence in run("distance", "torus.obj", "out.vtp", *places, "--memory", size,
                                code=2).stderr
