@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Random/Doors.h"
 
-#include "Testing/Random/FilterDoor.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/SolveMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -159,28 +158,6 @@ std::filesystem::path convertedFile(const Case& given, const std::filesystem::pa
   conversion.scratch = folder;
   convert(folder / "mesh.vtk", folder / "mesh.vsm", conversion);
   return folder / "mesh.vsm";
-}
-
-Result solveFilter(const Case& given)
-{
-#ifdef SMG_RANDOM_FILTER
-  const TemporaryFolder folder;
-  const CaseRun& run = given.run;
-  // The filter refuses fluxes where a cell does not know its conductivity by itself.
-  nlohmann::json problem = given.problem;
-  problem.erase("outputs");
-  FilterResult result = solveByFilter({ convertedFile(given, folder.path()), folder.path(),
-    problem.dump(), given.vertices(), given.problem.value("columns", 1), run.pieces, run.threads,
-    run.sweeps, run.acceleration, run.inCore });
-  const auto json = nlohmann::json::parse(result.report);
-  Result found{ std::move(result.values), {} };
-  found.report.converged = json.at("converged");
-  found.report.acceleration = json.at("acceleration");
-  found.report.notes = json.at("notes").get<std::vector<std::string>>();
-  return found;
-#else
-  return solveInMemory(given, given.run);
-#endif
 }
 
 Result solveFile(const Case& given, StreamMesh& result)
