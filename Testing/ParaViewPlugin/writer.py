@@ -57,6 +57,13 @@ for name in ("whole.ply", "whole.vtp", "whole.vtkhdf", "whole.pvtp"):
         assert whole.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS, name
         assert name.endswith("ply") or array in whole.PointData.keys(), whole.PointData.keys()
         Delete(whole)
+# Formats of which ParaView has no writer, of the mesh of a preview and of one that is whole.
+for source, name, cells in (calculator, "whole.off", t.BUNNY_CELLS), (Sphere(), "sphere.off", 96):
+    SaveData(os.path.join(folder, name), proxy=source)
+    whole = StreamingMeshConverter(FileName=os.path.join(folder, name), OutputFileName=os.path.join(folder, "off.vsm"))
+    whole.UpdatePipeline()
+    assert whole.GetDataInformation().GetNumberOfCells() == cells, name
+    Delete(whole)
 # A preview that the user requested is saved as a preview.
 preview = StreamingMeshPreview(Input=calculator, PreviewPoints=10000)
 SaveData(os.path.join(folder, "preview.stl"), proxy=preview)
