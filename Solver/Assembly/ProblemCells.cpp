@@ -61,6 +61,8 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
     .points = this->Points,
     .weight = this->Weight,
     .measure = this->Measure,
+    .screening = {},
+    .source = {},
     .field = this->Field,
     .conductivity = this->Conductivity };
   for (std::size_t k = 0; k < Densities.size(); ++k)
