@@ -12,8 +12,10 @@
 #include "Solver/Multigrid/Setup/SliverRows.h"
 #include "smg/Problem.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -119,6 +121,8 @@ class InitialResidual
 public:
   explicit InitialResidual(int columns)
     : OfRow(static_cast<std::size_t>(columns))
+    , Least(OfRow.size(), std::numeric_limits<double>::infinity())
+    , Most(OfRow.size(), -std::numeric_limits<double>::infinity())
   {
   }
 
@@ -135,9 +139,12 @@ public:
   double squares() const { return this->Squares; }
   /** The sum of the squares of its terms b_i and A_ii x_i. */
   double termSquares() const { return this->TermSquares; }
+  /** The least and the largest initial value of each column. */
+  std::span<const double> least() const { return this->Least; }
+  std::span<const double> most() const { return this->Most; }
 
 private:
-  std::vector<double> OfRow;
+  std::vector<double> OfRow, Least, Most;
   double Squares = 0.0, TermSquares = 0.0;
 };
 
@@ -168,6 +175,9 @@ std::span<const double> InitialResidual::add(
       {
         squares += sum[k] * sum[k];
         termSquares += b[k] * b[k] + row.diagonal * row.diagonal * x[k] * x[k];
+        const auto column = static_cast<std::size_t>(k);
+        this->Least[column] = std::min(this->Least[column], x[k]);
+        this->Most[column] = std::max(this->Most[column], x[k]);
       }
     });
   this->Squares += share * share * squares;

@@ -26,10 +26,10 @@ namespace
 
 /**
  * Where the iteration begins if the description does not say: at the undeformed mesh if a Dirichlet
- * value is the position; in each column in the middle of the prescribed and ambient numbers if it
- * is farther from 0 than they are from each other; else at 0. The tolerance is a share of the
- * residual of the initial values: that of 0 grows with an offset of the values (temperatures in
- * kelvin), which is no difference that the solution has.
+ * value is the position; in each column in the middle of the prescribed and ambient numbers if they
+ * differ and it is farther from 0 than they are from each other (temperatures in kelvin), which
+ * saves the V-cycles that find a constant; else at 0, which is the mean of components without a
+ * condition.
  */
 class StartValues
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Cycle/Sweep.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
@@ -80,6 +81,10 @@ public:
     {
       this->Energy->startPass(first);
     }
+    if (this->Range)
+    {
+      this->Range->startPass();
+    }
     this->Window.startPass(first);
     if (this->Core)
     {
@@ -133,6 +138,8 @@ public:
   void setHistory(IterateHistory* history) { this->History = history; }
   /** On the finest level: sums the energies of the iterates there; null: it does not. */
   void setEnergy(IterateEnergy* energy) { this->Energy = energy; }
+  /** On the finest level: finds the range of the iterates there; null: it does not. */
+  void setRange(IterateRange* range) { this->Range = range; }
 
   /** The end of the nodes from `end` on whose x is final in the upward part, as seen by a stage
    * that `follows` it on the same thread, or does not. */
@@ -349,7 +356,7 @@ private:
   {
     Real* squares = this->Squares.data();
     return { this->Coarse->window().b(), this->Scale, squares, squares + this->lanes(),
-      this->History, this->Energy };
+      this->History, this->Energy, this->Range };
   }
   template <class Kernel>
   void forAll(State& state, const Kernel& kernel)
@@ -369,6 +376,7 @@ private:
   const LevelCursors* Fine = nullptr;
   IterateHistory* History = nullptr;
   IterateEnergy* Energy = nullptr;
+  IterateRange* Range = nullptr;
   Real Scale = 1;
   Real Unscale = 1;
   bool First = true;

@@ -3,6 +3,7 @@
 
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/Residual.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
 
@@ -54,7 +55,8 @@ struct Prolongation
  * Adds the squares of r to `squares` (a value per column) and, on the finest level, the squares of
  * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed. Both
  * are summed in node order, so the norm of the residual does not depend on windows or threads. The
- * history and the energy of the iterates, if there are some, get each residual, too.
+ * history and the energy of the iterates, if there are some, get each residual, too, and their
+ * range each unknown.
  */
 template <class Real>
 struct Restriction
@@ -64,6 +66,7 @@ struct Restriction
   Real *squares, *terms;
   IterateHistory* history;
   IterateEnergy* energy;
+  IterateRange* range;
 
   template <class Arrays, class Vectors>
   void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
@@ -102,6 +105,10 @@ private:
           {
             this->energy->template add<Vectors>(
               x, part.b + k * stride, residual, RowBlock::alphaOf(h, a, k), part.lane);
+          }
+          if (this->range)
+          {
+            this->range->template add<Vectors>(x, part.lane);
           }
         }
       }

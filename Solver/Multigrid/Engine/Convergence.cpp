@@ -49,14 +49,32 @@ std::string scientific(double value)
 Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
   : Fixed(stopping.cycles > 0)
   , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
+  , Tolerance(stopping.tolerance)
   , Rounding(first.rounding)
   , Reference(std::max(first.norm, first.rounding))
   , Goal(first.norm <= first.rounding ? first.rounding : stopping.tolerance * first.norm)
 {
 }
 
-void Convergence::begin(double norm, bool mayEnd)
+/** A share near 1 does not count: the goal is then that of the residual alone. Below the least goal
+ * rounding begins. A goal that is the rounding stays. */
+void Convergence::setGoal(double share)
 {
+  constexpr double Near = 0.1, Least = 1e-12;
+  if (this->Goal < this->Reference)
+  {
+    this->Goal = this->Reference *
+                 std::min(this->Tolerance,
+                   share < Near ? std::max(this->Tolerance * share, Least) : this->Tolerance);
+  }
+}
+
+void Convergence::begin(double norm, bool mayEnd, double share)
+{
+  if (norm <= this->Goal)
+  {
+    this->setGoal(share);
+  }
   this->Norm = norm;
   // The first sweeps may increase the residual; divergence is measured from the larger of both.
   this->FirstNorm = std::max(this->Reference, norm);
@@ -65,9 +83,10 @@ void Convergence::begin(double norm, bool mayEnd)
 
 /** Order matters: an overflow is an error even of the last V-cycle, divergence only if the goal
  * is not met, and a fixed number of V-cycles asks for neither tolerance nor patience. */
-void Convergence::add(double norm, double rounding)
+void Convergence::add(double norm, double rounding, double share)
 {
   this->Rounding = std::max(this->Rounding, rounding);
+  this->setGoal(share);
   const double relative = this->Reference > 0.0 ? norm / this->Reference : 0.0;
   this->NormBefore = this->Norm;
   this->Norm = norm;
@@ -100,8 +119,8 @@ void Convergence::add(double norm, double rounding)
   this->Done = this->Done || this->Converged;
 }
 
-/** Ends a solve that has not converged if it stagnates or has used up its V-cycles. Stagnation
- * at the rounding counts as convergence. */
+/** Ends a solve that has not reached its goal if it stagnates or has used up its V-cycles.
+ * Stagnation at the rounding counts as convergence, and so does a residual below the tolerance. */
 void Convergence::watch(double relative)
 {
   const bool rounding = this->Norm <= NearRounding * this->Rounding;
@@ -110,20 +129,33 @@ void Convergence::watch(double relative)
   const int n = this->cycles();
   const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
                                      : this->FirstNorm / this->Reference;
-  if (n > patience && relative > Stagnating * before)
+  const bool stagnates = n > patience && relative > Stagnating * before;
+  if (!stagnates && n < this->Limit)
   {
-    this->Done = true;
-    this->Converged = rounding;
-    this->Note =
-      rounding
-        ? "converged as far as the rounding of the numbers allows: the relative residual is " +
-            scientific(relative)
-        : "not converged: the relative residual stagnates at " + scientific(relative);
+    return;
   }
-  else if (n >= this->Limit)
+  this->Done = true;
+  this->Converged = (stagnates && rounding) || relative <= this->Tolerance;
+  const std::string residual = "the relative residual ";
+  if (stagnates && rounding)
   {
-    this->Done = true;
-    this->Note = "not converged: the relative residual is " + scientific(relative) + " after " +
+    this->Note = "converged as far as the rounding of the numbers allows: " + residual + "is " +
+                 scientific(relative);
+  }
+  else if (this->Converged)
+  {
+    this->Note = "converged, but the solution varies little beside its distance from the initial "
+                 "values, of which the tolerance is a share: initial values nearer to it make it "
+                 "more exact; " +
+                 residual + "is " + scientific(relative);
+  }
+  else if (stagnates)
+  {
+    this->Note = "not converged: " + residual + "stagnates at " + scientific(relative);
+  }
+  else
+  {
+    this->Note = "not converged: " + residual + "is " + scientific(relative) + " after " +
                  std::to_string(n) + " V-cycles, the most allowed";
   }
 }

@@ -32,7 +32,8 @@ struct FirstResidual
  * Follows the residual of a problem over the V-cycles and decides when to stop: at the tolerance,
  * at the limit of rounding, when it stagnates, at the largest number of V-cycles, or, with an
  * Error, when it diverges or overflows. The relative residual is ||b - A x|| / ||b - A x_0||, x_0
- * the initial values.
+ * the initial values. If the solution varies much less than it differs from these, the goal is
+ * smaller by as much (IterateRange).
  */
 class SMG_EXPORT Convergence
 {
@@ -42,12 +43,12 @@ public:
   Convergence(const Stopping& stopping, const FirstResidual& first);
 
   /** To be called before the first V-cycle, with the norm after the first sweeps. This may
-   * already end the solve, unless the right-hand side has changed since. */
-  void begin(double norm, bool mayEnd = true);
+   * already end the solve, unless the right-hand side has changed since. `share`: as for add(). */
+  void begin(double norm, bool mayEnd = true, double share = 1.0);
   /** To be called after a V-cycle; `rounding`: the part of the norm that is due to the rounding
-   * of its terms, if that is more than initially. Throws Error if the residual diverges or
-   * overflows. */
-  void add(double norm, double rounding = 0.0);
+   * of its terms, if that is more than initially; `share`: the range of the iterate over its
+   * distance from the initial values. Throws Error if the residual diverges or overflows. */
+  void add(double norm, double rounding = 0.0, double share = 1.0);
 
   /** The last V-cycle was enough, for another reason than its residual. */
   void end()
@@ -58,6 +59,8 @@ public:
 
   /** Whether a residual of this norm meets the tolerance. */
   bool meets(double norm) const { return norm <= this->Goal; }
+  /** The relative residual to reach. */
+  double goal() const { return this->Reference > 0.0 ? this->Goal / this->Reference : 1.0; }
   bool done() const { return this->Done; }
   bool converged() const { return this->Converged; }
   int cycles() const { return static_cast<int>(this->Residuals.size()); }
@@ -87,10 +90,12 @@ public:
   void addStep(Report& report, const std::string& name, const std::string& what) const;
 
 private:
+  void setGoal(double share);
   void watch(double relative);
 
   bool Fixed;
   int Limit;
+  double Tolerance;
   double Rounding, Reference, Goal;
   double FirstNorm = 0.0, NormBefore = 0.0, Norm = 0.0;
   std::vector<double> Residuals;

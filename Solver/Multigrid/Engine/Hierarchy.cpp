@@ -63,6 +63,7 @@ void Hierarchy::addFinestLevel()
   this->Built.finest = std::make_unique<FineLevel>(this->Run.pool, this->Run.resident, 0,
     this->Columns, this->Run.options.sweeps, this->Relaxation);
   this->finest().setEnergy(this->Run.energy ? &*this->Run.energy : nullptr);
+  this->finest().setRange(this->Run.range ? &*this->Run.range : nullptr);
   if (this->Run.scratch)
   {
     this->window().useScratch(*this->Run.scratch, this->Run.traffic);

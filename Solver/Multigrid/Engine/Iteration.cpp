@@ -32,7 +32,12 @@ void Iteration::operator()(bool spareLast)
       this->Run.plainPassPeak = this->Run.pool.recentPeak();
       this->Run.valueNodes = this->Levels.window().x().capacity();
     }
-    this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
+    this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
+      this->Run.range ? this->Run.range->share() : 1.0);
+    if (this->Run.range)
+    {
+      this->Run.progress.expect(this->StoppingRule.goal());
+    }
     if (this->Balance && this->Balance->add(this->Run.energy->value(),
                            this->StoppingRule.residuals().back(), this->StoppingRule.factor()))
     {

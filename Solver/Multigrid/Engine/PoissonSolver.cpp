@@ -23,6 +23,10 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     run.energy.emplace(problem.columns());
     balance.emplace([&] { return this->discretisation(problem); });
   }
+  else
+  {
+    run.range.emplace(problem.columns());
+  }
   constexpr double Least = 1e-13; // the tolerance if it is automatic
   const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
   run.progress.begin(
@@ -38,6 +42,10 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     {
       state(*run.energy, *balance);
     }
+    else
+    {
+      state(*run.range);
+    }
   };
   if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
   {
@@ -45,7 +53,8 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     convergence = Convergence(stopping, first);
     // The residual after the first sweeps does not count if the right-hand side was projected after
     // them.
-    convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0);
+    convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0,
+      run.range ? run.range->share() : 1.0);
     run.endPass(1.0);
   }
   iteration(false);

@@ -8,6 +8,7 @@
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "Solver/Multigrid/Engine/SolveProgress.h"
@@ -108,6 +109,7 @@ struct SMG_EXPORT SolveContext
   ComponentLabels labels;
   FreeComponents free;
   std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
+  std::optional<IterateRange> range;   ///< of the iterates, if the solve needs it
   StepThreads threads;
   Report report;
 

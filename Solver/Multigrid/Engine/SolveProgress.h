@@ -60,6 +60,13 @@ public:
     this->Overall.update(this->Start + (this->To - this->Start) * reached);
   }
 
+  /** The relative residual to reach, if that is not the tolerance. */
+  void expect(double goal)
+  {
+    this->LogTolerance =
+      this->LogTolerance == 0.0 || goal >= 1.0 ? this->LogTolerance : std::log(goal);
+  }
+
   /** V-cycle number `cycle` has ended with this relative residual. */
   void endCycle(int cycle, double residual)
   {

@@ -154,7 +154,8 @@ struct ProblemDescription
   /** Name of the cell column with q: 3 components for all columns, or 3 for each. Empty: q = 0. */
   std::string field;
   /** Where the iteration begins; the mean of u in components without a condition. Not given: the
-   * position if a value is that; the middle of numbers nearer to each other than to 0; else 0. */
+   * position if a value is that; the middle of numbers that differ, but are nearer to each other
+   * than to 0; else 0. */
   Datum initial;
   /** Prescribed u at vertices. Where several entries hold, the last one counts. */
   std::vector<PlacedValue> dirichlet;
