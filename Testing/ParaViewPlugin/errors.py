@@ -105,7 +105,8 @@ calculator.UpdatePipeline()
 # Every other writer that ParaView has for it is named in BigMeshWriter.xml.
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
 suffixes = re.findall(r"\*\.(\w+)", factory.GetSupportedFileTypes(calculator.SMProxy, 0))
-written = {"vsm", "sma", "smb", "sva", "svb", "ply", "obj", "stl", "vtk", "vtp", "vtu", "vtkhdf", "pvtp", "pvtu"}
+written = {"vsm", "sma", "smb", "sva", "svb", "ply", "obj", "off", "stl", "mesh", "msh", "node", "ele", "vtk", "vtp", "vtu", "vtkhdf",
+           "pvtp", "pvtu"}
 assert "stl" in suffixes and "csv" in suffixes, suffixes
 whole = os.path.join(folder, "whole.obj")
 SaveData(whole, proxy=calculator)

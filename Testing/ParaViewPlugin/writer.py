@@ -60,7 +60,7 @@ for name in ("whole.ply", "whole.vtp", "whole.vtkhdf", "whole.pvtp"):
 # Formats of which ParaView has no writer, of the mesh of a preview and of one that is whole.
 for source, name, cells in (calculator, "whole.off", t.BUNNY_CELLS), (Sphere(), "sphere.off", 96):
     SaveData(os.path.join(folder, name), proxy=source)
-    whole = StreamingMeshConverter(FileName=os.path.join(folder, name), OutputFileName=os.path.join(folder, "off.vsm"))
+    whole = StreamingMeshConverter(FileName=os.path.join(folder, name), OutputFileName=os.path.join(folder, name + ".vsm"))
     whole.UpdatePipeline()
     assert whole.GetDataInformation().GetNumberOfCells() == cells, name
     Delete(whole)
