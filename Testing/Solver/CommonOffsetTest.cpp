@@ -175,18 +175,24 @@ TEST(CommonOffset, LowersTheGoalAsFarAsNumbersGo)
 
 TEST(CommonOffset, NeverTakesConvergenceAway)
 {
-  Convergence convergence({ 1e-8, 3 }, { 1.0, 0.0 });
-  convergence.begin(0.5);
-  for (const double norm : { 1e-4, 1e-7, 1e-9 })
+  const std::vector<std::vector<double>> courses{ { 1e-4, 1e-7, 1e-9 }, { 1e-4, 9e-9, 1.1e-8 },
+    { 1e-4, 9e-9, 8.9e-9, 1.1e-8 } };
+  for (const std::vector<double>& norms : courses)
   {
-    EXPECT_FALSE(convergence.done());
-    convergence.add(norm, 0.0, 1e-3);
+    // At the most V-cycles, or as soon as it stagnates.
+    Convergence convergence({ 1e-8, norms.size() == 3 ? 3 : 50 }, { 1.0, 0.0 });
+    convergence.begin(0.5);
+    for (const double norm : norms)
+    {
+      EXPECT_FALSE(convergence.done());
+      convergence.add(norm, 0.0, 1e-3);
+    }
+    EXPECT_TRUE(convergence.done() && convergence.converged());
+    std::vector<std::string> notes;
+    convergence.addNotes(notes, "");
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes.front().find("initial values nearer to it"), std::string::npos);
   }
-  EXPECT_TRUE(convergence.done() && convergence.converged());
-  std::vector<std::string> notes;
-  convergence.addNotes(notes, "");
-  ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes.front().find("initial values nearer to it"), std::string::npos);
 }
 
 } // namespace smg::testing

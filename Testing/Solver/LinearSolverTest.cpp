@@ -165,6 +165,20 @@ TEST(LinearSolver, SolvesEquationsThatWereAssembledIndependently)
   }
 }
 
+TEST(LinearSolver, LowersItsGoalAsSolveDoes)
+{
+  const StreamMesh mesh = toStream(torus(90, 45, 0.3));
+  ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+  for (std::size_t i = 0; i < problem.Value.size(); ++i)
+  {
+    problem.Value[i] += problem.Prescribed[i / 3] ? 1e3 : 0.0;
+  }
+  ASSERT_LT(solveMesh(mesh, problem, inCore()).report.residual(), 1e-10);
+  MemorySource source(mesh);
+  LinearSolver solver(source, problem, inCore());
+  expectSame(solver, mesh, problem, 1e-8);
+}
+
 TEST(LinearSolver, MultipliesAsTheReportCountsResiduals)
 {
   for (const StreamMesh& mesh : solverMeshes())

@@ -122,6 +122,22 @@ TEST(SolveCheckpoint, AnAutomaticToleranceInPartsHasTheSameBits)
   expectSameInParts(mesh, problem, options);
 }
 
+TEST(SolveCheckpoint, ALoweredGoalInPartsHasTheSameBits)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = toStream(shuffled(torus(110, 60, 0.4)), TestOrder::BreadthFirst);
+  constexpr int Columns = 5;
+  ArrayProblem problem = heldEnds(mesh, Columns, Weights::Cotangent);
+  for (std::size_t i = 0; i < problem.Value.size(); ++i)
+  {
+    problem.Value[i] += problem.Prescribed[i / Columns] ? 1e3 : 0.0;
+  }
+  SolveOptions options = streamed(folder / "ck");
+  options.tolerance = 1e-8;
+  ASSERT_LT(withoutCheckpoint(mesh, problem, options).report.residual(), 1e-10);
+  expectSameInParts(mesh, problem, options);
+}
+
 TEST(SolveCheckpoint, NeedsWhatItIsOf)
 {
   const TemporaryFolder folder;

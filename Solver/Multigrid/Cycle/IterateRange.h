@@ -4,6 +4,7 @@
 #include "Solver/Core/SimdPack.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -65,7 +66,12 @@ public:
       const double range = this->Now.high[k] - this->Now.low[k];
       const double distance =
         std::max(this->Now.high[k] - this->First.low[k], this->First.high[k] - this->Now.low[k]);
-      share = range >= 0.0 && distance > range ? std::min(share, range / distance) : share;
+      // A column that begins at its solution differs from it by rounding.
+      const double rounding =
+        Rounding * std::max(std::fabs(this->Now.low[k]), std::fabs(this->Now.high[k]));
+      share = range >= 0.0 && distance > std::max(range, rounding)
+                ? std::min(share, range / distance)
+                : share;
     }
     return share;
   }
@@ -78,6 +84,8 @@ public:
   }
 
 private:
+  static constexpr double Rounding = 1e-13;
+
   struct Ranges
   {
     explicit Ranges(std::size_t columns)

@@ -19,7 +19,7 @@ namespace
 /** A residual above this multiple of the initial one does not recover. */
 constexpr double Diverged = 1e4;
 /** A residual stagnates if it is still above this share of its value some V-cycles ago: 60 at
- * most, 2 if it is of the size of the rounding of its terms. */
+ * most, 2 if it is of the size of the rounding of its terms, or has met the tolerance. */
 constexpr double Stagnating = 0.9;
 constexpr int Patience = 60, RoundingPatience = 2;
 /** Half of the allowed V-cycles if that is less than 60, but at least this many. */
@@ -120,12 +120,16 @@ void Convergence::add(double norm, double rounding, double share)
 }
 
 /** Ends a solve that has not reached its goal if it stagnates or has used up its V-cycles.
- * Stagnation at the rounding counts as convergence, and so does a residual below the tolerance. */
+ * Stagnation at the rounding counts as convergence, and so does a residual that met the tolerance.
+ */
 void Convergence::watch(double relative)
 {
   const bool rounding = this->Norm <= NearRounding * this->Rounding;
+  // Only the lowered goal is missing.
+  const bool isMet = std::ranges::any_of(
+    this->Residuals, [this](double residual) { return residual <= this->Tolerance; });
   const int patience =
-    rounding ? RoundingPatience : std::clamp(this->Limit / 2, MinPatience, Patience);
+    rounding || isMet ? RoundingPatience : std::clamp(this->Limit / 2, MinPatience, Patience);
   const int n = this->cycles();
   const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
                                      : this->FirstNorm / this->Reference;
@@ -135,7 +139,7 @@ void Convergence::watch(double relative)
     return;
   }
   this->Done = true;
-  this->Converged = (stagnates && rounding) || relative <= this->Tolerance;
+  this->Converged = (stagnates && rounding) || isMet;
   const std::string residual = "the relative residual ";
   if (stagnates && rounding)
   {

@@ -211,13 +211,17 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
   this->Run.keepReport();
-  const InitialResidual& residual = assembly.residual();
-  // Without any condition the iterates are determined but for a constant, which does not matter.
-  if (this->Run.range && r.free_components < r.components)
+  beginRange(this->Run, assembly.residual());
+  return residualOf(assembly.residual(), this->Run.components);
+}
+
+/** Without any condition the iterates are determined but for a constant, which does not matter. */
+void FirstPass::beginRange(SolveContext& run, const InitialResidual& residual)
+{
+  if (run.range && run.report.free_components < run.report.components)
   {
-    this->Run.range->begin(residual.least(), residual.most());
+    run.range->begin(residual.least(), residual.most());
   }
-  return residualOf(residual, this->Run.components);
 }
 
 FirstResidual FirstPass::residualOf(const InitialResidual& residual, const Components& components)

@@ -46,6 +46,8 @@ public:
   /** The residual of the initial values, whose right-hand side gets a mean of 0 where a component
    * is free. */
   static FirstResidual residualOf(const InitialResidual& residual, const Components& components);
+  /** Takes note of the initial values, if the range of the iterates is wanted. */
+  static void beginRange(SolveContext& run, const InitialResidual& residual);
   /** Makes the right-hand sides of free components sum to zero, after they were restricted. */
   static void projectRightSide(SolveContext& run, Hierarchy& hierarchy);
 

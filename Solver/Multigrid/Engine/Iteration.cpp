@@ -32,8 +32,8 @@ void Iteration::operator()(bool spareLast)
       this->Run.plainPassPeak = this->Run.pool.recentPeak();
       this->Run.valueNodes = this->Levels.window().x().capacity();
     }
-    this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
-      this->Run.range ? this->Run.range->share() : 1.0);
+    this->StoppingRule.add(
+      this->Levels.residualNorm(), this->Levels.roundingNorm(), this->Run.shareOfRange());
     if (this->Run.range)
     {
       this->Run.progress.expect(this->StoppingRule.goal());
@@ -160,6 +160,10 @@ void Iteration::load(StateReader& state)
   {
     this->emplaceHistory(this->ResidualStorage);
     state(*this->History);
+  }
+  if (this->Run.range)
+  {
+    this->Run.progress.expect(this->StoppingRule.goal());
   }
   this->Run.progress.repeat(this->StoppingRule.residuals());
 }

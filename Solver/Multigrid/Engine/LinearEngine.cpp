@@ -50,6 +50,7 @@ void LinearEngine::build(MeshSource& mesh, Problem& problem)
 {
   this->Run.beginReport();
   this->Run.progress.beginFirst();
+  this->Run.range.emplace(this->Columns);
   FirstPass(this->Run, this->Levels, this->Set)(mesh, problem, &this->Given);
   this->Run.finishReport();
   this->Run.progress.finish();
@@ -166,7 +167,8 @@ void LinearEngine::solve(const Group& group, const Stopping& stopping)
   Iteration iteration(this->Run, this->Levels, convergence);
   convergence = Convergence(stopping, this->begin());
   // As for a first pass: see PoissonSolver.
-  convergence.begin(this->Levels.residualNorm(), this->Run.components.incompatibility() == 0.0);
+  convergence.begin(this->Levels.residualNorm(), this->Run.components.incompatibility() == 0.0,
+    this->Run.shareOfRange());
   this->Run.endPass(1.0);
   iteration(false);
   Report& r = this->Run.report;
@@ -186,6 +188,7 @@ FirstResidual LinearEngine::begin()
   const InitialResidual residual = this->Given.residual(window, components, this->Run.labels);
   components.settle();
   checkSquares(residual.termSquares());
+  FirstPass::beginRange(this->Run, residual);
   Pass(this->Run, this->Levels).begin();
   FirstPass::projectRightSide(this->Run, this->Levels);
   return FirstPass::residualOf(residual, components);

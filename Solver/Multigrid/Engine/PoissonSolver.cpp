@@ -53,8 +53,8 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     convergence = Convergence(stopping, first);
     // The residual after the first sweeps does not count if the right-hand side was projected after
     // them.
-    convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0,
-      run.range ? run.range->share() : 1.0);
+    convergence.begin(
+      this->Levels.residualNorm(), run.components.incompatibility() == 0.0, run.shareOfRange());
     run.endPass(1.0);
   }
   iteration(false);

@@ -86,6 +86,9 @@ struct SMG_EXPORT SolveContext
     return error.expecting(this->expectedBytes);
   }
 
+  /** IterateRange::share() of the last pass; 1 if the solve does not need it. */
+  double shareOfRange() const { return this->range ? this->range->share() : 1.0; }
+
   SolveOptions options;
   SolveProgress progress;
   Pool pool;

@@ -91,7 +91,7 @@ struct SolveOptions
   int sweeps = 2;
   /** The solve stops when ||b - A x|| <= tolerance * ||b - A x_0||, x_0 being the initial values.
    * Where the solution varies by less than a tenth of its distance from these, as temperatures in
-   * kelvin do from 0, solve() lowers the tolerance by as much, to 1e-12 at least. Between 0 and 1,
+   * kelvin do from 0, a solve lowers the tolerance by as much, to 1e-12 at least. Between 0 and 1,
    * both excluded, or AutomaticTolerance. At 1e-8 a solution agrees with that of a direct solver to
    * the digits of a float. */
   double tolerance = 1e-8;
