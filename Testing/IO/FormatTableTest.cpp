@@ -105,7 +105,9 @@ TEST(FormatTable, ParaViewOffersItsFormats)
 {
   const auto isOwn = [](const Format& format) { return format.kind != MeshFileKind::Indexed; };
   EXPECT_EQ(suffixesOfProxy("StreamingMeshReader.xml", "ReaderFactory"), suffixesWhere(isOwn));
-  EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), suffixesWhere(isOwn));
+  std::set<std::string> alone = suffixesWhere(isOwn);
+  alone.insert({ ".off", ".mesh", ".msh", ".node", ".ele" }); // of which ParaView has no writer
+  EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), alone);
   // Only one file of TetGen is opened; .hdf may be anything; ParaView reads the pieces.
   std::set<std::string> parsed = suffixesWhere([](const Format& format) { return format.parse; });
   std::set<std::string> offered = suffixesOfProxy("StreamingMeshConverter.xml", "ReaderFactory");
