@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """document.py [RESULTS] : writes what run.sh measured into the documents.
 
-RESULTS is the folder of its results (build-benchmarks/results), of which a part may be missing. In README.md and
-docs/performance.md the tables between the lines `<!-- NAME -->` and `<!-- end -->` are replaced; NAME is that of a method
-of Tables or of a .md file of RESULTS, with `:N` its Nth table. The files that were used are copied to
+RESULTS is the folder of its results (build-benchmarks/results), of which a part may be missing. In README.md,
+docs/performance.md and docs/paper.md the tables between the lines `<!-- NAME -->` and `<!-- end -->` are replaced; NAME is
+that of a method of Tables or of a .md file of RESULTS, with `:N` its Nth table. The files that were used are copied to
 Testing/Benchmarks/results, without the paths of the machine. With --check, the documents must have what the files there
 say.
 """
@@ -19,7 +19,7 @@ sys.path.insert(0, str(TREE / "Testing" / "Support"))
 from documented_tables import markdown, replace_tables  # noqa: E402
 
 KEPT = TREE / "Testing" / "Benchmarks" / "results"
-PAGES = (TREE / "README.md", TREE / "docs" / "performance.md")
+PAGES = (TREE / "README.md", TREE / "docs" / "performance.md", TREE / "docs" / "paper.md")
 MESHES = {
     "armadillo43k-x16": "armadillo43k, refined twice",
     "armadillo43k-x64": "armadillo43k, refined three times",

@@ -9,7 +9,7 @@ mkdir -p "$2"
 results=$(realpath "$2")
 shift 2
 all_parts=(solve convergence discretisation scaling schedule convert estimates python kernels roofline
-  checkpoint distance simplification smoothing story table3 headline largest)
+  checkpoint distance simplification smoothing story table3 headline largest orders)
 part=solve
 if [[ " all ${all_parts[*]} " == *" ${1:-solve} "* ]]; then
   part=${1:-solve}
@@ -259,6 +259,11 @@ distance_part() {
   "$python" "$here/distance.py" "$bin/smg" "$vertex" "${meshes[@]}" | tee "$results/distance.md"
 }
 
+orders_part() {
+  [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 250000 ply)")
+  "$python" "$here/orders.py" "$bin/smg" "$results" "${meshes[@]}" | tee "$results/orders.md"
+}
+
 # has_modules NAME... : whether Python has them; says so if not
 has_modules() {
   "$python" -c "import $*" 2> /dev/null || {
@@ -307,6 +312,7 @@ arguments_of() {
     simplification) printf '%s\n' "$data"/{dragon,head_mri_1m}.ply ;;
     smoothing) refined "$armadillo" 2 ply && echo "$data/dragon.ply" ;;
     largest) printf '%s\n' "$armadillo" ;;
+    orders) printf '%s\n' "$data"/{dragon.ply,brain168k.vtk,head_mri_1m.ply,head_tet336k.vtk} ;;
   esac
 }
 

@@ -64,6 +64,8 @@
 #   largest   a solve of MESH, refined 6 times, within 256 MiB: 177 million vertices of the Armadillo.
 #             Its own mesh: a torus of 40 thousand vertices, refined 4 times.
 #               --times N            refinements (6)
+#   orders    what stream orders and sweeps cost a solve, for docs/paper.md. Its own mesh: a torus of 0.25
+#             million vertices.
 #   estimates what --dry-run says, and the truth. Meshes as for schedule.
 #   python    solves from arrays in Python.
 #               --vertices N         of a torus (1000000)
