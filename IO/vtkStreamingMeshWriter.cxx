@@ -16,16 +16,20 @@
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
+#include "smg/MeshSource.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
+#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataSet.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -143,18 +147,33 @@ Notes writeThroughContainer(const Job& job)
   return notes;
 }
 
+/** Writes in the original order of the container that `makeContainer` writes, in the first half of
+ * the work. */
+template <class MakeContainer>
+Notes restoreOrderOf(const Job& job, smg::CellType cells, MakeContainer&& makeContainer)
+{
+  smg::checkRestoredPath(job.path, cells);
+  smg::Workspace workspace(std::filesystem::absolute(job.path).parent_path(),
+    smg::ConversionOptions::DefaultMemory, job.part(0.5, 1.0));
+  const std::filesystem::path container = workspace.folder() / "mesh.vsm";
+  Notes notes = makeContainer(container);
+  workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+  const Notes more = smg::writeRestored(container, job.path, workspace);
+  notes.insert(notes.end(), more.begin(), more.end());
+  return notes;
+}
+
 /** Writes in the order of the original file. */
 Notes writeInOriginalOrder(const Job& job)
 {
-  smg::Workspace workspace(std::filesystem::absolute(job.path).parent_path(),
-    smg::ConversionOptions::DefaultMemory, job.part(0.5, 1.0));
   smg::PieceStream stream = job.stream();
-  smg::checkRestoredPath(job.path, stream.info().cellType);
-  const std::filesystem::path container = workspace.folder() / "mesh.vsm";
-  smg::Progress half(job.part(0.0, 0.5));
-  smg::writeContainer(stream, container, true, half, job.isolatedFrom());
-  workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-  return smg::writeRestored(container, job.path, workspace);
+  return restoreOrderOf(job, stream.info().cellType,
+    [&](const std::filesystem::path& container)
+    {
+      smg::Progress half(job.part(0.0, 0.5));
+      smg::writeContainer(stream, container, true, half, job.isolatedFrom());
+      return Notes();
+    });
 }
 
 Notes writeIndexedPieces(const Job& job)
@@ -165,7 +184,18 @@ Notes writeIndexedPieces(const Job& job)
   return notes;
 }
 
-/** Writes a mesh of any other source that fits into memory: sorts it like `smg convert`. */
+/** The mesh without the places that its points and cells have in the file of another mesh. */
+vtkSmartPointer<vtkPointSet> withoutOriginalPlaces(vtkPointSet& mesh)
+{
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
+  copy->ShallowCopy(&mesh);
+  copy->GetPointData()->RemoveArray(smg::OriginalIdName);
+  copy->GetCellData()->RemoveArray(smg::OriginalCellIdName);
+  return copy;
+}
+
+/** Writes a mesh of any other source that fits into memory: sorts it like `smg convert`, or in its
+ * own order, if that is asked for or could not be told from the sorted file. */
 Notes writeOrdinary(const Job& job, bool restoreOrder)
 {
   auto* mesh = vtkPointSet::SafeDownCast(job.input.update(0, 1, false));
@@ -177,11 +207,22 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
       "MaximumPointsInMemory, or, to save what is shown, put a Streaming Mesh Preview before "
       "them.");
   }
-  smg::ConversionOptions options;
-  options.scratch = std::filesystem::absolute(job.path).parent_path();
-  options.restoreOrder = restoreOrder;
-  options.progress = job.part(0.0, 1.0);
-  return smg::writeOrdinaryMesh(*mesh, job.path, options).notes;
+  const auto sortTo = [&job](vtkPointSet& ordinary, const std::filesystem::path& path, double share)
+  {
+    smg::ConversionOptions options;
+    options.scratch = std::filesystem::absolute(job.path).parent_path();
+    options.progress = job.part(0.0, share);
+    return smg::writeOrdinaryMesh(ordinary, path, options).notes;
+  };
+  const bool forgetsOrder = smg::suffixFor(smg::FormatUse::Restore, job.path) &&
+                            !smg::suffixFor(smg::FormatUse::RestoreColumns, job.path);
+  if (!restoreOrder && !forgetsOrder)
+  {
+    return sortTo(*mesh, job.path, 1.0);
+  }
+  return restoreOrderOf(job, smg::ordinaryMeshInfo(*mesh).cellType,
+    [&](const std::filesystem::path& container)
+    { return sortTo(*withoutOriginalPlaces(*mesh), container, 0.5); });
 }
 
 using WriteFunction = Notes (*)(const Job& job);

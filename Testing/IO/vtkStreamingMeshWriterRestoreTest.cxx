@@ -9,7 +9,17 @@
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkElevationFilter.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <utility>
 
 namespace smg::testing
 {
@@ -134,6 +144,57 @@ TEST_F(VtkStreamingMeshWriterRestore, TakesIsolatedPointsFromTheStreamThatIsName
   ASSERT_TRUE(this->write("out.ply"));
   EXPECT_EQ(importWhole(this->Folder / "out.ply").positions, mesh.positions);
   EXPECT_EQ(this->Folder.entries(), 3);
+}
+
+/** A surface whose arrays hold the places that its points and cells have in another file. */
+vtkSmartPointer<vtkPolyData> surfaceFromElsewhere(const IndexedTestMesh& mesh)
+{
+  const auto surface = vtkSmartPointer<vtkPolyData>::New();
+  const vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+  {
+    points->InsertNextPoint(&mesh.positions[i]);
+  }
+  const vtkNew<vtkCellArray> triangles;
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+  {
+    triangles->InsertNextCell({ mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2] });
+  }
+  surface->SetPoints(points);
+  surface->SetPolys(triangles);
+  const auto placesOf = [](const char* name, vtkIdType count)
+  {
+    const auto places = vtkSmartPointer<vtkIdTypeArray>::New();
+    places->SetName(name);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      places->InsertNextValue(2 * (count - i));
+    }
+    return places;
+  };
+  surface->GetPointData()->AddArray(placesOf(OriginalIdName, surface->GetNumberOfPoints()));
+  surface->GetCellData()->AddArray(placesOf(OriginalCellIdName, surface->GetNumberOfCells()));
+  return surface;
+}
+
+/** Where no array of the file could tell it, unasked. */
+TEST_F(VtkStreamingMeshWriterRestore, KeepsTheOrderOfAMeshThatIsNoStream)
+{
+  const IndexedTestMesh mesh = shuffled(torus(40, 30, 0.1));
+  this->Writer->SetInputData(surfaceFromElsewhere(mesh));
+  this->Writer->SetNumberOfStreamedPieces(0);
+  const std::pair<const char*, bool> files[] = { { "out.ply", true }, { "out.vtp", true },
+    { "out.vtk", true }, { "out.off", true }, { "out.off", false }, { "out.obj", false },
+    { "out.mesh", false }, { "out.msh", false }, { "out.node", false } };
+  for (const auto& [name, isAsked] : files)
+  {
+    this->Writer->SetRestoreOrder(isAsked);
+    ASSERT_TRUE(this->write(name)) << name;
+    const ReadMesh back = importWhole(this->Folder / name);
+    EXPECT_EQ(back.positions, mesh.positions) << name;
+    EXPECT_EQ(back.corners, mesh.corners) << name;
+  }
 }
 
 TEST_F(VtkStreamingMeshWriterRestore, RefusesWhatHasNoOrderToRestore)
