@@ -195,7 +195,7 @@ vtkSmartPointer<vtkPointSet> withoutOriginalPlaces(vtkPointSet& mesh)
 }
 
 /** Writes a mesh of any other source that fits into memory: sorts it like `smg convert`, or in its
- * own order, if that is asked for or could not be told from the sorted file. */
+ * own order, if that is asked for, or the format could have it but has no place for OriginalId. */
 Notes writeOrdinary(const Job& job, bool restoreOrder)
 {
   auto* mesh = vtkPointSet::SafeDownCast(job.input.update(0, 1, false));
@@ -220,7 +220,12 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
   {
     return sortTo(*mesh, job.path, 1.0);
   }
-  return restoreOrderOf(job, smg::ordinaryMeshInfo(*mesh).cellType,
+  const smg::CellType cells = smg::ordinaryMeshInfo(*mesh).cellType;
+  if (!restoreOrder)
+  {
+    smg::checkOutput(job.path, cells); // whose error names the formats of all orders
+  }
+  return restoreOrderOf(job, cells,
     [&](const std::filesystem::path& container)
     { return sortTo(*withoutOriginalPlaces(*mesh), container, 0.5); });
 }

@@ -18,9 +18,10 @@
  * memory (with RestoreOrder at most 256 MiB). The input must fulfil the piece contract described at
  * vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not numbered
  * by first use, are rejected. A mesh of any other source, whose points have no GlobalIds, is taken
- * from memory as a whole and sorted as by smg::convert(); in formats without places for the array
- * OriginalId it is written in its own order. The writer always requests real pieces, not previews.
- * The file is renamed when it is complete; after an error or an abort no new file is left.
+ * from memory as a whole and sorted as by smg::convert(); as .obj, .off, .stl, .mesh, .msh, and
+ * .node with .ele, which have no place for the array OriginalId, in its own order. The writer
+ * always requests real pieces, not previews. The file is renamed when it is complete; after an
+ * error or an abort no new file is left.
  *
  * With several processes, process 0 writes and the others wait for it.
  *
@@ -57,8 +58,8 @@ public:
    * Whether to restore the order of vertices and cells of the original mesh file, according to the
    * arrays OriginalId and OriginalCellId: a PLY file is written as the same PLY file with moved
    * points. A mesh of any other source is written in its own order, without these arrays. For .ply,
-   * .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh and .ele files; see smg::writeRestored. Takes
-   * at most 256 MiB of memory. Default: off.
+   * .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh, .node and .ele files; see smg::writeRestored.
+   * Takes at most 256 MiB of memory. Default: off.
    */
   vtkSetMacro(RestoreOrder, bool);
   vtkGetMacro(RestoreOrder, bool);

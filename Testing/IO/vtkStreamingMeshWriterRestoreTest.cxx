@@ -9,17 +9,16 @@
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkElevationFilter.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
 
-#include <cstdint>
-#include <utility>
+#include <vector>
 
 namespace smg::testing
 {
@@ -146,55 +145,77 @@ TEST_F(VtkStreamingMeshWriterRestore, TakesIsolatedPointsFromTheStreamThatIsName
   EXPECT_EQ(this->Folder.entries(), 3);
 }
 
-/** A surface whose arrays hold the places that its points and cells have in another file. */
-vtkSmartPointer<vtkPolyData> surfaceFromElsewhere(const IndexedTestMesh& mesh)
+/** A mesh whose arrays hold the places that its points and cells have in another file. */
+vtkSmartPointer<vtkUnstructuredGrid> meshFromElsewhere(const IndexedTestMesh& mesh)
 {
-  const auto surface = vtkSmartPointer<vtkPolyData>::New();
   const vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
   {
     points->InsertNextPoint(&mesh.positions[i]);
   }
-  const vtkNew<vtkCellArray> triangles;
-  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+  const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(points);
+  const bool isSolid = mesh.cellType == CellType::Tetrahedron;
+  const std::vector<vtkIdType> corners(mesh.corners.begin(), mesh.corners.end());
+  const int count = cornersOf(mesh.cellType);
+  for (std::size_t i = 0; i < corners.size(); i += static_cast<std::size_t>(count))
   {
-    triangles->InsertNextCell({ mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2] });
+    grid->InsertNextCell(isSolid ? VTK_TETRA : VTK_TRIANGLE, count, &corners[i]);
   }
-  surface->SetPoints(points);
-  surface->SetPolys(triangles);
-  const auto placesOf = [](const char* name, vtkIdType count)
+  const auto placesOf = [](const char* name, vtkIdType tuples)
   {
     const auto places = vtkSmartPointer<vtkIdTypeArray>::New();
     places->SetName(name);
-    for (vtkIdType i = 0; i < count; ++i)
+    for (vtkIdType i = 0; i < tuples; ++i)
     {
-      places->InsertNextValue(2 * (count - i));
+      places->InsertNextValue(2 * (tuples - i));
     }
     return places;
   };
-  surface->GetPointData()->AddArray(placesOf(OriginalIdName, surface->GetNumberOfPoints()));
-  surface->GetCellData()->AddArray(placesOf(OriginalCellIdName, surface->GetNumberOfCells()));
-  return surface;
+  grid->GetPointData()->AddArray(placesOf(OriginalIdName, grid->GetNumberOfPoints()));
+  grid->GetCellData()->AddArray(placesOf(OriginalCellIdName, grid->GetNumberOfCells()));
+  return grid;
 }
 
 /** Where no array of the file could tell it, unasked. */
 TEST_F(VtkStreamingMeshWriterRestore, KeepsTheOrderOfAMeshThatIsNoStream)
 {
-  const IndexedTestMesh mesh = shuffled(torus(40, 30, 0.1));
-  this->Writer->SetInputData(surfaceFromElsewhere(mesh));
-  this->Writer->SetNumberOfStreamedPieces(0);
-  const std::pair<const char*, bool> files[] = { { "out.ply", true }, { "out.vtp", true },
-    { "out.vtk", true }, { "out.off", true }, { "out.off", false }, { "out.obj", false },
-    { "out.mesh", false }, { "out.msh", false }, { "out.node", false } };
-  for (const auto& [name, isAsked] : files)
+  const auto expectKept = [this](const IndexedTestMesh& mesh, const char* name, bool isAsked)
   {
+    this->Writer->SetInputData(meshFromElsewhere(mesh));
     this->Writer->SetRestoreOrder(isAsked);
     ASSERT_TRUE(this->write(name)) << name;
     const ReadMesh back = importWhole(this->Folder / name);
     EXPECT_EQ(back.positions, mesh.positions) << name;
     EXPECT_EQ(back.corners, mesh.corners) << name;
+  };
+  for (const IndexedTestMesh& mesh : { shuffled(torus(40, 30, 0.1)), gridWithIsolatedPoints() })
+  {
+    for (const char* name : { "out.ply", "out.vtp", "out.vtk", "out.off" })
+    {
+      expectKept(mesh, name, true);
+    }
+    for (const char* name : { "out.off", "out.obj", "out.mesh", "out.msh", "out.node" })
+    {
+      expectKept(mesh, name, false);
+    }
   }
+  const IndexedTestMesh solid = shuffled(tetBox(5, 6, 7, 0.1));
+  expectKept(solid, "out.vtu", true);
+  for (const char* name : { "out.mesh", "out.msh", "out.node" })
+  {
+    expectKept(solid, name, false);
+  }
+}
+
+TEST_F(VtkStreamingMeshWriterRestore, NamesAllFormatsForASolidThatIsNoStream)
+{
+  this->Writer->SetInputData(meshFromElsewhere(tetBox(3, 3, 3, 0.1)));
+  const Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.off"));
+  EXPECT_TRUE(errors.contain(".vsm")) << errors.text();
+  EXPECT_EQ(this->Folder.entries(), 0);
 }
 
 TEST_F(VtkStreamingMeshWriterRestore, RefusesWhatHasNoOrderToRestore)

@@ -64,6 +64,11 @@ for source, name, cells in (calculator, "whole.off", t.BUNNY_CELLS), (Sphere(), 
     whole.UpdatePipeline()
     assert whole.GetDataInformation().GetNumberOfCells() == cells, name
     Delete(whole)
+# Nothing in the file could tell another order than that of the sphere.
+points = servermanager.Fetch(Sphere()).GetPoints()
+with open(os.path.join(folder, "sphere.off"), encoding="ascii") as file:
+    lines = [line.split() for line in file][2:2 + points.GetNumberOfPoints()]
+assert all(abs(float(line[k]) - points.GetPoint(i)[k]) < 1e-6 for i, line in enumerate(lines) for k in range(3)), lines[:3]
 # A preview that the user requested is saved as a preview.
 preview = StreamingMeshPreview(Input=calculator, PreviewPoints=10000)
 SaveData(os.path.join(folder, "preview.stl"), proxy=preview)
