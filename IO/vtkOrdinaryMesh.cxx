@@ -7,6 +7,7 @@
 #include "IO/vtkPieceStream.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
+#include "smg/MeshSource.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -258,6 +259,15 @@ StreamInfo ordinaryMeshInfo(vtkPointSet& mesh)
   }
   info.vertexColumns = columnSpecs(*mesh.GetPointData());
   return info;
+}
+
+vtkSmartPointer<vtkPointSet> withoutOriginalNumbers(vtkPointSet& mesh)
+{
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
+  copy->ShallowCopy(&mesh);
+  copy->GetPointData()->RemoveArray(OriginalIdName);
+  copy->GetCellData()->RemoveArray(OriginalCellIdName);
+  return copy;
 }
 
 ConversionReport writeOrdinaryMesh(

@@ -5,6 +5,8 @@
 
 #include "smg/Convert.h"
 
+#include "vtkSmartPointer.h"
+
 #include <filesystem>
 
 class vtkDataObject;
@@ -28,6 +30,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT CellChoice countingCells(vtkPointSet& mesh);
 /** The mesh that writeOrdinaryMesh() makes, before it is made, as far as the counts of points and
  * cells and the arrays of the points tell; no width and span. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo ordinaryMeshInfo(vtkPointSet& mesh);
+
+/** The mesh without the arrays of original numbers, which would be taken for those of its own
+ * points and cells. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkPointSet> withoutOriginalNumbers(
+  vtkPointSet& mesh);
 
 /** Writes a whole mesh in memory with its arrays, of solids and surfaces the solids: VTK writes it
  * to a file in the scratch folder, and convert() converts that. Throws like convert(), and Error if

@@ -16,20 +16,16 @@
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
-#include "smg/MeshSource.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
-#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataSet.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -184,16 +180,6 @@ Notes writeIndexedPieces(const Job& job)
   return notes;
 }
 
-/** The mesh without the places that its points and cells have in the file of another mesh. */
-vtkSmartPointer<vtkPointSet> withoutOriginalPlaces(vtkPointSet& mesh)
-{
-  const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
-  copy->ShallowCopy(&mesh);
-  copy->GetPointData()->RemoveArray(smg::OriginalIdName);
-  copy->GetCellData()->RemoveArray(smg::OriginalCellIdName);
-  return copy;
-}
-
 /** Writes a mesh of any other source that fits into memory: sorts it like `smg convert`, or in its
  * own order, if that is asked for, or the format could have it but has no place for OriginalId. */
 Notes writeOrdinary(const Job& job, bool restoreOrder)
@@ -227,7 +213,7 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
   }
   return restoreOrderOf(job, cells,
     [&](const std::filesystem::path& container)
-    { return sortTo(*withoutOriginalPlaces(*mesh), container, 0.5); });
+    { return sortTo(*smg::withoutOriginalNumbers(*mesh), container, 0.5); });
 }
 
 using WriteFunction = Notes (*)(const Job& job);

@@ -9,10 +9,7 @@
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
-#include "vtkCellData.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -216,18 +213,14 @@ void StreamedSolve::solveOn(
 ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const PieceReading& reading,
   const std::filesystem::path& container, Progress& progress)
 {
-  // Its own numbers would be taken for those of the points.
-  const auto plain = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
-  plain->ShallowCopy(&mesh);
-  plain->GetPointData()->RemoveArray(OriginalIdName);
-  plain->GetCellData()->RemoveArray(OriginalCellIdName);
   ConversionOptions options;
   options.memoryLimit = std::max(reading.memory, MinConversionMemory);
   options.scratch = this->Scratch->path();
   options.threads = reading.threads;
   options.codec = Codec::Lz4;
   options.progress = functionOf(progress);
-  const ConversionReport report = writeOrdinaryMesh(*plain, container, options);
+  const ConversionReport report =
+    writeOrdinaryMesh(*withoutOriginalNumbers(mesh), container, options);
 
   this->VertexOfPoint.assign(static_cast<std::size_t>(mesh.GetNumberOfPoints()), -1);
   VsmReader reader(container);
