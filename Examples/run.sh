@@ -14,11 +14,9 @@ smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}"
 rest=(-DSMG_BUILD_X86_64_V3=ON -DSMG_BUILD_PYTHON=ON)
 unfinished=build/without-the-rest
 if [ ! -e build/build.ninja ]; then
-  launcher=()
-  ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   mkdir -p build
   touch "$unfinished"
-  smg_say_so cmake --preset examples "${launcher[@]}" "${rest[@]/%ON/OFF}"
+  smg_say_so cmake --preset examples "${rest[@]/%ON/OFF}"
 fi
 smg_say_so cmake --build build --target StreamingMultigrid
 

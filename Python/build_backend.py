@@ -105,8 +105,6 @@ def _build(settings):
         options += ["-DSMG_BUILD_%s=OFF" % part for part in ("VTK", "EXAMPLES", "TESTING")]
         options += ["-DSMG_USE_HYPRE=OFF", "-DCMAKE_BUILD_TYPE=Release"]
         options += ["-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=24"]
-        if shutil.which("ccache"):
-            options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
         _run("cmake", "-S", _TREE, "-B", folder, *options)
     _run("cmake", "--build", folder, "--target", "smgC", "smgVtkHdf", "--parallel", *settings.get("jobs", "").split())
     return folder

@@ -35,11 +35,9 @@ data=${SMG_TEST_DATA_DIR:-}
 # configure_build PRESET
 configure_build() {
   echo "== $1: configure, build ($(date +%T))"
-  local launcher=()
-  ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   local options=(-DSMG_TEST_DATA_DIR="$data")
   [ "$1" != release ] || options+=(-DSMG_BUILD_BENCHMARKS=ON) # their packages are installed
-  cmake --preset "$1" "${launcher[@]}" "${options[@]}"
+  cmake --preset "$1" "${options[@]}"
   cmake --build --preset "$1" --parallel "$jobs"
 }
 

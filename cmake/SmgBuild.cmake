@@ -19,6 +19,16 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 # The folder below /usr that Python on Debian searches, independent of the library folder.
 set(SMG_PYTHON_DIR "lib/python3/dist-packages")
 
+# What was compiled before, in this folder or in another clone, is taken from the cache of ccache: paths
+# inside the tree are made relative, also those of __FILE__ and of the debug information.
+find_program(SMG_CCACHE ccache DOC "ccache; empty: every source is compiled")
+if (SMG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros "${SMG_CCACHE}")
+  set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
+endif ()
+add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=")
+
 add_compile_options(-Wall -Wextra)
 if (CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # g++ 12 reports false overlaps and uninitialised parts inside std::string (GCC bugs 105329, 105593).

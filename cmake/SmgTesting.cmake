@@ -65,9 +65,6 @@ function (smg_add_gtest name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;LIBRARIES")
   add_executable(${name} ${arg_SOURCES} "${PROJECT_SOURCE_DIR}/Testing/Support/TestMain.cpp")
   target_link_libraries(${name} PRIVATE smgTesting ${arg_LIBRARIES} GTest::gtest)
-  target_compile_definitions(${name} PRIVATE
-    SMG_TEST_DATA_DIR="${smg_test_data}"
-    SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # Names in more sources than these need not differ.
   set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
   # Tests are compiled more often than they run; the libraries are optimized as they are used.

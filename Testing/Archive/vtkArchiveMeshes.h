@@ -4,6 +4,7 @@
 #include "Testing/Support/Refinement.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestFolders.h"
 #include "smg/Convert.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace smg::testing
 {
 
 /** The folder of the archive's meshes; empty if there is none. */
-inline const std::filesystem::path Archive = SMG_TEST_DATA_DIR;
+inline const std::filesystem::path Archive = archiveFolder();
 
 /** The mesh in breadth-first order. */
 inline StreamMesh archiveMesh(const std::string& name)

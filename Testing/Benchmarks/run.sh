@@ -81,9 +81,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source cmake/packages.sh
 smg_install "${smg_build_packages[@]}" "${smg_benchmark_packages[@]}"
 
-launcher=()
-! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake --preset benchmarks "${launcher[@]}" > /dev/null
+cmake --preset benchmarks > /dev/null
 cmake --build --preset benchmarks
 top=$PWD
 cd "$here"

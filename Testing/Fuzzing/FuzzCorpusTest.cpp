@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/FuzzTargets.h"
+#include "Testing/Support/TestFolders.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ struct Seed
 std::vector<Seed> corpusOf(const FuzzTarget& target)
 {
   const auto folder =
-    std::filesystem::path(SMG_SOURCE_DIR) / "Testing" / "Fuzzing" / "corpus" / target.name;
+    sourceFolder() / "Testing" / "Fuzzing" / "corpus" / target.name;
   std::vector<Seed> corpus;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
   {

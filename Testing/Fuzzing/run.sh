@@ -21,9 +21,7 @@ shift || true
 source cmake/packages.sh
 smg_install "${smg_build_packages[@]}" "${smg_fuzzing_packages[@]}"
 
-launcher=()
-! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake --preset fuzzers "${launcher[@]}" > /dev/null
+cmake --preset fuzzers > /dev/null
 cmake --build --preset fuzzers
 
 export build=$PWD/build-fuzzers corpora=$PWD/Testing/Fuzzing/corpus

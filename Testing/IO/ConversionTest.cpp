@@ -8,6 +8,7 @@
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestFolders.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
@@ -424,7 +425,7 @@ TEST_F(Conversion, OpenMeshConvertsWhatIsNoStreamFile)
 
 TEST(ConversionData, OddScansAreCounted)
 {
-  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  const std::filesystem::path folder = archiveFolder();
   if (folder.empty())
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/FormatTable.h"
+#include "Testing/Support/TestFolders.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ namespace
 
 std::string textOf(const std::string& file)
 {
-  std::ifstream stream(std::string(SMG_SOURCE_DIR) + '/' + file);
+  std::ifstream stream(sourceFolder() / file);
   EXPECT_TRUE(stream) << file;
   return { std::istreambuf_iterator<char>(stream), {} };
 }

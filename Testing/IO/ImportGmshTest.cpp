@@ -2,6 +2,7 @@
 #include "Testing/IO/GmshWriter.h"
 #include "Testing/IO/VolumeImport.h"
 #include "Testing/Support/ColumnValues.h"
+#include "Testing/Support/TestFolders.h"
 
 #include <algorithm>
 #include <array>
@@ -372,7 +373,7 @@ TEST_F(ImportGmsh, DamagedFilesAreRefusedOrValid)
 
 TEST_F(ImportGmsh, ArchiveMeshHasItsCounts)
 {
-  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  const std::filesystem::path folder = archiveFolder();
   if (folder.empty())
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";

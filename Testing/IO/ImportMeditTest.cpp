@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/VolumeImport.h"
+#include "Testing/Support/TestFolders.h"
 
 namespace smg::testing
 {
@@ -144,7 +145,7 @@ TEST_F(ImportMedit, DamagedFilesAreRefusedOrValid)
 
 TEST_F(ImportMedit, ArchiveMeshHasItsCounts)
 {
-  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  const std::filesystem::path folder = archiveFolder();
   if (folder.empty())
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";

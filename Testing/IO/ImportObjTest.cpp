@@ -2,6 +2,7 @@
 #include "IO/Files/InputFile.h"
 #include "Testing/IO/ImportFixture.h"
 #include "Testing/Support/ColumnValues.h"
+#include "Testing/Support/TestFolders.h"
 
 namespace smg::testing
 {
@@ -115,7 +116,7 @@ TEST_F(ImportObj, DamageIsFound)
 
 TEST(ImportObjData, ArchiveMeshHasItsCounts)
 {
-  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  const std::filesystem::path folder = archiveFolder();
   if (folder.empty())
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";

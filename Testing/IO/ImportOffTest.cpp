@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/ImportFixture.h"
 #include "Testing/Support/ColumnValues.h"
+#include "Testing/Support/TestFolders.h"
 
 #include <limits>
 
@@ -215,7 +216,7 @@ TEST_F(ImportOff, ErrorsOfBinaryFilesNameTheByte)
 
 TEST(ImportOffData, ArchiveMeshHasItsCounts)
 {
-  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  const std::filesystem::path folder = archiveFolder();
   if (folder.empty())
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
 #include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/TestFolders.h"
 
 #include <array>
 
@@ -323,7 +324,7 @@ TEST_F(ImportPly, DamageIsFound)
 
 TEST(ImportPlyData, ArchiveMeshesHaveTheirCounts)
 {
-  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  const std::filesystem::path folder = archiveFolder();
   if (folder.empty())
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";

@@ -6,6 +6,7 @@
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestFolders.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
@@ -148,7 +149,7 @@ TEST(MeshFile, FoldersThatCannotBeWrittenToAreRefused)
 TEST(MeshFile, FilesAreReadAsThemselvesUnderEverySuffix)
 {
   const TemporaryFolder folder;
-  const auto corpus = std::filesystem::path(SMG_SOURCE_DIR) / "Testing" / "Fuzzing" / "corpus";
+  const auto corpus = sourceFolder() / "Testing" / "Fuzzing" / "corpus";
   for (const char* format :
     { "gmsh", "medit", "obj", "off", "ply", "stl", "stream", "vsm", "vtk", "vtu" })
   {

@@ -5,6 +5,7 @@
 #include "Testing/Support/Refinement.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestFolders.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
@@ -18,7 +19,7 @@ namespace smg::testing
 namespace
 {
 
-const std::filesystem::path Archive = SMG_TEST_DATA_DIR;
+const std::filesystem::path Archive = archiveFolder();
 
 /** A mesh of the archive, and the allowed ratios of its order to a breadth-first order in core. */
 struct Bound

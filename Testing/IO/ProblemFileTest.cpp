@@ -6,6 +6,7 @@
 #include "Testing/IO/RegionFileFixture.h"
 #include "Testing/Support/DescribedMesh.h"
 #include "Testing/Support/SolveMesh.h"
+#include "Testing/Support/TestFolders.h"
 #include "smg/DescribedProblem.h"
 
 #include <set>
@@ -49,7 +50,7 @@ protected:
 /** Objects of the schema `docs/problem.schema.json`. */
 nlohmann::json schema()
 {
-  return readJsonFile(SMG_SOURCE_DIR "/docs/problem.schema.json");
+  return readJsonFile(sourceFolder() / "docs/problem.schema.json");
 }
 
 std::set<std::string> keysOf(const nlohmann::json& properties)

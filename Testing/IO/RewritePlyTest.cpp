@@ -7,6 +7,7 @@
 #include "Testing/IO/ShiftedSource.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/Support/RawMeshReading.h"
+#include "Testing/Support/TestFolders.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
@@ -185,7 +186,7 @@ TEST_F(RewritePly, RefusesAnotherMeshAndLeavesNothing)
 
 TEST_F(RewritePly, KeepsTheOrderOfTheScansOfTheArchive)
 {
-  const std::filesystem::path data = SMG_TEST_DATA_DIR;
+  const std::filesystem::path data = archiveFolder();
   if (data.empty() || !std::filesystem::exists(data / "bunny.ply"))
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR names no folder with the scans";

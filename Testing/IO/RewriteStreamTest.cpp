@@ -7,6 +7,7 @@
 #include "Testing/IO/StreamFormatsSamples.h"
 #include "Testing/IO/WriteStream.h"
 #include "Testing/Support/Combinations.h"
+#include "Testing/Support/TestFolders.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -197,8 +198,8 @@ TEST_F(RewriteStream, MayWriteInPlace)
 
 TEST_F(RewriteStream, KeepsTheOrderOfTheSamplesOfTheArchive)
 {
-  const std::filesystem::path samples = std::filesystem::path(SMG_TEST_DATA_DIR) / "streaming";
-  if (std::string(SMG_TEST_DATA_DIR).empty() || !std::filesystem::exists(samples))
+  const std::filesystem::path samples = archiveFolder() / "streaming";
+  if (archiveFolder().empty() || !std::filesystem::exists(samples))
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR names no folder with the samples";
   }

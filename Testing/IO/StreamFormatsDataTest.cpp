@@ -2,6 +2,7 @@
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/StreamFormatsFixture.h"
+#include "Testing/Support/TestFolders.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +20,8 @@ class StreamFormatsData : public StreamFormats
 protected:
   void SetUp() override
   {
-    this->Samples = std::filesystem::path(SMG_TEST_DATA_DIR) / "streaming";
-    if (std::string(SMG_TEST_DATA_DIR).empty() || !std::filesystem::exists(this->Samples))
+    this->Samples = archiveFolder() / "streaming";
+    if (archiveFolder().empty() || !std::filesystem::exists(this->Samples))
     {
       GTEST_SKIP() << "SMG_TEST_DATA_DIR names no folder with the samples";
     }

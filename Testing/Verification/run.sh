@@ -13,9 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source cmake/packages.sh
 smg_install "${smg_build_packages[@]}" "${smg_verification_packages[@]}"
 
-launcher=()
-! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake --preset benchmarks "${launcher[@]}" > /dev/null
+cmake --preset benchmarks > /dev/null
 cmake --build --preset benchmarks --target smg benchmark_peers
 bin=$PWD/build-benchmarks/bin
 results=$PWD/build-benchmarks/verification
