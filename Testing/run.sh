@@ -2,20 +2,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests on a Debian 12 or 13 machine (as root, or as a user with sudo). By default the first
 # of these configurations; continuous integration runs the first four:
-#   main        build/             ParaView's VTK, plugin, Python, benchmarks on tiny meshes; all tests
-#                                  except the long ones; unity build: names in unnamed namespaces must
-#                                  differ
+#   main        build/             ParaView's VTK, plugin, Python; all tests but those of the other
+#                                  configurations and the long ones; unity build: names in unnamed
+#                                  namespaces must differ
+#   lint        build/             format, layers, sizes, licences and documentation of the source
 #   vtk         build-vtk/         Debian's standalone VTK, on the libraries Solver and IOCore of build/; the
 #                                  tests that use VTK; unity build; with assertions
 #   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; unity build; with
 #                                  assertions
-#   lint        build/             format, layers, sizes, licences and documentation of the source
+#   benchmarks  build/             the benchmarks on tiny meshes
+#   nightly     build/             what main leaves out since it takes long and seldom fails: the tests of the
+#                                  VTK classes on ParaView's VTK, and of more numbers of processes
 #   debug       build-debug/       main without a unity build, where each source must include what it uses;
 #                                  with assertions; for daily work
 #   tsan        build-tsan/        Solver, IO and smg without VTK, under ThreadSanitizer; unity build; for a
 #                                  run every night
-# The tests themselves are built for few seconds of compilation: without full optimization.
-# Stops at the first failing configuration, with the summary of ctest as its last lines.
+# The tests themselves are built for few seconds of compilation: without full optimization. Compilers'
+# output is kept by ccache, for clones in other folders as well.
+# Stops at the first failing configuration. The last lines say where the time went: the longest tests, the sum
+# of each label, the compilation of each target (Testing/times.py).
 #
 #   run.sh random [--cases N] [--first SEED] [--job JOB] [--door DOOR] [--keep FOLDER]
 # runs N random cases of the main configuration instead: see Testing/Random/Check.h.
@@ -31,22 +36,56 @@ source cmake/packages.sh
 jobs=${SMG_JOBS:-$(nproc)}
 data=${SMG_TEST_DATA_DIR:-}
 [ -z "$data" ] || data=$(realpath "$data")
+configurations=${SMG_CONFIGURATIONS:-main}
 
-# configure_build PRESET
+# configure PRESET [OPTION...]
+configure() {
+  cmake --preset "$1" -DSMG_TEST_DATA_DIR="$data" "${@:2}"
+}
+
+# configure_build PRESET [OPTION...]
 configure_build() {
   echo "== $1: configure, build ($(date +%T))"
-  local options=(-DSMG_TEST_DATA_DIR="$data")
-  [ "$1" != release ] || options+=(-DSMG_BUILD_BENCHMARKS=ON) # their packages are installed
-  cmake --preset "$1" "${options[@]}"
+  configure "$@"
   cmake --build --preset "$1" --parallel "$jobs"
 }
 
-# configure_build_test PRESET
-configure_build_test() {
-  configure_build "$1"
+# The libraries and programs of main, built once a run.
+build_main() {
+  [ -n "${main_is_built:-}" ] || configure_build release
+  main_is_built=1
+}
+
+# run_tests PRESET [ARGUMENT OF CTEST...]
+run_tests() {
   echo "== $1: test ($(date +%T))"
   # One more than cores, since the tests of windows and of processes wait more than they compute.
-  ctest --preset "$1" --parallel "$((jobs + 1))"
+  ctest --preset "$1" --parallel "$((jobs + 1))" --output-junit tests.xml "${@:2}"
+}
+
+# The programs under sanitizers are compiled while the tests of main leave processors idle. What fails, or is
+# not finished then, their own configuration compiles again.
+ahead=
+begin_sanitizers() {
+  if [[ " $configurations " == *" asan-ubsan "* ]]; then
+    configure asan-ubsan > /dev/null
+    nice -n 15 ninja -C build-asan-ubsan -j 1 > build-asan-ubsan/ahead.log 2>&1 &
+    ahead=$!
+  fi
+}
+end_sanitizers() {
+  if [ -n "$ahead" ]; then
+    kill "$ahead" 2> /dev/null || true
+    wait "$ahead" || true
+    ahead=
+  fi
+}
+
+finish() {
+  local status=$?
+  end_sanitizers
+  python3 Testing/times.py "$SECONDS" build build-vtk build-asan-ubsan build-debug build-tsan || true
+  exit "$status"
 }
 
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" "${smg_test_packages[@]}"
@@ -54,19 +93,41 @@ if [ "${1:-}" = random ]; then
   configure_build release
   exec build/bin/vtk_random_problems "${@:2}"
 fi
-for configuration in ${SMG_CONFIGURATIONS:-main}; do
+trap finish EXIT
+for configuration in $configurations; do
   case $configuration in
-    main) configure_build_test release ;;
+    main)
+      build_main
+      begin_sanitizers
+      run_tests release
+      ;;
     vtk)
-      configure_build release
+      build_main
       bash cmake/vtk-prefix.sh build-vtk/vtk
-      configure_build_test vtk
+      configure_build vtk
+      run_tests vtk
       ;;
     lint)
-      configure_build release
+      build_main
       ctest --test-dir build --label-regex '^lint$' --output-on-failure --no-tests=error
       ;;
-    asan-ubsan | debug | tsan) configure_build_test "$configuration" ;;
+    benchmarks)
+      configure_build release -DSMG_BUILD_BENCHMARKS=ON
+      run_tests benchmarks
+      ;;
+    nightly)
+      configure_build release -DSMG_BUILD_VTK_TESTS=ON
+      run_tests nightly
+      ;;
+    asan-ubsan)
+      end_sanitizers
+      configure_build asan-ubsan
+      run_tests asan-ubsan
+      ;;
+    debug | tsan)
+      configure_build "$configuration"
+      run_tests "$configuration"
+      ;;
     *)
       echo "SMG_CONFIGURATIONS: there is no configuration $configuration" >&2
       exit 2

@@ -29,6 +29,12 @@ if (SMG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif ()
 add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=")
 
+# Programs of tests link the libraries statically: LLD takes a fraction of the time.
+find_program(SMG_LLD ld.lld DOC "LLD; empty: the linker of the compiler")
+if (SMG_LLD AND SMG_BUILD_TESTING)
+  add_link_options(-fuse-ld=lld)
+endif ()
+
 add_compile_options(-Wall -Wextra)
 if (CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # g++ 12 reports false overlaps and uninitialised parts inside std::string (GCC bugs 105329, 105593).

@@ -32,17 +32,28 @@ function (smg_on_processes variable processes)
   set(${variable} ${command} PARENT_SCOPE)
 endfunction ()
 
+# smg_share_of_processors(<variable> <processes>)
+# Processes of one program wait for each other for most of their time: two of them leave room for another test.
+function (smg_share_of_processors variable processes)
+  set(share 1)
+  if (processes GREATER 1)
+    set(share 2)
+  endif ()
+  set(${variable} ${share} PARENT_SCOPE)
+endfunction ()
+
 # smg_add_processes_test(<program> LABELS <label>... PROCESSES <number>...)
 # Adds runs of a GoogleTest program on several processes, one for each number of them.
 function (smg_add_processes_test program)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;PROCESSES")
   foreach (processes IN LISTS arg_PROCESSES)
     set(name ${program}.on${processes})
+    smg_share_of_processors(share ${processes})
     smg_on_processes(command ${processes} $<TARGET_FILE:${program}>)
     add_test(NAME ${name} COMMAND ${command})
     set_tests_properties(${name} PROPERTIES
       ENVIRONMENT "${smg_mpi_environment}"
-      PROCESSORS ${processes}
+      PROCESSORS ${share}
       LABELS "${arg_LABELS}"
       SKIP_REGULAR_EXPRESSION "SKIPPED:"
       TIMEOUT 9000)
@@ -53,14 +64,18 @@ endfunction ()
 # and optimization half of it.
 set(smg_test_options)
 set(smg_test_optimization $<$<CONFIG:Release>:-O1>)
+set(smg_suite_timeout 600)
+if (SMG_SANITIZE)
+  set(smg_suite_timeout 1800)
+endif ()
 if (SMG_SANITIZE MATCHES undefined)
   set(smg_test_options -fno-sanitize=alignment)
   set(smg_test_optimization -O0)
 endif ()
 
 # smg_add_gtest(<name> LABELS <label>... SOURCES <file>... LIBRARIES <target>...)
-# One GoogleTest program. Suites whose name ends in Data get the label data and more time, those
-# whose name ends in Law the label law, and those whose name ends in Long the label long.
+# One GoogleTest program, and a test for each of its suites. Those whose name ends in Data get the label data,
+# those whose name ends in Law the label law, and those whose name ends in Long the label long.
 function (smg_add_gtest name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;LIBRARIES")
   add_executable(${name} ${arg_SOURCES} "${PROJECT_SOURCE_DIR}/Testing/Support/TestMain.cpp")
@@ -69,45 +84,18 @@ function (smg_add_gtest name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
   # Tests are compiled more often than they run; the libraries are optimized as they are used.
   target_compile_options(${name} PRIVATE ${smg_test_optimization} ${smg_test_options})
-  if (SMG_SANITIZE)
-    smg_add_shards(${name} "${arg_LABELS}")
-  else ()
-    smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 1200 "${arg_LABELS}")
-  endif ()
-  smg_discover(${name} "*Law.*" 1200 "${arg_LABELS};law")
-  smg_discover(${name} "*Data.*" 3000 "${arg_LABELS};data")
-  smg_discover(${name} "*Long.*" 3600 "${arg_LABELS};data;long")
-endfunction ()
 
-# The quick tests of a program in eight runs: with sanitizers, the start of a program takes as long
-# as many a test.
-function (smg_add_shards name labels)
-  foreach (shard RANGE 7)
-    add_test(NAME ${name}.shard${shard}
-      COMMAND ${name} "--gtest_filter=-*Data.*:*Law.*:*Long.*" --gtest_brief=1)
-    set_tests_properties(${name}.shard${shard} PROPERTIES
-      ENVIRONMENT "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${shard}"
-      LABELS "${labels}"
-      TIMEOUT 9000)
-  endforeach ()
-endfunction ()
-
-function (smg_discover name filter timeout labels)
-  string(MAKE_C_IDENTIFIER "${name}_${labels}" list)
-  gtest_discover_tests(${name}
-    TEST_PREFIX "${name}."
-    TEST_FILTER "${filter}"
-    TEST_LIST ${list}
-    DISCOVERY_MODE PRE_TEST
-    DISCOVERY_TIMEOUT 600
-    PROPERTIES TIMEOUT ${timeout})
-  # gtest_discover_tests splits a list of labels: they are set in a file that ctest includes.
-  set(file "${CMAKE_CURRENT_BINARY_DIR}/${list}.cmake")
-  file(WRITE "${file}" "foreach (test IN LISTS ${list})
-  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${labels}\")
-endforeach ()
+  list(TRANSFORM arg_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/"
+    REGEX "^[^/]" OUTPUT_VARIABLE sources)
+  set(suites "${CMAKE_CURRENT_BINARY_DIR}/${name}-suites.cmake")
+  file(GENERATE OUTPUT "${suites}" CONTENT "set(smg_program \"$<TARGET_FILE:${name}>\")
+set(smg_sources \"${sources}\")
+set(smg_labels \"${arg_LABELS}\")
+set(smg_timeout ${smg_suite_timeout})
+set(smg_has_data \"${smg_test_data}\")
+include(\"${PROJECT_SOURCE_DIR}/cmake/SmgTestSuites.cmake\")
 ")
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${suites}")
 endfunction ()
 
 # Finds pvpython, pvbatch and xvfb-run once: ParaView cannot render without an X server.
@@ -116,9 +104,27 @@ function (smg_find_paraview_programs)
   find_program(SMG_PVBATCH pvbatch REQUIRED)
   find_program(SMG_PVSERVER pvserver REQUIRED)
   find_program(SMG_XVFB_RUN xvfb-run REQUIRED)
-  # Without -noreset the server resets when the first client disconnects, and may reject a second
-  # one.
-  set(smg_on_screen ${SMG_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset" PARENT_SCOPE)
+endfunction ()
+
+# smg_choose_display(<variable>)
+# The number of a display of its own for each test: two xvfb-run that look for a free one from the same
+# number on, at the same time, may choose the same.
+function (smg_choose_display variable)
+  get_property(display GLOBAL PROPERTY smg_displays)
+  if (NOT display)
+    set(display 100)
+  endif ()
+  math(EXPR next "${display} + 1")
+  set_property(GLOBAL PROPERTY smg_displays ${next})
+  set(${variable} ${display} PARENT_SCOPE)
+endfunction ()
+
+# smg_on_screen(<variable> <command>...)
+# The command under an X server of its own. Without -noreset the server resets when the first client
+# disconnects, and may reject a second one.
+function (smg_on_screen variable)
+  smg_choose_display(display)
+  set(${variable} ${SMG_XVFB_RUN} -a -n ${display} -s "-screen 0 1280x1024x24 -noreset" ${ARGN} PARENT_SCOPE)
 endfunction ()
 
 # smg_add_paraview_test(<name> COMMAND <command>... [TIMEOUT <seconds>] [LABELS <label>...])
@@ -129,7 +135,8 @@ function (smg_add_paraview_test name)
   if (NOT arg_TIMEOUT)
     set(arg_TIMEOUT 2400)
   endif ()
-  add_test(NAME ${name} COMMAND ${smg_on_screen} ${arg_COMMAND})
+  smg_on_screen(command ${arg_COMMAND})
+  add_test(NAME ${name} COMMAND ${command})
   set_tests_properties(${name} PROPERTIES
     TIMEOUT ${arg_TIMEOUT}
     LABELS "paraview;${arg_LABELS}"
@@ -152,5 +159,6 @@ function (smg_add_pvbatch_test name script)
   smg_on_processes(command ${arg_RANKS}
     ${SMG_PVBATCH} --sym "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${arg_ARGS})
   smg_add_paraview_test(${name} TIMEOUT "${arg_TIMEOUT}" LABELS ${arg_LABELS} COMMAND ${command})
-  set_tests_properties(${name} PROPERTIES PROCESSORS ${arg_RANKS})
+  smg_share_of_processors(share ${arg_RANKS})
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${share})
 endfunction ()

@@ -16,7 +16,7 @@ smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev libpython3-dev xvfb xauth
   "qt6-svg-plugins|libqt5svg5")
 smg_test_packages=(
-  libgtest-dev libbenchmark-dev clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev xz-utils
+  libgtest-dev libbenchmark-dev lld clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev xz-utils
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-pip
   python3-venv python3-tqdm)
 smg_benchmark_packages=(

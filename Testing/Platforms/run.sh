@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# run.sh SUITE [COMMAND] : runs a command, by default "bash Examples/run.sh && bash Testing/run.sh", in
-# a fresh clone of the last commit of this tree, in a fresh Debian of that release (bookworm, trixie,
-# forky), and removes both. Requires root, and the network for the packages.
+# run.sh SUITE [COMMAND] : runs a command, by default the two commands of the README, with the
+# configurations main, benchmarks and nightly, in a fresh clone of the last commit of this tree, in a
+# fresh Debian of that release (bookworm, trixie, forky), and removes both. Requires root, and the network
+# for the packages.
 #
 # At the end it prints the elapsed time and, if there is a deformed bunny of Examples/run.sh, whether it
 # equals that of the same script on this machine bit for bit; a difference is a failure.
@@ -22,7 +23,8 @@ if [ -z "${SMG_PLATFORM_MOUNTS:-}" ]; then
   SMG_PLATFORM_MOUNTS=private exec unshare --mount --propagation private bash "$0" "$@"
 fi
 shift
-command=${*:-bash Examples/run.sh && bash Testing/run.sh}
+both='bash Examples/run.sh && SMG_CONFIGURATIONS="main benchmarks nightly" bash Testing/run.sh'
+command=${*:-$both}
 tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$tree/cmake/packages.sh"
 smg_install debootstrap git

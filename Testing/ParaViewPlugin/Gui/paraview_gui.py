@@ -160,7 +160,8 @@ class Session:
                            XDG_RUNTIME_DIR=settings, PV_PLUGIN_PATH=os.path.dirname(self.plugin),
                            SMG_GUI_SCREEN=os.path.join(screen, "Xvfb_screen0"))
         width, height = SCREEN
-        command = ["xvfb-run", "-a", "-s", f"-screen 0 {width}x{height}x24 -noreset -nocursor -fbdir {screen}",
+        command = ["xvfb-run", "-a", "-n", os.environ.get("SMG_DISPLAY", "99"),
+                   "-s", f"-screen 0 {width}x{height}x24 -noreset -nocursor -fbdir {screen}",
                    "paraview", "-qwindowgeometry", f"{width}x{height}+0+0",
                    "--test-script=" + script, "--exit"]
         # In its own process group, so that it can be ended completely if it hangs in a dialog.

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Read by ctest when it starts: adds one test for each suite of a GoogleTest program, <program>.<suite>,
+# whose cases share one process. The suites are found in the sources, so that no program is started for it:
+#   smg_program, smg_sources, smg_labels, smg_timeout   as in smg_add_gtest()
+#   smg_has_data   whether the archive of meshes is there
+set(smg_suites)
+foreach (source IN LISTS smg_sources)
+  file(STRINGS "${source}" macros REGEX "^(TYPED_)?TEST(_F|_P)?\\([A-Za-z0-9_]+")
+  foreach (macro IN LISTS macros)
+    string(REGEX REPLACE "^[A-Z_]+\\(([A-Za-z0-9_]+).*" "\\1" suite "${macro}")
+    list(APPEND smg_suites "${suite}")
+  endforeach ()
+endforeach ()
+list(REMOVE_DUPLICATES smg_suites)
+get_filename_component(smg_name "${smg_program}" NAME)
+set(smg_found)
+foreach (suite IN LISTS smg_suites)
+  set(test "${smg_name}.${suite}")
+  # Also with the names of instantiations before it, and of types behind it.
+  set(filter "${suite}.*:*/${suite}.*:${suite}/*.*")
+  string(APPEND smg_found ":${filter}")
+  add_test("${test}" "${smg_program}" "--gtest_filter=${filter}" --gtest_brief=1)
+  set(labels "${smg_labels}")
+  if (suite MATCHES "Law$")
+    list(APPEND labels law)
+  elseif (suite MATCHES "Data$")
+    list(APPEND labels data)
+  elseif (suite MATCHES "Long$")
+    list(APPEND labels data long)
+  endif ()
+  set_tests_properties("${test}" PROPERTIES LABELS "${labels}" TIMEOUT ${smg_timeout})
+  if (suite MATCHES "Long$")
+    set_tests_properties("${test}" PROPERTIES TIMEOUT 3600)
+  endif ()
+  if (NOT smg_has_data AND suite MATCHES "(Data|Long)$")
+    set_tests_properties("${test}" PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED")
+  endif ()
+endforeach ()
+# No case is in a suite that was not found.
+add_test("${smg_name}.others" "${smg_program}" "--gtest_filter=-${smg_found}")
+set_tests_properties("${smg_name}.others" PROPERTIES
+  LABELS "${smg_labels}" TIMEOUT ${smg_timeout} PASS_REGULAR_EXPRESSION "Running 0 tests")
