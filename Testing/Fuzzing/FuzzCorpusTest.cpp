@@ -28,8 +28,7 @@ struct Seed
 /** The files of a target's corpus, by name. */
 std::vector<Seed> corpusOf(const FuzzTarget& target)
 {
-  const auto folder =
-    sourceFolder() / "Testing" / "Fuzzing" / "corpus" / target.name;
+  const auto folder = sourceFolder() / "Testing" / "Fuzzing" / "corpus" / target.name;
   std::vector<Seed> corpus;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
   {

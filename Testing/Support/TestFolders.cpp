@@ -12,4 +12,4 @@ std::filesystem::path archiveFolder()
 {
   return SMG_TEST_DATA_DIR;
 }
-}
+} // namespace smg::testing

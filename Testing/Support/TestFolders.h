@@ -10,4 +10,4 @@ std::filesystem::path sourceFolder();
 
 /// The unpacked archive of test meshes (SMG_TEST_DATA_DIR); empty if there is none.
 std::filesystem::path archiveFolder();
-}
+} // namespace smg::testing
