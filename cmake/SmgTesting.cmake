@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Functions that add tests. Limits of time are at least ten times the usual time: they end what hangs,
-# and no test fails because a machine is slow or busy. Labels:
+# Functions that add tests. Limits of time are about ten times the usual time, and far below that of continuous
+# integration: what hangs is ended and named, and no test fails because a machine is slow or busy. Labels:
 #   unit, vtk, paraview, install         what the test needs or checks
 #   benchmark                            runs a benchmark on a tiny mesh, whatever the time it takes
 #   lint                                 judges the source: for developers and continuous integration
 #   data                                 needs SMG_TEST_DATA_DIR; skipped if that is empty
 #   law                                  scaling of errors, rates or memory with the size of the mesh:
 #                                        larger meshes, without additional coverage for sanitizers
+#   nightly                              takes long and seldom fails: not in the configuration main
 #   long                                 takes minutes: excluded by `ctest -LE long`
 
 # The folder with the meshes of the archive, for either level of SMG_TEST_DATA_DIR.
@@ -56,7 +57,7 @@ function (smg_add_processes_test program)
       PROCESSORS ${share}
       LABELS "${arg_LABELS}"
       SKIP_REGULAR_EXPRESSION "SKIPPED:"
-      TIMEOUT 9000)
+      TIMEOUT 900)
   endforeach ()
 endfunction ()
 
@@ -133,7 +134,7 @@ endfunction ()
 function (smg_add_paraview_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "COMMAND;LABELS")
   if (NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 2400)
+    set(arg_TIMEOUT 900)
   endif ()
   smg_on_screen(command ${arg_COMMAND})
   add_test(NAME ${name} COMMAND ${command})
