@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <string>
+#include <unistd.h>
 #include <utility>
 
 namespace smg
@@ -61,10 +62,11 @@ T& required(T* pointer, const char* name)
   return *pointer;
 }
 
-/** The progress function of the library. */
+/** The progress function of the library. If it forks, the child does not go on with the call. */
 inline ProgressFunction progressOf(smg_progress progress, void* user)
 {
-  return progress ? ProgressFunction([=](double done) { return progress(done, user) == 0; })
+  return progress ? ProgressFunction([=, process = ::getpid()](double done)
+                      { return progress(done, user) == 0 && ::getpid() == process; })
                   : ProgressFunction();
 }
 

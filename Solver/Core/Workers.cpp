@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/Workers.h"
 
+#include "Solver/Core/Forks.h"
+#include "smg/Error.h"
+
 #include <algorithm>
 #include <csignal>
+#include <new>
 #include <pthread.h>
 #include <sched.h>
 #include <thread>
@@ -12,6 +16,9 @@
 // one, so everything makes progress even if no thread could be started, and one thread in all needs
 // no special case. Jobs may take microseconds: threads spin for a moment before they sleep, unless
 // there are more of them than cores.
+//
+// Threads do not cross a fork: in the child the owner runs all jobs itself, also those that were
+// waiting. One that was running elsewhere when the process forked is lost.
 
 namespace smg
 {
@@ -52,10 +59,23 @@ int Workers::cores()
 Workers::Workers(int threads)
   : Threads(std::clamp(threads > 0 ? threads : cores(), 1, MaxThreads))
 {
+  ForkedObjects::all().add(this, { [this] { this->Mutex.lock(); }, [this] { this->Mutex.unlock(); },
+                                   [this]
+                                   {
+                                     // Threads of the parent may have waited for these, which could
+                                     // not even be destroyed.
+                                     new (&this->Mutex) std::mutex;
+                                     new (&this->Submitted) std::condition_variable;
+                                     new (&this->Finished) std::condition_variable;
+                                     this->Sleeping = 0;
+                                     this->Team.clear();
+                                     this->IsComplete = true;
+                                   } });
 }
 
 Workers::~Workers()
 {
+  ForkedObjects::all().remove(this);
   {
     const std::lock_guard lock(this->Mutex);
     this->Stop = true;
@@ -219,6 +239,11 @@ void Workers::wait(Job& job)
     if (!isDone)
     {
       // Nothing waits, so the job is running on another thread.
+      if (this->Team.empty())
+      {
+        throw Error("The process was forked during a computation, which the child cannot continue: "
+                    "begin it there anew.");
+      }
       this->OwnerSleeps = true;
       this->Finished.wait(lock, [&job] { return job.IsDone.load(std::memory_order_relaxed); });
       this->OwnerSleeps = false;
@@ -236,6 +261,11 @@ void Workers::cancel(Job& job) noexcept
     {
       this->Waiting.erase(waiting);
       this->HasWork.store(!this->Waiting.empty(), std::memory_order_relaxed);
+      return;
+    }
+    // It is done; or it ran in the parent of a forked child.
+    if (this->Team.empty())
+    {
       return;
     }
   }

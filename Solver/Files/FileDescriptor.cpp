@@ -371,7 +371,7 @@ void FileDescriptor::remove() noexcept
   }
   // Called by destructors, also while an exception is on its way: failures are ignored here, and
   // the next program that writes the same result removes what is left.
-  if (std::exchange(this->IsTemporary, false))
+  if (std::exchange(this->IsTemporary, false) && isOwnTemporary(this->Path))
   {
     systemCalls().unlink(this->Path.c_str());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/Folder.h"
 
+#include "Solver/Core/Forks.h"
 #include "Solver/Core/SystemCalls.h"
 #include "smg/Error.h"
 
@@ -136,6 +137,12 @@ std::filesystem::path temporaryName(const std::filesystem::path& path)
          std::to_string(count++);
 }
 
+bool isOwnTemporary(const std::filesystem::path& name)
+{
+  const std::string own = std::string(Infix) + std::to_string(::getpid()) + "-";
+  return name.filename().native().find(own) != std::string::npos;
+}
+
 bool lockTemporary(int file) noexcept
 {
   // Between creation and lock, another program may have found the file, locked and removed it. Then
@@ -181,7 +188,7 @@ namespace
 /** Guards the list of locks and their use. */
 std::mutex& lockGuard()
 {
-  static std::mutex mutex;
+  static ForkedMutex mutex;
   return mutex;
 }
 

@@ -37,6 +37,8 @@ void removeFolder(const char* folder) noexcept;
 
 /** A temporary name beside a file, unique unless a terminated program left a file with it. */
 std::filesystem::path temporaryName(const std::filesystem::path& path);
+/** Whether this process made the temporary name; a forked child has copies of its parent's. */
+bool isOwnTemporary(const std::filesystem::path& name);
 /** Locks a temporary file until it is closed, so that no other program removes it as abandoned.
  * Returns false if one already has. */
 bool lockTemporary(int file) noexcept;

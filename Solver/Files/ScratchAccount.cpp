@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/ScratchAccount.h"
 
+#include "Solver/Core/Forks.h"
 #include "Solver/Core/Text.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ using Accounts = std::unordered_map<std::string, std::weak_ptr<ScratchAccount>>;
 /** Guards all accounts, which change together. */
 std::mutex& guard()
 {
-  static std::mutex mutex;
+  static ForkedMutex mutex;
   return mutex;
 }
 

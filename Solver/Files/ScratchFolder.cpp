@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/ScratchFolder.h"
 
+#include "Solver/Core/Forks.h"
 #include "Solver/Core/SystemCalls.h"
 #include "Solver/Files/Folder.h"
 #include "Solver/Files/ScratchAccount.h"
@@ -31,6 +32,9 @@
 // marked as a checkpoint. Removal goes in an order such that a kill or a power cut at any moment
 // leaves a checkpoint that continues, or one that is empty, but never states that refer to missing
 // files.
+//
+// Folders belong to the process that made them: a forked child, whose objects are copies, can read
+// their files but removes none, and does not hold their locks.
 
 namespace smg
 {
@@ -42,6 +46,8 @@ constexpr const char* Prefix = "smg-scratch-";
 constexpr const char* Marker = ".smg-scratch";
 /** A file that only kept folders have. */
 constexpr const char* KeptMarker = "smg-checkpoint";
+/** In place of the descriptor of a lock: the folder is one of the process that has forked. */
+constexpr int OfParent = -2;
 /** With this begin the names of the scratch files of kept folders. */
 constexpr const char* KeptPrefix = "scratch.";
 
@@ -133,6 +139,21 @@ bool isMade(std::string_view name)
            name.substr(prefix.size()), [](unsigned char c) { return std::isalnum(c) != 0; });
 }
 
+/** From now on the object of a forked child leaves the folder, and its lock, to the parent. */
+void leaveToParent(const ScratchFolder& folder, int& lock)
+{
+  ForkedObjects::all().add(&folder, { {}, {},
+                                      [&lock]
+                                      {
+                                        if (lock >= 0)
+                                        {
+                                          systemCalls().close(
+                                            lock); // the parent's own descriptor keeps the lock
+                                        }
+                                        lock = OfParent;
+                                      } });
+}
+
 /** Removes the scratch folders of terminated programs in `base`. */
 void removeAbandoned(const std::filesystem::path& base)
 {
@@ -216,6 +237,7 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent, std::int64_t l
       this->Path.swap(name);
     }
     this->Account = ScratchAccount::open(this->Path, limit);
+    leaveToParent(*this, this->Lock);
   }
   catch (...) // no memory
   {
@@ -253,6 +275,7 @@ ScratchFolder::ScratchFolder(const KeptFolder& kept, std::int64_t limit)
     this->openKept();
     this->Account = ScratchAccount::open(this->Path, limit);
     this->countKept();
+    leaveToParent(*this, this->Lock);
   }
   catch (...)
   {
@@ -324,6 +347,11 @@ std::filesystem::path ScratchFolder::placeOf(std::filesystem::path folder)
 
 ScratchFolder::~ScratchFolder()
 {
+  ForkedObjects::all().remove(this);
+  if (this->Lock == OfParent)
+  {
+    return;
+  }
   // First the account: what follows removes files without telling it of each.
   this->Account->close(this->Path);
   if (!this->KeptLock)

@@ -92,6 +92,42 @@ TEST(ScratchFolder, WhatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
   }
 }
 
+/** The objects of a forked child are copies: their destructors leave the files to the parent. */
+TEST(ScratchFolder, IsLeftToItsParentByAForkedChild)
+{
+  const TemporaryFolder folder;
+  auto scratch = std::make_unique<ScratchFolder>(folder.path());
+  auto kept = std::make_unique<ScratchFolder>(KeptFolder(folder / "kept"));
+  auto temporary =
+    std::make_unique<FileDescriptor>(FileDescriptor::createBeside(folder / "result"));
+  std::ofstream(scratch->path() / "data") << "in use";
+  kept->file("data");
+  const int before = folder.entries();
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+  {
+    scratch.reset();
+    kept.reset();
+    temporary.reset();
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(folder.entries(), before);
+  EXPECT_TRUE(std::filesystem::exists(scratch->path() / "data"));
+  EXPECT_TRUE(std::filesystem::exists(kept->pathOf("data")));
+  {
+    const ScratchFolder other(folder.path());
+    EXPECT_TRUE(std::filesystem::exists(scratch->path())) << "its lock has gone";
+  }
+  scratch.reset();
+  kept.reset();
+  temporary.reset();
+  EXPECT_EQ(folder.entries(), 0);
+}
+
 /** A program may be killed before it marks its folder, and a power cut may take the marker. */
 TEST(ScratchFolder, WithoutItsMarkerIsRemovedIfItIsEmptyAndNotInUse)
 {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <atomic>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 namespace smg::testing
@@ -30,6 +32,55 @@ struct Numbered
   int number = -1;
   std::uint64_t result = 0;
 };
+
+/** The threads do not cross a fork: a child runs all jobs itself, and does not wait for threads. */
+TEST(Workers, OfAForkedChildRunJobsWithoutThreads)
+{
+  for (int round = 0; round < 20; ++round) // threads may sleep, spin, or hold the mutex
+  {
+    Workers workers(3);
+    std::atomic<bool> isRunning{ false }, mayEnd{ false };
+    Workers::Job longer(workers,
+      [&]
+      {
+        isRunning = true;
+        while (!mayEnd)
+        {
+        }
+      });
+    longer.submit();
+    while (!isRunning)
+    {
+    }
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+    {
+      alarm(60); // ends a child that hangs
+      int done = 0;
+      Workers::Job job(workers, [&done] { ++done; });
+      job.submit();
+      job.finish();
+      bool isLost = false;
+      try
+      {
+        longer.finish();
+      }
+      catch (const Error&)
+      {
+        isLost = true;
+      }
+      workers.~Workers();
+      _exit(done == 1 && isLost ? 0 : 1);
+    }
+    mayEnd = true;
+    longer.finish();
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+  }
+}
 
 TEST(OrderedJobs, AreTakenInOrderByTheOwner)
 {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <pthread.h>
+#include <utility>
+
+// A child of fork() has the memory of its parent, but of its threads only the one that forked, and
+// no right to the files that its parent has made. Objects with threads, files or a lock say here
+// what becomes of them.
+
+namespace smg
+{
+
+/** What is done with an object when the process forks; an empty function does nothing. */
+struct ForkActions
+{
+  std::function<void()> hold;    ///< before, until one of the others: nothing else may change it
+  std::function<void()> release; ///< after, in the parent
+  std::function<void()> inherit; ///< after, in the child, which has a single thread
+};
+
+/** The objects of this process with their actions. */
+class ForkedObjects
+{
+public:
+  /** Those of this library; they live as long as the process. */
+  static ForkedObjects& all()
+  {
+    static ForkedObjects& objects = *new ForkedObjects;
+    return objects;
+  }
+
+  void add(const void* object, ForkActions actions)
+  {
+    const std::lock_guard lock(this->Mutex);
+    this->Actions[object] = std::move(actions);
+  }
+  void remove(const void* object) noexcept
+  {
+    const std::lock_guard lock(this->Mutex);
+    this->Actions.erase(object);
+  }
+
+private:
+  ForkedObjects()
+  {
+    pthread_atfork(
+      []
+      {
+        all().Mutex.lock();
+        all().run(&ForkActions::hold);
+      },
+      []
+      {
+        all().run(&ForkActions::release);
+        all().Mutex.unlock();
+      },
+      []
+      {
+        all().run(&ForkActions::inherit);
+        all().Mutex.unlock();
+      });
+  }
+
+  void run(std::function<void()> ForkActions::*action)
+  {
+    for (const auto& [object, actions] : this->Actions)
+    {
+      if (actions.*action)
+      {
+        (actions.*action)();
+      }
+    }
+  }
+
+  std::mutex Mutex;
+  std::map<const void*, ForkActions> Actions;
+};
+
+/** A mutex of the whole process, which no other thread holds in a forked child. */
+class ForkedMutex : public std::mutex
+{
+public:
+  ForkedMutex()
+  {
+    ForkedObjects::all().add(
+      this, { [this] { this->lock(); }, [this] { this->unlock(); }, [this] { this->unlock(); } });
+  }
+  ~ForkedMutex() { ForkedObjects::all().remove(this); }
+};
+
+} // namespace smg
