@@ -8,6 +8,8 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/WriteFiles.h"
 #include "IO/Jobs/MeshJob.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
 #include <algorithm>
@@ -97,21 +99,47 @@ WrittenOrder ResultFile::expectedOrder(const StreamInfo& mesh) const
                                             : WrittenOrder::Stream;
 }
 
-void ResultFile::chooseOrder(const StreamInfo& mesh, const ConversionReport* conversion)
+namespace
 {
-  const CellType cells = mesh.cellType;
+
+/** Whether the original numbers of the vertices are places in a file of as many points. Those of a
+ * simplified mesh, or of a part, are places in a larger one, which cannot be restored. */
+bool numbersArePlaces(const StoredMesh& mesh)
+{
+  std::int64_t count = mesh.info().vertices;
+  if (!mesh.file().empty())
+  {
+    count += VsmReader(mesh.file()).isolatedVertices();
+  }
+  bool arePlaces = true;
+  visitBlocks(*mesh.source({ OriginalIdName }, {}), {}, 0.0, 1.0,
+    [&](const MeshBlock& block)
+    {
+      const auto numbers = block.vertexColumns[0].as<std::int64_t>();
+      arePlaces = arePlaces && std::ranges::all_of(
+                                 numbers, [count](std::int64_t number) { return number < count; });
+    });
+  return arePlaces;
+}
+
+} // namespace
+
+void ResultFile::chooseOrder(const StoredMesh& mesh, const ConversionReport* conversion)
+{
+  const CellType cells = mesh.info().cellType;
   if (this->mayRewrite())
   {
     this->Order = WrittenOrder::Rewritten;
     checkOutput(this->Files.out, cells);
     return;
   }
-  const std::vector<ColumnSpec>& columns = mesh.vertexColumns;
-  const bool isNumbered = conversion ? !conversion->keeps_numbers
-                                     : std::ranges::find(columns, OriginalIdSpec) != columns.end();
-  if (this->mayRestore() && isNumbered)
+  if (this->mayRestore())
   {
-    this->Order = WrittenOrder::Restored;
+    const bool isNumbered =
+      conversion
+        ? !conversion->keeps_numbers
+        : findColumn(mesh.info().vertexColumns, OriginalIdSpec) >= 0 && numbersArePlaces(mesh);
+    this->Order = isNumbered ? WrittenOrder::Restored : WrittenOrder::Stream;
   }
   const std::filesystem::path& out = this->Files.out;
   checkHolds(out, *suffixFor(FormatUse::Write, out), cells, this->choices(cells));

@@ -54,11 +54,11 @@ public:
 
   /**
    * Chooses the order of the result. To be called before the work.
-   * @param mesh the mesh
+   * @param mesh the mesh, whose original numbers are read if no conversion tells them
    * @param conversion of the file of the mesh; null if that is a .vsm file
-   * @throws Error if the format cannot hold such a mesh
+   * @throws Error if the format cannot hold such a mesh, or the mesh cannot be read
    */
-  void chooseOrder(const StreamInfo& mesh, const ConversionReport* conversion);
+  void chooseOrder(const StoredMesh& mesh, const ConversionReport* conversion);
 
   const std::filesystem::path& path() const { return this->Files.out; }
   /** Whether write() writes the file of the mesh again, with other positions. */

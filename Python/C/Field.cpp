@@ -92,7 +92,7 @@ ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedC
   options.welds = mesh.options().weld.has_value();
   options.threads = limits.threads;
   // Only a job can move the vertices of the file itself.
-  options.adds = added || !job;
+  options.adds = added || !job || mesh.isResult();
   options.isolated = isolatedOf(added);
   if (!mesh.name().empty())
   {
@@ -118,13 +118,24 @@ void run(const smg_mesh& mesh, const char* job, const char* description,
   field = made.release();
 }
 
+smg_mesh* meshOf(smg_field& field, const ProgressFunction& progress)
+{
+  ConversionOptions options;
+  apply(limitsOf(field.shared->options()), options);
+  auto opened = openMesh(field.file(partOf(progress, 0.0, 0.9)), options);
+  auto mesh = std::make_unique<smg_mesh>();
+  mesh->shared = std::make_shared<SharedMesh>(
+    std::move(opened), *field.shared, partOf(progress, 0.9, 1.0), field.scratch());
+  return mesh.release();
+}
+
 std::string save(
   smg_field& field, const char* path, const char* text, const ProgressFunction& progress)
 {
   const JobLimits limits = writingLimits(text, limitsOf(field.shared->options()));
   ResultFile out = resultFile(*field.shared, field.added, field.job.get(), path, limits);
   const ConversionReport* const conversion = field.shared->mesh().conversion();
-  out.chooseOrder(field.stored().info(), conversion);
+  out.chooseOrder(field.stored(), conversion);
   std::vector<std::string> notes;
   const std::int64_t memory =
     MeshJob::writerMemory(limits.memory > 0 ? limits.memory : field.job->memoryLimit());
@@ -160,6 +171,16 @@ smg_status smg_run(smg_mesh* mesh, const char* job, const char* description, smg
     });
 }
 
+smg_status smg_open_field(smg_field* field, smg_progress progress, void* user, smg_mesh** mesh)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(mesh, "mesh") = nullptr;
+      *mesh = smg::meshOf(smg::required(field, "field"), smg::progressOf(progress, user));
+    });
+}
+
 smg_status smg_report(
   smg_field* field, int full, smg_progress progress, void* user, const char** json)
 {
@@ -181,7 +202,8 @@ smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns
     {
       const smg_field& given = smg::required(field, "field");
       smg::required(vertices, "vertices") = given.shared->vertices();
-      smg::required(columns, "columns") = given.solution->columns();
+      smg::required(columns, "columns") =
+        given.job->solutionColumns(given.stored().info()).front().components;
     });
 }
 

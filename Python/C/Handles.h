@@ -3,6 +3,7 @@
 
 #include "IO/Arrays/AddedColumns.h"
 #include "IO/Arrays/OriginalOrder.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
@@ -33,6 +34,19 @@ public:
   {
   }
 
+  /** The mesh with a result on `of`, in whose order it is, read from a file of `scratch`. */
+  SharedMesh(std::unique_ptr<OpenedMesh> mesh, SharedMesh& of, const ProgressFunction& progress,
+    std::shared_ptr<const ScratchFolder> scratch)
+    : Mesh(std::move(mesh))
+    , Name(of.Name)
+    , Options(of.Options)
+    , Order(of.order(progress))
+    , Scratch(std::move(scratch))
+  {
+  }
+
+  /** Whether this is the mesh with a result, which the file that was opened does not have. */
+  bool isResult() const { return this->Scratch != nullptr; }
   /** The mesh without added columns. */
   const OpenedMesh& mesh() const { return *this->Mesh; }
   /** The file that was opened; empty: the mesh was made of arrays. */
@@ -40,7 +54,8 @@ public:
   /** The number of vertices in the original order. */
   std::int64_t vertices() const
   {
-    return OriginalOrder::countVertices(*this->Mesh, this->Mesh->conversion());
+    return this->isResult() ? this->Order->vertices().count
+                            : OriginalOrder::countVertices(*this->Mesh, this->Mesh->conversion());
   }
   /** How it was opened, without the progress function. */
   const ConversionOptions& options() const { return this->Options; }
@@ -67,6 +82,7 @@ private:
   ConversionOptions Options;
   std::mutex Mutex;
   std::shared_ptr<const OriginalOrder> Order;
+  std::shared_ptr<const ScratchFolder> Scratch; ///< of a result; else null
 };
 
 } // namespace smg

@@ -66,7 +66,7 @@ std::string saveMesh(
   ResultFile out = resultFile(*own.shared, own.added, nullptr, path, limits);
   const StoredMesh& stored = own.stored();
   const StreamInfo& info = stored.info();
-  out.chooseOrder(info, own.shared->mesh().conversion());
+  out.chooseOrder(stored, own.shared->mesh().conversion());
   const auto source = stored.source(columnNames(info.vertexColumns), columnNames(info.cellColumns));
   const std::int64_t memory = limits.memory > 0 ? limits.memory : ConversionOptions::DefaultMemory;
   const nlohmann::json notes = out.write(stored, *source, MeshJob::writerMemory(memory), progress);

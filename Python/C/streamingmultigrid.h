@@ -21,6 +21,10 @@
  *
  * A handle may be used by one thread at a time, different handles by different threads. A field,
  * its blocks and a solver keep what they need of their mesh: handles may be closed in any order.
+ *
+ * After fork(), a child may use its copies of handles that no thread was using, as long as the
+ * parent has not closed its own, and closes them without effect on the parent. In the child a
+ * solver computes on one thread. A progress function that forks cancels the call in the child.
  */
 #ifndef STREAMINGMULTIGRID_H
 #define STREAMINGMULTIGRID_H
@@ -77,7 +81,7 @@ extern "C"
    * called on the thread that called the function, and must not use handles. */
   typedef int (*smg_progress)(double done, void* user);
 
-  /* The version of the library, for example "0.3.0". */
+  /* The version of the library, for example "0.2.0". */
   SMG_C_EXPORT const char* smg_version(void);
 
   /* What the last function that failed on this thread has to say. */
@@ -121,6 +125,12 @@ extern "C"
   SMG_C_EXPORT smg_status smg_info(
     smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json);
 
+  /* Marks the vertices of a part of the mesh with 1, others with 0: `selected` has room for all
+   * vertices, in the original order. `where` is a WHERE of docs/problem.md, as
+   * {"sphere": [0, 0, 0, 1]}; a column of the cells selects their vertices. */
+  SMG_C_EXPORT smg_status smg_select(
+    smg_mesh* mesh, const char* where, smg_progress progress, void* user, uint8_t* selected);
+
   /* The numbers of vertices and cells in the original order. */
   SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
 
@@ -153,6 +163,12 @@ extern "C"
   SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
     smg_progress progress, void* user, smg_field** field);
 
+  /* The mesh with the result of a job as a mesh, for other jobs: its columns are those of
+   * smg_columns() of the field, its order is that of the field. It is written to a scratch file the
+   * first time. */
+  SMG_C_EXPORT smg_status smg_open_field(
+    smg_field* field, smg_progress progress, void* user, smg_mesh** mesh);
+
   /* Writes the simplified surface. description: "vertices", "error", "memory", "threads",
    * "scratch", "checkpoint". The report is that of `smg simplify --report`; its text as that of
    * smg_info(). */
@@ -171,7 +187,8 @@ extern "C"
   SMG_C_EXPORT smg_status smg_report(
     smg_field* field, int full, smg_progress progress, void* user, const char** json);
 
-  /* The number of vertices in the original order, and of values at each. */
+  /* The number of vertices in the original order, and of values at each in the first column of the
+   * result: Solution, Distance, the first one blended, or Position. */
   SMG_C_EXPORT smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns);
 
   /* Writes the mesh with the result, in the format of the suffix and in the order of the command

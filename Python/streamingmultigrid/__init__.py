@@ -21,7 +21,7 @@
 Meshes: `open`, `mesh`, `from_pyvista`, which make a `Mesh` with the jobs `solve`, `deform`, `smooth`,
 `blend`, `distance`, `simplify` and `solver`; on arrays the functions of these names. Regions: `plane`,
 `above`, `below`, `halfspace`, `box`, `sphere`, `vertices`, `nearest`, `tag`, `mask`, `boundary`,
-`everywhere`; ``region >> value`` pairs one with a value. Errors: `Error` and its subclasses. `progress`
+`everywhere`, combined by ``|``, ``&`` and ``~``; ``region >> value`` pairs one with a value. Errors: `Error` and its subclasses. `progress`
 says how calls report how far they are.
 """
 
@@ -56,7 +56,7 @@ from ._regions import (
 from ._report import Estimate, Report
 from ._solver import Solver
 
-__all__ = [
+__all__ = [  # not `open`: import * would replace that of Python
     "Block",
     "Error",
     "Estimate",
@@ -85,7 +85,6 @@ __all__ = [
     "mask",
     "mesh",
     "nearest",
-    "open",
     "plane",
     "simplify",
     "smooth",
@@ -96,7 +95,7 @@ __all__ = [
     "vertices",
 ]
 
-for _name in __all__:  # by which they are known, whatever the file
+for _name in (*__all__, "open"):  # by which they are known, whatever the file
     if callable(globals()[_name]):
         globals()[_name].__module__ = __name__
 del _name

@@ -71,10 +71,13 @@ def table(values: np.ndarray) -> Array:
 
 
 def points_and_cells(points: Any, cells: Any) -> tuple:
-    """The arrays of a mesh, checked: (n, 3) numbers and (m, 3) or (m, 4) integers."""
+    """The arrays of a mesh, checked: (n, 3) numbers and (m, 3) or (m, 4) integers. Points (n, 2) have
+    z = 0."""
     points, cells = numbers(points, "points"), numbers(cells, "cells")
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise InputError("points: the shape is %s; it must be (n, 3)." % (points.shape,))
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise InputError("points: the shape is %s; it must be (n, 3), or (n, 2) with z = 0." % (points.shape,))
+    if points.shape[1] == 2:
+        points = np.concatenate([points, np.zeros((len(points), 1), points.dtype)], axis=1)
     if cells.ndim != 2 or cells.shape[1] not in (3, 4):
         raise InputError(
             "cells: the shape is %s; it must be (m, 3), triangles, or (m, 4), tetrahedra."

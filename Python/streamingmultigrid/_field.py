@@ -16,6 +16,7 @@ from ._report import Report, warn_of
 
 #: Of every mesh, beside its columns: name, whether of the cells, type, components (None: 3 or 4).
 _OF_EVERY_MESH = (("Position", False, "float64", 3), ("Corners", True, "int64", None))
+OF_EVERY_MESH = tuple(each[0] for each in _OF_EVERY_MESH)
 
 
 class Block:
@@ -150,6 +151,11 @@ def read_columns(mesh: Optional[c_void_p], field: Optional[c_void_p]) -> Dict[st
     }
 
 
+def names_of(columns: Dict[str, Dict[str, Any]]) -> List[str]:
+    """The names of columns, those of the vertices first, each once."""
+    return list(dict.fromkeys([*columns["vertices"], *columns["cells"]]))
+
+
 def read_column(
     mesh: Optional[c_void_p],
     field: Optional[c_void_p],
@@ -180,11 +186,12 @@ def read_column(
     raise InputError("There is no column %r; there are %s." % (name, ", ".join(names)))
 
 
-class Field:
+class Field(np.lib.mixins.NDArrayOperatorsMixin):
     """The result of a job: values at the vertices of a mesh, on disk until they are asked for.
 
-    ``np.asarray(field)`` and `to_numpy` read them; `blocks` reads them with the mesh, part by part;
-    `save` writes them with the mesh to a file.
+    ``np.asarray(field)`` and `to_numpy` read them, and so does arithmetic, as ``field + 1``; `blocks`
+    reads them with the mesh, part by part; `save` writes them with the mesh to a file. A field has the
+    jobs of a mesh: they are done on the mesh with the result, as ``mesh.smooth().simplify(1000)``.
 
     Attributes:
         mesh: the mesh that the job was done on.
@@ -208,6 +215,7 @@ class Field:
         self._counts, self._corners = counts, corners  # those of the mesh
         self._said: set = set()
         self._report: Optional[Report] = None
+        self._as_mesh: Any = None  # made when it is asked for
 
     @property
     def name(self) -> str:
@@ -226,10 +234,48 @@ class Field:
         return vertices.value, columns.value
 
     @property
+    def ndim(self) -> int:
+        """1, or 2 of several values at each vertex."""
+        return len(self.shape)
+
+    @property
+    def size(self) -> int:
+        """The number of values."""
+        return int(np.prod(self.shape))
+
+    @property
+    def dtype(self) -> np.dtype:
+        """The type of the values, as of `to_numpy`."""
+        spec = self.columns["vertices"].get(self.name)
+        return np.dtype(spec["type"] if spec else np.float64)
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    @property
+    def n_vertices(self) -> int:
+        """The number of vertices, with those of no cell."""
+        return self._counts[0]
+
+    n_points = n_vertices
+
+    @property
+    def n_cells(self) -> int:
+        """The number of cells."""
+        return self._counts[1]
+
+    @property
     def columns(self) -> Dict[str, Dict[str, Any]]:
         """The columns of the result with its mesh, as `Mesh.columns`."""
         with self._handle as field:
             return read_columns(None, field)
+
+    def keys(self) -> List[str]:
+        """The names of the columns of the result and of its mesh, of the vertices first."""
+        return names_of(self.columns)
+
+    def __contains__(self, name: Any) -> bool:
+        return name in self.keys() or name in OF_EVERY_MESH
 
     @property
     def report(self) -> Report:
@@ -277,10 +323,27 @@ class Field:
         values = self.to_numpy()
         return values if dtype is None else values.astype(dtype, copy=False)
 
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        if any(isinstance(out, Field) for out in options.get("out", ())):
+            raise InputError("out: the values of a field do not change: give an array.")
+        values = [each.to_numpy() if isinstance(each, Field) else each for each in inputs]
+        return getattr(ufunc, method)(*values, **options)
+
+    __hash__ = object.__hash__  # == compares values, as that of arrays
+
     def __getitem__(self, name: str) -> np.ndarray:
         return self.read(name)
 
     __iter__ = None  # of numbers, as Python would try them
+
+    def as_mesh(self, progress: Any = None) -> Any:
+        """The mesh with the result as a `Mesh`, for other jobs; its columns and order are those of this
+        field. The first time it is written to a scratch file."""
+        if self._as_mesh is None:
+            from ._mesh import mesh_of
+
+            self._as_mesh = mesh_of(self, self._handle, self._job, progress)
+        return self._as_mesh
 
     def blocks(
         self, max_points: int = 1_000_000, columns: Optional[Sequence[str]] = None

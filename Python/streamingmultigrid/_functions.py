@@ -20,7 +20,9 @@ def _opened(points: Any, cells: Any, options: Dict[str, Any]) -> Mesh:
 
 
 def _read(field: Any) -> _Values:
-    """The values; of several columns all, by their names."""
+    """The values; of several columns all, by their names. What the whole report warns of becomes
+    warnings of Python here, since nobody will ask for it."""
+    _ = field.report
     if len(field.names) == 1:
         return field.to_numpy()
     return {field.name: field.to_numpy(), **{name: field.read(name) for name in field.names[1:]}}
@@ -35,13 +37,13 @@ def solve(points: Any, cells: Any, **options: Any) -> _Values:
 @jobs.with_arguments_of("deform", ("points", "cells"))
 def deform(points: Any, cells: Any, handles: Any, **options: Any) -> _Values:
     with _opened(points, cells, options) as opened:
-        return opened.deform(handles, **options).to_numpy()
+        return _read(opened.deform(handles, **options))
 
 
 @jobs.with_arguments_of("smooth", ("points", "cells"))
 def smooth(points: Any, cells: Any, **options: Any) -> _Values:
     with _opened(points, cells, options) as opened:
-        return opened.smooth(**options).to_numpy()
+        return _read(opened.smooth(**options))
 
 
 @jobs.with_arguments_of("blend", ("points", "cells"))
@@ -62,7 +64,7 @@ def simplify(
     """A surface with fewer vertices, each of which is one of the surface.
 
     Args:
-        points, cells: (n, 3) numbers and (m, 3) integers.
+        points, cells: (n, 3) or (n, 2) numbers and (m, 3) integers.
         vertices: the most vertices of the result, at least 4.
         error, memory, threads, scratch, progress: as of `Mesh.simplify`.
 
@@ -78,7 +80,7 @@ def solver(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> 
     """The equations of a problem on arrays, with their hierarchy, for many right-hand sides.
 
     Args:
-        points, cells: (n, 3) numbers, and (m, 3) or (m, 4) integers.
+        points, cells: (n, 3) or (n, 2) numbers, and (m, 3) or (m, 4) integers.
         options: the arguments of `smg.solve` that say what the matrix is (`conductivity`, `screening`,
             `dirichlet`, `robin`, `soft`, `weights`), and `sweeps`, `memory`, `threads`. Without a
             Dirichlet condition, screening, soft constraint or Robin condition, A is singular.
@@ -98,9 +100,10 @@ def solver(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> 
 
 def _complete_docstrings() -> None:
     arrays = """
-    The arrays `points`, (n, 3) numbers, and `cells`, (m, 3) or (m, 4) integers, are the mesh. The
-    result is an array; of several columns a dict of arrays by their names. For the report, use
-    ``smg.mesh(points, cells)`` and its method of this name.
+    The arrays `points`, (n, 3) numbers, or (n, 2) with z = 0, and `cells`, (m, 3) or (m, 4) integers,
+    are the mesh. The result is an array; of several columns a dict of arrays by their names. What the
+    report warns of is a ReportWarning; for the report itself, use ``smg.mesh(points, cells)`` and its
+    method of this name.
 """
     for function in (solve, deform, smooth, blend, distance):
         first, rest = (function.__doc__ or "").split("\n", 1)

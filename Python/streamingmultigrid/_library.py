@@ -10,14 +10,15 @@ import json
 import os
 import re
 import sysconfig
-import threading
 import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
 from typing import Any, Dict, Mapping, Optional
 
 from . import progress as _progress
+from . import _process as process
 from ._arrays import Array, plain
 from ._errors import Error, InputError, MemoryLimitError
+from ._version import VERSION
 
 PROGRESS = ctypes.CFUNCTYPE(c_int, c_double, c_void_p)
 _INVALID, _MEMORY = 2, 3
@@ -30,11 +31,13 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_add_column": [c_void_p, c_char_p, c_int, POINTER(Array), *_REPORTED],
     "smg_add_argument": [c_void_p, c_char_p, c_int, POINTER(Array), *_REPORTED],
     "smg_remove_column": [c_void_p, c_char_p, c_int],
+    "smg_select": [c_void_p, c_char_p, *_REPORTED, c_void_p],
     "smg_info": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
     "smg_counts": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
     "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],
     "smg_estimate_file": [c_char_p] * 5 + [POINTER(c_char_p)],
     "smg_run": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
+    "smg_open_field": [c_void_p, *_REPORTED, POINTER(c_void_p)],
     "smg_simplify": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
     "smg_convert": [c_char_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_char_p)],
     "smg_report": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
@@ -82,19 +85,27 @@ def library() -> ctypes.CDLL:
             "streamingmultigrid: the library %s cannot be loaded: %s. It is beside the package in a "
             "wheel, and in the Debian package streaming-multigrid." % (_NAME, error)
         ) from None
-    for name, arguments in _FUNCTIONS.items():
+    declared: Dict[str, tuple] = {name: (types, c_int) for name, types in _FUNCTIONS.items()}
+    declared.update((name, ([], c_char_p)) for name in ("smg_version", "smg_error"))
+    declared.update(
+        ("smg_close_" + name, ([c_void_p], None)) for name in ("mesh", "field", "blocks", "solver")
+    )
+    missing = [name for name in declared if not hasattr(loaded, name)]
+    for name in set(declared).difference(missing):
         function = getattr(loaded, name)
-        function.argtypes, function.restype = arguments, c_int
-    for name in ("smg_version", "smg_error"):
-        getattr(loaded, name).argtypes, getattr(loaded, name).restype = [], c_char_p
-    for name in ("mesh", "field", "blocks", "solver"):
-        close = getattr(loaded, "smg_close_" + name)
-        close.argtypes, close.restype = [c_void_p], None
+        function.argtypes, function.restype = declared[name]
+    found = loaded.smg_version().decode() if "smg_version" not in missing else "unknown"
+    if missing or found != VERSION:
+        raise ImportError(
+            "streamingmultigrid: the package is of version %s, but the library %s of version %s%s: "
+            "install both from one build."
+            % (VERSION, _path(), found, ", without " + missing[0] if missing else "")
+        )
     return loaded
 
 
 def version() -> str:
-    """The version of the library, for example "0.3.0"."""
+    """The version of the library, for example "0.2.0"."""
     return library().smg_version().decode()
 
 
@@ -159,58 +170,64 @@ def call_reporting(name: str, arguments: tuple, report: Any, *results: Any) -> N
     """
     with _progress.Cancellation(report) as cancellation:
         function = PROGRESS(cancellation)
-        _this_thread.calls = True
-        try:
+        with process.calling():
             status = getattr(library(), name)(*arguments, function, None, *results)
-        finally:
-            _this_thread.calls = False
     cancellation.raise_exception()
     _check(status)
-
-
-_this_thread = threading.local()  # whether it is in call_reporting()
-
-
-def require_no_call() -> None:
-    """A progress function runs in the middle of a call, whose handles it would find half-done."""
-    if getattr(_this_thread, "calls", False):
-        raise Error("A progress function cannot use meshes, fields or solvers: let the call end first.")
 
 
 class NativeHandle:
     """A handle of the C interface, closed with this object, and used by one thread at a time.
 
-    `keep` holds what must live as long as the handle, as arrays that the library reads.
+    `keep` holds what must live as long as the handle, as arrays that the library reads. A forked child
+    may use its copy unless the handle was in use when the process forked.
     """
 
     def __init__(self, kind: str, *keep: Any) -> None:
         self.pointer = c_void_p()
-        self.lock = threading.RLock()
+        self.lock = process.HandleLock()
         self.keep = list(keep)
         close = getattr(library(), "smg_close_" + kind)
-        self._finalizer = weakref.finalize(self, _close, close, self.pointer, self.keep)
+        self._finalizer = weakref.finalize(self, _close, close, self.pointer, self.keep, self.lock)
+        self._finalizer.atexit = False  # process.py closes it, when no thread computes any more
+        process.close_at_exit(self)
 
     def __enter__(self) -> c_void_p:
         """Reserves the handle for this thread."""
-        require_no_call()
-        self.lock.acquire()
-        if not self._finalizer.alive:
-            self.lock.release()
-            raise Error("This object has been closed: open it again.")
+        process.require_no_call()
+        self.lock.__enter__()
+        if self.lock.is_lost or not self._finalizer.alive:
+            self.lock.__exit__()
+            raise Error(
+                "The process was forked in the middle of a call: in the child, open what it needs again."
+                if self.lock.is_lost
+                else "This object has been closed: open it again."
+            )
         return self.pointer
 
     def __exit__(self, *_: Any) -> None:
-        self.lock.release()
+        self.lock.__exit__()
 
     def close(self) -> None:
         """Closes it and removes its scratch files; twice is nothing."""
-        require_no_call()
+        process.require_no_call()
         with self.lock:
             self._finalizer()
 
+    def __reduce__(self) -> Any:
+        raise Error("What only this process has cannot be pickled: save it to a file, and open that.")
 
-def _close(close: Any, pointer: c_void_p, keep: list) -> None:
-    close(pointer)
+    def finish(self) -> None:
+        """Closes it at the end of the interpreter, unless a thread still computes with it."""
+        found = self._finalizer.detach() if self.lock.is_free() else None
+        if found is not None:
+            _, close, arguments, _ = found
+            close(*arguments)  # the finalizer itself does nothing at this time
+
+
+def _close(close: Any, pointer: c_void_p, keep: list, lock: process.HandleLock) -> None:
+    if not lock.is_lost:
+        close(pointer)
     keep.clear()
 
 

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import os
 import shutil
 import tempfile
-import threading
 import weakref
-from ctypes import byref, c_char_p, c_int64
+from ctypes import byref, c_char_p, c_int64, c_void_p
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
@@ -20,13 +20,16 @@ from ._arrays import points_and_cells, table
 from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning, warn
-from ._field import Block, Field, read_blocks, read_column, read_columns
-from ._library import NativeHandle, call, call_reporting, json_text, parse, require_no_call, text, version
+from ._field import OF_EVERY_MESH, Block, Field, names_of, read_blocks, read_column, read_columns
+from ._library import NativeHandle, call, call_reporting, json_text, parse, text, version
+from ._process import HandleLock, require_no_call
 from .progress import part, reporting
-from ._report import Estimate, Report, not_converged, warn_of
+from ._regions import as_region
+from ._report import Estimate, Report, not_converged, warn_of, warn_of_notes
 
 #: Meshes up to this size show a picture of themselves in notebooks, which reads them.
 _PICTURE_VERTICES = 2_000_000
+_OPENING = ("memory", "threads", "scratch", "scratch_limit")
 
 
 class _Folder:
@@ -37,7 +40,12 @@ class _Folder:
             self.path = tempfile.mkdtemp(prefix="smg-simplified-", dir=place)
         except OSError as error:
             raise Error("scratch: %s: %s." % (error.filename, error.strerror)) from None
-        weakref.finalize(self, shutil.rmtree, self.path, True)
+        weakref.finalize(self, _remove_folder, self.path, os.getpid())
+
+
+def _remove_folder(path: str, maker: int) -> None:
+    if os.getpid() == maker:  # a forked child leaves it to its parent
+        shutil.rmtree(path, ignore_errors=True)
 
 
 class Mesh:
@@ -52,11 +60,12 @@ class Mesh:
         self.name = name
         self._opener, self._defaults, self._progress = opener, defaults, progress
         self._opened: Optional[NativeHandle] = None
-        self._opening = threading.Lock()
+        self._opening = HandleLock()
         self._file: Tuple[Any, ...] = ()  # path and options as smg_estimate_file() takes them
         self._own: Dict[Tuple[str, bool], np.ndarray] = {}
         self._folder: Optional[_Folder] = None  # of a scratch file of its own
         self._source: Optional[str] = None  # the file whose conversion this is
+        self._reopening: Optional[Dict[str, Any]] = None  # the arguments of `open`, if it is all of it
         self._facts: Dict[bool, Dict[str, Any]] = {}
         #: Of a mesh made by `simplify`: its report.
         self.report: Optional[Report] = None
@@ -99,6 +108,13 @@ class Mesh:
             self._opened.close()
         self._folder = None
 
+    def __reduce__(self) -> Any:
+        if self._reopening is None or self._folder or self._own:
+            raise Error(
+                "%s: a mesh is pickled as the name of its file: save it, and open that file." % self.name
+            )
+        return _reopen, (self._source, self._reopening)
+
     def __enter__(self) -> "Mesh":
         return self
 
@@ -132,6 +148,11 @@ class Mesh:
         return self._counts()[0]
 
     @property
+    def n_points(self) -> int:
+        """The same, by the name of other packages."""
+        return self._counts()[0]
+
+    @property
     def n_cells(self) -> int:
         """The number of cells: of rows of `cells`."""
         return self._counts()[1]
@@ -151,6 +172,13 @@ class Mesh:
         """The columns: {"vertices": {name: {"type", "components"}}, "cells": {...}}."""
         with self._handle() as mesh:
             return read_columns(mesh, None)
+
+    def keys(self) -> List[str]:
+        """The names of the columns, of the vertices first."""
+        return names_of(self.columns)
+
+    def __contains__(self, name: Any) -> bool:
+        return name in self.keys() or name in OF_EVERY_MESH
 
     # What it holds.
 
@@ -187,19 +215,21 @@ class Mesh:
     def __setitem__(self, name: str, values: Any) -> None:
         self.add(name, values)
 
-    def add(self, name: str, values: Any, cells: Optional[bool] = None) -> None:
+    def add(self, name: str, values: Any, cells: Optional[bool] = None, *, copy: bool = True) -> None:
         """Adds a column, in place of one of this name; files that are written have it.
-
-        The array is used where it is: do not change it while the mesh or a field of it is used.
 
         Args:
             name: any but those with a meaning of their own, as Position and OriginalId.
             values: (n,) or (n, k), a row for each vertex or each cell.
             cells: True, False, or by the number of rows; vertices if there are as many of both.
+            copy: False: the array is used where it is. Do not change it while the mesh or a field of it
+                is used.
         """
         if not isinstance(name, str):
             raise InputError("%r: the name of a column is a text." % (name,))
         column = Columns(self).add(values, name, cells, name=name)
+        if copy and isinstance(values, np.ndarray) and np.may_share_memory(column.values, values):
+            column = column._replace(values=column.values.copy())
         with self._handle() as mesh:
             self._add_column(mesh, column)
             self._own[name, column.cells] = column.values
@@ -371,7 +401,14 @@ class Mesh:
             The simplified surface, whose column OriginalId has the numbers of its vertices in this
             mesh, and whose `report` says more.
         """
-        description = jobs.DESCRIPTIONS["simplify"](Columns(self), vertices, error=error, **options)[0]
+        simplified = self._simplified(vertices, path, progress, {"error": error, **options})
+        assert simplified.report is not None
+        warn_of(simplified.report, set())
+        warn_of_notes(simplified.report)
+        return simplified
+
+    def _simplified(self, vertices: Any, path: Any, progress: Any, options: Dict[str, Any]) -> "Mesh":
+        description = jobs.DESCRIPTIONS["simplify"](Columns(self), vertices, **options)[0]
         description = self._with_defaults("simplify", description)
         folder = None
         if path is None:
@@ -394,8 +431,19 @@ class Mesh:
         if folder:
             simplified.name = "%s, simplified" % self.name
             simplified._folder = folder
-        warn_of(facts, set())
         return simplified
+
+    def select(self, region: Any, progress: Any = None) -> np.ndarray:
+        """Where a region is, as a mask: (n,) bool of the vertices; of a column of the cells (m,) bool."""
+        return as_region(region).selected(self, progress)[0]
+
+    def select_vertices(self, where: Dict[str, Any], progress: Any = None) -> np.ndarray:
+        """The mask of the vertices, (n,) bool, of WHERE of a problem file."""
+        selected = np.empty(self.n_vertices, np.uint8)
+        pointer = selected.ctypes.data_as(c_void_p)
+        with reporting(progress, "selecting") as report, self._handle() as mesh:
+            call_reporting("smg_select", (mesh, json_text(where)), report, pointer)
+        return selected.view(bool)
 
     def solver(self, *, progress: Any = None, **options: Any) -> Any:
         """The equations of a problem with their hierarchy, in memory, for many right-hand sides.
@@ -431,7 +479,7 @@ class Mesh:
         try:
             if self.n_vertices > _PICTURE_VERTICES:
                 return ""
-            with self.simplify(1500) as small:
+            with self._simplified(1500, None, None, {}) as small:
                 points, cells, ids = small.points, small.cells, small["OriginalId"]
         except Error:
             return ""
@@ -443,6 +491,37 @@ class Mesh:
             elif found.ndim == 1 or found.shape[1] == 1:
                 values = found.reshape(-1)[ids].astype(np.float64)
         return surface_svg(points, cells, values)
+
+
+def mesh_of(field: Field, handle: NativeHandle, job: str, progress: Any) -> Mesh:
+    """The mesh with the result of a job; see `Field.as_mesh`."""
+
+    def opener(report: Any) -> NativeHandle:
+        opened = NativeHandle("mesh")
+        with handle as pointer:
+            call_reporting("smg_open_field", (pointer,), report, byref(opened.pointer))
+        return opened
+
+    of = field.mesh
+    made = Mesh("%s, %s" % (of.name, job), opener, of.defaults(*_OPENING), progress)
+    made._source = of._source
+    made._handle()
+    made._opener = None  # which has the field
+    return made
+
+
+def _on_result(name: str) -> Any:
+    """The method of this name of a mesh, for fields."""
+
+    @functools.wraps(getattr(Mesh, name))
+    def method(self: Field, *arguments: Any, **options: Any) -> Any:
+        return getattr(self.as_mesh(), name)(*arguments, **options)
+
+    return method
+
+
+for _name in (*jobs.DESCRIPTIONS, "solver", "estimate", "select"):
+    setattr(Field, _name, _on_result(_name))
 
 
 def _files(path: str) -> List[str]:
@@ -545,7 +624,12 @@ def open(  # noqa: A001, the word of the trade
     opened = Mesh(path, opener, defaults, progress)
     opened._file = text(path), json_text(options)
     opened._source = path
+    opened._reopening = {**options, "cache": cache}
     return opened
+
+
+def _reopen(path: str, options: Dict[str, Any]) -> Mesh:
+    return open(path, **options)
 
 
 def mesh(

@@ -6,11 +6,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterable, List, Optional, Sequence, Union
+from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from ._arrays import numbers
+from ._columns import Columns
 from ._errors import InputError
 
 _FAR = 1e300  # beyond every coordinate
@@ -21,7 +22,8 @@ class Region:
     """A part of the vertices of a mesh; made by the functions of this module.
 
     A cell or a boundary facet belongs to a region if all its corners do; regions by a column of the
-    cells select cells, their vertices and their facets. Several regions are given as a list.
+    cells select cells, their vertices and their facets. Several regions are given as a list, or
+    combined vertex by vertex: ``a | b``, ``a & b``, ``a - b``, ``~a``.
     """
 
     def __init__(self, kind: str, value: Any) -> None:
@@ -33,23 +35,40 @@ class Region:
     def __repr__(self) -> str:
         return "smg.%s(%r)" % (self._kind, self._value)
 
-    def __and__(self, _: Any) -> Any:
-        raise InputError(
-            "Regions are not combined: give several as a list, and what a list cannot say as a mask, "
-            "smg.mask(array)."
-        )
+    def __and__(self, other: Any) -> "Region":
+        return _Combined("&", self, as_region(other))
 
-    __or__ = __xor__ = __sub__ = __rand__ = __ror__ = __and__
+    def __or__(self, other: Any) -> "Region":
+        return _Combined("|", self, as_region(other))
 
-    def __invert__(self) -> Any:
-        return self & self
+    def __sub__(self, other: Any) -> "Region":
+        return _Combined("&", self, ~as_region(other))
+
+    def __rand__(self, other: Any) -> "Region":
+        return as_region(other) & self
+
+    def __ror__(self, other: Any) -> "Region":
+        return as_region(other) | self
+
+    def __invert__(self) -> "Region":
+        return _Combined("~", self)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> Any:
+        if ufunc is np.bitwise_and or ufunc is np.bitwise_or:  # an array, a mask, on the left
+            first, second = map(as_region, inputs)
+            return first & second if ufunc is np.bitwise_and else first | second
         raise InputError("A region stands before the value: region >> value.")
 
     def where(self, context: Any) -> Dict[str, Any]:
         """WHERE of a problem file; `context` (columns.Columns) adds masks and knows the bounds."""
         return {self._kind: self._value}
+
+    def selected(self, mesh: Any, progress: Any = None) -> Tuple[np.ndarray, bool]:
+        """The mask of the region, (n,) bool, and whether it is that of the cells."""
+        if self._kind == "tag":
+            name, value = self._value
+            return _read(mesh, name) == value, name not in mesh.columns["vertices"]
+        return mesh.select_vertices(self.where(Columns(mesh)), progress), False
 
 
 class Placed:
@@ -71,6 +90,9 @@ class _Everywhere(Region):
 
     def where(self, context: Any) -> Dict[str, Any]:
         return {}
+
+    def selected(self, mesh: Any, progress: Any = None) -> Tuple[np.ndarray, bool]:
+        return np.ones(mesh.n_vertices, bool), False
 
 
 class _Boundary(Region):
@@ -106,6 +128,65 @@ class _Mask(Region):
         if isinstance(self._value, str):
             return {"mask": self._value}
         return {"mask": context.add(self._value, "mask", components=(1,)).name}
+
+    def selected(self, mesh: Any, progress: Any = None) -> Tuple[np.ndarray, bool]:
+        if isinstance(self._value, str):
+            values, of_cells = _read(mesh, self._value), self._value not in mesh.columns["vertices"]
+        else:
+            column = Columns(mesh).add(self._value, "mask", components=(1,))
+            values, of_cells = column.values, column.cells
+        if values.dtype.kind == "f" and np.isnan(values).any():
+            raise InputError("mask: a value is NaN, which neither selects nor leaves out.")
+        return values != 0, of_cells
+
+
+def _read(mesh: Any, name: str) -> np.ndarray:
+    """A column of one component."""
+    values = mesh.read(name)
+    if values.ndim != 1:
+        raise InputError("%r: the column has %d components; one is needed." % (name, values.shape[1]))
+    return values
+
+
+class _Combined(Region):
+    """Regions that are combined by |, & or ~, vertex by vertex: a mask, which is made when it is used.
+
+    Of regions by columns of the cells alone it is a mask of the cells; with others, a cell counts by
+    its vertices.
+    """
+
+    def __init__(self, operation: str, *parts: Region) -> None:
+        super().__init__("combined", parts)
+        self._operation = operation
+
+    def __repr__(self) -> str:
+        if self._operation == "~":
+            return "~%r" % self._value
+        return "(%s)" % (" %s " % self._operation).join(map(repr, self._value))
+
+    def where(self, context: Any) -> Dict[str, Any]:
+        mask, of_cells = self.selected(context.mesh)
+        if not mask.any():
+            raise InputError("%r: nothing is in this region." % self)
+        return {"mask": context.add(mask, "mask", of_cells, (1,)).name}
+
+    def selected(self, mesh: Any, progress: Any = None) -> Tuple[np.ndarray, bool]:
+        (first, of_cells), *others = [part.selected(mesh, progress) for part in self._value]
+        if self._operation == "~":
+            return ~first, of_cells
+        second, second_of_cells = others[0]
+        if of_cells != second_of_cells:
+            first = _vertices_of(mesh, first) if of_cells else first
+            second = _vertices_of(mesh, second) if second_of_cells else second
+        both = first | second if self._operation == "|" else first & second
+        return both, of_cells and second_of_cells
+
+
+def _vertices_of(mesh: Any, mask: np.ndarray) -> np.ndarray:
+    """The vertices of the cells of a mask."""
+    found = np.zeros(mesh.n_vertices, bool)
+    found[mesh.cells[mask].reshape(-1)] = True
+    return found
 
 
 #: All of the mesh: ``conductivity=[smg.everywhere >> 25, ...]``; a value alone means the same.

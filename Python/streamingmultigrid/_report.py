@@ -129,6 +129,12 @@ def warn_of(report: Report, said: set) -> None:
         warn(not_converged(report), NotConvergedWarning)
 
 
+def warn_of_notes(report: Report) -> None:
+    """The notes, too, become warnings where nobody sees the report."""
+    for sentence in report.get("notes") or []:
+        warn(sentence, ReportWarning)
+
+
 def not_converged(report: Report) -> str:
     """The sentence of a job that did not converge."""
     residuals = report.get("residuals") or []

@@ -15,12 +15,14 @@ An exception that a progress function raises cancels the call and is raised from
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
 import sys
 import threading
 from typing import Any, Callable, Iterator, Optional
 
-from ._errors import InputError
+from ._errors import Error, InputError
+from ._process import require_interpreter
 
 Report = Callable[[float], Any]
 
@@ -103,13 +105,17 @@ class Cancellation:
         self._report = report
         self._interrupt: Optional[tuple] = None
         self._handler: Any = None
+        self._process = os.getpid()
         self.exception: Optional[BaseException] = None
 
     def __call__(self, done: float, _user: Any = None) -> int:
         try:
+            require_interpreter()
             self._handle_interrupt()
             if self._report is not None and self.exception is None:
                 self._report(min(1.0, max(0.0, done)))
+            if os.getpid() != self._process:
+                raise Error("A progress function has forked the process: the child cannot go on.")
         except BaseException as exception:  # raised again by raise_exception()
             self.exception = exception
         return 0 if self.exception is None else 1

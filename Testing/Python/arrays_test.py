@@ -2,7 +2,9 @@
 """Arrays of any type and stride give the same bits, without copies; wrong ones a clear error."""
 
 import gc
+import os
 import unittest
+import warnings
 import weakref
 
 from testing import bits, cube, np, smg, sphere, write_off
@@ -80,7 +82,7 @@ class ErrorsTest(unittest.TestCase):
         wrong = cells.copy()
         wrong[3, 1] = len(points)
         for given, words in (
-            ((points[:, :2], cells), r"points: the shape is \(42, 2\)"),
+            ((points[:, :1], cells), r"points: the shape is \(42, 1\)"),
             ((points, cells[:, :2]), r"cells: the shape is \(80, 2\)"),
             ((points, cells.astype(float)), "integers"),
             ((points, wrong), "42"),
@@ -130,8 +132,9 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.solve(problem="nowhere.json"), smg.Error, "nowhere.json: cannot be opened"),
             (lambda: mesh.solve(problem="wrong.json"), smg.Error, "wrong.json: this is not valid JSON"),
             (lambda: mesh.distance([1.5]), smg.InputError, "integers"),
-            (lambda: mesh.distance(smg.boundary & smg.above(z=0)), smg.InputError, "smg.mask"),
-            (lambda: mesh.distance(~smg.boundary), smg.InputError, "smg.mask"),
+            (lambda: mesh.distance(smg.boundary & smg.above(z=0)), smg.Error, "boundary"),
+            (lambda: mesh.distance(smg.above(z=0.9) & smg.below(z=-0.9)), smg.InputError, "nothing"),
+            (lambda: mesh.distance(~smg.everywhere), smg.InputError, "nothing"),
             (lambda: mesh.simplify(50, scratch="nowhere"), smg.Error, "nowhere.*: No such"),
             (lambda: mesh.save("x.unknown"), smg.Error, "unknown"),
             (lambda: mesh.simplify(), smg.InputError, "vertices"),
@@ -201,11 +204,107 @@ class NamesTest(unittest.TestCase):
         self.assertIn("#source", mesh.simplify(100).columns["vertices"])
 
 
+class ColumnsTest(unittest.TestCase):
+    def test_columns_are_copied_unless_told(self):
+        points, cells = sphere(2)
+        for copy in (True, False):
+            for values in (points[:, 0].copy(), points[:, 0] > 0, points.astype(np.float32)[::-1]):
+                mesh = smg.mesh(points, cells)
+                mesh.add("Values", values, copy=copy)
+                before = mesh["Values"].copy()
+                values[:] = 0
+                self.assertEqual(np.array_equal(mesh["Values"], before), copy)
+        mesh = smg.mesh(points, cells)
+        values = points[:, 0].copy()
+        mesh["Values"] = values
+        values *= 7
+        self.assertEqual(bits(mesh["Values"]), bits(points[:, 0]))
+
+    def test_names(self):
+        points, cells = sphere(2)
+        mesh = smg.mesh(points, cells)
+        mesh["Point"], mesh["Cell"] = points, np.ones(len(cells))
+        u = mesh.solve(dirichlet={0: 0.0, 9: 1.0}, outputs="flux")
+        for each, names in ((mesh, ["Point", "Cell"]), (u, ["Point", "Cell", "Solution", "Flux"])):
+            self.assertLessEqual(set(names), set(each.keys()))
+            for name in each.keys():
+                self.assertIn(name, each)
+                self.assertEqual(len(each[name]), len(each.read(name)))
+            self.assertNotIn("Other", each)
+            self.assertEqual((each.n_points, each.n_cells), (len(points), len(cells)))
+            self.assertEqual(each.n_vertices, len(points))
+
+    def test_a_field_is_used_as_an_array(self):
+        points, cells = sphere(2)
+        mesh = smg.mesh(points, cells)
+        u, v = mesh.solve(dirichlet={0: 0.0, 9: 1.0}), mesh.distance([0])
+        a, b = u.to_numpy(), v.to_numpy()
+        for found, expected in (
+            (u + 1, a + 1), (1 - u, 1 - a), (u * v, a * b), (-u, -a), (abs(u), abs(a)),
+            (u > 0.5, a > 0.5), (np.sqrt(v), np.sqrt(b)), (a + v, a + b), (u == u, a == a),
+            (np.add.reduce(u), a.sum()), (np.maximum(u, v), np.maximum(a, b)),
+        ):  # fmt: skip
+            self.assertEqual(bits(found), bits(expected))
+        self.assertEqual((u.dtype, u.ndim, u.size, len(u)), (a.dtype, 1, a.size, len(a)))
+        self.assertEqual(len({u, v, u}), 2)
+        with self.assertRaises(smg.InputError):
+            np.add(a, 1, out=u)
+        # As a value, a mask, and a column of a job.
+        self.assertEqual(bits(mesh.solve(source=v, dirichlet={0: 0})), bits(mesh.solve(source=b, dirichlet={0: 0})))
+        self.assertEqual(bits(mesh.smooth(hold=u > 0.5)), bits(mesh.smooth(hold=a > 0.5)))
+        self.assertEqual(bits(mesh.smooth(column=u)), bits(mesh.smooth(column=a)))
+
+    def test_import_all_keeps_the_builtins(self):
+        names = {}
+        exec("from streamingmultigrid import *", names)
+        own = {name for name in names if name not in ("__builtins__", "__name__")}
+        self.assertEqual(own & set(dir(names["__builtins__"] if isinstance(names["__builtins__"], type(os))
+                                       else os.sys.modules["builtins"])), set())  # fmt: skip
+        self.assertIn("solve", own)
+
+    def test_plane_points(self):
+        points, cells = sphere(2)
+        flat = points * [1, 1, 0]
+        for dtype in (float, np.float32, int):
+            given = (points[:, :2] * 100).astype(dtype)
+            self.assertEqual(
+                bits(smg.mesh(given, cells).points),
+                bits(np.concatenate([given, np.zeros((len(given), 1), dtype)], axis=1).astype(float)),
+            )
+        self.assertEqual(bits(smg.distance(points[:, :2], cells, [0])), bits(smg.distance(flat, cells, [0])))
+
+
+class WarningsTest(unittest.TestCase):
+    """What the report warns of is a warning of Python, of methods and of functions on arrays."""
+
+    def test_warnings(self):
+        points, cells = sphere(3)
+        mixed = cells.copy()
+        mixed[::2] = mixed[::2, ::-1]
+        ball, facets = sphere(1)
+        many = np.concatenate([ball + [3 * i, 0, 0] for i in range(100)])
+        bodies = np.concatenate([facets + len(ball) * i for i in range(100)])
+        for arrays, job, arguments, words in (
+            ((points, mixed), "smooth", {}, "wound against each other"),
+            ((many, bodies), "simplify", {"vertices": 100}, "left out"),
+            ((points, cells), "solve", {"source": 1.0}, "do not sum to zero"),
+        ):
+            for call in (getattr(smg.mesh(*arrays), job), lambda **o: getattr(smg, job)(*arrays, **o)):
+                with self.subTest(job=job), warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    found = call(**arguments)
+                    _ = getattr(found, "report", None)
+                    self.assertRegex("".join(str(w.message) for w in caught), words)
+                    self.assertEqual(len(caught), len({str(w.message) for w in caught}))
+                    for each in caught:
+                        self.assertTrue(issubclass(each.category, smg.ReportWarning))
+
+
 class LifetimesTest(unittest.TestCase):
     def test_blocks_keep_the_arrays_that_they_read(self):
         mesh = smg.mesh(*sphere(3))
         heat = np.arange(mesh.n_vertices, dtype=float)
-        mesh["heat"] = heat
+        mesh.add("heat", heat, copy=False)
         expected, gone = heat.copy(), weakref.ref(heat)
         del heat
         blocks = mesh.blocks(max_points=100)

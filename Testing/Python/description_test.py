@@ -5,7 +5,7 @@ import json
 import os
 import unittest
 
-from testing import SOURCE, need, np, smg
+from testing import SOURCE, cube, need, np, smg
 
 need("jsonschema")
 import jsonschema  # noqa: E402
@@ -73,6 +73,49 @@ class ProblemTest(unittest.TestCase):
             with self.subTest(region=region):
                 self.check({"dirichlet": [{**where, "value": 1.5}]}, dirichlet=[region >> 1.5])
                 self.check({"dirichlet": [{**where, "value": 1.5}]}, dirichlet=region >> 1.5)
+
+    def test_regions_are_combined(self):
+        """Vertex by vertex; of columns of the cells alone, cell by cell."""
+        points, cells = cube(4)
+        mesh = smg.mesh(points, cells)
+        x, y, z = points.T
+        part = (points[cells].mean(axis=1)[:, 0] > 0.5).astype(int)
+        mesh["Part"], mesh["Half"] = part, x > 0.5
+        outside = ((points == 0) | (points == 1)).any(axis=1)
+        ball, left = smg.sphere((0, 0, 0), 0.9), smg.below(x=0.3)
+        in_ball, on_left = (points**2).sum(axis=1) <= 0.81, x <= 0.3
+        of_part = np.zeros(len(points), bool)
+        of_part[cells[part == 1]] = True
+        for region, mask in (
+            (ball, in_ball),
+            (ball | left, in_ball | on_left),
+            (ball & left, in_ball & on_left),
+            (ball - left, in_ball & ~on_left),
+            (~ball, ~in_ball),
+            (~(ball | left), ~(in_ball | on_left)),
+            (smg.boundary & left, outside & on_left),
+            (~smg.boundary, ~outside),
+            (smg.everywhere - ball, ~in_ball),
+            (smg.plane(z=0) & smg.mask(y > 0.5), (z == 0) & (y > 0.5)),
+            ((y > 0.5) & smg.plane(z=0), (z == 0) & (y > 0.5)),
+            (smg.mask("Half") | smg.vertices([0, 3]), (x > 0.5) | np.isin(np.arange(len(x)), [0, 3])),
+            (smg.tag("Half", 1) & ball, (x > 0.5) & in_ball),
+            (smg.nearest([0, 0, 0]) | left, on_left),
+            (smg.tag("Part", 1), part == 1),
+            (~smg.tag("Part", 1), part != 1),
+            (smg.tag("Part", 1) & smg.mask("Part"), part == 1),
+            (smg.tag("Part", 1) & smg.below(x=0.5), of_part & (x <= 0.5)),
+            (left | smg.tag("Part", 1), of_part | on_left),
+        ):
+            with self.subTest(region=region):
+                np.testing.assert_array_equal(mesh.select(region), mask)
+                if len(mask) == len(points):
+                    np.testing.assert_array_equal(mesh.distance(region), mesh.distance(smg.mask(mask)))
+                else:
+                    np.testing.assert_array_equal(
+                        mesh.solve(dirichlet={0: 0}, source=1, conductivity=[1, region >> 5]),
+                        mesh.solve(dirichlet={0: 0}, source=1, conductivity=[1, smg.mask(mask) >> 5]),
+                    )
 
     def test_a_plane_has_a_tolerance(self):
         written, _ = said(dirichlet=[smg.plane(y=3) >> 0, smg.plane(x=1, tolerance=0.5) >> 1])

@@ -194,17 +194,18 @@ void MeshFairing::survey(Part part)
   }
 }
 
-/** Notes triangles that are wound in ways that make the volume, and the normals along which it is
- * kept, differ from what one would expect. `closed`: the measures of a surface without boundary. */
+/** Warns of triangles that are wound in ways that make the volume, and the normals along which it
+ * is kept, differ from what one would expect. `closed`: the measures of a surface without boundary.
+ */
 void MeshFairing::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
 {
-  std::vector<std::string>& notes = this->Result->total.notes;
+  Report& report = this->Result->total;
   if (turnedEdges > 0)
   {
-    notes.push_back("The triangles at " + std::to_string(turnedEdges) +
-                    (turnedEdges == 1 ? " edge" : " edges") +
-                    " are wound against each other: there the surface has no sides, so that its "
-                    "volume is not kept. Orient the mesh first, or do not keep the volume");
+    report.warn("The triangles at " + std::to_string(turnedEdges) +
+                (turnedEdges == 1 ? " edge" : " edges") +
+                " are wound against each other: there the surface has no sides, so that its "
+                "volume is not kept. Orient the mesh first, or do not keep the volume");
     return;
   }
   constexpr double Little = 0.01;
@@ -212,9 +213,9 @@ void MeshFairing::noteWinding(std::int64_t turnedEdges, const MeshMeasures* clos
   const double outwards = closed ? closed->volume() + inwards : 0.0;
   if (std::min(inwards, outwards) > Little * std::max(inwards, outwards))
   {
-    notes.push_back("Some bodies are wound inside out, or are cavities of others: their volume, " +
-                    std::to_string(std::lround(100.0 * inwards / outwards)) +
-                    " % of that of the others, counts as negative, and what is kept is the sum");
+    report.warn("Some bodies are wound inside out, or are cavities of others: their volume, " +
+                std::to_string(std::lround(100.0 * inwards / outwards)) +
+                " % of that of the others, counts as negative, and what is kept is the sum");
   }
 }
 
@@ -299,7 +300,7 @@ void MeshFairing::setSize(const MeshMeasures& measures)
     {
       throw Error(sentence);
     }
-    this->Result->total.notes.push_back(sentence);
+    this->Result->total.warn(sentence);
   }
 }
 

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every job with every option, by every way out: a table of jobs, and what holds of each of them."""
+
+import os
+import unittest
+import warnings
+
+from testing import bits, cube, np, smg, sphere
+
+MESHES = {"surface": sphere(2), "solid": cube(3)}
+
+#: Where each kind of result can be written: the formats of meshes, by kind, and those with columns.
+COLUMNS = ("vsm", "vtk", "vtu", "vtkhdf")
+SUFFIXES = {
+    "surface": (*COLUMNS, "ply", "vtp", "obj", "off", "stl", "mesh", "msh", "node", "sma", "smb"),
+    "solid": (*COLUMNS, "mesh", "msh", "node", "sva", "svb"),
+}
+HOLD_COLUMNS = {"surface": (*COLUMNS, "ply", "vtp"), "solid": COLUMNS}
+#: Formats whose numbers are rounded, or that keep no order of vertices.
+LOSSY = {"stl", "sma", "smb", "sva", "svb", "obj", "off", "mesh", "msh", "node"}
+
+
+def table(kind, mesh):
+    """The jobs: name, function, columns of the result, the others of which are of cells."""
+    points = mesh.points
+    part = (points[:, 0] > 0.3).astype(np.int32)
+    two = smg.vertices([0, 9]) >> np.array([[0.0, 1.0], [1.0, 3.0]])
+    fixed = {"dirichlet": {0: 0.0, 9: 1.0}}
+    motion = [smg.handle([0], fixed=True), smg.handle([9], translate=[0, 0, 0.1])]
+    yield "solve", lambda: mesh.solve(**fixed), ["Solution"]
+    yield "solve two", lambda: mesh.solve(dirichlet=two), ["Solution"]
+    yield "solve, source", lambda: mesh.solve(source=points[:, 0], **fixed), ["Solution"]
+    for outputs in (["gradient"], ["flux"], ["gradient", "flux"]):
+        names = ["Solution", *map(str.capitalize, outputs)]
+        yield "solve, %s" % outputs, lambda o=outputs: mesh.solve(outputs=o, **fixed), names
+        yield "two, %s" % outputs, lambda o=outputs: mesh.solve(outputs=o, dirichlet=two), names
+    yield "deform", lambda: mesh.deform(motion), ["Position"]
+    if kind == "surface":
+        for options in ({}, {"keep_volume": False}, {"steps": 2}, {"hold": points[:, 0] > 0.5}):
+            yield "smooth %s" % list(options), lambda o=options: mesh.smooth(**o), ["Position"]
+    one, three = points[:, 1].copy(), points.astype(np.float32)
+    yield "smooth one", lambda: mesh.smooth(column={"One": one}), ["One"]
+    yield "smooth three", lambda: mesh.smooth(column={"Three": three}), ["Three"]
+    for columns in ({"One": one}, {"Three": three}, {"One": one, "Three": three}, {"Three": three, "One": one}):
+        for seam in ("zero", "average"):
+            yield (
+                "blend %s, %s" % (list(columns), seam),
+                lambda c=columns, s=seam: mesh.blend(c, patch=part, seam=s),
+                list(columns),
+            )
+    for wall in (False, True) if kind == "solid" else (False,):
+        for source in (False, True):
+            for direction in (False, True):
+                options = {"source": source, "direction": direction, "wall": wall}
+                names = ["Distance"] + ["DistanceSource"] * source + ["DistanceDirection"] * direction
+                sources = [] if wall else [[0]]
+                yield "distance %s" % options, lambda s=sources, o=options: mesh.distance(*s, **o), names
+
+
+class TableTest(unittest.TestCase):
+    def setUp(self):
+        warnings.simplefilter("ignore", smg.ReportWarning)  # of columns that a format cannot hold
+
+    def each(self):
+        for kind, arrays in MESHES.items():
+            mesh = smg.mesh(*arrays)
+            for name, job, names in table(kind, mesh):
+                yield self.subTest(mesh=kind, job=name), kind, mesh, job(), names
+
+    def test_arrays(self):
+        """Whole arrays, arithmetic and blocks have the same numbers."""
+        for case, _, mesh, field, names in self.each():
+            with case:
+                self.assertEqual(list(field.names), names)
+                values = field.to_numpy()
+                self.assertEqual((values.shape, values.dtype), (field.shape, field.dtype))
+                self.assertEqual(len(field), mesh.n_vertices)
+                self.assertEqual(bits(values), bits(np.asarray(field)))
+                self.assertEqual(bits(values), bits(field[names[0]]))
+                self.assertEqual(bits(values + 1), bits(field + 1))
+                whole = {name: field[name] for name in names}
+                for block in field.blocks(40):
+                    for name in names:
+                        rows = block.rows if len(whole[name]) == mesh.n_vertices else block.cell_rows
+                        self.assertEqual(bits(block[name]), bits(whole[name][rows]), name)
+
+    def test_files(self):
+        """What a format can hold is in the file, in the order of the mesh; what it cannot is refused."""
+        for case, kind, mesh, field, names in self.each():
+            with case:
+                moves = names == ["Position"]
+                for suffix in SUFFIXES[kind]:
+                    path = "result." + suffix
+                    if not moves and suffix not in HOLD_COLUMNS[kind]:
+                        with self.assertRaisesRegex(smg.Error, "cannot hold"):
+                            field.save(path)
+                        continue
+                    field.save(path)
+                    with smg.open(path) as found:
+                        self.assertEqual(found.n_cells, mesh.n_cells, suffix)
+                        if suffix in LOSSY:
+                            continue
+                        for name in names:
+                            cells = name in ("Gradient", "Flux")
+                            expected = field[name]
+                            if suffix == "ply" and name not in found and not moves:
+                                continue  # a column for each component, Solution_0 ...
+                            written = found.read(name, cells=cells).reshape(expected.shape)
+                            np.testing.assert_allclose(written, expected, rtol=1e-6, err_msg=suffix)
+                    os.remove(path)
+
+    def test_next_jobs(self):
+        """A result goes into every other job, and what that finds is what it finds of a file of it."""
+        for case, kind, _, field, names in self.each():
+            with case:
+                field.save("result.vsm")
+                with smg.open("result.vsm") as file:
+                    chained = field.as_mesh()
+                    self.assertEqual(bits(chained.points), bits(file.points))
+                    for name in names:
+                        self.assertIn(name, chained)
+                        self.assertEqual(bits(chained[name]), bits(field[name]))
+                    jobs = [lambda m: m.distance([0]), lambda m: m.solve(dirichlet={0: 1.0})]
+                    if kind == "surface":
+                        jobs.append(lambda m: m.smooth())
+                    for job in jobs:
+                        self.assertEqual(bits(job(field).to_numpy()), bits(job(file).to_numpy()))
+                        if names[-1] in job(field):  # another solve replaces fluxes
+                            self.assertEqual(bits(job(field)[names[-1]]), bits(job(file)[names[-1]]))
+                    if kind == "surface":
+                        small = field.simplify(60)
+                        self.assertEqual(bits(small.points), bits(chained.points[small["OriginalId"]]))
+
+    def test_pyvista(self):
+        try:
+            import pyvista  # noqa: F401
+        except ImportError:
+            self.skipTest("PyVista is not installed")
+        for case, _, _, field, names in self.each():
+            with case:
+                dataset = field.to_pyvista()
+                for name in names:
+                    if name != "Position":
+                        data = dataset.point_data if name in dataset.point_data else dataset.cell_data
+                        self.assertEqual(bits(data[name]), bits(field[name]))
+
+    def test_functions_on_arrays(self):
+        """They return what the field has: an array, or a dict of several."""
+        points, cells = MESHES["surface"]
+        part = (points[:, 0] > 0.3).astype(np.int32)
+        mesh = smg.mesh(points, cells)
+        for job, arguments, options in (
+            ("solve", (), {"dirichlet": {0: 0.0, 9: 1.0}, "outputs": ["gradient", "flux"]}),
+            ("deform", ([smg.handle([0], fixed=True), smg.handle([9], translate=[0, 0, 0.1])],), {}),
+            ("smooth", (), {}),
+            ("smooth", (), {"column": points}),
+            ("blend", ({"A": points[:, 0], "B": points},), {"patch": part}),
+            ("distance", ([0],), {"source": True, "direction": True}),
+        ):
+            with self.subTest(job=job, options=options):
+                field = getattr(mesh, job)(*arguments, **options)
+                found = getattr(smg, job)(points, cells, *arguments, **options)
+                for name in field.names:
+                    values = found[name] if isinstance(found, dict) else found
+                    self.assertEqual(bits(values), bits(field[name]), name)
+
+
+class SimplifiedTest(unittest.TestCase):
+    """A simplified mesh names vertices of a larger one; it goes everywhere a mesh goes."""
+
+    def test_files(self):
+        small = smg.mesh(*sphere(4)).simplify(200)
+        smooth = small.smooth()
+        for source in (small, smooth):
+            for suffix in SUFFIXES["surface"]:
+                with self.subTest(source=source, suffix=suffix):
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("ignore", smg.ReportWarning)
+                        source.save("small." + suffix)
+                    with smg.open("small." + suffix, order="keep") as found:
+                        self.assertEqual(found.n_cells, small.n_cells)
+                        if suffix not in ("stl", "sma", "smb"):
+                            np.testing.assert_array_equal(found.n_vertices, small.n_vertices)
+                            expected = source["Position"]
+                            np.testing.assert_allclose(found.points, expected, atol=1e-6)
+                            np.testing.assert_array_equal(found.cells, small.cells)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
