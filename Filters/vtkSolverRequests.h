@@ -13,6 +13,7 @@
 #include "Filters/Tasks/vtkWarnOnce.h"
 #include "Filters/vtkRegionChain.h"
 #include "IO/vtkFailures.h"
+#include "IO/vtkFieldMarks.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCells.h"
@@ -21,7 +22,6 @@
 #include "smg/Error.h"
 
 #include "vtkDemandDrivenPipeline.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
@@ -58,8 +58,7 @@ struct vtkStreamingSolver::Internals
       !exchange.isParallel() && this->fetchWhole(input, request, inputInfo, present);
     if (isOrdinary && request.Piece > 0)
     {
-      vtkDataObject::GetData(outputInfo)->Initialize(); // piece 0 is all of it
-      return;
+      return; // piece 0 is all of it
     }
     // In memory, filters work on triangles and tetrahedra only. An ordinary mesh is solved on in
     // the same way whoever asks.
@@ -383,7 +382,7 @@ struct vtkStreamingSolver::Internals
     vtkNew<vtkStringArray> report;
     report->SetName("Report");
     report->InsertNextValue(this->Summary.report);
-    output.GetFieldData()->AddArray(report);
+    smg::addFieldArray(output, *report);
   }
 
   /** The last known modification time of the pipeline. */

@@ -200,8 +200,9 @@ int vtkStreamingMeshPreview::RequestData(
       }
       else
       {
+        vtkDataObject* present = input.update(request.Piece, request.Pieces, false);
         this->Internal->deliverNothing(
-          *vtkPointSet::GetData(inputInfo), *vtkPolyData::GetData(outputVector));
+          *vtkPointSet::SafeDownCast(present), *vtkPolyData::GetData(outputVector));
       }
     });
 }

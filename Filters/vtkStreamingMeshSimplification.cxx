@@ -80,7 +80,8 @@ struct vtkStreamingMeshSimplification::Internals
       const char* folder = this->Self.ScratchDirectory;
       this->Scratch.emplace(folder ? folder : "");
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
-      vtkPointSet& present = *vtkPointSet::GetData(inputInfo);
+      vtkPointSet& present =
+        *vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, false));
       this->Report =
         smg::simplify(smg::VsmReader(this->fileOf(input, request, present)), this->target(), result,
           { .memoryLimit = this->memory(),
@@ -268,8 +269,7 @@ int vtkStreamingMeshSimplification::RequestData(
       const bool isParallel = smg::hasSeveralProcesses();
       if (isParallel && request.Piece > 0)
       {
-        output.Initialize();
-        return;
+        return; // process 0 has all of it
       }
       smg::PieceInput input(*this, 0);
       this->Internal->make(input, request, inputVector[0]->GetInformationObject(0));

@@ -27,6 +27,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkTimeStamp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,6 +178,20 @@ struct vtkStreamingPoisson::Internals
     }
   }
 
+  /** Whether the problem file has changed since. */
+  void lookAtFile()
+  {
+    const char* name = this->Self.ProblemFileName;
+    std::error_code absent;
+    const auto time = name && *name ? std::filesystem::last_write_time(name, absent)
+                                    : std::filesystem::file_time_type();
+    if (time != this->FileTime)
+    {
+      this->FileTime = time;
+      this->FileChanged.Modified();
+    }
+  }
+
   const char* resultName() const
   {
     const char* name = this->Self.ResultArrayName;
@@ -187,8 +202,9 @@ struct vtkStreamingPoisson::Internals
   smg::WarnOnce NoCells;
   /** The problem of the last solve, in the process that solves. */
   std::optional<smg::ProblemDescription> Solved;
-  std::string WhyNotOnPreview; ///< if a preview is shown
-  std::filesystem::file_time_type FileTime;
+  std::string WhyNotOnPreview;              ///< if a preview is shown
+  std::filesystem::file_time_type FileTime; ///< of the problem file
+  vtkTimeStamp FileChanged;
 };
 
 vtkStreamingPoisson::vtkStreamingPoisson()
@@ -211,16 +227,15 @@ int vtkStreamingPoisson::GetCycles()
 
 vtkMTimeType vtkStreamingPoisson::GetMTime()
 {
-  std::error_code absent;
-  const auto time = this->ProblemFileName && *this->ProblemFileName
-                      ? std::filesystem::last_write_time(this->ProblemFileName, absent)
-                      : std::filesystem::file_time_type();
-  if (time != this->Internal->FileTime)
-  {
-    this->Internal->FileTime = time;
-    this->Modified();
-  }
-  return this->Superclass::GetMTime();
+  return std::max(this->Superclass::GetMTime(), this->Internal->FileChanged.GetMTime());
+}
+
+int vtkStreamingPoisson::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int port,
+  vtkMTimeType* time)
+{
+  this->Internal->lookAtFile();
+  return this->Superclass::ComputePipelineMTime(request, inputVector, outputVector, port, time);
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)

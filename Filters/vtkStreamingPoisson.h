@@ -122,12 +122,16 @@ public:
   /** V-cycles of the last solve. */
   int GetCycles();
 
-  /** Includes the modification time of the problem file. */
+  /** Includes the change of the problem file that the last update of the pipeline has found. */
   vtkMTimeType GetMTime() override;
 
 protected:
   vtkStreamingPoisson();
   ~vtkStreamingPoisson() override;
+
+  /** Looks whether the problem file has changed, once for every update of the pipeline. */
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int port, vtkMTimeType* time) override;
 
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;

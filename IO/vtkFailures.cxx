@@ -1,34 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkFailures.h"
 
+#include "IO/vtkFieldMarks.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
 #include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkOutputWindow.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
-
-#include <string_view>
+#include "vtkUnstructuredGrid.h"
 
 namespace smg
 {
 namespace
 {
-
-constexpr const char* FailedName = "Failed";
-/** See BigMeshWriter.xml. */
-constexpr int FailedComponents = 19;
-
-void showAllButFailedRequests(vtkObject*, unsigned long, void*, void* text)
-{
-  const auto* message = static_cast<const char*>(text);
-  if (std::string_view(message).find("returned failure for request") == std::string_view::npos)
-  {
-    vtkOutputWindow::GetInstance()->DisplayErrorText(message);
-  }
-}
 
 vtkMTimeType pipelineTimeOf(vtkAlgorithm& algorithm)
 {
@@ -40,12 +32,7 @@ vtkMTimeType pipelineTimeOf(vtkAlgorithm& algorithm)
 
 void markAsFailed(vtkDataObject& data)
 {
-  vtkNew<vtkUnsignedCharArray> mark;
-  mark->SetName(FailedName);
-  mark->SetNumberOfComponents(FailedComponents);
-  mark->SetNumberOfTuples(1);
-  mark->Fill(1);
-  data.GetFieldData()->AddArray(mark);
+  addMark(data, FailedName, FailedComponents);
 }
 
 bool isFailed(vtkDataObject* data)
@@ -53,10 +40,44 @@ bool isFailed(vtkDataObject* data)
   return data && data->GetFieldData() && data->GetFieldData()->HasArray(FailedName);
 }
 
+void completeMesh(vtkDataObject& data)
+{
+  auto* mesh = vtkPointSet::SafeDownCast(&data);
+  if (mesh && !mesh->GetPoints())
+  {
+    mesh->SetPoints(vtkNew<vtkPoints>());
+  }
+  if (!mesh || mesh->GetNumberOfCells() > 0)
+  {
+    return;
+  }
+  if (auto* surface = vtkPolyData::SafeDownCast(mesh))
+  {
+    surface->SetVerts(vtkNew<vtkCellArray>());
+    surface->SetLines(vtkNew<vtkCellArray>());
+    surface->SetPolys(vtkNew<vtkCellArray>());
+    surface->SetStrips(vtkNew<vtkCellArray>());
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
+  {
+    grid->SetCells(vtkNew<vtkUnsignedCharArray>(), vtkNew<vtkCellArray>());
+  }
+}
+
+Failures::~Failures()
+{
+  this->watch(nullptr);
+}
+
+void Failures::begin()
+{
+  this->Error.clear();
+  this->IsRefused = false;
+}
+
 void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 {
   this->Error = sentence;
-  this->quieten(algorithm);
   const vtkMTimeType now = pipelineTimeOf(algorithm);
   if (this->Last == sentence && this->PipelineTime == now &&
       !algorithm.HasObserver(vtkCommand::ErrorEvent))
@@ -71,24 +92,46 @@ void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 void Failures::showToObservers(vtkAlgorithm& algorithm, const std::string& sentence)
 {
   this->Error = sentence;
-  this->quieten(algorithm);
   if (algorithm.HasObserver(vtkCommand::ErrorEvent))
   {
     vtkErrorWithObjectMacro(&algorithm, << sentence);
   }
 }
 
-void Failures::quieten(vtkAlgorithm& algorithm)
+int Failures::refuse(vtkAlgorithm& algorithm)
 {
   vtkExecutive* executive = algorithm.GetExecutive();
-  if (this->Quiet == executive || executive->HasObserver(vtkCommand::ErrorEvent))
+  this->IsRefused = true;
+  if (this->Watched != executive && !executive->HasObserver(vtkCommand::ErrorEvent))
   {
-    return;
+    this->watch(executive);
   }
-  vtkNew<vtkCallbackCommand> command;
-  command->SetCallback(showAllButFailedRequests);
-  executive->AddObserver(vtkCommand::ErrorEvent, command);
-  this->Quiet = executive;
+  return 0;
+}
+
+void Failures::watch(vtkExecutive* executive)
+{
+  if (this->Watched)
+  {
+    this->Watched->RemoveObserver(this->OfExecutive);
+  }
+  this->Watched = executive;
+  if (executive)
+  {
+    this->OfExecutive->SetClientData(this);
+    this->OfExecutive->SetCallback(display);
+    executive->AddObserver(vtkCommand::ErrorEvent, this->OfExecutive);
+  }
+}
+
+void Failures::display(vtkObject*, unsigned long, void* self, void* text)
+{
+  auto* failures = static_cast<Failures*>(self);
+  if (!failures->IsRefused)
+  {
+    vtkOutputWindow::GetInstance()->DisplayErrorText(static_cast<const char*>(text));
+  }
+  failures->IsRefused = false;
 }
 
 } // namespace smg

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCallbackCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationStringVectorKey.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkStreamingMultigridIOModule.h"
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
@@ -19,8 +22,6 @@
 #include <exception>
 #include <string>
 
-class vtkAlgorithm;
-class vtkDataObject;
 class vtkExecutive;
 
 namespace smg
@@ -33,19 +34,30 @@ public:
   using Error::Error;
 };
 
-/** Marks the data, in their field data, as empty because of a failure; filters pass the mark. The
- * writers of the plugin know it by the number of its components. */
+/** The field array of data that are empty because of a failure. */
+inline constexpr const char* FailedName = "Failed";
+inline constexpr int FailedComponents = 19;
+/** Marks the data as such; filters pass the mark, by which the plugin chooses the writer. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsFailed(vtkDataObject& data);
 /** Whether the data are marked as failed; false for null. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
+
+/** Gives a mesh without points or cells empty arrays of these: filters of VTK look at them without
+ * asking whether they exist. Other data are left alone. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void completeMesh(vtkDataObject& data);
 
 /** The failures of an algorithm, each of which is shown once: a view repeats failing requests, and
  * the executive adds its own message whenever 0 is returned. */
 class VTKSTREAMINGMULTIGRIDIO_EXPORT Failures
 {
 public:
+  Failures() = default;
+  ~Failures();
+  Failures(const Failures&) = delete;
+  Failures& operator=(const Failures&) = delete;
+
   /** To be called when the algorithm begins: there is no error yet. */
-  void begin() { this->Error.clear(); }
+  void begin();
   /** The sentence of the last failure since then, shown or not; empty: none. */
   const std::string& error() const { return this->Error; }
 
@@ -56,14 +68,21 @@ public:
   /** Reports the sentence as an error of the algorithm if its errors are observed. */
   void showToObservers(vtkAlgorithm& algorithm, const std::string& sentence);
 
-  /** Suppresses the error message of the executive if it is not observed. */
-  void quieten(vtkAlgorithm& algorithm);
+  /** Returns 0, the answer of the algorithm to a request that has failed. The error that the
+   * executive then adds is not displayed, unless it is observed. */
+  int refuse(vtkAlgorithm& algorithm);
 
 private:
+  static void display(vtkObject* executive, unsigned long event, void* self, void* text);
+  void watch(vtkExecutive* executive);
+
   std::string Error;
   std::string Last;              ///< that was shown
   vtkMTimeType PipelineTime = 0; ///< when the last one was shown
-  vtkWeakPointer<vtkExecutive> Quiet;
+  /** Receives the errors of the executive. */
+  vtkNew<vtkCallbackCommand> OfExecutive;
+  vtkWeakPointer<vtkExecutive> Watched;
+  bool IsRefused = false; ///< whether the next error of the executive is about an answer of 0
 };
 
 /** Reports progress to the algorithm and cancels the work if the algorithm is aborted. */
@@ -78,8 +97,9 @@ inline ProgressFunction progressOf(vtkAlgorithm& algorithm)
 
 /**
  * Declares, in the information of an input port, that it accepts meshes in pieces. Composite data
- * sets are accepted as well, so that PieceInput can reject them: otherwise the executive would
- * iterate over their blocks, and requesting pieces meanwhile would release these.
+ * sets are accepted as well, so that PieceInput can take the single block with cells of one:
+ * otherwise the executive would iterate over the blocks, and requesting pieces meanwhile would
+ * release these.
  */
 inline void acceptMeshes(vtkInformation& info)
 {
@@ -102,28 +122,33 @@ inline int offerPieces(vtkInformationVector& outputs)
  * then returns 1 with an empty output marked as failed (isFailed()), since ParaView views never
  * repeat a request that returned 0. If the work throws Cancelled, nothing is reported, 0 is
  * returned, and the work is not repeated until the algorithm or its input is modified. `inputs` is
- * null if there are none.
+ * null if there are none. Whatever happens, the output is complete: see completeMesh(). While the
+ * work is done, the output for an input of several blocks is a mesh: see throughSingleBlock().
  */
 template <class Work>
 int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** inputs,
   vtkInformationVector& outputs, Work work)
 {
   vtkInformation* output = outputs.GetInformationObject(0);
+  vtkDataObject* input = inputs ? vtkDataObject::GetData(inputs[0]) : nullptr;
+  vtkDataObject* data = vtkDataObject::GetData(output);
   failures.begin();
   try
   {
-    if (inputs && isFailed(vtkDataObject::GetData(inputs[0])))
+    if (isFailed(input))
     {
       throw InputFailed("The input has failed: see the error of the filter before this one.");
     }
-    work();
+    throughSingleBlock(input, *output, work);
+    completeMesh(*data);
     return 1;
   }
   catch (const Cancelled&)
   {
     algorithm.SetAbortExecute(0);
-    failures.quieten(algorithm);
-    return 0;
+    data->Initialize();
+    completeMesh(*data);
+    return failures.refuse(algorithm);
   }
   catch (const InputFailed& error)
   {
@@ -133,15 +158,16 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
   {
     failures.show(algorithm, error.what());
   }
-  vtkDataObject* data = vtkDataObject::GetData(output);
   if (vtkStreamingMeshKeys::IsStreamed(output))
   {
     // Otherwise the executive would continue with the current data.
     data->ReleaseData();
+    completeMesh(*data);
     output->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
-    return 0;
+    return failures.refuse(algorithm);
   }
   data->Initialize();
+  completeMesh(*data);
   markAsFailed(*data);
   return 1;
 }

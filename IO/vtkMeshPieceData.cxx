@@ -2,6 +2,7 @@
 #include "IO/vtkMeshPieceData.h"
 
 #include "IO/Mesh/Columns.h"
+#include "IO/vtkFieldMarks.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 
@@ -11,7 +12,6 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -56,12 +56,12 @@ vtkSmartPointer<vtkPoints> makePoints(const std::vector<double>& positions, bool
   return points;
 }
 
-void addCount(vtkFieldData& field, const char* name, std::int64_t count)
+void addCount(vtkPointSet& mesh, const char* name, std::int64_t count)
 {
   vtkNew<vtkIdTypeArray> array;
   array->SetName(name);
   array->InsertNextValue(count);
-  field.AddArray(array);
+  addFieldArray(mesh, *array);
 }
 
 std::int64_t countBehind(vtkPointSet& mesh, const char* name)
@@ -89,7 +89,7 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   // ParaView does not offer these arrays as a mask or a source.
   for (const char* name : { GlobalIdsName, GhostTypeName, StreamFinalizedName })
   {
-    points.GetArray(name)->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+    hide(*points.GetArray(name));
   }
   for (const Column& column : piece.vertexColumns)
   {
@@ -107,7 +107,7 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   // Neither does it offer the flags of the conversion.
   if (vtkDataArray* flags = mesh.GetCellData()->GetArray(CellFlagsName))
   {
-    flags->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+    hide(*flags);
   }
 }
 
@@ -116,25 +116,14 @@ void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
   vtkNew<vtkIntArray> mark;
   mark->SetName(PreviewName);
   mark->InsertNextValue(1);
-  mesh.GetFieldData()->AddArray(mark);
-  addCount(*mesh.GetFieldData(), FullNumberOfPointsName, full.vertices);
-  addCount(*mesh.GetFieldData(), FullNumberOfCellsName, full.cells);
-  for (const char* name : { PreviewName, FullNumberOfPointsName, FullNumberOfCellsName })
-  {
-    mesh.GetFieldData()->GetAbstractArray(name)->GetInformation()->Set(
-      vtkAbstractArray::GUI_HIDE(), 1);
-  }
+  addFieldArray(mesh, *mark);
+  addCount(mesh, FullNumberOfPointsName, full.vertices);
+  addCount(mesh, FullNumberOfCellsName, full.cells);
 }
 
 void markAsReaders(vtkPointSet& preview)
 {
-  vtkNew<vtkUnsignedCharArray> mark;
-  mark->SetName(PreviewOfReaderName);
-  mark->SetNumberOfComponents(PreviewOfReaderComponents);
-  mark->SetNumberOfTuples(1);
-  mark->Fill(1);
-  mark->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
-  preview.GetFieldData()->AddArray(mark);
+  addMark(preview, PreviewOfReaderName, PreviewOfReaderComponents);
 }
 
 bool isPreview(vtkPointSet& mesh)

@@ -38,8 +38,8 @@ inline constexpr const char* PreviewName = "Preview";
 inline constexpr const char* FullNumberOfPointsName = "FullNumberOfPoints";
 inline constexpr const char* FullNumberOfCellsName = "FullNumberOfCells";
 
-/** Field array of a preview of a reader, for which streamed requests return the mesh itself.
- * ParaView selects the writer by its unusual number of components. */
+/** Field array of a preview of a reader, for which streamed requests return the mesh itself. The
+ * plugin selects the writer by it. */
 inline constexpr const char* PreviewOfReaderName = "PreviewOfReader";
 inline constexpr int PreviewOfReaderComponents = 17;
 

@@ -2,12 +2,13 @@
 #include "IO/vtkPieceInput.h"
 
 #include "IO/vtkFailures.h"
+#include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCompositeDataSet.h"
+#include "vtkAlgorithmOutput.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
@@ -15,6 +16,7 @@
 #include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
+#include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -36,26 +38,31 @@ bool needsNeighbours(vtkAlgorithm& filter)
     OfNeighbours, [&filter](const char* known) { return filter.IsA(known) != 0; });
 }
 
-} // namespace
-
-PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
+vtkAlgorithmOutput& connectionOf(vtkAlgorithm& consumer, int port)
 {
   if (consumer.GetNumberOfInputConnections(port) < 1)
   {
     throw Error(std::string(consumer.GetClassName()) + " has no input: connect a mesh to it.");
   }
-  this->Producer = consumer.GetInputAlgorithm(port, 0, this->ProducerPort);
-  this->Executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(this->Producer->GetExecutive());
+  return *consumer.GetInputConnection(port, 0);
+}
+
+} // namespace
+
+PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
+  : PieceInput(connectionOf(consumer, port))
+{
+}
+
+PieceInput::PieceInput(vtkAlgorithmOutput& output)
+  : Producer(output.GetProducer())
+  , ProducerPort(output.GetIndex())
+  , Executive(vtkStreamingDemandDrivenPipeline::SafeDownCast(Producer->GetExecutive()))
+{
   if (!this->Executive)
   {
     throw Error(std::string("The executive of the input ") + this->Producer->GetClassName() +
                 " cannot deliver pieces: use a vtkStreamingDemandDrivenPipeline.");
-  }
-  if (vtkCompositeDataSet::SafeDownCast(this->Producer->GetOutputDataObject(this->ProducerPort)))
-  {
-    throw Error(std::string(consumer.GetClassName()) +
-                " has an input of several blocks: take one with Extract Block, or make them one "
-                "mesh with Merge Blocks.");
   }
 }
 
@@ -71,6 +78,10 @@ PieceInput::~PieceInput()
 
 vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
 {
+  if (this->Block)
+  {
+    return this->Block;
+  }
   vtkNew<vtkInformationVector> requests;
   requests->SetNumberOfInformationObjects(this->Producer->GetNumberOfOutputPorts());
   vtkInformation* request = requests->GetInformationObject(this->ProducerPort);
@@ -90,6 +101,15 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
                       " of the input could not be made: see the error that " +
                       this->producerName() + " or the pipeline before it reported.");
   }
+  if (data->IsA("vtkCompositeDataSet"))
+  {
+    if (piece > 0 || pieces > 1)
+    {
+      return this->update(0, 1, false);
+    }
+    this->Block = meshOf(data);
+    return this->Block;
+  }
   return data;
 }
 
@@ -107,11 +127,15 @@ void PieceInput::release()
 
 bool PieceInput::isData() const
 {
-  return this->Producer->IsA("vtkTrivialProducer");
+  return this->Block || this->Producer->IsA("vtkTrivialProducer");
 }
 
 std::filesystem::path PieceInput::streamFile() const
 {
+  if (this->Block)
+  {
+    return {};
+  }
   const char* name = this->Executive->GetOutputInformation(this->ProducerPort)
                        ->Get(vtkStreamingMeshKeys::STREAM_FILE());
   return name ? name : "";
@@ -131,9 +155,11 @@ std::optional<StreamInfo> PieceInput::meshInfo()
 
 std::string PieceInput::producerName() const
 {
-  // ParaView adds filters of this class after every one of the user.
+  // ParaView adds filters of the first class after every one of the user, our writer of the second.
+  const auto isAdded = [](vtkAlgorithm& filter)
+  { return filter.IsA("vtkPVPostFilter") || filter.IsA("vtkChosenArrays"); };
   vtkAlgorithm* named = this->Producer;
-  while (named->IsA("vtkPVPostFilter") && named->GetNumberOfInputConnections(0) > 0)
+  while (isAdded(*named) && named->GetNumberOfInputConnections(0) > 0)
   {
     named = named->GetInputAlgorithm(0, 0);
   }
@@ -163,13 +189,13 @@ std::string PieceInput::noteOnNeighbours(int pieces) const
 bool PieceInput::isInMemory() const
 {
   vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
-  return info->Has(vtkStreamingMeshKeys::PREVIEWED()) && !this->isPreviewed();
+  return this->Block || (info->Has(vtkStreamingMeshKeys::PREVIEWED()) && !this->isPreviewed());
 }
 
 bool PieceInput::isPreviewed() const
 {
-  return this->Executive->GetOutputInformation(this->ProducerPort)
-    ->Get(vtkStreamingMeshKeys::PREVIEWED());
+  vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
+  return !this->Block && info->Get(vtkStreamingMeshKeys::PREVIEWED());
 }
 
 unsigned long long PieceInput::modifiedTime()

@@ -3,6 +3,7 @@
 
 #include "smg/MeshSource.h"
 
+#include "vtkSmartPointer.h"
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 
 #include <filesystem>
@@ -10,19 +11,24 @@
 #include <string>
 
 class vtkAlgorithm;
+class vtkAlgorithmOutput;
 class vtkDataObject;
+class vtkPointSet;
 class vtkStreamingDemandDrivenPipeline;
 
 namespace smg
 {
 
 /** The first connection of an input port of a VTK algorithm, from which the algorithm requests
- * pieces one at a time while it executes. */
+ * pieces one at a time while it executes. Of a data set of several blocks, the single one with
+ * cells is the input, for whichever piece: see meshOf(). */
 class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceInput
 {
 public:
-  /** Throws Error if nothing is connected, or a composite data set. */
+  /** Throws Error if nothing is connected. */
   PieceInput(vtkAlgorithm& consumer, int port);
+  /** An output of an algorithm, for a consumer that is no algorithm. */
+  explicit PieceInput(vtkAlgorithmOutput& output);
 
   /** Resets the streamed request in the pipeline: otherwise a later request of a view would still
    * count as streamed and bypass the size limit of the reader. */
@@ -32,7 +38,8 @@ public:
   PieceInput& operator=(const PieceInput&) = delete;
 
   /** Updates the input to piece `piece` of `pieces`. `streamed` requests the real piece of any size
-   * (see vtkStreamingMeshKeys); otherwise it may be a preview. Throws InputFailed. */
+   * (see vtkStreamingMeshKeys); otherwise it may be a preview. Throws InputFailed, and Error if one
+   * of several blocks cannot be chosen. */
   vtkDataObject* update(int piece, int pieces, bool streamed);
 
   /** Frees the data of the last piece, unless the producer cannot regenerate it. */
@@ -63,13 +70,15 @@ public:
    * neighbours, which it does not have at the borders of so many pieces; else empty. */
   std::string noteOnNeighbours(int pieces) const;
 
-  /** Whether the input was set as a data object, which is the same for every piece. */
+  /** Whether the input was set as a data object, or is a block, which is the same for every piece.
+   */
   bool isData() const;
 
 private:
   vtkAlgorithm* Producer;
-  int ProducerPort = 0;
-  bool IsStreaming = false; ///< whether the last request was streamed
+  int ProducerPort;
+  bool IsStreaming = false;           ///< whether the last request was streamed
+  vtkSmartPointer<vtkPointSet> Block; ///< of an input of several blocks, once it was requested
   vtkStreamingDemandDrivenPipeline* Executive;
 };
 

@@ -24,6 +24,7 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTimeStamp.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -55,6 +56,8 @@ struct vtkStreamingMeshReader::Internals
   Stamp Opened; ///< of the opened mesh
   /** Of the last failure to open the mesh: a repeated request neither retries nor reports again. */
   Stamp Failed;
+  std::string Reason;    ///< of that failure; empty: none
+  vtkTimeStamp Outdated; ///< when a failure was found to be out of date
   /** The columns read with the pieces of the file; none before the first piece. */
   std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
   smg::KeptPreview Preview;
@@ -99,13 +102,32 @@ struct vtkStreamingMeshReader::Internals
       this->FileTime = time;
     }
     this->Opened = stampOf(self);
+    this->Reason.clear();
     return this->Mesh->reader();
   }
 
-  void noteFailure(vtkStreamingMeshReader& self)
+  /** Shows why the mesh cannot be opened. */
+  void fail(vtkStreamingMeshReader& self, const std::string& reason)
   {
     this->close();
     this->Failed = stampOf(self);
+    this->Reason = reason;
+    this->Failures.show(self, reason);
+  }
+
+  bool hasFailed(vtkStreamingMeshReader& self) const
+  {
+    return !this->Reason.empty() && this->Failed == stampOf(self);
+  }
+
+  /** After a failure, looks whether files have changed since. */
+  void lookAtFiles(vtkStreamingMeshReader& self)
+  {
+    if (!this->Reason.empty() && !this->hasFailed(self))
+    {
+      this->Reason.clear();
+      this->Outdated.Modified();
+    }
   }
 
   void close()
@@ -255,7 +277,15 @@ vtkIdType vtkStreamingMeshReader::GetWidth()
 vtkMTimeType vtkStreamingMeshReader::GetMTime()
 {
   return std::max({ this->Superclass::GetMTime(), this->Internal->PointArrays->GetMTime(),
-    this->Internal->CellArrays->GetMTime() });
+    this->Internal->CellArrays->GetMTime(), this->Internal->Outdated.GetMTime() });
+}
+
+int vtkStreamingMeshReader::ComputePipelineMTime(vtkInformation* request,
+  vtkInformationVector** inputVector, vtkInformationVector* outputVector, int port,
+  vtkMTimeType* time)
+{
+  this->Internal->lookAtFiles(*this);
+  return this->Superclass::ComputePipelineMTime(request, inputVector, outputVector, port, time);
 }
 
 bool vtkStreamingMeshReader::IsFileUnchanged()
@@ -301,46 +331,45 @@ int vtkStreamingMeshReader::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkInformation& info = *outputVector->GetInformationObject(0);
-  // Applications request the output type before the user has set a file.
+  // The type of an output that will be empty: no file is named yet, or it cannot be opened.
+  vtkDataObject* present = vtkDataObject::GetData(&info);
+  bool isSurface = !present || present->IsA("vtkPolyData");
   if (this->GetContainerName().empty())
   {
     this->Internal->close();
-    Internals::setOutput(info, true);
-    return 1;
   }
-  if (this->Internal->Failed == Internals::stampOf(*this))
+  else if (!this->Internal->hasFailed(*this))
   {
-    return 0;
+    this->Internal->Failures.begin();
+    try
+    {
+      isSurface = this->Internal->open(*this).info().cellType == smg::CellType::Triangle;
+    }
+    catch (const smg::Cancelled&)
+    {
+      return this->Internal->Failures.refuse(*this);
+    }
+    catch (const std::exception& error)
+    {
+      this->Internal->fail(*this, error.what());
+    }
   }
-  this->Internal->Failures.begin();
-  try
-  {
-    const smg::VsmReader& reader = this->Internal->open(*this);
-    Internals::setOutput(info, reader.info().cellType == smg::CellType::Triangle);
-    return 1;
-  }
-  catch (const smg::Cancelled&)
-  {
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    this->Internal->noteFailure(*this);
-    this->Internal->Failures.show(*this, error.what());
-    return 0;
-  }
+  Internals::setOutput(info, isSurface);
+  return 1;
 }
 
 int vtkStreamingMeshReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
+  vtkInformation* output = outputVector->GetInformationObject(0);
   if (!this->Internal->Mesh)
   {
-    return this->GetContainerName().empty() ? 1 : 0;
+    output->Remove(vtkStreamingMeshKeys::STREAM_FILE());
+    output->Remove(vtkStreamingMeshKeys::PREVIEWED());
+    return smg::offerPieces(*outputVector);
   }
   const smg::VsmReader& reader = this->Internal->Mesh->reader();
   const smg::StreamInfo& info = reader.info();
-  vtkInformation* output = outputVector->GetInformationObject(0);
   output->Set(vtkStreamingMeshKeys::STREAM_FILE(), reader.path().c_str());
   output->Set(
     vtkStreamingMeshKeys::PREVIEWED(), info.vertices > this->MaximumPointsInMemory ? 1 : 0);
@@ -355,6 +384,10 @@ int vtkStreamingMeshReader::RequestData(
   return smg::answer(*this, this->Internal->Failures, nullptr, *outputVector,
     [&]
     {
+      if (this->Internal->hasFailed(*this))
+      {
+        throw smg::InputFailed(this->Internal->Reason); // which was shown
+      }
       vtkInformation* request = outputVector->GetInformationObject(0);
       const int parts = std::max(1, request->Get(vtkSDDP::UPDATE_NUMBER_OF_PIECES()));
       // A piece beyond the last one is empty.

@@ -122,6 +122,9 @@ protected:
   vtkStreamingMeshReader();
   ~vtkStreamingMeshReader() override;
 
+  /** After a failure, looks whether files have changed since, once for every update. */
+  int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int port, vtkMTimeType* time) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkFieldMarks.h"
+
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointSet.h"
@@ -43,7 +45,7 @@ inline void appendFieldText(vtkPointSet& mesh, const char* name, const std::stri
   }
   texts->SetName(name);
   texts->InsertNextValue(text);
-  mesh.GetFieldData()->AddArray(texts);
+  addFieldArray(mesh, *texts);
 }
 
 } // namespace smg

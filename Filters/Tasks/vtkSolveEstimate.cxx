@@ -3,6 +3,7 @@
 
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
@@ -15,6 +16,7 @@
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -70,7 +72,7 @@ JobEstimate estimateFor(
   vtkAlgorithm& filter, const ConversionOptions& places, const EstimateOf& estimateOf)
 {
   vtkNew<vtkPolyData> nothing;
-  auto* present = vtkPointSet::SafeDownCast(filter.GetInputDataObject(0, 0));
+  const vtkSmartPointer<vtkPointSet> present = meshOf(filter.GetInputDataObject(0, 0));
   if (const std::string file = fileOf(filter); !file.empty())
   {
     return estimateOf({ file, places }, present ? *present : *nothing);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshHandle.h"
+#include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingMeshPreview.h"
+#include "Filters/vtkStreamingMeshSimplification.h"
 #include "Filters/vtkStreamingPoisson.h"
 #include "Testing/Filters/vtkDeformationFixture.h"
 
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkSphere.h"
@@ -52,6 +56,75 @@ TEST_F(VtkMeshInput, OfSeveralBlocksIsRefused)
   {
     this->expectError(filter, blocks, "Merge Blocks");
   }
+}
+
+/** The structure is kept: the result takes the place of the block, and the other is passed. */
+TEST_F(VtkMeshInput, OfOneBlockWithCellsIsThatBlock)
+{
+  vtkNew<vtkPolyData> ordinary; // what a block is
+  ordinary->ShallowCopy(this->Held);
+  ordinary->GetPointData()->SetGlobalIds(nullptr);
+  ordinary->GetPointData()->RemoveArray("GlobalIds");
+  vtkNew<vtkPolyData> nothing;
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(1, this->Held);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, nothing);
+  blocks->SetBlock(1, inner);
+  vtkNew<vtkMeshRegion> region;
+  region->SetRegion(vtkMeshRegion::EVERYWHERE);
+  this->Handle->SetRegion(vtkMeshHandle::EVERYWHERE);
+  vtkNew<vtkStreamingMeshSimplification> simplified;
+  simplified->SetNumberOfVertices(100);
+  const std::vector<vtkAlgorithm*> filters{ region, this->Handle, this->Deformation, simplified };
+  for (vtkAlgorithm* filter : filters)
+  {
+    SCOPED_TRACE(filter->GetClassName());
+    const Errors errors(filter);
+    const auto result = [&](vtkDataObject* input)
+    {
+      filter->SetInputDataObject(input);
+      EXPECT_TRUE(updatePiece(filter, 0, 1)) << errors.text();
+      return filter->GetOutputDataObject(0);
+    };
+    vtkNew<vtkPolyData> expected;
+    expected->ShallowCopy(result(ordinary));
+    vtkDataObject* found = result(blocks);
+    if (auto* outer = vtkMultiBlockDataSet::SafeDownCast(found))
+    {
+      EXPECT_TRUE(vtkPolyData::SafeDownCast(outer->GetBlock(0)));
+      found = vtkMultiBlockDataSet::SafeDownCast(outer->GetBlock(1))->GetBlock(1);
+    }
+    auto* mesh = vtkPolyData::SafeDownCast(found);
+    ASSERT_TRUE(mesh);
+    ASSERT_EQ(mesh->GetNumberOfPoints(), expected->GetNumberOfPoints());
+    ASSERT_GT(mesh->GetNumberOfCells(), 0);
+    EXPECT_EQ(
+      mesh->GetPointData()->GetNumberOfArrays(), expected->GetPointData()->GetNumberOfArrays());
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        ASSERT_EQ(mesh->GetPoint(i)[k], expected->GetPoint(i)[k]) << i;
+      }
+    }
+  }
+}
+
+TEST_F(VtkMeshInput, OfAPreviewAmongBlocksIsRefused)
+{
+  vtkNew<vtkPolyData> preview;
+  preview->DeepCopy(this->Held);
+  vtkNew<vtkIntArray> mark;
+  mark->SetName("Preview");
+  mark->InsertNextValue(1);
+  preview->GetFieldData()->AddArray(mark);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, preview);
+  this->expectError(this->Handle, blocks, "is the preview of a mesh");
+  vtkNew<vtkMultiBlockDataSet> nothing;
+  nothing->SetBlock(0, vtkNew<vtkPolyData>());
+  this->expectError(this->Handle, nothing, "none with cells");
 }
 
 TEST_F(VtkMeshInput, OfDuplicatesHasNothingToWorkOn)

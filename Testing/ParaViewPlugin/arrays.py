@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No array property is ever set automatically, regardless of the active arrays of the input, and unsuitable
-arrays are not offered."""
+"""No array property is ever set automatically, regardless of the active arrays of the input. Lists of arrays, also that
+of colours, offer arrays of points and cells alone, and nothing internal."""
 
 import sys
 
@@ -11,21 +11,40 @@ LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson
 
 
+INTERNAL = {"GlobalIds", "vtkGhostType", "StreamFinalized"}
+LISTS = {"StreamingPoisson": 7, "MeshCondition": 2, "MeshHandle": 2, "MeshRegion": 2, "StreamingBlend": 2,
+         "StreamingMeshSmoothing": 1}
+
+
+def visible(source):
+    """The arrays of points and cells that a user may see."""
+    return (set(source.PointData.keys()) | set(source.CellData.keys())) - INTERNAL
+
+
+def check_colours(source, when):
+    """What Color By offers."""
+    display = Show(source, GetActiveViewOrCreate("RenderView"))
+    domain = display.GetProperty("ColorArrayName").SMProperty.FindDomain("vtkSMArrayListDomain")
+    offered = {domain.GetString(i) for i in range(domain.GetNumberOfStrings())}
+    assert offered - {"None"} == visible(source) - {"CellFlags"}, (when, offered, visible(source))
+    Hide(source)
+
+
 def check(source, when):
-    for proxy in (StreamingPoisson(Input=source), MeshCondition(Input=source)):
+    for name in LISTS:
+        proxy = globals()[name](Input=source)
         checked = 0
         for name in proxy.ListProperties():
             domain = proxy.GetProperty(name).SMProperty.FindDomain("vtkSMArrayListDomain")
             if domain:
                 value = proxy.GetPropertyValue(name)
-                chosen = value if isinstance(value, str) else list(value)[-1]
+                chosen = value if isinstance(value, str) else ([None] + list(value))[-1]
                 assert chosen in ("None", "", None), (when, name, value)
                 offered = {domain.GetString(i) for i in range(domain.GetNumberOfStrings())}
-                assert "None" in offered, (when, name, offered)
-                unwanted = {"GlobalIds", "vtkGhostType", "StreamFinalized", "MeshConditions"}
-                assert not offered & unwanted, (when, name, offered)
+                assert "None" in offered or name == "Arrays", (when, name, offered)
+                assert offered - {"None"} <= visible(source), (when, name, offered)
                 checked += 1
-        assert checked == (7 if proxy.SMProxy.GetXMLName() == "StreamingPoisson" else 2), checked
+        assert checked == LISTS[proxy.SMProxy.GetXMLName()], (proxy, checked)
 
 
 reader = OpenDataFile(t.BUNNY)
@@ -40,10 +59,20 @@ display = Show(calculators, CreateView("RenderView"))
 ColorBy(display, ("POINTS", "Mask"))
 check(calculators, "while it is coloured by another array")
 
-check(MeshCondition(Input=calculators, Region="Everywhere"), "behind a condition")
+conditions = MeshCondition(Input=MeshCondition(Input=calculators, Region="Everywhere"), Region="Everywhere")
+check(conditions, "behind conditions")
 reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 reader.UpdatePipeline()
 check(reader, "behind a preview")
+# Behind every filter, with its marks and its report, and behind one that has failed.
+region = MeshRegion(Input=conditions, Region="Everywhere")
+for source in (reader, conditions, region, MeshHandle(Input=reader, Region="Everywhere"), StreamingPoisson(Input=conditions),
+               StreamingDistance(Input=region), StreamingMeshSmoothing(Input=region),
+               StreamingMeshDeformation(Input=MeshHandle(Input=reader, Region="Everywhere")),
+               StreamingMeshSimplification(Input=reader, NumberOfVertices=1000), StreamingMeshPreview(Input=reader)):
+    source.UpdatePipeline()
+    check_colours(source, "by " + source.SMProxy.GetXMLName())
+    check(source, "behind " + source.SMProxy.GetXMLName())
 # Its shading is that of the mesh.
 assert Show(reader, GetActiveView()).SelectNormalArray == "Normals"
 reader.MaximumPointsInMemory = 2000000

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkSingleBlock.h"
+
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
+#include "smg/Error.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationDataObjectKey.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace smg
+{
+namespace
+{
+
+using BlockIterator = vtkSmartPointer<vtkCompositeDataIterator>;
+
+bool hasCells(vtkDataObject* block)
+{
+  auto* mesh = vtkDataSet::SafeDownCast(block);
+  return mesh && mesh->GetNumberOfCells() > 0;
+}
+
+/** At the single block with cells of `blocks`. */
+BlockIterator singleBlock(vtkCompositeDataSet& blocks)
+{
+  if (hasSeveralProcesses())
+  {
+    throw Error("The input consists of blocks, on which several processes cannot work: make them "
+                "one mesh with Merge Blocks, save it as .vsm and open that.");
+  }
+  BlockIterator found;
+  const auto at = BlockIterator::Take(blocks.NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    if (!hasCells(at->GetCurrentDataObject()))
+    {
+      continue;
+    }
+    if (found)
+    {
+      throw Error("The input has several blocks with cells: take one with Extract Block, or make "
+                  "them one mesh with Merge Blocks.");
+    }
+    found = BlockIterator::Take(blocks.NewIterator());
+    found->InitTraversal();
+    while (found->GetCurrentFlatIndex() != at->GetCurrentFlatIndex())
+    {
+      found->GoToNextItem();
+    }
+  }
+  if (!found)
+  {
+    throw Error("The input has blocks, but none with cells: look at what the filter before it "
+                "delivers.");
+  }
+  return found;
+}
+
+/** The mesh of a block, to which nothing refers as to a piece of a mesh stream. */
+vtkSmartPointer<vtkPointSet> ordinaryMesh(vtkDataObject& block)
+{
+  if (!block.IsA("vtkPolyData") && !block.IsA("vtkUnstructuredGrid"))
+  {
+    throw Error(std::string("The block with cells of the input is a ") + block.GetClassName() +
+                ": a vtkPolyData or vtkUnstructuredGrid is needed.");
+  }
+  auto* mesh = vtkPointSet::SafeDownCast(&block);
+  if (isPreview(*mesh))
+  {
+    throw Error("The block with cells of the input is the preview of a mesh: put this filter "
+                "between the reader of the mesh and the filter that makes blocks.");
+  }
+  if (isOrdinaryMesh(*mesh))
+  {
+    return mesh;
+  }
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh->NewInstance());
+  copy->ShallowCopy(mesh);
+  vtkPointData& points = *copy->GetPointData();
+  if (vtkDataArray* ids = points.GetGlobalIds())
+  {
+    points.SetGlobalIds(nullptr);
+    points.RemoveArray(ids->GetName());
+  }
+  points.RemoveArray(GlobalIdsName);
+  return copy;
+}
+
+/** Puts a mesh in the place of the output, for a while. */
+class MeshAsOutput
+{
+public:
+  MeshAsOutput(vtkInformation& info, vtkPointSet& mesh)
+    : Info(info)
+    , Before(vtkDataObject::GetData(&info))
+  {
+    info.Set(vtkDataObject::DATA_OBJECT(), &mesh);
+  }
+  ~MeshAsOutput() { this->Info.Set(vtkDataObject::DATA_OBJECT(), this->Before); }
+  MeshAsOutput(const MeshAsOutput&) = delete;
+  MeshAsOutput& operator=(const MeshAsOutput&) = delete;
+
+private:
+  vtkInformation& Info;
+  vtkSmartPointer<vtkDataObject> Before;
+};
+
+} // namespace
+
+vtkSmartPointer<vtkPointSet> meshOf(vtkDataObject* data)
+{
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    return ordinaryMesh(*singleBlock(*blocks)->GetCurrentDataObject());
+  }
+  return vtkPointSet::SafeDownCast(data);
+}
+
+void throughSingleBlock(
+  vtkDataObject* input, vtkInformation& output, const std::function<void()>& work)
+{
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(input);
+  auto* result = vtkCompositeDataSet::SafeDownCast(vtkDataObject::GetData(&output));
+  if (!blocks || !result)
+  {
+    work();
+    return;
+  }
+  const BlockIterator place = singleBlock(*blocks);
+  const auto mesh = vtkSmartPointer<vtkPointSet>::Take(meshOf(input)->NewInstance());
+  {
+    const MeshAsOutput replaced(output, *mesh);
+    work();
+  }
+  result->ShallowCopy(blocks);
+  result->SetDataSet(place, mesh);
+}
+
+} // namespace smg
