@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/SequentialInput.h"
 
+#include "IO/Files/LineEnds.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -56,11 +57,16 @@ bool SequentialInput::nextLine(std::string_view& line)
     return std::string_view(
       reinterpret_cast<const char*>(this->Buffer.data()) + this->Begin, this->End - this->Begin);
   };
-  std::size_t length = text().find('\n');
+  if (this->Line == 0)
+  {
+    this->fill(MaxLine + 1);
+    this->LineEnd = lineEndOf(text());
+  }
+  std::size_t length = text().find(this->LineEnd);
   if (length == std::string_view::npos)
   {
     this->fill(MaxLine + 1);
-    length = std::min(text().find('\n'), text().size());
+    length = std::min(text().find(this->LineEnd), text().size());
   }
   if (this->Begin == this->End)
   {

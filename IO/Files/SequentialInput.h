@@ -37,8 +37,8 @@ public:
   std::span<const std::byte> peek(std::size_t count);
   void skip(std::size_t count) { this->Begin += count; }
 
-  /** Reads a line without its line end (LF or CR LF), valid until the next call; returns false at
-   * the end of the file. Throws Error for a line that is too long. */
+  /** Reads a line without its line end (LF, CR LF or CR), valid until the next call; returns false
+   * at the end of the file. Throws Error for a line that is too long. */
   bool nextLine(std::string_view& line);
   /** The number of the last line, from 1. */
   std::int64_t lineNumber() const { return this->Line; }
@@ -53,6 +53,7 @@ private:
   std::int64_t BufferOffset = 0;  ///< offset in the file of the first byte of the buffer
   std::size_t Begin = 0, End = 0; ///< of the unread bytes in the buffer
   std::int64_t Line = 0;
+  char LineEnd = '\n'; ///< once the first line has been read
 };
 
 /** Splits a line of text into words and numbers separated by white space. */

@@ -42,6 +42,7 @@ WordPrefetch::WordPrefetch(
   InputFile& file, Workspace& workspace, CharacterKinds kinds, std::size_t offset)
   : File(file)
   , Offset(offset)
+  , LineEnd(kinds.lineEnd())
   , AtOnce(workspace.itemsAtOnce(MemoryBytes))
   , Reserved(workspace.pool(), (this->AtOnce + 1) * MemoryBytes)
   , Blocks(
@@ -73,7 +74,7 @@ bool WordPrefetch::read()
   std::string_view text = this->File.at(this->Offset, BlockBytes).substr(0, BlockBytes);
   if (this->Offset + text.size() < this->File.size())
   {
-    text = text.substr(0, text.rfind('\n') + 1);
+    text = text.substr(0, text.rfind(this->LineEnd) + 1);
   }
   if (text.empty())
   {
@@ -114,7 +115,7 @@ void WordPrefetch::findWords(TextBlock& block, const CharacterKinds& kinds)
         break;
       }
       case CharacterKinds::Comment:
-        at = std::find(at, end, '\n');
+        at = std::find(at, end, kinds.lineEnd());
         break;
       case CharacterKinds::LineEnd:
         ++line;
@@ -129,7 +130,7 @@ TextScanner::TextScanner(
   InputFile& file, char comment, Workspace* helpers, std::size_t begin, std::int64_t line)
   : File(file)
   , Line(line)
-  , Kinds(comment)
+  , Kinds(comment, lineEndOf(file.at(begin).substr(0, MaxTokenBytes)))
   , Helpers(helpers)
 {
   const bool isMarked = begin == 0 && file.at(0, ByteOrderMark.size()).starts_with(ByteOrderMark);
@@ -200,7 +201,7 @@ void TextScanner::skipToLineEnd()
   do
   {
     const void* newline =
-      std::memchr(this->At, '\n', static_cast<std::size_t>(this->End - this->At));
+      std::memchr(this->At, this->Kinds.lineEnd(), static_cast<std::size_t>(this->End - this->At));
     this->At = newline ? static_cast<const char*>(newline) : this->End;
   } while (this->At == this->End && this->refill());
 }
@@ -274,7 +275,7 @@ std::string_view TextScanner::tokenInLine()
 std::string_view TextScanner::peekSlowly()
 {
   this->skipBlanks();
-  while (this->At < this->End && *this->At == '\n')
+  while (this->At < this->End && *this->At == this->Kinds.lineEnd())
   {
     ++this->At;
     ++this->Line;

@@ -4,6 +4,7 @@
 #include "IO/External/Workspace.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Files/LineEnds.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Memory/Pool.h"
 
@@ -37,14 +38,16 @@ public:
     Comment ///< begins one up to the end of the line, also directly after a word
   };
 
-  /** A carriage return counts as a blank. `comment`: 0: no comments. */
-  explicit CharacterKinds(char comment)
+  /** `comment`: 0: no comments. `lineEnd`: LF, or CR in texts that have it alone; the other one is
+   * a blank. */
+  explicit CharacterKinds(char comment, char lineEnd = '\n')
+    : End(lineEnd)
   {
-    for (const unsigned char c : { ' ', '\t', '\r', '\f', '\v' })
+    for (const unsigned char c : { ' ', '\t', '\r', '\n', '\f', '\v' })
     {
       this->Kinds[c] = Blank;
     }
-    this->Kinds['\n'] = LineEnd;
+    this->Kinds[static_cast<unsigned char>(lineEnd)] = LineEnd;
     if (comment)
     {
       this->Kinds[static_cast<unsigned char>(comment)] = Comment;
@@ -52,9 +55,12 @@ public:
   }
 
   Kind operator()(char c) const { return this->Kinds[static_cast<unsigned char>(c)]; }
+  /** The character that ends lines. */
+  char lineEnd() const { return this->End; }
 
 private:
   std::array<Kind, 256> Kinds{};
+  char End;
 };
 
 /** A word of a text block, as a number if it is one. */
@@ -119,6 +125,7 @@ private:
 
   InputFile& File;
   std::size_t Offset;
+  const char LineEnd;
   const std::int64_t AtOnce; ///< blocks
   Reservation Reserved;
   TextBlock Current;
@@ -130,7 +137,7 @@ inline constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
 
 /**
  * Reads an InputFile as text: tokens separated by blanks, numbers, lines. Tracks the line number
- * for error messages. A carriage return counts as a blank; an initial byte order mark is skipped.
+ * for error messages. Lines end with LF, CR LF or CR; an initial byte order mark is skipped.
  *
  * It reads from the window of the file: after other requests to the file, moveTo() must be called.
  * A returned token is valid until the next reading call. With the threads of a workspace, tokens of
@@ -325,7 +332,7 @@ inline std::string_view textAfterComments(std::string_view bytes)
   std::string_view text = textStart(bytes);
   while (text.starts_with('#'))
   {
-    text = trimmed(text.substr(std::min(text.find('\n'), text.size())));
+    text = trimmed(text.substr(std::min(text.find_first_of(LineEnds), text.size())));
   }
   return text;
 }

@@ -8,7 +8,8 @@
 namespace smg
 {
 
-CornerWelder::CornerWelder(RawMeshBuilder& builder)
+template <class T>
+CornerWelder<T>::CornerWelder(RawMeshBuilder& builder)
   : Builder(builder)
   , Memory(builder.workspace().available())
   , Corners(builder.workspace(), this->Memory * 3 / 10)
@@ -17,27 +18,30 @@ CornerWelder::CornerWelder(RawMeshBuilder& builder)
 {
 }
 
-void CornerWelder::corner(Point point)
+template <class T>
+void CornerWelder<T>::corner(Point point)
 {
-  Corner corner;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (T& coordinate : point)
   {
-    if (!std::isfinite(point[axis]))
+    if (!std::isfinite(coordinate))
     {
       throw MeshError("a coordinate is not finite");
     }
-    corner.bits[axis] = std::bit_cast<std::uint32_t>(point[axis] + 0.0f); // -0 becomes 0
+    coordinate += T(0); // -0 becomes 0
   }
+  Corner corner;
+  corner.bits = std::bit_cast<Bits>(point);
   corner.number = { static_cast<std::uint32_t>(this->CornerCount >> 32),
     static_cast<std::uint32_t>(this->CornerCount) };
   ++this->CornerCount;
   this->Corners.put(corner);
 }
 
-void CornerWelder::makeGroups()
+template <class T>
+void CornerWelder<T>::makeGroups()
 {
   this->Corners.sort();
-  std::array<std::uint32_t, 3> bits{};
+  Bits bits{};
   for (Corner corner; this->Corners.next(corner);)
   {
     if (this->Groups == 0 || corner.bits != bits)
@@ -53,7 +57,8 @@ void CornerWelder::makeGroups()
   }
 }
 
-void CornerWelder::makeVertices()
+template <class T>
+void CornerWelder<T>::makeVertices()
 {
   this->makeGroups();
   this->Firsts.sort();
@@ -61,11 +66,14 @@ void CornerWelder::makeVertices()
   for (First first; this->Firsts.next(first);)
   {
     vertices.put(first.group, static_cast<std::uint32_t>(this->Builder.vertices()));
-    this->Builder.vertex(std::bit_cast<float>(first.bits[0]), std::bit_cast<float>(first.bits[1]),
-      std::bit_cast<float>(first.bits[2]));
+    const Point point = std::bit_cast<Point>(first.bits);
+    this->Builder.vertex(point[0], point[1], point[2]);
   }
   this->Builder.relabelCorners(std::move(vertices));
   this->Members.sort();
 }
+
+template class CornerWelder<float>;
+template class CornerWelder<double>;
 
 } // namespace smg

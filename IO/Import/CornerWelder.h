@@ -14,16 +14,17 @@ namespace smg
 
 /**
  * Makes one vertex of all corners with the same coordinates, out of core. Vertices are numbered by
- * their first corners.
+ * their first corners. T: the type of the coordinates, float or double.
  *
  * The corners are sorted by their coordinates, where equal ones form a group. The groups' first
  * corners, sorted, give the vertices; the corners, sorted back, name their groups, for which the
  * builder puts the vertices in the end.
  */
+template <class T>
 class CornerWelder
 {
 public:
-  using Point = std::array<float, 3>;
+  using Point = std::array<T, 3>;
 
   explicit CornerWelder(RawMeshBuilder& builder);
 
@@ -49,9 +50,11 @@ private:
     std::uint32_t high, low;
     auto operator<=>(const CornerNumber&) const = default;
   };
+  /** The bits of the coordinates of a point. */
+  using Bits = std::array<std::uint32_t, sizeof(Point) / sizeof(std::uint32_t)>;
   struct Corner
   {
-    std::array<std::uint32_t, 3> bits; ///< of the coordinates
+    Bits bits;
     CornerNumber number;
     auto operator<=>(const Corner&) const = default;
   };
@@ -60,7 +63,7 @@ private:
   {
     CornerNumber number;
     std::uint32_t group;
-    std::array<std::uint32_t, 3> bits;
+    Bits bits;
     auto operator<=>(const First&) const = default;
   };
   /** A corner and its group. */
@@ -81,5 +84,8 @@ private:
   ExternalSort<First> Firsts;
   ExternalSort<Member> Members;
 };
+
+extern template class CornerWelder<float>;
+extern template class CornerWelder<double>;
 
 } // namespace smg

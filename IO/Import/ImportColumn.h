@@ -86,11 +86,14 @@ public:
   /** To be called after the last one. */
   void finish()
   {
+    this->Column.close();
     if (!this->Used)
     {
       this->Column.drop();
     }
   }
+  /** Removes the column. */
+  void drop() { this->Column.drop(); }
 
 private:
   ImportColumn Column;

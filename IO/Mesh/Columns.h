@@ -67,6 +67,8 @@ inline constexpr const char* ReferenceName = "Reference";
 /** Integers of cells: the physical group and the entity of the geometry in Gmsh files. */
 inline constexpr const char* PhysicalTagName = "PhysicalTag";
 inline constexpr const char* GeometricalTagName = "GeometricalTag";
+/** An integer of cells: the number of the solid in STL files. */
+inline constexpr const char* SolidName = "Solid";
 /** Any number of components, of vertices or of cells: the attributes in TetGen files. */
 inline constexpr const char* AttributeName = "Attribute";
 /** An integer, of vertices: the boundary marker in TetGen files. */

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/ImportFixture.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 
 namespace smg::testing
@@ -61,10 +63,21 @@ TEST_F(ImportStl, CornersAreWelded)
   for (const std::string& bytes : { Stl, twoTriangles(), twoTriangles("binary") })
   {
     const ReadMesh mesh = this->read("a.stl", bytes);
-    EXPECT_FALSE(mesh.doublePositions);
+    EXPECT_EQ(mesh.doublePositions, bytes == Stl);
     EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }));
     EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 1, 3, 2 }));
   }
+}
+
+TEST_F(ImportStl, TextIsOfDoublePrecision)
+{
+  const ReadMesh mesh = this->read("a.stl",
+    "solid\nfacet normal 0 0 1\nouter loop\nvertex 448000.12 5412345.678 101.5\n"
+    "vertex 448000.13 5412345.678 101.5\nvertex 448000.12 5412345.789 1e39\nendloop\nendfacet\n"
+    "endsolid\n");
+  EXPECT_EQ(mesh.positions, (std::vector<double>{ 448000.12, 5412345.678, 101.5, 448000.13,
+                              5412345.678, 101.5, 448000.12, 5412345.789, 1e39 }));
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
 }
 
 TEST_F(ImportStl, WeldingOutOfCoreIsWeldingInMemory)
@@ -135,7 +148,8 @@ TEST_F(ImportStl, ErrorsNameFileAndPlace)
   this->expectError("a.stl", "solid\nfacet\nvertex 0 0 0\n", "line 3: there is a vertex before");
   this->expectError("a.stl", "solid\nfacet\nouter loop\nouter loop\n", "line 4: a loop begins");
   this->expectError("a.stl", "solid\nfacet\nendloop\n", "line 3: a loop ends");
-  this->expectError("a.stl", "solid\nfacet\nouter loop\nvertex 0 0 1e39\n", "single precision");
+  this->expectError(
+    "a.stl", "solid\nfacet\nouter loop\nvertex 0 0 1e309\n", "'1e309' is not finite");
   this->expectError("a.stl", "solid\nfacet\ncorner 0 0 0\n", "line 3: 'corner' is not a keyword");
   this->expectError("a.stl", "solid\nendsolid\n", "no triangles");
 }
@@ -146,6 +160,90 @@ TEST_F(ImportStl, BytesAfterTheLastTriangleAreNoted)
   const ReadMesh mesh = this->read("a.stl", twoTriangles("binary") + "more");
   EXPECT_EQ(mesh.cells(), 2);
   EXPECT_EQ(mesh.counts.notes.size(), 1u);
+}
+
+TEST_F(ImportStl, AttributeBytesAreRecognisedBySize)
+{
+  const std::vector<Coordinates> triangles = { { 0, 0, 0, 1, 0, 0, 0, 1, 0 },
+    { 1, 0, 0, 1, 1, 0, 0, 1, 0 }, { 0, 0, 0, 0, 1, 0, 0, 0, 1 } };
+  const ReadMesh plain = this->read("plain.stl", binaryStl(triangles, "plain"));
+  struct Case
+  {
+    std::vector<std::uint16_t> numbers; ///< of attribute bytes of the triangles
+    bool follow;                        ///< whether these bytes are in the file
+    std::size_t tail;                   ///< bytes after the last triangle
+    std::string error;                  ///< none: it is read
+    std::size_t notes;
+  };
+  const std::vector<Case> cases = { { { 0, 0, 0 }, true, 0, "", 0 },
+    { { 2, 2, 2 }, true, 0, "", 1 }, { { 0, 7, 300 }, true, 0, "", 1 },
+    { { 50, 0, 0 }, true, 0, "", 1 }, { { 0x7fff, 0, 31 }, false, 0, "", 0 },
+    { { 0, 0, 0 }, true, 3, "", 1 }, { { 2, 2, 2 }, false, 3, "not the attribute bytes", 0 },
+    { { 2, 2, 2 }, true, 1, "not the attribute bytes", 0 },
+    { { 0, 0, 0 }, true, 70, "their number at the beginning is wrong", 0 } };
+  for (const char* header : { "solid text", "binary", "" })
+  {
+    for (const Case& each : cases)
+    {
+      std::string bytes = binaryStl(triangles, header).substr(0, 84);
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+      {
+        bytes += binaryStl({ triangles[t] }, header).substr(84, 48);
+        put(bytes, each.numbers[t]);
+        bytes.append(each.follow ? each.numbers[t] : 0, 'a');
+      }
+      bytes.append(each.tail, 't');
+      if (!each.error.empty())
+      {
+        this->expectError("a.stl", bytes, each.error);
+        continue;
+      }
+      const ReadMesh mesh = this->read("a.stl", bytes);
+      EXPECT_EQ(mesh.positions, plain.positions);
+      EXPECT_EQ(mesh.corners, plain.corners);
+      EXPECT_EQ(mesh.counts.notes.size(), each.notes);
+    }
+  }
+}
+
+TEST_F(ImportStl, TextIsRecognisedInAnyCaseAndAfterComments)
+{
+  std::string upper = Stl;
+  std::ranges::transform(upper, upper.begin(),
+    [](char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); });
+  const ReadMesh mesh = this->read("a.stl", Stl);
+  std::string comments = "# a\n; b\n\n// c\n" + Stl;
+  comments.insert(comments.find("facet"), "# solid two\n");
+  for (const std::string& text : { upper, comments, "\xEF\xBB\xBF" + Stl })
+  {
+    for (const char* name : { "a.stl", "a" })
+    {
+      EXPECT_EQ(this->read(name, text).positions, mesh.positions) << text;
+    }
+  }
+}
+
+TEST_F(ImportStl, SolidsAreNumberedByName)
+{
+  const auto solid = [](const std::string& name, const std::string& corner)
+  {
+    return "solid " + name +
+           "\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " + corner +
+           "\nendloop\nendfacet\nendsolid " + name + "\n";
+  };
+  const std::string inlet = solid("the inlet", "0 1 0");
+  const std::string wall = solid("wall", "0 0 1");
+  EXPECT_TRUE(this->read("one.stl", inlet + solid("the inlet", "0 0 1")).elementColumns.empty());
+  const ReadMesh mesh = this->read(
+    "a.stl", inlet + "solid empty\nendsolid empty\n" + wall + solid("the inlet", "1 1 1"));
+  ASSERT_EQ(mesh.elementColumns.size(), 1u);
+  EXPECT_EQ(mesh.elementColumns[0].spec, (ColumnSpec{ "Solid", ScalarType::Int64, 1 }));
+  EXPECT_EQ(Numbers(mesh.elementColumns[0].as<std::int64_t>().begin(),
+              mesh.elementColumns[0].as<std::int64_t>().end()),
+    (Numbers{ 0, 1, 0 }));
+  ASSERT_EQ(mesh.counts.notes.size(), 1u);
+  EXPECT_NE(mesh.counts.notes[0].find("0 'the inlet', 1 'wall'."), std::string::npos)
+    << mesh.counts.notes[0];
 }
 
 TEST_F(ImportStl, DamageIsFound)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/LineEnds.h"
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Ply/PlyCursor.h"
 #include "IO/Formats/Ply/PlyFormat.h"
@@ -82,9 +83,10 @@ std::string newHeader(
   std::string result = plyFormatLines();
   int element = -1;
   std::size_t property = 0;
+  const char lineEnd = lineEndOf(text);
   for (std::size_t begin = 0; begin < text.size();)
   {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::size_t end = std::min(text.find(lineEnd, begin), text.size());
     std::string_view line = text.substr(begin, end - begin);
     begin = end + 1;
     constexpr std::string_view blanks = " \t\r\f\v";

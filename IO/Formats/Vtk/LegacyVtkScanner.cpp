@@ -2,7 +2,9 @@
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Files/LineEnds.h"
 #include "IO/Files/TextNumbers.h"
+#include "IO/Mesh/Format.h"
 
 #include <algorithm>
 #include <array>
@@ -80,6 +82,7 @@ std::string_view legacyTypeName(ScalarType type)
 void LegacyVtkScanner::readTitle()
 {
   constexpr std::string_view Title = "# vtk DataFile Version ";
+  this->LineEnd = lineEndOf(this->File.at(0, FormatBytes).substr(0, FormatBytes));
   const std::string first = this->line();
   const auto isDigit = [&first](std::size_t i)
   { return i < first.size() && first[i] >= '0' && first[i] <= '9'; };
@@ -163,7 +166,7 @@ std::string LegacyVtkScanner::line()
   for (;;)
   {
     const std::string_view text = this->File.at(this->At);
-    const std::size_t end = text.find('\n');
+    const std::size_t end = text.find(this->LineEnd);
     const std::string_view part = text.substr(0, end);
     line += part.substr(0, MaxLineBytes - std::min(MaxLineBytes, line.size()));
     this->At += part.size();

@@ -62,6 +62,7 @@ private:
   std::size_t At = 0;
   int Version = 0;
   bool Binary = false;
+  char LineEnd = '\n';
 };
 
 } // namespace smg
