@@ -19,6 +19,7 @@ with it may be passed on under the terms of the GPL.
 
 import base64
 import hashlib
+import importlib
 import io
 import os
 import re
@@ -29,20 +30,26 @@ import tarfile
 import tempfile
 import zipfile
 
-try:
-    import tomllib
-except ImportError:  # Python before 3.11
-    from pip._vendor import tomli as tomllib
-
 _TREE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 _PACKAGE = "streamingmultigrid"
 # Of the C and C++ libraries, which every Linux with Python has.
 _SYSTEM = re.compile(r"(linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so)")
 
 
+def _toml():
+    """A module that reads TOML; None: there is none, and a front end has to install one. Python has it
+    from 3.11 on, and pip brings one along where it is a module of this environment."""
+    for name in ("tomllib", "tomli", "pip._vendor.tomli"):
+        try:
+            return importlib.import_module(name)
+        except ImportError:
+            pass
+    return None
+
+
 def _project():
     with open(os.path.join(_TREE, "pyproject.toml"), "rb") as file:
-        return tomllib.load(file)["project"]
+        return _toml().load(file)["project"]
 
 
 def _version():
@@ -180,11 +187,11 @@ class _Wheel:
 
 
 def get_requires_for_build_wheel(config_settings=None):
-    return []
+    return [] if _toml() else ["tomli"]
 
 
 def get_requires_for_build_sdist(config_settings=None):
-    return []
+    return get_requires_for_build_wheel()
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):

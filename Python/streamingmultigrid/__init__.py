@@ -36,7 +36,8 @@ from ._errors import (
 from ._field import Block, Field
 from ._functions import blend, deform, distance, simplify, smooth, solve, solver
 from ._interop import from_pyvista
-from ._mesh import Mesh, mesh, open
+from ._mesh import Mesh
+from ._opening import mesh, open
 from ._problem import Handle, handle
 from ._regions import (
     Region,

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What can go wrong: the errors and warnings of this package."""
 
+from __future__ import annotations
+
 import sys
 import warnings
+from typing import Any
 
 
 class Error(RuntimeError):
@@ -26,7 +29,9 @@ class NotConverged(Error):
     ``result`` is what it has found, as it would have been returned without ``strict``.
     """
 
-    def __init__(self, message, result=None):
+    result: Any
+
+    def __init__(self, message: str, result: Any = None) -> None:
         super().__init__(message)
         self.result = result
 
@@ -39,7 +44,7 @@ class ReportWarning(UserWarning):
     """A warning of a report: the result may not be what was meant."""
 
 
-def warn(sentence, category):
+def warn(sentence: str, category: type) -> None:
     """A warning at the line of the program that has called this package."""
     level, frame = 1, sys._getframe()
     while frame.f_back and frame.f_globals.get("__name__", "").split(".")[0] == __package__:

@@ -4,15 +4,19 @@
 from __future__ import annotations
 
 from ctypes import byref, c_char_p, c_int64, c_void_p
-from typing import Any, Dict, Iterator, List, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 
+from . import _types as types
 from ._arrays import Array, copy, shaped
 from ._errors import Error, InputError
 from ._library import NativeHandle, call, call_reporting, json_text, parse, text
 from .progress import reporting
 from ._report import Report, warn_of
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
 
 #: Of every mesh, beside its columns: name, whether of the cells, type, components (None: 3 or 4).
 _OF_EVERY_MESH = (("Position", False, "float64", 3), ("Corners", True, "int64", None))
@@ -34,6 +38,9 @@ class Block:
     ``block["Temperature"]`` is a column, (n,) or (n, k) of the vertices, else (m,) or (m, k) of the
     cells.
     """
+
+    n_points: int
+    n_cells: int
 
     def __init__(self, handle: NativeHandle, n_points: int, n_cells: int, of_cells: Sequence[str]) -> None:
         self.n_points, self.n_cells = n_points, n_cells
@@ -199,9 +206,12 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
             moved points is "Position".
     """
 
+    mesh: Mesh
+    names: Tuple[str, ...]
+
     def __init__(
         self,
-        mesh: Any,
+        mesh: Mesh,
         handle: NativeHandle,
         job: str,
         names: Sequence[str],
@@ -303,7 +313,9 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         """
         return self.read(self.name).reshape(self.shape)
 
-    def read(self, name: str, cells: Optional[bool] = None, progress: Any = None) -> np.ndarray:
+    def read(
+        self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
+    ) -> np.ndarray:
         """A whole column of the result or of its mesh, as `Mesh.read`."""
         with reporting(progress, "reading") as report, self._handle as field:
             return read_column(
@@ -336,11 +348,11 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
 
     __iter__ = None  # of numbers, as Python would try them
 
-    def as_mesh(self, progress: Any = None) -> Any:
+    def as_mesh(self, progress: Optional[types.Progress] = None) -> Mesh:
         """The mesh with the result as a `Mesh`, for other jobs; its columns and order are those of this
         field. The first time it is written to a scratch file."""
         if self._as_mesh is None:
-            from ._mesh import mesh_of
+            from ._opening import mesh_of
 
             self._as_mesh = mesh_of(self, self._handle, self._job, progress)
         return self._as_mesh
@@ -358,12 +370,12 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
 
     def save(
         self,
-        path: Any,
+        path: types.Path,
         *,
-        memory: Any = None,
+        memory: Optional[types.Size] = None,
         threads: Optional[int] = None,
-        scratch: Any = None,
-        progress: Any = None,
+        scratch: Optional[types.Path] = None,
+        progress: Optional[types.Progress] = None,
     ) -> Report:
         """Writes the mesh with the result to a file, in the format of its suffix.
 

@@ -3,23 +3,25 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Tuple, Union
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _jobs as jobs
-from ._mesh import Mesh, mesh
+from . import _types as types
+from ._mesh import Mesh
+from ._opening import mesh
 from ._solver import Solver
 
 _OPENING = ("memory", "threads", "scratch", "scratch_limit")
-_Values = Union[np.ndarray, Dict[str, np.ndarray]]
 
 
 def _opened(points: Any, cells: Any, options: Dict[str, Any]) -> Mesh:
     return mesh(points, cells, **{key: options[key] for key in _OPENING if key in options})
 
 
-def _read(field: Any) -> _Values:
+def _read(field: Any) -> Any:
     """The values; of several columns all, by their names. What the whole report warns of becomes
     warnings of Python here, since nobody will ask for it."""
     _ = field.report
@@ -29,37 +31,45 @@ def _read(field: Any) -> _Values:
 
 
 @jobs.with_arguments_of("solve", ("points", "cells"))
-def solve(points: Any, cells: Any, **options: Any) -> _Values:
+def solve(points: Any, cells: Any, **options: Any) -> Any:
     with _opened(points, cells, options) as opened:
         return _read(opened.solve(**options))
 
 
 @jobs.with_arguments_of("deform", ("points", "cells"))
-def deform(points: Any, cells: Any, handles: Any, **options: Any) -> _Values:
+def deform(points: Any, cells: Any, handles: Any, **options: Any) -> np.ndarray:
     with _opened(points, cells, options) as opened:
         return _read(opened.deform(handles, **options))
 
 
 @jobs.with_arguments_of("smooth", ("points", "cells"))
-def smooth(points: Any, cells: Any, **options: Any) -> _Values:
+def smooth(points: Any, cells: Any, **options: Any) -> np.ndarray:
     with _opened(points, cells, options) as opened:
         return _read(opened.smooth(**options))
 
 
 @jobs.with_arguments_of("blend", ("points", "cells"))
-def blend(points: Any, cells: Any, columns: Any, **options: Any) -> _Values:
+def blend(points: Any, cells: Any, columns: Any, **options: Any) -> Any:
     with _opened(points, cells, options) as opened:
         return _read(opened.blend(columns, **options))
 
 
 @jobs.with_arguments_of("distance", ("points", "cells"))
-def distance(points: Any, cells: Any, sources: Any = None, **options: Any) -> _Values:
+def distance(points: Any, cells: Any, sources: Any = None, **options: Any) -> Any:
     with _opened(points, cells, options) as opened:
         return _read(opened.distance(sources, **options))
 
 
 def simplify(
-    points: Any, cells: Any, vertices: Any = None, **options: Any
+    points: npt.ArrayLike,
+    cells: npt.ArrayLike,
+    vertices: Optional[int] = None,
+    *,
+    error: Optional[float] = None,
+    memory: Optional[types.Size] = None,
+    threads: Optional[int] = None,
+    scratch: Optional[types.Path] = None,
+    progress: Optional[types.Progress] = None,
 ) -> Tuple[np.ndarray, np.ndarray]:
     """A surface with fewer vertices, each of which is one of the surface.
 
@@ -71,12 +81,20 @@ def simplify(
     Returns:
         Its points, (k, 3) float64, and triangles, (l, 3) int64.
     """
+    options = {"memory": memory, "threads": threads, "scratch": scratch}
     with _opened(points, cells, options) as opened:
-        with opened.simplify(vertices, **options) as small:
+        with opened.simplify(vertices, error=error, progress=progress, **options) as small:
             return small.points, small.cells
 
 
-def solver(points: Any, cells: Any, *, progress: Any = None, **options: Any) -> Solver:
+@jobs.with_arguments_of("solve", ("points", "cells"), (*jobs.OF_MATRIX, "scratch", "scratch_limit"))
+def solver(
+    points: npt.ArrayLike,
+    cells: npt.ArrayLike,
+    *,
+    progress: Optional[types.Progress] = None,
+    **options: Any,
+) -> Solver:
     """The equations of a problem on arrays, with their hierarchy, for many right-hand sides.
 
     Args:

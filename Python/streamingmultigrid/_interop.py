@@ -9,7 +9,8 @@ import numpy as np
 
 from ._arrays import numbers
 from ._errors import Error, InputError
-from ._mesh import Mesh, mesh
+from ._mesh import Mesh
+from ._opening import mesh
 
 _CORNERS = {3: "triangles", 4: "tetrahedra"}
 _TRIANGLE, _POLYGON, _PIXEL, _QUAD, _TETRA = 5, 7, 8, 9, 10  # cell types of VTK

@@ -6,9 +6,14 @@ The functions here describe; `Mesh` and the functions on arrays have their argum
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+import functools
+import inspect
+from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple, Union
+
+import numpy.typing as npt
 
 from . import _problem as problems
+from . import _types as types
 from ._columns import Columns
 from ._errors import InputError
 from ._regions import as_regions
@@ -20,37 +25,58 @@ def _where(added: Columns, regions: Any) -> Any:
     return None if regions is None else [each.where(added) for each in as_regions(regions)]
 
 
-def _given(arguments: Dict[str, Any]) -> Dict[str, Any]:
-    """The arguments of a job, which are the entries of its description unless it says otherwise."""
-    return {name: value for name, value in arguments.items() if name != "added"}
+#: By the names that the library knows them by.
+DESCRIPTIONS: Dict[str, Callable[..., _Description]] = {}
 
 
+def _job(function: Callable[..., _Description]) -> Callable[..., _Description]:
+    """A job: the function gets its arguments by name as a dict `given`, too, which are the entries of the
+    description unless it says otherwise."""
+    signature = inspect.signature(function)
+    own = list(signature.parameters.values())[1:]  # without `given`
+
+    @functools.wraps(function)
+    def describe(*arguments: Any, **options: Any) -> _Description:
+        bound = signature.bind({}, *arguments, **options)
+        bound.apply_defaults()
+        given = dict(bound.arguments)
+        del given["given"], given["added"]
+        bound.arguments["given"] = given
+        return function(*bound.args, **bound.kwargs)
+
+    describe.__signature__ = signature.replace(parameters=own)  # type: ignore[attr-defined]
+    DESCRIPTIONS[function.__name__] = describe
+    return describe
+
+
+@_job
 def solve(
+    given: Dict[str, Any],
     added: Columns,
     *,
-    dirichlet: Any = None,
-    source: Any = None,
-    flux: Any = None,
-    robin: Any = None,
-    soft: Any = None,
-    conductivity: Any = None,
-    screening: Any = None,
-    field: Any = None,
-    initial: Any = None,
-    weights: Optional[str] = None,
-    outputs: Any = None,
+    dirichlet: Optional[types.Conditions] = None,
+    source: Optional[types.Values] = None,
+    flux: Optional[types.Values] = None,
+    robin: Optional[types.Pairs] = None,
+    soft: Optional[types.Pairs] = None,
+    conductivity: Optional[types.Values] = None,
+    screening: Optional[types.Values] = None,
+    field: Optional[types.Value] = None,
+    initial: Optional[types.Values] = None,
+    weights: Optional[types.Weights] = None,
+    outputs: Union[types.Output, Sequence[types.Output], None] = None,
     columns: Optional[int] = None,
-    problem: Any = None,
-    tolerance: Any = None,
-    acceleration: Optional[str] = None,
+    problem: Optional[types.Problem] = None,
+    tolerance: Union[float, Literal["auto"], None] = None,
+    acceleration: Optional[types.Acceleration] = None,
     max_cycles: Optional[int] = None,
     sweeps: Optional[int] = None,
     in_core: Optional[bool] = None,
-    memory: Any = None,
+    memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
-    checkpoint: Any = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
+    checkpoint: Optional[types.Path] = None,
 ) -> _Description:
     """Solves -div(K grad u - q) + s u = f by linear finite elements, as ``smg solve``.
 
@@ -101,28 +127,29 @@ def solve(
         InputError: an argument is wrong. MemoryLimitError: the mesh needs more; the sentence says how
         much. Error: the problem has no solution, a region no vertex, the disk is full.
     """
-    given = _given(locals())
     described = problems.problem(added, {name: given.pop(name) for name in problems.DATA})
     names = ["Solution", *(name.capitalize() for name in described.get("outputs", []))]
     return {"problem": described, **given}, names
 
 
+@_job
 def deform(
+    given: Dict[str, Any],
     added: Columns,
-    handles: Any,
+    handles: types.Handles,
     *,
-    weights: Optional[str] = None,
+    weights: Optional[types.Weights] = None,
     tolerance: Optional[float] = None,
     cycles: Optional[int] = None,
-    normals: Optional[str] = None,
+    normals: Optional[types.Normals] = None,
     max_cycles: Optional[int] = None,
     sweeps: Optional[int] = None,
     in_core: Optional[bool] = None,
-    memory: Any = None,
+    memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
-    checkpoint: Any = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
+    checkpoint: Optional[types.Path] = None,
 ) -> _Description:
     """Deforms the mesh: handles hold or move parts, the rest follows and keeps its details.
 
@@ -139,28 +166,30 @@ def deform(
     Returns:
         The positions: (n, 3) float64. Components that no handle holds, and vertices of no cell, stay.
     """
-    return {**_given(locals()), "handles": problems.handles(added, handles)}, ["Position"]
+    return {**given, "handles": problems.handles(added, handles)}, ["Position"]
 
 
+@_job
 def smooth(
+    given: Dict[str, Any],
     added: Columns,
     *,
-    size: Any = None,
+    size: Union[float, str, None] = None,
     steps: Optional[int] = None,
-    hold: Any = None,
-    boundary: Optional[str] = None,
+    hold: Optional[types.Places] = None,
+    boundary: Optional[types.SmoothedBoundary] = None,
     keep_volume: Optional[bool] = None,
     keep_edges: Optional[float] = None,
-    column: Any = None,
-    normals: Optional[str] = None,
+    column: Optional[types.Columns] = None,
+    normals: Optional[types.Normals] = None,
     tolerance: Optional[float] = None,
     max_cycles: Optional[int] = None,
     sweeps: Optional[int] = None,
     in_core: Optional[bool] = None,
-    memory: Any = None,
+    memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
 ) -> _Description:
     """Smooths a surface, or a column of the vertices of any mesh, by implicit fairing.
 
@@ -181,7 +210,6 @@ def smooth(
     Returns:
         The smoothed positions, (n, 3) float64, or the smoothed column, of its type.
     """
-    given = _given(locals())
     names = ["Position"]
     if column is not None:
         names = added.named(column, "column", "Values")
@@ -191,22 +219,24 @@ def smooth(
     return {**given, "hold": _where(added, hold)}, names
 
 
+@_job
 def blend(
+    given: Dict[str, Any],
     added: Columns,
-    columns: Any,
+    columns: types.Columns,
     *,
-    patch: Any,
-    hold: Any = None,
+    patch: Union[str, npt.ArrayLike],
+    hold: Optional[types.Places] = None,
     anchor: Optional[float] = None,
-    seam: Optional[str] = None,
+    seam: Optional[types.Seam] = None,
     tolerance: Optional[float] = None,
     max_cycles: Optional[int] = None,
     sweeps: Optional[int] = None,
     in_core: Optional[bool] = None,
-    memory: Any = None,
+    memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
 ) -> _Description:
     """Removes the steps of columns between patches and keeps the gradients inside these.
 
@@ -224,25 +254,26 @@ def blend(
     Returns:
         The blended column, of its type; of several the first one, the others by their names.
     """
-    given = _given(locals())
     names = added.named(columns, "columns", "Values")
     if not isinstance(patch, str):
         given["patch"] = added.add(patch, "patch", components=(1,)).name
     return {**given, "columns": names, "hold": _where(added, hold)}, names
 
 
+@_job
 def distance(
+    given: Dict[str, Any],
     added: Columns,
-    sources: Any = None,
+    sources: Optional[types.Places] = None,
     *,
     wall: Optional[bool] = None,
     source: Optional[bool] = None,
     direction: Optional[bool] = None,
     max_passes: Optional[int] = None,
-    memory: Any = None,
+    memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
 ) -> _Description:
     """The distance of all vertices from some of them, along a surface or through a solid.
 
@@ -259,7 +290,6 @@ def distance(
     Returns:
         The distances: (n,) float64, in the unit of the mesh; infinite where no path leads.
     """
-    given = _given(locals())
     del given["sources"]
     if sources is None and not wall:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
@@ -267,53 +297,56 @@ def distance(
     return {**given, "from": _where(added, sources)}, names
 
 
+@_job
 def simplify(
+    given: Dict[str, Any],
     added: Columns,
     vertices: Optional[int] = None,
     *,
     error: Optional[float] = None,
-    memory: Any = None,
+    memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
-    scratch: Any = None,
-    checkpoint: Any = None,
+    scratch: Optional[types.Path] = None,
+    checkpoint: Optional[types.Path] = None,
 ) -> _Description:
     if vertices is None and error is None:
         raise InputError("simplify: give the number of vertices, or the error, or both.")
-    return _given(locals()), ["Position"]
+    return given, ["Position"]
 
 
-#: By the names that the library knows them by.
-DESCRIPTIONS: Dict[str, Callable[..., _Description]] = {
-    "solve": solve,
-    "deform": deform,
-    "smooth": smooth,
-    "blend": blend,
-    "distance": distance,
-    "simplify": simplify,
-}
+#: The arguments of `solve` that say what the matrix is, and how it is treated.
+OF_MATRIX = (
+    "dirichlet", "robin", "soft", "conductivity", "screening", "weights", "problem", "columns", "sweeps",
+    "memory", "threads",
+)  # fmt: skip
 
 
-def with_arguments_of(job: str, before: Sequence[str]) -> Callable[[Callable], Callable]:
+def with_arguments_of(
+    job: str, before: Sequence[str], names: Optional[Sequence[str]] = None
+) -> Callable[[Callable], Callable]:
     """Gives a function that passes its arguments on the signature and docstring of a job.
 
-    `before` are its own first arguments; `progress` and `strict` come last.
+    `before` are its own first arguments; `progress` and `strict` come last. With `names`, it takes these
+    arguments and `progress` alone, and has its own docstring.
     """
-    import inspect
-
     described = inspect.signature(DESCRIPTIONS[job]).parameters
     parameter = inspect.Parameter
 
     def give(function: Callable) -> Callable:
         first = [parameter(name, parameter.POSITIONAL_OR_KEYWORD) for name in before]
         last = [
-            parameter("progress", parameter.KEYWORD_ONLY, default=None, annotation=Any),
-            parameter("strict", parameter.KEYWORD_ONLY, default=False, annotation=bool),
+            parameter("progress", parameter.KEYWORD_ONLY, default=None, annotation="Optional[types.Progress]"),
+            parameter("strict", parameter.KEYWORD_ONLY, default=False, annotation="bool"),
         ]
+        between = list(described.values())[1:]
+        if names is None:
+            function.__doc__ = DESCRIPTIONS[job].__doc__
+        else:
+            between, last = [described[name] for name in names], last[:1]
         own = inspect.signature(function)
         function.__signature__ = own.replace(  # type: ignore[attr-defined]
-            parameters=[*first, *list(described.values())[1:], *last]
+            parameters=[*first, *between, *last]
         )
-        function.__doc__ = DESCRIPTIONS[job].__doc__
         return function
 
     return give

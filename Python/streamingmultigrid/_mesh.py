@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import hashlib
 import os
 import shutil
 import tempfile
@@ -14,22 +13,24 @@ from ctypes import byref, c_char_p, c_int64, c_void_p
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _jobs as jobs
-from ._arrays import points_and_cells, table
+from . import _types as types
+from ._arrays import table
 from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning, warn
 from ._field import OF_EVERY_MESH, Block, Field, names_of, read_blocks, read_column, read_columns
-from ._library import NativeHandle, call, call_reporting, json_text, parse, text, version
+from ._library import NativeHandle, call, call_reporting, json_text, parse, text
 from ._process import HandleLock, require_no_call
+from ._solver import Solver
 from .progress import part, reporting
 from ._regions import as_region
 from ._report import Estimate, Report, not_converged, warn_of, warn_of_notes
 
 #: Meshes up to this size show a picture of themselves in notebooks, which reads them.
 _PICTURE_VERTICES = 2_000_000
-_OPENING = ("memory", "threads", "scratch", "scratch_limit")
 
 
 class _Folder:
@@ -56,6 +57,9 @@ class Mesh:
     original order, that of the file or arrays. Everything is read when it is asked for.
     """
 
+    name: str  #: the file, or what the mesh was made of
+    report: Optional[Report]  #: of a mesh made by `simplify`; else None
+
     def __init__(self, name: str, opener: Any, defaults: Dict[str, Any], progress: Any = None) -> None:
         self.name = name
         self._opener, self._defaults, self._progress = opener, defaults, progress
@@ -67,8 +71,7 @@ class Mesh:
         self._source: Optional[str] = None  # the file whose conversion this is
         self._reopening: Optional[Dict[str, Any]] = None  # the arguments of `open`, if it is all of it
         self._facts: Dict[bool, Dict[str, Any]] = {}
-        #: Of a mesh made by `simplify`: its report.
-        self.report: Optional[Report] = None
+        self.report = None
 
     # Opening, which is done at the first use.
 
@@ -113,7 +116,9 @@ class Mesh:
             raise Error(
                 "%s: a mesh is pickled as the name of its file: save it, and open that file." % self.name
             )
-        return _reopen, (self._source, self._reopening)
+        from ._opening import reopen
+
+        return reopen, (self._source, self._reopening)
 
     def __enter__(self) -> "Mesh":
         return self
@@ -123,7 +128,7 @@ class Mesh:
 
     # What is known of it.
 
-    def info(self, full: bool = False, progress: Any = None) -> Dict[str, Any]:
+    def info(self, full: bool = False, progress: Optional[types.Progress] = None) -> Dict[str, Any]:
         """What is known of the mesh, as ``smg info --report``.
 
         Args:
@@ -192,7 +197,9 @@ class Mesh:
         """All cells, (m, 3) or (m, 4) int64: rows of `points`."""
         return self.read("Corners", cells=True)
 
-    def read(self, name: str, cells: Optional[bool] = None, progress: Any = None) -> np.ndarray:
+    def read(
+        self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
+    ) -> np.ndarray:
         """A whole column.
 
         Args:
@@ -212,10 +219,12 @@ class Mesh:
 
     __iter__ = None  # of numbers, as Python would try them
 
-    def __setitem__(self, name: str, values: Any) -> None:
+    def __setitem__(self, name: str, values: npt.ArrayLike) -> None:
         self.add(name, values)
 
-    def add(self, name: str, values: Any, cells: Optional[bool] = None, *, copy: bool = True) -> None:
+    def add(
+        self, name: str, values: npt.ArrayLike, cells: Optional[bool] = None, *, copy: bool = True
+    ) -> None:
         """Adds a column, in place of one of this name; files that are written have it.
 
         Args:
@@ -248,12 +257,12 @@ class Mesh:
 
     def save(
         self,
-        path: Any,
+        path: types.Path,
         *,
-        memory: Any = None,
+        memory: Optional[types.Size] = None,
         threads: Optional[int] = None,
-        scratch: Any = None,
-        progress: Any = None,
+        scratch: Optional[types.Path] = None,
+        progress: Optional[types.Progress] = None,
     ) -> None:
         """Writes the mesh with its columns to a file, in the format of its suffix.
 
@@ -276,7 +285,9 @@ class Mesh:
 
     # Jobs.
 
-    def estimate(self, job: str, *arguments: Any, path: Any = None, **options: Any) -> Estimate:
+    def estimate(
+        self, job: types.Job, *arguments: Any, path: Optional[types.Path] = None, **options: Any
+    ) -> Estimate:
         """What a job is expected to cost, before it starts: memory, scratch, passes and seconds.
 
         Args:
@@ -385,9 +396,12 @@ class Mesh:
         vertices: Optional[int] = None,
         *,
         error: Optional[float] = None,
-        path: Any = None,
-        progress: Any = None,
-        **options: Any,
+        path: Optional[types.Path] = None,
+        memory: Optional[types.Size] = None,
+        threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None,
+        checkpoint: Optional[types.Path] = None,
+        progress: Optional[types.Progress] = None,
     ) -> "Mesh":
         """The surface with fewer vertices, out of core; see docs/simplify.md.
 
@@ -395,12 +409,14 @@ class Mesh:
             vertices: the most vertices of the result, at least 4.
             error: the largest error, in the unit of the mesh; with `vertices`, what comes first.
             path: where to write the result; default: a scratch file, removed with the new mesh.
-            options: `memory`, `threads`, `scratch`, `checkpoint` (a folder).
+            memory, threads, scratch, progress: as of `solve`.
+            checkpoint: a folder from which the same simplification continues if it was killed.
 
         Returns:
             The simplified surface, whose column OriginalId has the numbers of its vertices in this
             mesh, and whose `report` says more.
         """
+        options = {"memory": memory, "threads": threads, "scratch": scratch, "checkpoint": checkpoint}
         simplified = self._simplified(vertices, path, progress, {"error": error, **options})
         assert simplified.report is not None
         warn_of(simplified.report, set())
@@ -426,6 +442,8 @@ class Mesh:
                     byref(result),
                 )
                 facts = Report(parse(result))
+        from ._opening import open
+
         simplified = open(path, **self._defaults)
         simplified.report = facts
         if folder:
@@ -433,7 +451,7 @@ class Mesh:
             simplified._folder = folder
         return simplified
 
-    def select(self, region: Any, progress: Any = None) -> np.ndarray:
+    def select(self, region: types.Where, progress: Optional[types.Progress] = None) -> np.ndarray:
         """Where a region is, as a mask: (n,) bool of the vertices; of a column of the cells (m,) bool."""
         return as_region(region).selected(self, progress)[0]
 
@@ -445,13 +463,12 @@ class Mesh:
             call_reporting("smg_select", (mesh, json_text(where)), report, pointer)
         return selected.view(bool)
 
-    def solver(self, *, progress: Any = None, **options: Any) -> Any:
+    @jobs.with_arguments_of("solve", ("self",), jobs.OF_MATRIX)
+    def solver(self, *, progress: Optional[types.Progress] = None, **options: Any) -> Solver:
         """The equations of a problem with their hierarchy, in memory, for many right-hand sides.
 
         The arguments are those of `solve` that say what the matrix is. See `streamingmultigrid.Solver`.
         """
-        from ._solver import Solver
-
         return Solver(self, progress, options)
 
     def to_pyvista(self) -> Any:
@@ -493,23 +510,6 @@ class Mesh:
         return surface_svg(points, cells, values)
 
 
-def mesh_of(field: Field, handle: NativeHandle, job: str, progress: Any) -> Mesh:
-    """The mesh with the result of a job; see `Field.as_mesh`."""
-
-    def opener(report: Any) -> NativeHandle:
-        opened = NativeHandle("mesh")
-        with handle as pointer:
-            call_reporting("smg_open_field", (pointer,), report, byref(opened.pointer))
-        return opened
-
-    of = field.mesh
-    made = Mesh("%s, %s" % (of.name, job), opener, of.defaults(*_OPENING), progress)
-    made._source = of._source
-    made._handle()
-    made._opener = None  # which has the field
-    return made
-
-
 def _on_result(name: str) -> Any:
     """The method of this name of a mesh, for fields."""
 
@@ -522,153 +522,3 @@ def _on_result(name: str) -> Any:
 
 for _name in (*jobs.DESCRIPTIONS, "solver", "estimate", "select"):
     setattr(Field, _name, _on_result(_name))
-
-
-def _files(path: str) -> List[str]:
-    """The files of a mesh: those of TetGen are two, of which `path` is one."""
-    name, suffix = os.path.splitext(path[:-3] if path.lower().endswith(".gz") else path)
-    if suffix.lower() not in (".node", ".ele"):
-        return [path]
-    others = [name + each + packed for each in (".node", ".ele") for packed in ("", ".gz")]
-    return [path, *(other for other in others if os.path.exists(other))]
-
-
-def _cached(path: str, cache: Any, options: Dict[str, Any]) -> str:
-    """Where the conversion of a file is kept: its name depends on the file and on the options."""
-    if cache is True:
-        home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-        cache = os.path.join(home, "streamingmultigrid")
-    folder = os.path.dirname(path) if cache == "beside" else os.fspath(cache)
-    states = [(name, os.stat(name)) for name in _files(path)]
-    files = [(name, state.st_size, state.st_mtime_ns) for name, state in states]
-    key = repr((files, version(), sorted(options.items())))
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        raise Error("cache: %s: %s." % (folder, error.strerror)) from None
-    digest = hashlib.sha256(key.encode()).hexdigest()[:12]
-    return os.path.join(folder, "%s.%s.vsm" % (os.path.basename(path), digest))
-
-
-def open(  # noqa: A001, the word of the trade
-    path: Any,
-    *,
-    memory: Any = None,
-    threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
-    cells: Optional[str] = None,
-    weld: Optional[float] = None,
-    time_step: Optional[int] = None,
-    partition: Optional[int] = None,
-    order: Optional[str] = None,
-    cache: Any = None,
-    progress: Any = None,
-) -> Mesh:
-    """A mesh file of any format; nothing is read before it is needed.
-
-    A file that is no .vsm is converted at its first use, out of core, to a scratch file that is
-    removed with the mesh, or with `cache` to a file that is found again.
-
-    Args:
-        path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh, .node, .sma ...
-        memory: the memory limit of the conversion and of jobs: bytes, or a text as "1GB" or "512MiB".
-            Default: 256 MiB for conversions, 1 GiB for jobs.
-        threads: 0 (default): one for each core. Results do not depend on it.
-        scratch: the folder for scratch files; default: $TMPDIR, or /tmp.
-        scratch_limit: the most bytes of scratch files at once, or a text; default: none.
-        cells: "triangles" or "tets", of a file that has both.
-        weld: merge points within this distance, in the unit of the mesh; 0: of equal coordinates.
-        time_step, partition: which of a VTKHDF file, from 0.
-        order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
-        cache: a folder for conversions; True: ~/.cache/streamingmultigrid; "beside": the folder of the
-            file. From a cached conversion, results are written in the order of the file, but with
-            polygons cut into triangles; with `weld` it has an order of its own.
-        progress: of the conversion, see `help(streamingmultigrid.progress)`.
-
-    Raises:
-        FileNotFoundError: there is no such file. Error, at the first use: it cannot be read.
-    """
-    path = os.path.abspath(os.fspath(path))
-    text(path)  # InputError
-    os.stat(path)  # FileNotFoundError at once, not at the first use
-    own = {
-        "cells": cells,
-        "weld": weld,
-        "time_step": time_step,
-        "partition": partition,
-        "order": order,
-    }
-    own = {key: value for key, value in own.items() if value is not None}
-    defaults = {
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-    }
-    options = {**own, **defaults}
-
-    def opener(report: Any) -> NativeHandle:
-        file = path
-        if cache is not None and cache is not False and not path.endswith(".vsm"):
-            file = _cached(path, cache, own)
-            if not os.path.exists(file):
-                call_reporting(
-                    "smg_convert", (text(path), text(file), json_text(options)), report, None
-                )
-        given = options if file == path else defaults
-        handle = NativeHandle("mesh")
-        call_reporting("smg_open", (text(file), json_text(given)), report, byref(handle.pointer))
-        return handle
-
-    opened = Mesh(path, opener, defaults, progress)
-    opened._file = text(path), json_text(options)
-    opened._source = path
-    opened._reopening = {**options, "cache": cache}
-    return opened
-
-
-def _reopen(path: str, options: Dict[str, Any]) -> Mesh:
-    return open(path, **options)
-
-
-def mesh(
-    points: Any,
-    cells: Any,
-    *,
-    memory: Any = None,
-    threads: Optional[int] = None,
-    scratch: Any = None,
-    scratch_limit: Any = None,
-    weld: Optional[float] = None,
-    order: Optional[str] = None,
-    progress: Any = None,
-) -> Mesh:
-    """A mesh of arrays, which are read during this call: they may change or go afterwards.
-
-    Args:
-        points: (n, 3) numbers of any type, in any unit of length.
-        cells: (m, 3), triangles, or (m, 4), tetrahedra: integers of any type, rows of `points`.
-        memory, threads, scratch, scratch_limit, weld, order, progress: as of `smg.open`.
-    """
-    points, cells = points_and_cells(points, cells)
-    defaults = {
-        "memory": memory,
-        "threads": threads,
-        "scratch": scratch,
-        "scratch_limit": scratch_limit,
-    }
-    options = {**defaults, "weld": weld, "order": order}
-    arrays = table(points), table(cells)
-
-    def opener(report: Any) -> NativeHandle:
-        handle = NativeHandle("mesh")
-        arguments = (byref(arrays[0]), byref(arrays[1]), json_text(options))
-        call_reporting("smg_open_arrays", arguments, report, byref(handle.pointer))
-        return handle
-
-    made = Mesh("arrays of %d points and %d cells" % (len(points), len(cells)), opener, defaults, progress)
-    made._handle()
-    made._opener = None  # which has the arrays
-    return made
-

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
+from . import _types as types
 from ._arrays import numbers
 from ._columns import Columns
 from ._errors import InputError
@@ -293,16 +294,16 @@ class Handle:
 
 
 def handle(
-    region: Any,
+    region: types.Where,
     *,
     fixed: bool = False,
-    translate: Any = None,
-    rotate: Any = None,
+    translate: Optional[Sequence[float]] = None,
+    rotate: Union[Tuple[Sequence[float], float], Mapping[str, Any], None] = None,
     scale: Optional[float] = None,
-    center: Any = None,
-    target: Any = None,
-    rotation: Any = None,
-    log_scale: Any = None,
+    center: Optional[Sequence[float]] = None,
+    target: Optional[types.Value] = None,
+    rotation: Optional[types.Value] = None,
+    log_scale: Optional[types.Value] = None,
 ) -> Handle:
     """A part of a mesh that a deformation holds or moves, for `Mesh.deform`.
 

@@ -14,7 +14,7 @@ import pyvista
 
 from . import _jobs as jobs
 from ._interop import from_pyvista
-from ._mesh import open as open_mesh
+from ._opening import open as open_mesh
 
 
 def read(path: Any, **options: Any) -> Any:

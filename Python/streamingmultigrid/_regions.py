@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from ._arrays import numbers
 from ._columns import Columns
@@ -261,7 +262,7 @@ def sphere(center: Sequence[float], radius: float) -> Region:
     return Region("sphere", [*_vector(center, 3, "sphere"), float(radius)])
 
 
-def vertices(numbers_: Iterable[int]) -> Region:
+def vertices(numbers_: Union[int, Iterable[int], npt.ArrayLike]) -> Region:
     """Vertices by their numbers in the file or the rows of the arrays, from 0; an error for a simplified
     mesh, whose column OriginalId has other numbers.
 
@@ -278,7 +279,7 @@ def vertices(numbers_: Iterable[int]) -> Region:
     return Region("vertices", ids)
 
 
-def nearest(points: Sequence[Sequence[float]]) -> Region:
+def nearest(points: npt.ArrayLike) -> Region:
     """The vertex nearest to a point, (3,), or to each of several points, (k, 3)."""
     array = np.atleast_2d(numbers(points, "nearest"))
     if array.ndim != 2 or array.shape[1] != 3:
@@ -291,7 +292,7 @@ def tag(column: str, value: float) -> Region:
     return Region("tag", [column, value])
 
 
-def mask(column_or_values: Union[str, Any]) -> Region:
+def mask(column_or_values: Union[str, npt.ArrayLike]) -> Region:
     """Where a column is not 0, or an array with a row for each vertex, or each cell, is not 0."""
     if isinstance(column_or_values, str):
         return _Mask(column_or_values)

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from ctypes import byref, c_char_p, c_void_p
-from typing import Any, Dict, Mapping, Optional
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _jobs as jobs
+from . import _types as types
 from ._arrays import numbers, table, vector
 from ._columns import Columns
 from ._errors import InputError, NotConverged
@@ -26,6 +28,10 @@ class Solver:
 
     A solver may be used by one thread at a time; calls of others wait.
     """
+
+    shape: Tuple[int, int]  #: (n, n)
+    dtype: np.dtype
+    report: Optional[Report]  #: of the last `solve`; None before the first
 
     def __init__(self, mesh: Any, progress: Any, options: Mapping[str, Any]) -> None:
         own = {
@@ -56,19 +62,17 @@ class Solver:
                 byref(self._handle.pointer),
             )
         n = mesh.n_vertices
-        #: (n, n)
         self.shape = (n, n)
         self.dtype = np.dtype(np.float64)
-        #: The report of the last `solve`; None before the first.
-        self.report: Optional[Report] = None
+        self.report = None
 
     def solve(
         self,
-        b: Any,
-        x0: Any = None,
+        b: npt.ArrayLike,
+        x0: Optional[npt.ArrayLike] = None,
         tol: float = 1e-8,
         max_cycles: Optional[int] = None,
-        progress: Any = None,
+        progress: Optional[types.Progress] = None,
         strict: bool = False,
     ) -> np.ndarray:
         """Solves A x = b.
@@ -106,11 +110,11 @@ class Solver:
         warn_of(self.report, set())
         return x
 
-    def multiply(self, x: Any) -> np.ndarray:
+    def multiply(self, x: npt.ArrayLike) -> np.ndarray:
         """A x, of the shape of x: (n,) or (n, k)."""
         return self._apply("smg_solver_multiply", x, "x")
 
-    def precondition(self, r: Any) -> np.ndarray:
+    def precondition(self, r: npt.ArrayLike) -> np.ndarray:
         """M r: one V-cycle, a symmetric positive definite approximation of the inverse of A.
 
         r and the result: (n,) or (n, k); each column has a V-cycle.
@@ -131,7 +135,7 @@ class Solver:
                 )
         return np.ascontiguousarray(found.T).reshape(given.shape)
 
-    def __matmul__(self, x: Any) -> np.ndarray:
+    def __matmul__(self, x: npt.ArrayLike) -> np.ndarray:
         return self.multiply(x)
 
     @property

@@ -4,7 +4,6 @@ after the other, and the notebook."""
 
 import json
 import os
-import re
 import unittest
 
 from testing import SOURCE, need
@@ -12,14 +11,9 @@ from testing import SOURCE, need
 need("matplotlib")
 import matplotlib  # noqa: E402
 
+from documents import blocks  # noqa: E402
+
 matplotlib.use("Agg")
-
-
-def blocks(document, word):
-    """The Python blocks of a document that contain a word, as one text."""
-    with open(os.path.join(SOURCE, document), encoding="utf-8") as file:
-        found = re.findall(r"^```python\n(.*?)^```", file.read(), re.S | re.M)
-    return "".join(block for block in found if word in block)
 
 
 def run(text, name):

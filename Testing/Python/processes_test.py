@@ -5,6 +5,7 @@ import gc
 import multiprocessing
 import os
 import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -247,6 +248,31 @@ class ExitTest(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertNotIn("FATAL", done.stderr)
                 self.assertEqual(os.listdir(scratch), [])
+
+
+class LibraryTest(unittest.TestCase):
+    def test_a_library_of_another_build_is_refused(self):
+        package = os.path.dirname(smg.__file__)
+        for name, change, words in (
+            ("_version.py", 'VERSION = "9.9.9"\n', "package is of version 9.9.9, but the library .* of version"),
+            ("_library.py", '_FUNCTIONS["smg_of_later"] = []\n', "without smg_of_later"),
+        ):
+            with self.subTest(changed=name), tempfile.TemporaryDirectory() as folder:
+                copy = os.path.join(folder, "a", "b", "streamingmultigrid")
+                shutil.copytree(package, copy, ignore=shutil.ignore_patterns("vtk", "__pycache__"))
+                with open(os.path.join(copy, name), "a", encoding="utf-8") as file:
+                    file.write(change)
+                done = subprocess.run(
+                    [sys.executable, "-c", "import streamingmultigrid as smg; smg.__version__"],
+                    capture_output=True,
+                    text=True,
+                    env={
+                        **os.environ,
+                        "PYTHONPATH": os.path.dirname(copy),
+                        "LD_LIBRARY_PATH": os.path.join(os.environ["SMG_BUILD_DIR"], "lib"),
+                    },
+                )
+                self.assertRegex(done.stderr.splitlines()[-1], "^ImportError: streamingmultigrid: .*" + words)
 
 
 class PickleTest(unittest.TestCase):

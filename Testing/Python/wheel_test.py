@@ -51,6 +51,25 @@ class WheelTest(unittest.TestCase):
         for name in ("LICENSE", "copyright", "py.typed", "entry_points.txt"):
             self.assertIn(name, listed)
 
+    def test_a_module_for_toml_is_asked_for_where_there_is_none(self):
+        """As Python before 3.11 in an environment without pip."""
+        text = (
+            "import importlib.abc, sys\n"
+            "class Without(importlib.abc.MetaPathFinder):\n"
+            "    def find_spec(self, name, path=None, target=None):\n"
+            "        if name.split('.')[0] in %r:\n"
+            "            raise ImportError(name)\n"
+            "sys.meta_path.insert(0, Without())\n"
+            "import build_backend\n"
+            "print(build_backend.get_requires_for_build_wheel(), build_backend.get_requires_for_build_sdist())\n"
+        )
+        folder = os.path.join(SOURCE, "Python")
+        for missing, found in ((("tomllib", "tomli", "pip"), "['tomli'] ['tomli']\n"), (("tomli", "pip"), None)):
+            program = "import sys; sys.path.insert(0, %r)\n" % folder + text % (missing,)
+            said = run(sys.executable, "-c", program)
+            if found or sys.version_info >= (3, 11):
+                self.assertEqual(said, found or "[] []\n")
+
     def test_source_archive(self):
         sys.path.insert(0, os.path.join(SOURCE, "Python"))
         import build_backend

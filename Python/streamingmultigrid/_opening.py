@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where meshes come from: files, arrays, and results of jobs."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from ctypes import byref
+from typing import Any, Dict, List, Optional, Union
+
+import numpy.typing as npt
+
+from . import _types as types
+from ._arrays import points_and_cells, table
+from ._errors import Error
+from ._field import Field
+from ._library import NativeHandle, call_reporting, json_text, text, version
+from ._mesh import Mesh
+
+_LIMITS = ("memory", "threads", "scratch", "scratch_limit")
+
+
+def _files(path: str) -> List[str]:
+    """The files of a mesh: those of TetGen are two, of which `path` is one."""
+    name, suffix = os.path.splitext(path[:-3] if path.lower().endswith(".gz") else path)
+    if suffix.lower() not in (".node", ".ele"):
+        return [path]
+    others = [name + each + packed for each in (".node", ".ele") for packed in ("", ".gz")]
+    return [path, *(other for other in others if os.path.exists(other))]
+
+
+def _cached(path: str, cache: Any, options: Dict[str, Any]) -> str:
+    """Where the conversion of a file is kept: its name depends on the file and on the options."""
+    if cache is True:
+        home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+        cache = os.path.join(home, "streamingmultigrid")
+    folder = os.path.dirname(path) if cache == "beside" else os.fspath(cache)
+    states = [(name, os.stat(name)) for name in _files(path)]
+    files = [(name, state.st_size, state.st_mtime_ns) for name, state in states]
+    key = repr((files, version(), sorted(options.items())))
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise Error("cache: %s: %s." % (folder, error.strerror)) from None
+    digest = hashlib.sha256(key.encode()).hexdigest()[:12]
+    return os.path.join(folder, "%s.%s.vsm" % (os.path.basename(path), digest))
+
+
+def open(  # noqa: A001, the word of the trade
+    path: types.Path,
+    *,
+    memory: Optional[types.Size] = None,
+    threads: Optional[int] = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
+    cells: Optional[types.Cells] = None,
+    weld: Optional[float] = None,
+    time_step: Optional[int] = None,
+    partition: Optional[int] = None,
+    order: Optional[types.Order] = None,
+    cache: Union[bool, types.Path, None] = None,
+    progress: Optional[types.Progress] = None,
+) -> Mesh:
+    """A mesh file of any format; nothing is read before it is needed.
+
+    A file that is no .vsm is converted at its first use, out of core, to a scratch file that is
+    removed with the mesh, or with `cache` to a file that is found again.
+
+    Args:
+        path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh, .node, .sma ...
+        memory: the memory limit of the conversion and of jobs: bytes, or a text as "1GB" or "512MiB".
+            Default: 256 MiB for conversions, 1 GiB for jobs.
+        threads: 0 (default): one for each core. Results do not depend on it.
+        scratch: the folder for scratch files; default: $TMPDIR, or /tmp.
+        scratch_limit: the most bytes of scratch files at once, or a text; default: none.
+        cells: "triangles" or "tets", of a file that has both.
+        weld: merge points within this distance, in the unit of the mesh; 0: of equal coordinates.
+        time_step, partition: which of a VTKHDF file, from 0.
+        order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
+        cache: a folder for conversions; True: ~/.cache/streamingmultigrid; "beside": the folder of the
+            file. From a cached conversion, results are written in the order of the file, but with
+            polygons cut into triangles; with `weld` it has an order of its own.
+        progress: of the conversion, see `help(streamingmultigrid.progress)`.
+
+    Raises:
+        FileNotFoundError: there is no such file. Error, at the first use: it cannot be read.
+    """
+    path = os.path.abspath(os.fspath(path))
+    text(path)  # InputError
+    os.stat(path)  # FileNotFoundError at once, not at the first use
+    own = {
+        "cells": cells,
+        "weld": weld,
+        "time_step": time_step,
+        "partition": partition,
+        "order": order,
+    }
+    own = {key: value for key, value in own.items() if value is not None}
+    defaults = {
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }
+    options = {**own, **defaults}
+
+    def opener(report: Any) -> NativeHandle:
+        file = path
+        if cache is not None and cache is not False and not path.endswith(".vsm"):
+            file = _cached(path, cache, own)
+            if not os.path.exists(file):
+                call_reporting(
+                    "smg_convert", (text(path), text(file), json_text(options)), report, None
+                )
+        given = options if file == path else defaults
+        handle = NativeHandle("mesh")
+        call_reporting("smg_open", (text(file), json_text(given)), report, byref(handle.pointer))
+        return handle
+
+    opened = Mesh(path, opener, defaults, progress)
+    opened._file = text(path), json_text(options)
+    opened._source = path
+    opened._reopening = {**options, "cache": cache}
+    return opened
+
+
+def reopen(path: str, options: Dict[str, Any]) -> Mesh:
+    """The mesh of a file again, in another process."""
+    return open(path, **options)
+
+
+def mesh(
+    points: npt.ArrayLike,
+    cells: npt.ArrayLike,
+    *,
+    memory: Optional[types.Size] = None,
+    threads: Optional[int] = None,
+    scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None,
+    weld: Optional[float] = None,
+    order: Optional[types.Order] = None,
+    progress: Optional[types.Progress] = None,
+) -> Mesh:
+    """A mesh of arrays, which are read during this call: they may change or go afterwards.
+
+    Args:
+        points: (n, 3) numbers of any type, in any unit of length.
+        cells: (m, 3), triangles, or (m, 4), tetrahedra: integers of any type, rows of `points`.
+        memory, threads, scratch, scratch_limit, weld, order, progress: as of `smg.open`.
+    """
+    points, cells = points_and_cells(points, cells)
+    defaults = {
+        "memory": memory,
+        "threads": threads,
+        "scratch": scratch,
+        "scratch_limit": scratch_limit,
+    }
+    options = {**defaults, "weld": weld, "order": order}
+    arrays = table(points), table(cells)
+
+    def opener(report: Any) -> NativeHandle:
+        handle = NativeHandle("mesh")
+        arguments = (byref(arrays[0]), byref(arrays[1]), json_text(options))
+        call_reporting("smg_open_arrays", arguments, report, byref(handle.pointer))
+        return handle
+
+    made = Mesh("arrays of %d points and %d cells" % (len(points), len(cells)), opener, defaults, progress)
+    made._handle()
+    made._opener = None  # which has the arrays
+    return made
+
+
+def mesh_of(field: Field, handle: NativeHandle, job: str, progress: Any) -> Mesh:
+    """The mesh with the result of a job; see `Field.as_mesh`."""
+
+    def opener(report: Any) -> NativeHandle:
+        opened = NativeHandle("mesh")
+        with handle as pointer:
+            call_reporting("smg_open_field", (pointer,), report, byref(opened.pointer))
+        return opened
+
+    of = field.mesh
+    made = Mesh("%s, %s" % (of.name, job), opener, of.defaults(*_LIMITS), progress)
+    made._source = of._source
+    made._handle()
+    made._opener = None  # which has the field
+    return made
