@@ -4,12 +4,14 @@
 #include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Files/DiskFull.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkErrorCode.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -112,6 +114,11 @@ void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem:
   writer.SetDataModeToBinary();
   const int done = writer.Write();
   writer.SetInputData(nullptr);
+  if (writer.GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
+  {
+    throw DiskFull(
+      path.string() + " cannot be written: free disk space, or choose another folder.");
+  }
   if (!done)
   {
     throw Error(path.string() + " cannot be written: see VTK's error and free disk space.");

@@ -8,17 +8,20 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/WriteFiles.h"
+#include "IO/vtkChosenArrays.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Files/DiskFull.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
+#include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
 #include "vtkDataSet.h"
 #include "vtkErrorCode.h"
@@ -244,41 +247,66 @@ WriteFunction writerOf(const std::filesystem::path& path)
 
 } // namespace
 
-vtkStreamingMeshWriter::~vtkStreamingMeshWriter()
+struct vtkStreamingMeshWriter::Internals
 {
-  this->SetFileName(nullptr);
-  this->SetStreamFileName(nullptr);
-}
-
-int vtkStreamingMeshWriter::FillInputPortInformation(int, vtkInformation* info)
-{
-  smg::acceptMeshes(*info);
-  return 1;
-}
-
-bool vtkStreamingMeshWriter::WriteFile()
-{
-  try
+  explicit Internals(vtkStreamingMeshWriter& self)
+    : Self(self)
   {
-    if (!this->FileName || !*this->FileName)
+  }
+
+  /** The arrays to write, with those that tell the original order if that is to be restored. */
+  smg::ArrayChoice choice() const
+  {
+    smg::ArrayChoice choice = this->Choice;
+    if (this->Self.RestoreOrder)
+    {
+      choice.points.insert(smg::OriginalIdName);
+      choice.cells.insert(smg::OriginalCellIdName);
+    }
+    return choice;
+  }
+
+  /** Writes the file. Throws Error; `code` is then what an error means that has no code of its own.
+   */
+  void write(int& code)
+  {
+    code = vtkErrorCode::NoFileNameError;
+    if (!this->Self.FileName || !*this->Self.FileName)
     {
       throw smg::Error("No file is named: set FileName.");
     }
-    const std::filesystem::path path = this->FileName;
+    const std::filesystem::path path = this->Self.FileName;
+    code = vtkErrorCode::CannotOpenFileError;
     smg::checkOutputPlace(path);
-    if (smg::isFailed(this->GetInputDataObject(0, 0)))
+    code = vtkErrorCode::UnknownError;
+    if (smg::isFailed(this->Self.GetInputDataObject(0, 0)))
     {
       // Perhaps no longer, if a filter has been modified since.
-      smg::PieceInput(*this, 0).update(0, 1, false);
+      smg::PieceInput(this->Self, 0).update(0, 1, false);
     }
-    const WriteFunction write = this->RestoreOrder ? writeInOriginalOrder : writerOf(path);
-    smg::Progress progress(smg::progressOf(*this));
-    smg::PieceInput input(*this, 0);
-    const Trial trial = tryPiece(input, this->NumberOfStreamedPieces);
-    const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
-    const Job job{ input, trial.pieces, path, streamFile, progress };
+    code = vtkErrorCode::UnrecognizedFileTypeError;
+    const WriteFunction write = this->Self.RestoreOrder ? writeInOriginalOrder : writerOf(path);
+    code = vtkErrorCode::UnknownError;
+    smg::Progress progress(smg::progressOf(this->Self));
+    smg::PieceInput all(this->Self, 0);
+    if (!this->Self.ChooseArraysToWrite)
+    {
+      this->write(all, write, path, progress);
+      return;
+    }
+    const auto chosen = smg::passChosenArrays(this->Self.GetInputConnection(0, 0), this->choice());
+    smg::PieceInput input(*chosen->GetOutputPort());
+    this->write(input, write, path, progress);
+  }
+
+  void write(smg::PieceInput& input, WriteFunction write, const std::filesystem::path& path,
+    smg::Progress& progress)
+  {
+    const Trial trial = tryPiece(input, this->Self.NumberOfStreamedPieces);
+    const char* streamFile = this->Self.StreamFileName;
+    const Job job{ input, trial.pieces, path, streamFile ? streamFile : "", progress };
     Notes notes = trial.isOrdinary && write != writeIndexedPieces
-                    ? writeOrdinary(job, this->RestoreOrder)
+                    ? writeOrdinary(job, this->Self.RestoreOrder)
                     : write(job);
     if (const std::string note = input.noteOnNeighbours(trial.isOrdinary ? 1 : trial.pieces);
         !note.empty())
@@ -287,20 +315,77 @@ bool vtkStreamingMeshWriter::WriteFile()
     }
     for (const std::string& note : notes)
     {
-      vtkWarningMacro(<< path.string() << ": " << note);
+      vtkWarningWithObjectMacro(&this->Self, << path.string() << ": " << note);
     }
-    return true;
+  }
+
+  vtkStreamingMeshWriter& Self;
+  smg::ArrayChoice Choice;
+};
+
+vtkStreamingMeshWriter::vtkStreamingMeshWriter()
+  : Internal(new Internals(*this))
+{
+}
+
+vtkStreamingMeshWriter::~vtkStreamingMeshWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetStreamFileName(nullptr);
+}
+
+void vtkStreamingMeshWriter::AddPointArray(const char* name)
+{
+  this->Internal->Choice.points.insert(name ? name : "");
+  this->Modified();
+}
+
+void vtkStreamingMeshWriter::AddCellArray(const char* name)
+{
+  this->Internal->Choice.cells.insert(name ? name : "");
+  this->Modified();
+}
+
+void vtkStreamingMeshWriter::RemoveAllPointArrays()
+{
+  this->Internal->Choice.points.clear();
+  this->Modified();
+}
+
+void vtkStreamingMeshWriter::RemoveAllCellArrays()
+{
+  this->Internal->Choice.cells.clear();
+  this->Modified();
+}
+
+int vtkStreamingMeshWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  smg::acceptMeshes(*info);
+  return 1;
+}
+
+void vtkStreamingMeshWriter::WriteFile()
+{
+  int code = vtkErrorCode::UnknownError;
+  try
+  {
+    this->Internal->write(code);
+    return;
   }
   catch (const smg::Cancelled&)
   {
-    this->SetErrorCode(vtkErrorCode::UserError);
+    code = vtkErrorCode::UserError;
+  }
+  catch (const smg::DiskFull& error)
+  {
+    code = vtkErrorCode::OutOfDiskSpaceError;
+    vtkErrorMacro(<< error.what());
   }
   catch (const std::exception& error)
   {
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
     vtkErrorMacro(<< error.what());
   }
-  return false;
+  this->SetErrorCode(code);
 }
 
 int vtkStreamingMeshWriter::Write()
@@ -317,18 +402,15 @@ void vtkStreamingMeshWriter::WriteData()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   const bool isParallel = controller && controller->GetNumberOfProcesses() > 1;
-  int done = 1;
   if (!isParallel || controller->GetLocalProcessId() == 0)
   {
-    done = this->WriteFile() ? 1 : 0;
+    this->WriteFile();
   }
   if (isParallel)
   {
-    controller->Broadcast(&done, 1, 0);
-  }
-  if (!done && this->GetErrorCode() == vtkErrorCode::NoError)
-  {
-    this->SetErrorCode(vtkErrorCode::UnknownError);
+    auto code = static_cast<int>(this->GetErrorCode());
+    controller->Broadcast(&code, 1, 0);
+    this->SetErrorCode(code);
   }
   this->WriteTime.Modified();
 }
@@ -341,4 +423,5 @@ void vtkStreamingMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StreamFileName: " << (this->StreamFileName ? this->StreamFileName : "(none)")
      << "\n";
   os << indent << "NumberOfStreamedPieces: " << this->NumberOfStreamedPieces << "\n";
+  os << indent << "ChooseArraysToWrite: " << this->ChooseArraysToWrite << "\n";
 }

@@ -33,6 +33,8 @@
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 #include "vtkWriter.h"
 
+#include <memory> // For std::unique_ptr
+
 class VTKSTREAMINGMULTIGRIDIO_EXPORT vtkStreamingMeshWriter : public vtkWriter
 {
 public:
@@ -73,11 +75,27 @@ public:
   vtkGetFilePathMacro(StreamFileName);
   ///@}
 
-  /** Writes the file. Returns 1, or 0 after an error or an abort. */
+  ///@{
+  /** Whether to write only the arrays that are named by AddPointArray() and AddCellArray().
+   * Default: off, all arrays. */
+  vtkSetMacro(ChooseArraysToWrite, bool);
+  vtkGetMacro(ChooseArraysToWrite, bool);
+  vtkBooleanMacro(ChooseArraysToWrite, bool);
+  void AddPointArray(const char* name);
+  void AddCellArray(const char* name);
+  void RemoveAllPointArrays();
+  void RemoveAllCellArrays();
+  ///@}
+
+  /**
+   * Writes the file. Returns 1, or 0 after an error or an abort. GetErrorCode() tells what kind of
+   * error it was: NoFileNameError, UnrecognizedFileTypeError (the suffix), CannotOpenFileError (no
+   * file can be made there), OutOfDiskSpaceError, UserError (an abort), UnknownError.
+   */
   int Write() override;
 
 protected:
-  vtkStreamingMeshWriter() = default;
+  vtkStreamingMeshWriter();
   ~vtkStreamingMeshWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
@@ -87,12 +105,16 @@ private:
   vtkStreamingMeshWriter(const vtkStreamingMeshWriter&) = delete;
   void operator=(const vtkStreamingMeshWriter&) = delete;
 
-  bool WriteFile();
+  struct Internals;
+
+  void WriteFile();
 
   char* FileName = nullptr;
   int NumberOfStreamedPieces = 0;
   bool RestoreOrder = false;
   char* StreamFileName = nullptr;
+  bool ChooseArraysToWrite = false;
+  std::unique_ptr<Internals> Internal;
 };
 
 #endif

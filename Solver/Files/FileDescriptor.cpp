@@ -2,6 +2,7 @@
 #include "Solver/Files/FileDescriptor.h"
 
 #include "Solver/Core/SystemCalls.h"
+#include "Solver/Files/DiskFull.h"
 #include "Solver/Files/Folder.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchAccount.h"
@@ -397,7 +398,13 @@ void FileDescriptor::throwWriteError(const std::filesystem::path& path, int erro
     throw Error(ScratchFolder::placeOf(path.parent_path()).string() + ": " +
                 (account ? *account : ScratchAccount::process()).refusal() + '.');
   }
-  throw Error(path.string() + ": cannot be written: " + systemError(errorNumber) + ".");
+  const std::string sentence =
+    path.string() + ": cannot be written: " + systemError(errorNumber) + ".";
+  if (errorNumber == ENOSPC || errorNumber == EDQUOT)
+  {
+    throw DiskFull(sentence);
+  }
+  throw Error(sentence);
 }
 
 void FileDescriptor::throwReadError(const std::filesystem::path& path, int errorNumber)

@@ -11,6 +11,7 @@
 #include "vtkContourFilter.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkFlyingEdges3D.h"
@@ -28,7 +29,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace smg::testing
 {
@@ -405,6 +408,58 @@ TEST_F(VtkStreamingMeshWriter, ErrorsLeaveNothing)
     EXPECT_TRUE(errors.contain("Piece 4 of 7")) << errors.text();
   }
   EXPECT_EQ(this->Folder.entries(), 1);
+}
+
+TEST_F(VtkStreamingMeshWriter, CodesTellWhatKindOfErrorItWas)
+{
+  this->start(torus(20, 10));
+  const Errors errors(this->Writer);
+  const std::vector<std::pair<std::string, unsigned long>> codes{
+    { "out.abc", vtkErrorCode::UnrecognizedFileTypeError },
+    { "no/such/folder/out.vsm", vtkErrorCode::CannotOpenFileError },
+    { "out.pvtu", vtkErrorCode::UnknownError }, { "out.vsm", vtkErrorCode::NoError }
+  };
+  for (const auto& [name, code] : codes)
+  {
+    this->write(name);
+    EXPECT_EQ(this->Writer->GetErrorCode(), code) << name;
+  }
+  this->Writer->SetFileName(nullptr);
+  EXPECT_FALSE(this->Writer->Write());
+  EXPECT_EQ(this->Writer->GetErrorCode(), vtkErrorCode::NoFileNameError);
+}
+
+TEST_F(VtkStreamingMeshWriter, WritesTheChosenArraysAlone)
+{
+  this->start(torus(20, 10));
+  this->Writer->ChooseArraysToWriteOn();
+  this->Writer->AddPointArray("Colours");
+  const auto names = [](const std::vector<ColumnSpec>& columns)
+  {
+    std::set<std::string> found;
+    for (const ColumnSpec& column : columns)
+    {
+      found.insert(column.name);
+    }
+    return found;
+  };
+  for (const char* name : { "out.vsm", "out.vtp", "out.pvtp" })
+  {
+    ASSERT_TRUE(this->write(name));
+    convert(this->Folder / name, this->Folder / "again.vsm");
+    VsmReader written(this->Folder / "again.vsm");
+    EXPECT_EQ(written.info().cells, 400) << name;
+    EXPECT_TRUE(names(written.info().vertexColumns).contains("Colours")) << name;
+  }
+  VsmReader written(this->Folder / "out.vsm");
+  EXPECT_EQ(names(written.info().vertexColumns), std::set<std::string>{ "Colours" });
+  EXPECT_EQ(names(written.info().cellColumns), std::set<std::string>{});
+  this->Writer->RemoveAllPointArrays();
+  this->Writer->AddCellArray("OriginalCellId");
+  ASSERT_TRUE(this->write("out.vsm"));
+  VsmReader other(this->Folder / "out.vsm");
+  EXPECT_EQ(names(other.info().vertexColumns), std::set<std::string>{});
+  EXPECT_EQ(names(other.info().cellColumns), std::set<std::string>{ "OriginalCellId" });
 }
 
 TEST_F(VtkStreamingMeshWriter, AbortLeavesNothing)

@@ -85,6 +85,46 @@ for proxy in (reader, poisson, smoothing, blend, distance, region, MeshHandle(In
         assert iterator.GetProperty().GetDocumentation() or name in ("PointArrayInfo", "CellArrayInfo"), name
         iterator.Next()
 
+# A plugin that is loaded later changes no definition: ParaView then forgets which properties override others.
+manager = sm.ProxyManager().SMProxyManager
+
+
+def definition(group, name):
+    """The default, the visibility and the domains of each property."""
+    proxy = manager.NewProxy(group, name)
+    iterator = proxy.NewPropertyIterator()
+    iterator.Begin()
+    found = {}
+    while not iterator.IsAtEnd():
+        one = iterator.GetProperty()
+        value = [one.GetElement(i) for i in range(one.GetNumberOfElements())] if hasattr(one, "GetElement") else None
+        domains = one.NewDomainIterator()
+        domains.Begin()
+        names = set()
+        while not domains.IsAtEnd():
+            names.add(domains.GetKey())
+            domains.Next()
+        found[iterator.GetKey()] = value, one.GetPanelVisibility(), names
+        iterator.Next()
+    proxy.UnRegister(None)
+    return found
+
+
+names = [("filters", name) for name in ("MeshRegion", "MeshHandle", "MeshCondition", "StreamingPoisson", "StreamingBlend",
+                                        "StreamingMeshDeformation", "StreamingMeshSmoothing", "StreamingDistance")]
+names += [("writers", name) for name in ("BigMeshWriter", "BigMeshPieces", "BigMeshFailure", "BigMeshRefusal")]
+for turn in range(2):
+    known = {name: definition(*name) for name in names}
+    # In the other order, since a definition may take something from another.
+    another = os.path.join(t.make_folder(), f"another{turn}.xml")
+    with open(another, "w", encoding="ascii") as file:
+        file.write("<ServerManagerConfiguration><ProxyGroup name='sources'><SourceProxy name='Another"
+                   f"{turn}' class='vtkSphereSource'/></ProxyGroup></ServerManagerConfiguration>")
+    LoadPlugin(another, ns=globals())
+    names.reverse()
+    for name in names:
+        assert definition(*name) == known[name], (name, definition(*name), known[name])
+
 hints = poisson.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
 assert hints.GetAttribute("category") == "Streaming Multigrid"
 writers = sm.vtkSMProxyManager.GetProxyManager().GetWriterFactory()

@@ -69,6 +69,59 @@ points = servermanager.Fetch(Sphere()).GetPoints()
 with open(os.path.join(folder, "sphere.off"), encoding="ascii") as file:
     lines = [line.split() for line in file][2:2 + points.GetNumberOfPoints()]
 assert all(abs(float(line[k]) - points.GetPoint(i)[k]) < 1e-6 for i, line in enumerate(lines) for k in range(3)), lines[:3]
+# Save Data of a preview configures one writer: without a second name of the file, with the arrays to choose.
+factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
+
+
+def dialog(suffix, source):
+    """The writer, and the properties that its dialog shows."""
+    writer = factory.CreateWriter(os.path.join(folder, "shown." + suffix), source.SMProxy, 0)
+    hidden = {"Input"} | {writer.GetHints().GetNestedElement(k).GetAttribute("name")
+                          for k in range(writer.GetHints().GetNumberOfNestedElements())
+                          if writer.GetHints().GetNestedElement(k).GetAttribute("show") == "0"}
+    properties = writer.NewPropertyIterator()
+    properties.Begin()
+    shown = set()
+    while not properties.IsAtEnd():
+        if properties.GetProperty().GetPanelVisibility() == "default" and properties.GetKey() not in hidden:
+            shown.add(properties.GetKey())
+        properties.Next()
+    label = writer.GetXMLLabel()
+    writer.UnRegister(None)
+    return label, shown
+
+
+ARRAYS = {"ChooseArraysToWrite", "PointDataArrays", "CellDataArrays"}
+for suffixes, source, properties in (("ply obj stl vtk vtp vtu", reader, {"RestoreOrder"} | ARRAYS),
+                                     ("vtkhdf pvtp pvtu vsm", reader, {"NumberOfPieces"} | ARRAYS),
+                                     ("csv case", reader, set())):
+    for suffix in suffixes.split():
+        label, shown = dialog(suffix, source)
+        assert label.startswith("Streaming Mesh Writer") and shown == properties, (suffix, label, shown)
+# The mark is known by its name, not by its shape.
+alike = ProgrammableFilter(Input=Sphere(), Script="""
+from paraview.vtk import vtkUnsignedCharArray
+output.ShallowCopy(inputs[0].VTKObject)
+for components in 17, 19:
+    array = vtkUnsignedCharArray()
+    array.SetName(f"Of{components}")
+    array.SetNumberOfComponents(components)
+    array.SetNumberOfTuples(1)
+    output.GetFieldData().AddArray(array)
+""")
+alike.UpdatePipeline()
+assert len(alike.FieldData.keys()) == 2
+for suffix in "ply", "vtp", "csv", "pvtp":
+    assert not dialog(suffix, alike)[0].startswith("Streaming Mesh Writer"), suffix
+
+# Chosen arrays alone are written.
+SaveData(os.path.join(folder, "chosen.vtp"), proxy=calculator, ChooseArraysToWrite=1, PointDataArrays=["X"], CellDataArrays=[])
+whole = OpenDataFile(os.path.join(folder, "chosen.vtp"))
+whole.UpdatePipeline()
+assert whole.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS
+assert set(whole.PointData.keys()) - {"GlobalIds", "vtkGhostType", "StreamFinalized"} == {"X"}, whole.PointData.keys()
+assert not whole.CellData.keys(), whole.CellData.keys()
+
 # A preview that the user requested is saved as a preview.
 preview = StreamingMeshPreview(Input=calculator, PreviewPoints=10000)
 SaveData(os.path.join(folder, "preview.stl"), proxy=preview)
