@@ -39,6 +39,15 @@ def test_every_format_has_the_same_surface():
     assert read_mesh("again.ply")[:2] == (small, cells)
 
 
+def test_a_simplified_mesh_goes_into_the_next_command():
+    """Its numbers are those of the whole mesh, whose order no format can have."""
+    simplify("torus.vsm", "small.vsm", "--vertices", 500)
+    for suffix in (".ply", ".vtp", ".vtu", ".smb", ".obj", ".off", ".stl", ".vtk", ".mesh", ".msh", ".node"):
+        run("smooth", "small.vsm", "smooth" + suffix, "--quiet", "--no-sync")
+        run("info", "smooth" + suffix, "--report", "info.json")
+        assert load("info.json")["cells"] == 1000, suffix
+
+
 def test_an_error_is_kept():
     counts = []
     for error in (1e-3, 1e-2):
