@@ -3,6 +3,7 @@
 
 #include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkRegionFilter.h"
+#include "IO/vtkPieceInput.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "smg/Error.h"
@@ -103,8 +104,8 @@ void requireConditionsAfterJoins(vtkAlgorithm& filter)
     {
       if (isOneOfSeveral && hasCondition(input))
       {
-        throw Error(std::string("Mesh Conditions do not survive the joining of meshes by ") +
-                    filter.GetClassName() + ": put them behind that filter.");
+        throw Error("Mesh Conditions do not survive the joining of meshes by " +
+                    nameInPipeline(filter) + ": put them behind that filter.");
       }
       requireConditionsAfterJoins(input);
     });

@@ -140,6 +140,7 @@ struct vtkRegionFilter::Internals
   void count(vtkPointSet& piece, const smg::HeldPoints& held, const smg::PieceRequest& request)
   {
     const bool isWhole = this->Count.add(piece, held, request);
+    this->PointsBehind = smg::pointsBehind(piece);
     if (!isWhole)
     {
       return;
@@ -174,6 +175,17 @@ struct vtkRegionFilter::Internals
     }
   }
 
+  /** As "223 points." or "2,434 points of the preview, which has 10,000 of 66,313 points." */
+  std::string countText(std::int64_t heldPoints) const
+  {
+    const std::string held =
+      smg::groupedDigits(heldPoints) + (heldPoints == 1 ? " point" : " points");
+    return this->PointsBehind == 0
+             ? held + "."
+             : held + " of the preview, which has " + smg::groupedDigits(this->Count.allPoints()) +
+                 " of " + smg::groupedDigits(this->PointsBehind) + " points.";
+  }
+
   vtkRegionFilter& Self;
   smg::Failures Failures;
   std::vector<std::int64_t> Ids;
@@ -182,6 +194,7 @@ struct vtkRegionFilter::Internals
   smg::MarkedRegion Marked;
 
   smg::HeldCount Count;
+  std::int64_t PointsBehind = 0; ///< of a preview, whose points were counted
   std::string Outcome;
   smg::WarnOnce FarPoints, NoPoint;
 };
@@ -277,7 +290,7 @@ const char* vtkRegionFilter::GetOutcome()
   const std::string& error = this->Internal->Failures.error();
   std::string& text = this->Internal->Outcome;
   text = !error.empty()                 ? "Failed: " + error
-         : this->NumberOfHeldPoints > 0 ? smg::groupedDigits(this->NumberOfHeldPoints) + " points."
+         : this->NumberOfHeldPoints > 0 ? this->Internal->countText(this->NumberOfHeldPoints)
          : this->IsElsewhere()          ? "The region is sought when the mesh is solved on."
                                         : "Not applied yet.";
   return text.c_str();

@@ -5,6 +5,7 @@
 #include "IO/Preview/StreamPreview.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
@@ -193,6 +194,12 @@ int vtkStreamingMeshPreview::RequestData(
       vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
       const smg::PieceRequest request(outputVector->GetInformationObject(0));
       smg::PieceInput input(*this, 0);
+      auto& present = *vtkPointSet::GetData(inputInfo);
+      if (smg::isOrdinaryMesh(present) && !smg::isPreview(present))
+      {
+        throw smg::Error("Streaming Mesh Preview shows a mesh of the Streaming Mesh Reader: use "
+                         "Streaming Mesh Simplification for one that ParaView has in memory.");
+      }
       if (request.Piece == 0)
       {
         this->Internal->make(input, request, inputInfo);

@@ -41,12 +41,21 @@ constexpr const char* Copy = "mesh.vsm";
 /** Of the input: all that it has. */
 const smg::PieceColumns AllColumns{ .all = true, .required = {}, .optional = {} };
 
-std::string sentence(const smg::SimplifyReport& report)
+std::string sentence(
+  const smg::SimplifyReport& report, const smg::SimplifyTarget& target, bool isSurface)
 {
   std::ostringstream text;
+  // A number alone is reached from above.
+  if (target.error == 0.0 && report.error == 0.0 && report.dropped_bodies == 0 &&
+      report.vertices < target.vertices)
+  {
+    text << "Nothing to simplify: Number Of Vertices is " << smg::groupedDigits(target.vertices)
+         << ", which is more than there are. ";
+  }
   text << smg::groupedDigits(report.vertices) << " points and " << smg::groupedDigits(report.cells)
-       << " triangles of " << smg::groupedDigits(report.vertices_before) << " and "
-       << smg::groupedDigits(report.cells_before);
+       << " triangles of " << (isSurface ? "" : "the surface of a solid of ")
+       << smg::groupedDigits(report.vertices_before) << (isSurface ? " and " : " points and ")
+       << smg::groupedDigits(report.cells_before) << (isSurface ? "" : " tetrahedra");
   if (!std::isnan(report.error))
   {
     text << ", error " << report.error << (report.dropped_bodies > 0 ? " of what is left" : "");
@@ -82,16 +91,17 @@ struct vtkStreamingMeshSimplification::Internals
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
       vtkPointSet& present =
         *vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, false));
-      this->Report =
-        smg::simplify(smg::VsmReader(this->fileOf(input, request, present)), this->target(), result,
-          { .memoryLimit = this->memory(),
-            .threads = this->Self.NumberOfThreads,
-            .codec = smg::Codec::Lz4,
-            .scratch = this->Scratch->path(),
-            .progress = smg::partOf(smg::progressOf(this->Self), ReadShare, 1.0) });
+      const smg::VsmReader mesh(this->fileOf(input, request, present));
+      const bool isSurface = mesh.info().cellType == smg::CellType::Triangle;
+      this->Report = smg::simplify(mesh, this->target(), result,
+        { .memoryLimit = this->memory(),
+          .threads = this->Self.NumberOfThreads,
+          .codec = smg::Codec::Lz4,
+          .scratch = this->Scratch->path(),
+          .progress = smg::partOf(smg::progressOf(this->Self), ReadShare, 1.0) });
       smg::FileDescriptor::removeClosed(*this->Scratch / Copy);
       this->Result.emplace(result);
-      this->Outcome = sentence(this->Report);
+      this->Outcome = sentence(this->Report, this->target(), isSurface);
     }
     catch (const std::exception& error)
     {

@@ -3,6 +3,7 @@
 
 #include "Filters/Tasks/vtkSolveEstimate.h"
 #include "Filters/vtkSolverRequests.h"
+#include "IO/vtkPieceInput.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkExecutive.h"
@@ -151,7 +152,7 @@ smg::SolveSummary vtkStreamingSolver::SolveInProcesses(
   vtkPointSet&, const std::function<bool(double)>&, std::vector<double>&)
 {
   throw smg::Error(
-    std::string(this->GetClassName()) + " does not solve on the pieces of several processes.");
+    smg::nameInPipeline(*this) + " does not solve on the pieces of several processes.");
 }
 
 bool vtkStreamingSolver::IsForMemory(vtkPointSet& input, bool)
@@ -258,9 +259,8 @@ int vtkStreamingSolver::RequestData(
       this->Internal->AnsweredAt.Modified();
       isSolved = true;
     });
-  const std::int64_t limit = std::int64_t(this->MemoryLimit) << 20;
-  smg::fillPasses(isSolved ? this->GetSummary() : smg::SolveSummary(), limit,
-    *vtkTable::GetData(outputVector, PASSES));
+  smg::fillPasses(
+    isSolved ? this->GetSummary() : smg::SolveSummary(), *vtkTable::GetData(outputVector, PASSES));
   smg::fillText(
     isSolved ? this->Internal->Shown : smg::SolveSummary(), *vtkTable::GetData(outputVector, TEXT));
   return answered;

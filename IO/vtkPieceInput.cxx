@@ -20,6 +20,8 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstddef>
 
 namespace smg
 {
@@ -38,11 +40,37 @@ bool needsNeighbours(vtkAlgorithm& filter)
     OfNeighbours, [&filter](const char* known) { return filter.IsA(known) != 0; });
 }
 
+} // namespace
+
+std::string nameInPipeline(vtkAlgorithm& filter)
+{
+  std::string words;
+  const std::string name = filter.GetClassName();
+  for (std::size_t k = name.starts_with("vtk") ? 3 : 0; k < name.size(); ++k)
+  {
+    const bool isCapital = std::isupper(static_cast<unsigned char>(name[k])) != 0;
+    const bool endsWord = !words.empty() && std::islower(static_cast<unsigned char>(name[k - 1]));
+    words += isCapital && endsWord ? " " : "";
+    words += name[k];
+  }
+  return words;
+}
+
+std::string placeOfPiece(int piece, int pieces)
+{
+  return pieces == 1
+           ? "The input"
+           : "Piece " + std::to_string(piece) + " of " + std::to_string(pieces) + " of the input";
+}
+
+namespace
+{
+
 vtkAlgorithmOutput& connectionOf(vtkAlgorithm& consumer, int port)
 {
   if (consumer.GetNumberOfInputConnections(port) < 1)
   {
-    throw Error(std::string(consumer.GetClassName()) + " has no input: connect a mesh to it.");
+    throw Error(nameInPipeline(consumer) + " has no input: connect a mesh to it.");
   }
   return *consumer.GetInputConnection(port, 0);
 }
@@ -61,7 +89,7 @@ PieceInput::PieceInput(vtkAlgorithmOutput& output)
 {
   if (!this->Executive)
   {
-    throw Error(std::string("The executive of the input ") + this->Producer->GetClassName() +
+    throw Error("The executive of the input " + nameInPipeline(*this->Producer) +
                 " cannot deliver pieces: use a vtkStreamingDemandDrivenPipeline.");
   }
 }
@@ -97,8 +125,7 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
   }
   if (!data || isFailed(data))
   {
-    throw InputFailed("Piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
-                      " of the input could not be made: see the error that " +
+    throw InputFailed(placeOfPiece(piece, pieces) + " could not be made: see the error that " +
                       this->producerName() + " or the pipeline before it reported.");
   }
   if (data->IsA("vtkCompositeDataSet"))
@@ -163,7 +190,7 @@ std::string PieceInput::producerName() const
   {
     named = named->GetInputAlgorithm(0, 0);
   }
-  return named->GetClassName();
+  return nameInPipeline(*named);
 }
 
 std::string PieceInput::noteOnNeighbours(int pieces) const
@@ -174,7 +201,7 @@ std::string PieceInput::noteOnNeighbours(int pieces) const
   {
     if (needsNeighbours(*filter))
     {
-      between = filter->GetClassName() + (between.empty() ? "" : ", " + between);
+      between = nameInPipeline(*filter) + (between.empty() ? "" : ", " + between);
     }
     filter = filter->GetInputAlgorithm(0, 0);
   }

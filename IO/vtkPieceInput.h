@@ -19,6 +19,13 @@ class vtkStreamingDemandDrivenPipeline;
 namespace smg
 {
 
+/** The name by which a filter is known to a user of ParaView, for messages: the words of its class,
+ * as "Streaming Distance". */
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::string nameInPipeline(vtkAlgorithm& filter);
+
+/** "Piece 3 of 64 of the input", or "The input" where it comes as a whole. */
+std::string placeOfPiece(int piece, int pieces);
+
 /** The first connection of an input port of a VTK algorithm, from which the algorithm requests
  * pieces one at a time while it executes. Of a data set of several blocks, the single one with
  * cells is the input, for whichever piece: see meshOf(). */
@@ -63,7 +70,7 @@ public:
    * data that they have, or renumber it. */
   bool isInMemory() const;
 
-  /** The class of the filter that delivers the pieces, for messages. */
+  /** The name of the filter that delivers the pieces, for messages. */
   std::string producerName() const;
 
   /** A note, if a filter of VTK between the reader of a stream and the consumer computes from

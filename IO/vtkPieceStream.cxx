@@ -124,8 +124,7 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
 
 std::string PieceStream::where() const
 {
-  return "Piece " + std::to_string(this->NextPiece - 1) + " of " + std::to_string(this->Pieces) +
-         " of the input";
+  return placeOfPiece(this->NextPiece - 1, this->Pieces);
 }
 
 vtkPointSet* PieceStream::pull()
@@ -319,7 +318,7 @@ void PieceStream::useCorners(const std::vector<std::int64_t>& corners)
                   std::to_string(corner) + " before any cell uses that with GlobalId " +
                   std::to_string(this->Used) +
                   ": number the points in the order in which cells use them first, or write the "
-                  "mesh to a file and read that with the StreamingMeshReader.");
+                  "mesh to a file and read that with the Streaming Mesh Reader.");
     }
     if (corner < this->Finalized)
     {
@@ -338,7 +337,7 @@ void PieceStream::checkEnd() const
   {
     throw Error("The point with GlobalId " + std::to_string(this->Used) +
                 " of the input belongs to no cell: take such points away, or write the mesh to a "
-                "file and read that with the StreamingMeshReader.");
+                "file and read that with the Streaming Mesh Reader.");
   }
 }
 
@@ -377,7 +376,7 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
     throw Error(
       where +
       " has no point GlobalIds, so it is not a piece of a mesh stream: read the mesh with the "
-      "StreamingMeshReader, which makes them, and keep them in the filters between; save a "
+      "Streaming Mesh Reader, which makes them, and keep them in the filters between; save a "
       "mesh of another source as .vsm first.");
   }
   std::vector<std::int64_t> ids(array->GetNumberOfTuples());

@@ -5,6 +5,7 @@
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkFailures.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
@@ -15,6 +16,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -56,25 +58,24 @@ bool isReadByVtk(const std::filesystem::path& name)
   return std::ranges::find(endings, ending) != endings.end();
 }
 
-/** As "5.30 million". */
+/** As "34,834" or "5.30 million". */
 std::string rounded(std::int64_t count)
 {
-  constexpr double Million = 1e6;
+  constexpr std::int64_t Million = 1000000;
   std::ostringstream text;
-  text.precision(2);
-  count < Million ? text << count
-                  : text << std::fixed << static_cast<double>(count) / Million << " million";
-  return text.str();
+  text << std::fixed << std::setprecision(2)
+       << static_cast<double>(count) / static_cast<double>(Million) << " million";
+  return count < Million ? smg::groupedDigits(count) : text.str();
 }
 
-/** GB of the points and cells in VTK's own data sets. */
-double gigabytes(const smg::ConversionEstimate& estimate)
+/** Bytes of the points and cells in VTK's own data sets. */
+std::int64_t bytesInVtk(const smg::ConversionEstimate& estimate)
 {
   constexpr double PointBytes = 3 * sizeof(float), IdBytes = sizeof(vtkIdType);
   // A surface has two triangles per vertex, a solid five to six tetrahedra.
   const double corners = estimate.cells > 3 * estimate.vertices ? 4.0 : 3.0;
-  return 1e-9 * (static_cast<double>(estimate.vertices) * PointBytes +
-                  static_cast<double>(estimate.cells) * (corners + 1.0) * IdBytes);
+  return static_cast<std::int64_t>(static_cast<double>(estimate.vertices) * PointBytes +
+                                   static_cast<double>(estimate.cells) * (corners + 1.0) * IdBytes);
 }
 
 } // namespace
@@ -105,15 +106,15 @@ int vtkStreamingMeshConverter::CanReadFile(const char* name)
 
 const char* vtkStreamingMeshConverter::GetEstimate()
 {
-  this->Estimate = "Known only for mesh files that are sorted, not for streams and .vsm files.";
+  this->Estimate = "Known once a mesh file is named that is sorted, not a stream or a .vsm file.";
   if (const auto estimate = estimateOf(this->GetFileName()))
   {
     std::ostringstream text;
-    text.precision(2);
     text << "About " << rounded(estimate->vertices) << " points and " << rounded(estimate->cells)
          << " cells" << (estimate->counted ? "" : ", as guessed from the size of the file")
-         << ": a reader that reads all of it takes at least " << std::fixed << gigabytes(*estimate)
-         << " GB, the conversion " << (estimate->memory_bytes >> 20) << " MiB";
+         << ": a reader that reads all of it takes at least "
+         << smg::mebibytes(bytesInVtk(*estimate)) << ", the conversion "
+         << smg::mebibytes(estimate->memory_bytes);
     this->Estimate = text.str();
   }
   return this->Estimate.c_str();

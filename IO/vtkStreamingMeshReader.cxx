@@ -10,6 +10,7 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkStreamingMeshKeys.h"
+#include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -61,6 +62,7 @@ struct vtkStreamingMeshReader::Internals
   /** The columns read with the pieces of the file; none before the first piece. */
   std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
   smg::KeptPreview Preview;
+  std::string Shown, Outcome; ///< storage of the sentence that is returned
 
   static std::filesystem::file_time_type timeOf(const std::string& name)
   {
@@ -135,6 +137,7 @@ struct vtkStreamingMeshReader::Internals
     this->Mesh.reset();
     this->Columns.reset();
     this->Preview.clear();
+    this->Shown.clear();
   }
 
   /** Sets the type of the output according to the cells. */
@@ -257,6 +260,13 @@ vtkDataArraySelection* vtkStreamingMeshReader::GetCellDataArraySelection()
 const char* vtkStreamingMeshReader::GetError()
 {
   return this->Internal->Failures.error().c_str();
+}
+
+const char* vtkStreamingMeshReader::GetOutcome()
+{
+  const std::string& error = this->Internal->Failures.error();
+  return error.empty() ? this->Internal->Shown.c_str()
+                       : (this->Internal->Outcome = "Failed: " + error).c_str();
 }
 
 vtkIdType vtkStreamingMeshReader::GetFullNumberOfPoints()
@@ -399,10 +409,16 @@ int vtkStreamingMeshReader::RequestData(
           info.vertices / parts > this->MaximumPointsInMemory)
       {
         this->Internal->readPreview(*output, part, *this, smg::progressOf(*this));
+        this->Internal->Shown = "A preview: " + smg::groupedDigits(output->GetNumberOfPoints()) +
+                                " of " + smg::groupedDigits(info.vertices) + " points.";
       }
       else
       {
         this->Internal->readPiece(*output, part, parts);
+        if (!vtkStreamingMeshKeys::IsStreamed(request))
+        {
+          this->Internal->Shown = "All " + smg::groupedDigits(info.vertices) + " points.";
+        }
       }
     });
 }

@@ -101,6 +101,10 @@ public:
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
 
+  /** What the last request showed, as "All 34,834 points." or "A preview: 2,000 of 34,834 points.",
+   * or why it failed; "" before. */
+  const char* GetOutcome();
+
   /** Why it failed, by itself or by an algorithm before it; empty: it did not. */
   const char* GetError();
   ///@}

@@ -191,7 +191,7 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
   if (job.input.isPreviewed() || smg::isPreview(*mesh))
   {
     throw smg::Error(
-      "The input has lost the point GlobalIds of the StreamingMeshReader, and is too large to be "
+      "The input has lost the point GlobalIds of the Streaming Mesh Reader, and is too large to be "
       "read as a whole: what it gives is its preview. Keep GlobalIds in the filters between, raise "
       "MaximumPointsInMemory, or, to save what is shown, put a Streaming Mesh Preview before "
       "them.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 
+#include "IO/Conversion/FreeSpace.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Description/Sizes.h"
 #include "IO/Files/FileNames.h"
@@ -419,9 +420,9 @@ void CommonOptions::printEstimate(const smg::JobEstimate& estimate) const
   {
     limit(estimate.scratch_bytes, this->scratchLimit, "--scratch-limit");
   }
-  std::printf(", %.0f MiB are free\n", inMebibytes(estimate.scratch_free));
+  std::printf(", %s\n", smg::freeSpace(estimate.scratch_free).c_str());
   line("output", estimate.output_bytes);
-  std::printf(", %.0f MiB are free\n", inMebibytes(estimate.output_free));
+  std::printf(", %s\n", smg::freeSpace(estimate.output_free).c_str());
   if (estimate.passes > 0)
   {
     std::printf("  passes   about %d\n", estimate.passes);

@@ -3,6 +3,7 @@
 
 #include "Filters/Processes/vtkProcessParts.h"
 #include "IO/vtkMeshPieceData.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Distributed/PartMemory.h"
 #include "Solver/Distributed/Team.h"
 
@@ -10,9 +11,8 @@
 #include "vtkPointSet.h"
 
 #include <array>
-#include <iomanip>
+#include <cstdint>
 #include <span>
-#include <sstream>
 #include <string>
 
 namespace smg
@@ -20,11 +20,9 @@ namespace smg
 namespace
 {
 
-std::string gibibytes(double bytes)
+std::string mebibytesOf(double bytes)
 {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << bytes / (1 << 30) << " GiB";
-  return text.str();
+  return mebibytes(static_cast<std::int64_t>(bytes));
 }
 
 } // namespace
@@ -58,8 +56,8 @@ MemoryFit estimateMemoryFit(vtkPointSet& piece, vtkMultiProcessController* contr
         return;
       }
       verdict.fits = most[1] <= share;
-      verdict.reason = "the estimate of " + gibibytes(most[1]) + " for a process " +
-                       (verdict.fits ? "fits in" : "is more than") + " the " + gibibytes(share) +
+      verdict.reason = "the estimate of " + mebibytesOf(most[1]) + " for a process " +
+                       (verdict.fits ? "fits in" : "is more than") + " the " + mebibytesOf(share) +
                        " that are free for it";
     });
   return verdict;

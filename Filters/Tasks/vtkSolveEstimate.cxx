@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/vtkSolveEstimate.h"
 
+#include "IO/Conversion/FreeSpace.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkSingleBlock.h"
@@ -50,7 +51,7 @@ std::string textOf(const JobEstimate& estimate, std::int64_t scratchLimit)
   {
     text << "the limit is " << mebibytes(scratchLimit) << ", ";
   }
-  text << mebibytes(estimate.scratch_free) << " are free), " << estimate.passes
+  text << freeSpace(estimate.scratch_free) << "), " << estimate.passes
        << (estimate.passes == 1 ? " pass" : " passes") << " over "
        << groupedDigits(estimate.vertices) << " points and " << groupedDigits(estimate.cells)
        << " cells, " << std::llround(std::ceil(estimate.cpu_seconds)) << " s of CPU; saved as .vsm "
@@ -163,9 +164,23 @@ void addColumn(vtkTable& table, const char* name, const SolveSummary& summary, V
   table.AddColumn(column);
 }
 
+/** Of what would be a horizontal line in a chart. */
+void removeConstantColumns(vtkTable& table, vtkIdType from)
+{
+  for (vtkIdType c = table.GetNumberOfColumns() - 1; c >= from; --c)
+  {
+    double range[2] = { 0.0, 0.0 };
+    vtkArrayDownCast<vtkDoubleArray>(table.GetColumn(c))->GetRange(range);
+    if (range[0] == range[1])
+    {
+      table.RemoveColumn(c);
+    }
+  }
+}
+
 } // namespace
 
-void fillPasses(const SolveSummary& summary, std::int64_t memoryLimit, vtkTable& table)
+void fillPasses(const SolveSummary& summary, vtkTable& table)
 {
   using Pass = Report::Pass;
   table.Initialize();
@@ -178,8 +193,8 @@ void fillPasses(const SolveSummary& summary, std::int64_t memoryLimit, vtkTable&
     [](const Pass& pass, double) { return static_cast<double>(pass.written) / MiB; });
   addColumn(table, "Memory (MiB)", summary,
     [](const Pass& pass, double) { return static_cast<double>(pass.pool_bytes) / MiB; });
-  addColumn(table, "Memory Limit (MiB)", summary,
-    [memoryLimit](const Pass&, double) { return static_cast<double>(memoryLimit) / MiB; });
+  constexpr vtkIdType Further = 3; // after those of every solve
+  removeConstantColumns(table, Further);
 }
 
 void fillText(const SolveSummary& summary, vtkTable& table)

@@ -48,9 +48,9 @@ std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const Solv
 std::optional<double> solveSeconds(
   vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options);
 
-/** Fills a table with a row for each pass of a solve: what it left and what it cost, for charts.
- * `memoryLimit` in bytes. */
-void fillPasses(const SolveSummary& summary, std::int64_t memoryLimit, vtkTable& table);
+/** Fills a table with a row for each pass of a solve, for charts: Pass, Residual, Seconds, and what
+ * else it cost that is not the same in all passes. */
+void fillPasses(const SolveSummary& summary, vtkTable& table);
 
 /** Fills a table with the sentence that a view is to show, "" if there is nothing to say. */
 void fillText(const SolveSummary& summary, vtkTable& table);

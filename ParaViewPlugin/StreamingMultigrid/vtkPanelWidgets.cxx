@@ -6,14 +6,21 @@
 #include "pqInterfaceTracker.h"
 #include "pqPropertyWidget.h"
 #include "pqPropertyWidgetInterface.h"
+#include "vtkCommand.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMUncheckedPropertyHelper.h"
+#include "vtkSmartPointer.h"
 
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QTimer>
 
+#include <filesystem>
 #include <string>
 
 namespace
@@ -26,17 +33,68 @@ public:
   TextWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
     : pqPropertyWidget(proxy, parent)
   {
-    auto* text = new QLabel(this);
-    text->setObjectName("Text");
-    text->setWordWrap(true);
-    text->setTextFormat(Qt::PlainText);
-    text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+    this->Text->setObjectName("Text");
+    this->Text->setWordWrap(true);
+    this->Text->setTextFormat(Qt::PlainText);
+    this->Text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(text);
+    layout->addWidget(this->Text);
     // A link needs a signal of changes by the user, of which there are none.
-    this->addPropertyLink(text, "text", SIGNAL(linkActivated(QString)), property);
+    this->addPropertyLink(this->Text, "text", SIGNAL(linkActivated(QString)), property);
   }
+
+protected:
+  QLabel* Text = new QLabel(this);
+};
+
+/** The estimate of a conversion for the file that is chosen, before that is applied. An Output File
+ * Name that the user has not chosen follows it. */
+class ConversionWidget : public TextWidget
+{
+public:
+  ConversionWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
+    : TextWidget(proxy, property, parent)
+    , Input(proxy->GetProperty("FileName"))
+    , Output(proxy->GetProperty("OutputFileName"))
+  {
+    this->Observer = this->Input->AddObserver(
+      vtkCommand::UncheckedPropertyModifiedEvent, this, &ConversionWidget::update);
+    // The other widgets of the panel, which show what is suggested, are made after this one.
+    QTimer::singleShot(0, this, [this] { this->update(); });
+  }
+  ~ConversionWidget() override { this->Input->RemoveObserver(this->Observer); }
+
+private:
+  void update()
+  {
+    const std::string name = vtkSMUncheckedPropertyHelper(this->Input).GetAsString();
+    if (name.empty())
+    {
+      return;
+    }
+    const std::string chosen = vtkSMUncheckedPropertyHelper(this->Output).GetAsString();
+    if (chosen.empty() || chosen == this->Suggested)
+    {
+      std::filesystem::path beside = name;
+      beside.replace_extension(beside.extension() == ".gz" ? "" : ".vsm");
+      beside.replace_extension(".vsm");
+      this->Suggested = beside.string() == name ? "" : beside.string();
+      vtkSMUncheckedPropertyHelper(this->Output).Set(this->Suggested.c_str());
+    }
+    // Only the server knows the file: another converter, which converts nothing, is asked there.
+    vtkSMProxy* self = this->proxy();
+    const auto other = vtkSmartPointer<vtkSMProxy>::Take(
+      self->GetSessionProxyManager()->NewProxy(self->GetXMLGroup(), self->GetXMLName()));
+    vtkSMPropertyHelper(other, "FileName").Set(name.c_str());
+    other->UpdateVTKObjects();
+    other->UpdatePropertyInformation();
+    this->Text->setText(vtkSMPropertyHelper(other, "Estimate").GetAsString());
+  }
+
+  vtkSmartPointer<vtkSMProperty> Input, Output;
+  unsigned long Observer = 0;
+  std::string Suggested;
 };
 
 pqPropertyWidget* newNumber(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
@@ -66,9 +124,10 @@ public:
   {
     const char* name = property ? property->GetPanelWidget() : nullptr;
     const std::string kind = name ? name : "";
-    return kind == "smg_text"     ? new TextWidget(proxy, property, parent)
-           : kind == "smg_number" ? newNumber(proxy, property, parent)
-                                  : nullptr;
+    return kind == "smg_text"         ? new TextWidget(proxy, property, parent)
+           : kind == "smg_conversion" ? new ConversionWidget(proxy, property, parent)
+           : kind == "smg_number"     ? newNumber(proxy, property, parent)
+                                      : nullptr;
   }
 };
 

@@ -163,7 +163,7 @@ assert readers_of(small) == ["PLYReader"], readers_of(small)
 assert readers_of(large) == ["PLYReader", "streaminglargemesh"], readers_of(large)
 converter = StreamingMeshConverter()
 converter.UpdatePropertyInformation()
-assert converter.GetPropertyValue("Estimate").startswith("Known only for mesh files"), converter.GetPropertyValue("Estimate")
+assert converter.GetPropertyValue("Estimate").startswith("Known once a mesh file is named"), converter.GetPropertyValue("Estimate")
 converter.FileName = large
 converter.UpdatePropertyInformation()
 estimate = converter.GetPropertyValue("Estimate")

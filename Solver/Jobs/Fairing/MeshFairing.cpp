@@ -275,6 +275,16 @@ void MeshFairing::setSize(const MeshMeasures& measures)
                       : size.unit == SmoothingSize::Diagonal ? measures.diagonal()
                                                              : 1.0;
   this->Size = size.value * unit;
+  // A mesh of few cells may be smaller than its default size, which is in its edges.
+  constexpr double Most = 0.25;
+  if (size.unit == SmoothingSize::MeanEdges && this->Size > measures.diagonal())
+  {
+    this->Size = Most * measures.diagonal();
+    this->Result->total.notes.push_back(
+      "The mesh is smaller than the size of the details to smooth in its mean edges: a quarter of "
+      "its diagonal, " +
+      scientific(this->Size) + ", was smoothed.");
+  }
   const double root = this->Size / (2.0 * std::numbers::pi);
   this->Time = (std::exp2(1.0 / this->Options.steps) - 1.0) * root * root;
   // The equations contain t and 1 / t. The square of a size may overflow or underflow even if the

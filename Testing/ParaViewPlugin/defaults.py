@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every filter of the category on small sources of ParaView, with its default properties: a result, or one sentence that
+says what is missing, in words that a user of the pipeline knows."""
+
+import re
+import sys
+
+import smg_testing as t
+from paraview.simple import *
+
+LoadPlugin(sys.argv[1], ns=globals())
+
+SOURCES = {
+    "Sphere": Sphere,
+    "Box": Box,
+    "Cylinder": Cylinder,
+    "Cone": Cone,
+    "Plane": Plane,
+    "Superquadric": Superquadric,
+    "Disk": Disk,
+    "Arrow": Arrow,
+    "Contour": lambda: Contour(Input=Wavelet(), ContourBy=["POINTS", "RTData"], Isosurfaces=[157.0]),
+    "Tetrahedra": lambda: Tetrahedralize(Input=Wavelet(WholeExtent=[-3, 3, -3, 3, -3, 3])),
+}
+# What a filter lacks by default, on all of these sources; "": nothing.
+MISSING = {
+    StreamingMeshSimplification: "",
+    StreamingMeshSmoothing: "",
+    StreamingDistance: "put a Mesh Region before this filter",
+    StreamingBlend: "Patch must name the array",
+    StreamingPoisson: "put a Mesh Condition before this filter",
+    StreamingMeshDeformation: "put a Mesh Handle before this filter",
+    StreamingMeshPreview: "use Streaming Mesh Simplification",
+}
+# The default shape, a sphere of radius 0.5 about the origin, holds no point of these.
+OUTSIDE = ("Box", "Cylinder", "Plane")
+
+
+def expected_on(filter_of, name):
+    if filter_of in (MeshRegion, MeshHandle, MeshCondition):
+        return "no point of the mesh lies in it" if name in OUTSIDE else ""
+    if filter_of is StreamingMeshSmoothing and name == "Tetrahedra":
+        return "the positions of tetrahedra cannot be smoothed"
+    return MISSING[filter_of]
+
+
+def check(filter_of, name):
+    source = SOURCES[name]()
+    source.UpdatePipeline()
+    made = filter_of(Input=source)
+    made.UpdatePipeline()
+    made.UpdatePropertyInformation()
+    what = f"{made.SMProxy.GetXMLName()} on {name}"
+    error, expected = made.GetPropertyValue("Error"), expected_on(filter_of, name)
+    points = made.GetDataInformation().GetNumberOfPoints()
+    if expected:
+        assert expected in error and points == 0, (what, error, points)
+    else:
+        assert not error and points > 0, (what, error, points)
+    # No classes, no pieces of what comes as a whole.
+    assert not re.search(r"vtk[A-Z]|Streaming[A-Z]|Mesh[A-Z]|Piece \d", error), (what, error)
+    if filter_of is StreamingMeshSimplification:
+        outcome = made.GetPropertyValue("Outcome")
+        assert outcome.startswith("Nothing to simplify: Number Of Vertices is 100,000"), (what, outcome)
+        solid = "of the surface of a solid of 343 points and 1,080 tetrahedra" in outcome
+        assert solid == (name == "Tetrahedra"), outcome
+
+
+for filter_of in (*MISSING, MeshRegion, MeshHandle, MeshCondition):
+    for name in SOURCES:
+        check(filter_of, name)
+
+# A preview is said to be one, by the reader and by regions on it.
+reader = OpenDataFile(t.BUNNY)
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 2000
+region = MeshRegion(Input=reader, Region="Everywhere")
+region.UpdatePipeline()
+for proxy, words in ((reader, "A preview: {} of 34,834 points."),
+                     (region, "{0} points of the preview, which has {0} of 34,834 points.")):
+    proxy.UpdatePropertyInformation()
+    shown = f"{proxy.GetDataInformation().GetNumberOfPoints():,}"
+    assert proxy.GetPropertyValue("Outcome") == words.format(shown), proxy.GetPropertyValue("Outcome")
+reader.MaximumPointsInMemory = 2000000
+region.UpdatePipeline()
+for proxy, words in ((reader, "All 34,834 points."), (region, "34,834 points.")):
+    proxy.UpdatePropertyInformation()
+    assert proxy.GetPropertyValue("Outcome") == words, proxy.GetPropertyValue("Outcome")
+
+# Every filter of the menu has an icon.
+for name in ("MeshRegion", "MeshCondition", "MeshHandle", "StreamingPoisson", "StreamingMeshDeformation",
+             "StreamingMeshSmoothing", "StreamingBlend", "StreamingDistance", "StreamingMeshSimplification",
+             "StreamingMeshPreview"):
+    menu = servermanager.ProxyManager().GetPrototypeProxy("filters", name).GetHints()
+    icon = menu.FindNestedElementByName("ShowInMenu").GetAttribute("icon")
+    assert icon and icon.startswith(":/pqWidgets/Icons/pq"), name
+print("passed")
