@@ -2,6 +2,7 @@
 #include "IO/vtkFailures.h"
 
 #include "IO/vtkFieldMarks.h"
+#include "Solver/Core/Text.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCallbackCommand.h"
@@ -77,24 +78,24 @@ void Failures::begin()
 
 void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 {
-  this->Error = sentence;
+  this->Error = oneLine(sentence);
   const vtkMTimeType now = pipelineTimeOf(algorithm);
-  if (this->Last == sentence && this->PipelineTime == now &&
+  if (this->Last == this->Error && this->PipelineTime == now &&
       !algorithm.HasObserver(vtkCommand::ErrorEvent))
   {
     return;
   }
-  this->Last = sentence;
+  this->Last = this->Error;
   this->PipelineTime = now;
-  vtkErrorWithObjectMacro(&algorithm, << sentence);
+  vtkErrorWithObjectMacro(&algorithm, << this->Error);
 }
 
 void Failures::showToObservers(vtkAlgorithm& algorithm, const std::string& sentence)
 {
-  this->Error = sentence;
+  this->Error = oneLine(sentence);
   if (algorithm.HasObserver(vtkCommand::ErrorEvent))
   {
-    vtkErrorWithObjectMacro(&algorithm, << sentence);
+    vtkErrorWithObjectMacro(&algorithm, << this->Error);
   }
 }
 

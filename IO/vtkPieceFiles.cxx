@@ -16,6 +16,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkSmartPointer.h"
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
@@ -103,6 +104,41 @@ std::string indexText(
   }
   out << "  </" << type << ">\n</VTKFile>\n";
   return out.str();
+}
+
+/** Gives names of their own that XML can hold to the arrays of a shallow copy. */
+void renameForXml(vtkDataSetAttributes& arrays)
+{
+  for (int i = 0; i < arrays.GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = arrays.GetArray(i);
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    std::string text = xmlText(name);
+    if (text == name)
+    {
+      continue;
+    }
+    while (arrays.HasArray(text.c_str()))
+    {
+      text += '_';
+    }
+    const auto copy = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    copy->ShallowCopy(array);
+    copy->SetName(text.c_str());
+    arrays.AddArray(copy);
+    arrays.RemoveArray(name.c_str());
+    --i; // the next one is here now
+  }
+}
+
+/** The piece as it is written: the arrays of the input keep their names. */
+vtkSmartPointer<vtkPointSet> withNamesForXml(vtkPointSet& given)
+{
+  auto piece = vtkSmartPointer<vtkPointSet>::Take(given.NewInstance());
+  piece->ShallowCopy(&given);
+  renameForXml(*piece->GetPointData());
+  renameForXml(*piece->GetCellData());
+  return piece;
 }
 
 void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem::path& path)
@@ -196,8 +232,9 @@ void writePieceFiles(
   // The stream checks the pieces; its blocks are not needed here.
   PieceStream stream(input, { .given = pieces }, {});
   MeshBlock block;
-  while (vtkPointSet* piece = stream.nextPiece(block))
+  while (vtkPointSet* given = stream.nextPiece(block))
   {
+    const vtkSmartPointer<vtkPointSet> piece = withNamesForXml(*given);
     if (!piece->IsA(isSurface ? "vtkPolyData" : "vtkUnstructuredGrid"))
     {
       throw Error(path.string() + " cannot hold a " + piece->GetClassName() +

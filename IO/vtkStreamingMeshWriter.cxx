@@ -14,6 +14,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Files/DiskFull.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
@@ -315,7 +316,7 @@ struct vtkStreamingMeshWriter::Internals
     }
     for (const std::string& note : notes)
     {
-      vtkWarningWithObjectMacro(&this->Self, << path.string() << ": " << note);
+      vtkWarningWithObjectMacro(&this->Self, << smg::oneLine(path.string() + ": " + note));
     }
   }
 
@@ -383,7 +384,7 @@ void vtkStreamingMeshWriter::WriteFile()
   }
   catch (const std::exception& error)
   {
-    vtkErrorMacro(<< error.what());
+    vtkWarningWithObjectMacro(&this->Self, << smg::oneLine(path.string() + ": " + note));
   }
   this->SetErrorCode(code);
 }

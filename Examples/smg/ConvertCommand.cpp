@@ -6,6 +6,7 @@
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -50,7 +51,7 @@ void print(const smg::ConversionReport& report)
   line(report.inverted_cells, "inverted tetrahedron", "inverted tetrahedra");
   for (const std::string& note : report.notes)
   {
-    std::printf("  %s\n", note.c_str());
+    std::printf("  %s\n", smg::oneLine(note).c_str());
   }
 }
 

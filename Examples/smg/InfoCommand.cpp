@@ -5,6 +5,7 @@
 
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmFile.h"
+#include "Solver/Core/Text.h"
 #include "smg/Describe.h"
 #include "smg/Error.h"
 
@@ -70,8 +71,9 @@ void printColumns(const char* of, const std::vector<smg::ColumnSpec>& specs,
 {
   for (std::size_t k = 0; k < specs.size(); ++k)
   {
-    std::printf("  %s %s (%s x %d)%s\n", of, specs[k].name.c_str(), nameOf(specs[k].type).data(),
-      specs[k].components, described ? valuesOf((*described)[k]).c_str() : "");
+    std::printf("  %s %s (%s x %d)%s\n", of, smg::oneLine(specs[k].name).c_str(),
+      nameOf(specs[k].type).data(), specs[k].components,
+      described ? valuesOf((*described)[k]).c_str() : "");
   }
 }
 
@@ -81,7 +83,7 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh, const order
   const smg::VsmReader& reader = mesh.reader();
   const smg::StreamInfo& info = reader.info();
   const auto vertices = static_cast<double>(info.vertices);
-  std::printf("%s\n", file.c_str());
+  std::printf("%s\n", smg::oneLine(file.string()).c_str());
   std::printf("  vertices    %lld (%s)\n", static_cast<long long>(info.vertices),
     info.doublePositions ? "float64" : "float32");
   std::printf("  cells       %lld %s\n", static_cast<long long>(info.cells),
@@ -210,7 +212,7 @@ void printDescription(const smg::MeshDescription& mesh)
   }
   for (const std::string& note : mesh.notes)
   {
-    std::printf("%s\n", note.c_str());
+    std::printf("%s\n", smg::oneLine(note).c_str());
   }
 }
 

@@ -7,6 +7,7 @@
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/MeshFile.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "smg/DescriptionFiles.h"
 
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <cstdio>
 #include <iterator>
+#include <set>
 
 namespace
 {
@@ -32,11 +34,12 @@ void printCosts(const smg::Report& report)
     "scratch files\n",
     report.seconds.total, report.cpu_seconds, inMebibytes(report.pool_bytes_peak),
     inMebibytes(report.rss_bytes_peak), inMebibytes(report.scratch_bytes_peak));
+  const std::set<std::string> warnings(report.warnings.begin(), report.warnings.end());
   for (const std::string& note : report.notes)
   {
-    if (std::ranges::count(report.warnings, note) == 0)
+    if (!warnings.contains(note))
     {
-      std::printf("%s\n", note.c_str());
+      std::printf("%s\n", smg::oneLine(note).c_str());
     }
   }
 }
@@ -164,7 +167,7 @@ void MeshCommand::warn(const smg::Report& report) const
 {
   for (const std::string& warning : report.warnings)
   {
-    std::fprintf(stderr, "smg: warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "smg: warning: %s\n", smg::oneLine(warning).c_str());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 #include "smg/Preview.h"
 #include "smg/WriteMesh.h"
@@ -83,7 +84,7 @@ int PreviewCommand::run() const
       report["vertices"].get<long long>(), seconds);
     for (const std::string& note : notes)
     {
-      std::printf("  %s\n", note.c_str());
+      std::printf("  %s\n", smg::oneLine(note).c_str());
     }
   }
   return 0;

@@ -7,6 +7,7 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"
 #include "smg/Simplify.h"
@@ -87,7 +88,7 @@ void SimplifyCommand::print(const smg::SimplifyReport& report) const
   std::printf("%.2f s\n", report.seconds);
   for (const std::string& note : report.notes)
   {
-    std::printf("  %s\n", note.c_str());
+    std::printf("  %s\n", smg::oneLine(note).c_str());
   }
 }
 

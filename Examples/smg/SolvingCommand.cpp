@@ -2,6 +2,7 @@
 #include "SolvingCommand.h"
 
 #include "IO/Description/JsonNode.h"
+#include "Solver/Core/Text.h"
 
 #include <cmath>
 #include <cstdio>
@@ -153,15 +154,15 @@ void SolvingCommand::print(const smg::Report& report) const
   {
     if (std::isnan(condition.mean.front()))
     {
-      std::printf("  %s: without effect\n", condition.name.c_str());
+      std::printf("  %s: without effect\n", smg::oneLine(condition.name).c_str());
       continue;
     }
-    std::printf("  %s: %smean%s, flux into the body%s\n", condition.name.c_str(),
+    std::printf("  %s: %smean%s, flux into the body%s\n", smg::oneLine(condition.name).c_str(),
       extentOf(condition).c_str(), listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }
   for (const smg::Report::Seam& seam : report.seams)
   {
     std::printf("  %s: the largest step between patches was %.3g and is %.3g\n",
-      seam.column.c_str(), seam.before, seam.after);
+      smg::oneLine(seam.column).c_str(), seam.before, seam.after);
   }
 }

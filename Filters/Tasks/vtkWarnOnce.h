@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Filters/Tasks/SolveSummary.h"
+#include "Solver/Core/Text.h"
 
 #include "vtkObject.h"
 
@@ -24,7 +25,7 @@ public:
   {
     if (this->Last != sentence)
     {
-      vtkWarningWithObjectMacro(&this->Object, << sentence);
+      vtkWarningWithObjectMacro(&this->Object, << oneLine(sentence));
       this->Last = sentence;
     }
   }
@@ -43,7 +44,7 @@ inline void warnOf(vtkObject& object, const SolveSummary& summary, bool mustConv
 {
   for (const std::string& warning : summary.warnings)
   {
-    vtkWarningWithObjectMacro(&object, << warning << '.');
+    vtkWarningWithObjectMacro(&object, << oneLine(warning) << '.');
   }
   if (summary.error.empty() && !summary.converged && mustConverge)
   {

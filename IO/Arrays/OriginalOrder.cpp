@@ -110,10 +110,10 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
     [&seen](const MeshBlock& block) { seen.add(block.vertexColumns[0].as<std::int64_t>()); });
   VsmReader reader(mesh.file());
   IsolatedVertices chunk;
-  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += VsmFormat::BlockRows)
+  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
   {
-    reader.readIsolated(
-      first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
     seen.add(chunk.ids);
   }
   if (seen.areRows())

@@ -83,10 +83,10 @@ void forIsolated(const StoredMesh& mesh, const AddedColumns* added, const Use& u
 {
   VsmReader reader(mesh.file());
   IsolatedVertices chunk;
-  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += VsmFormat::BlockRows)
+  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
   {
-    reader.readIsolated(
-      first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
     if (added)
     {
       added->completeIsolated(first, chunk);

@@ -9,6 +9,8 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Import/Weld.h"
+#include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
@@ -131,6 +133,7 @@ const VsmReader& Conversion::openStream()
   checkIsWhole(this->part(), this->In.string());
   const bool direct = this->From == MeshFileKind::Vsm;
   this->Stream.emplace(direct ? this->In : this->importStream());
+  this->Stream->requireBlocksWithin(this->Memory);
   this->checkCells(this->Stream->info());
   if (direct)
   {
@@ -165,8 +168,24 @@ void Conversion::checkCells(const StreamInfo& info) const
   }
 }
 
+/** Throws Error if a few rows of the columns, of which a block has at least one cell with its
+ * vertices, take all memory. */
+void Conversion::checkRows(const StreamInfo& mesh) const
+{
+  constexpr std::int64_t RowsInUse = 16;
+  const std::int64_t bytes = rowBytes(mesh.cellColumns, rowBytes(mesh.vertexColumns));
+  if (bytes > this->Memory / RowsInUse)
+  {
+    throw Error(this->In.string() + ": its columns have " + std::to_string(bytes) +
+                " bytes for a vertex and a cell, which takes " + mebibytes(RowsInUse * bytes) +
+                ", but the memory limit is " + mebibytes(this->Memory) +
+                ": raise it, or leave columns out.");
+  }
+}
+
 void Conversion::write(MeshSource& source, const AddTables& add)
 {
+  this->checkRows(source.info());
   const bool direct = this->To == MeshFileKind::Vsm;
   const ProgressFunction progress = this->progress();
   const std::filesystem::path path = direct ? this->Out : this->workspace().folder() / "mesh.vsm";

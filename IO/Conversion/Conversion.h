@@ -76,6 +76,7 @@ private:
   void checkOptions() const;
   std::filesystem::path importStream();
   void checkCells(const StreamInfo& info) const;
+  void checkRows(const StreamInfo& mesh) const;
 
   const std::filesystem::path& In;
   const std::filesystem::path& Out;

@@ -82,6 +82,8 @@ std::unique_ptr<OpenedMesh> openMesh(
       requireNoConversionIn(options.checkpoint);
     }
     mesh.reader.emplace(path);
+    mesh.reader->requireBlocksWithin(
+      options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory);
     return opened;
   }
   ConversionOptions conversion = options;

@@ -139,9 +139,10 @@ void RestoredMesh::readIsolated(VsmReader& reader)
     places.push_back(findColumn(reader.info().vertexColumns, spec));
   }
   IsolatedVertices chunk;
-  for (std::int64_t first = 0; first < this->Info.isolated; first += VsmFormat::BlockRows)
+  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
+  for (std::int64_t first = 0; first < this->Info.isolated; first += rows)
   {
-    reader.readIsolated(first, std::min(VsmFormat::BlockRows, this->Info.isolated - first), chunk);
+    reader.readIsolated(first, std::min(rows, this->Info.isolated - first), chunk);
     std::vector<Column> columns;
     for (const std::ptrdiff_t place : places)
     {

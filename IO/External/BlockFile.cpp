@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/BlockFile.h"
 
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <cstring>
@@ -48,8 +49,8 @@ public:
 
   [[noreturn]] void fail(const std::string& what) const
   {
-    throw Error(this->File + ": the index of the file is invalid (" + what +
-                "): the file is damaged; create it again.");
+    throw Error(oneLine(this->File + ": the index of the file is invalid (" + what +
+                        "): the file is damaged; create it again."));
   }
 
   template <class T>

@@ -2,6 +2,7 @@
 #include "IO/External/BlockFile.h"
 
 #include "IO/External/Codec.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
@@ -31,7 +32,10 @@ struct BlockFileReader::Implementation
   {
   }
 
-  [[noreturn]] void fail(const std::string& what) const { throw Error(this->Name + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const
+  {
+    throw Error(oneLine(this->Name + ": " + what));
+  }
 
   /** Reads and checks the front. */
   BlockFileFront readFront(std::span<std::byte> region) const
@@ -66,6 +70,18 @@ struct BlockFileReader::Implementation
     return front;
   }
 
+  /** Refuses an index of more blocks than any mesh has, before it is read: 2^33 cells in blocks of
+   * thousands take about a hundred MiB. */
+  void checkIndexBytes(const BlockFileFront& front) const
+  {
+    constexpr std::int64_t Most = std::int64_t(256) << 20;
+    if (front.tailBytes > Most)
+    {
+      this->fail("has an index of " + std::to_string(front.tailBytes) +
+                 " bytes, more than any mesh needs: the file is damaged; create it again.");
+    }
+  }
+
   void checkLength(const BlockFileFront& front) const
   {
     const std::int64_t size = this->File.size();
@@ -90,6 +106,7 @@ struct BlockFileReader::Implementation
     std::vector<std::byte> region(BlockFileHeaderBytes);
     const BlockFileFront front = this->readFront(region);
     this->checkLength(front);
+    this->checkIndexBytes(front);
     const std::span<std::byte> rest = std::span(region).subspan(sizeof(front));
     // The front is sound, but may have been made on purpose: its numbers are compared with the
     // room.

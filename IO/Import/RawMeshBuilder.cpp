@@ -2,6 +2,7 @@
 #include "IO/Import/RawMeshBuilder.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/SolidSplit.h"
 #include "IO/Mesh/Columns.h"
@@ -32,6 +33,18 @@ RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice)
 RawMeshBuilder::BuiltColumn* RawMeshBuilder::addColumn(ColumnOf of, const ColumnSpec& spec)
 {
   std::deque<BuiltColumn>& columns = this->Columns[std::size_t(of)];
+  // Leaves room for numbers, flags and results.
+  constexpr std::size_t Most = VsmFormat::MaxColumns - 96;
+  if (columns.size() >= Most)
+  {
+    const std::string note = "Columns after the first " + std::to_string(Most) +
+                             " of the vertices or of the cells are left out.";
+    if (this->Mesh.counts.notes.empty() || this->Mesh.counts.notes.back() != note)
+    {
+      this->note(note);
+    }
+    return nullptr;
+  }
   const bool isTaken = std::ranges::any_of(
     columns, [&spec](const BuiltColumn& column) { return column.spec.name == spec.name; });
   // Flags of cells are computed; those of a file might be wrong.

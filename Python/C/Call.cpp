@@ -2,6 +2,7 @@
 #include "Python/C/Call.h"
 
 #include "IO/Description/JsonNode.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
 
 #include <cstddef>
@@ -21,7 +22,7 @@ void remember(const char* text) noexcept
 {
   try
   {
-    LastError = text;
+    LastError = oneLine(text);
     LastErrorText = LastError.c_str();
   }
   catch (...)

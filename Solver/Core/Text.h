@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -31,16 +33,67 @@ inline std::string groupedDigits(std::int64_t number)
   return digits;
 }
 
-/** The text without line breaks and other control characters, for an error message that quotes a
- * file. */
+/** The bytes of the UTF-8 character at the beginning of a text; 0 if there is none (Unicode 15.0,
+ * table 3-7: neither overlong nor a surrogate). */
+inline std::size_t utf8Bytes(std::string_view text)
+{
+  const auto byte = [&](std::size_t i)
+  { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(0);
+  if (first < 0x80)
+  {
+    return text.empty() ? 0 : 1;
+  }
+  const std::size_t length = first < 0xC2   ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  for (std::size_t i = 1; i < length; ++i)
+  {
+    if (byte(i) < (i == 1 ? least : 0x80) || byte(i) > (i == 1 ? most : 0xBF))
+    {
+      return 0;
+    }
+  }
+  return length;
+}
+
+/** Whether a character of UTF-8 controls a terminal: C0, DEL or C1, which begins with C2. */
+inline bool isControl(std::string_view character)
+{
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  return character.size() == 1 ? byte(0) < 32 || byte(0) == 127
+                               : character.size() == 2 && byte(0) == 0xC2 && byte(1) < 0xA0;
+}
+
+/** The text with `instead` for each character that does not satisfy `stays`, and for each byte that
+ * belongs to no character of UTF-8. */
+template <class Stays>
+std::string replaced(std::string_view text, std::string_view instead, Stays stays)
+{
+  std::string result;
+  while (!text.empty())
+  {
+    const std::size_t length = utf8Bytes(text);
+    const std::string_view character = text.substr(0, length);
+    result += length > 0 && stays(character) ? character : instead;
+    text.remove_prefix(length > 0 ? length : 1);
+  }
+  return result;
+}
+
+/** The text in one line, without control characters and bytes that are not UTF-8: for whatever
+ * shows what a file has said, in a terminal or an error message. */
 inline std::string oneLine(std::string text)
 {
   for (char& c : text)
   {
-    const auto code = static_cast<unsigned char>(c);
-    c = c == '\n' || c == '\r' ? ' ' : code < 32 || code == 127 ? '?' : c;
+    c = c == '\n' || c == '\r' ? ' ' : c;
   }
-  return text;
+  return replaced(text, "?", [](std::string_view character) { return !isControl(character); });
 }
 
 } // namespace smg

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OnProcesses.h"
 
+#include "Solver/Core/Text.h"
+
 #include <mpi.h>
 
 #include <cstdio>
@@ -58,7 +60,8 @@ void run(Work&& work)
       throw;
     }
     // The other processes do not know, and may be waiting for this one.
-    std::fprintf(stderr, "smg: process %d of %d: %s\n", team.rank(), team.size(), error.what());
+    std::fprintf(stderr, "smg: process %d of %d: %s\n", team.rank(), team.size(),
+      smg::oneLine(error.what()).c_str());
     MPI_Abort(MPI_COMM_WORLD, 1);
   }
 }

@@ -16,34 +16,6 @@ namespace
 
 constexpr std::string_view Replacement = "\xEF\xBF\xBD"; // U+FFFD
 
-/** The bytes of the UTF-8 character at the beginning of a text; 0 if there is none (Unicode 15.0,
- * table 3-7: neither overlong nor a surrogate). */
-std::size_t characterBytes(std::string_view text)
-{
-  const auto byte = [&](std::size_t i)
-  { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const unsigned first = byte(0);
-  if (first < 0x80)
-  {
-    return 1;
-  }
-  const std::size_t length = first < 0xC2   ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  for (std::size_t i = 1; i < length; ++i)
-  {
-    if (byte(i) < (i == 1 ? least : 0x80) || byte(i) > (i == 1 ? most : 0xBF))
-    {
-      return 0;
-    }
-  }
-  return length;
-}
-
 /** What stands for a character of one byte in HTML. */
 std::string_view inHtml(const char& c)
 {
@@ -82,7 +54,7 @@ std::string escape(std::string_view text)
   out.reserve(text.size() + text.size() / 8);
   while (!text.empty())
   {
-    const std::size_t length = characterBytes(text);
+    const std::size_t length = smg::utf8Bytes(text);
     out += length == 1 ? inHtml(text.front()) : length == 0 ? Replacement : text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }

@@ -14,6 +14,7 @@ namespace smg
 IsolatedWriter::IsolatedWriter(std::string name, const StreamInfo& info)
   : Name(std::move(name))
   , Specs(info.vertexColumns)
+  , BlockRows(VsmFormat::blockRows(rowBytes(info.vertexColumns)))
   , Positions(info.doublePositions)
   , Rows(info.vertexColumns)
 {
@@ -80,7 +81,7 @@ void IsolatedWriter::append(BlockFileWriter& file, std::span<const std::int64_t>
     }
     columns.empty() ? this->Rows.append(zeros, 0, 1)
                     : this->Rows.append(columns, static_cast<std::int64_t>(i), 1);
-    if (static_cast<std::int64_t>(this->Ids.size()) == VsmFormat::BlockRows)
+    if (static_cast<std::int64_t>(this->Ids.size()) == this->BlockRows)
     {
       this->finish(file);
     }

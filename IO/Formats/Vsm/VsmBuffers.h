@@ -134,6 +134,7 @@ private:
 
   std::string Name;
   std::vector<ColumnSpec> Specs;
+  std::int64_t BlockRows;
   std::vector<std::int64_t> Ids;
   PositionBuffer Positions;
   RowBuffer Rows; ///< without the positions

@@ -2,17 +2,24 @@
 #include "IO/Formats/Vsm/VsmFile.h"
 
 #include "IO/External/BlockFile.h"
+#include "IO/Files/InputFile.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
 #include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -81,8 +88,51 @@ VsmFile::VsmFile(const std::filesystem::path& path, IoStatistics* statistics)
 
 void VsmFile::fail(const std::string& what) const
 {
-  throw Error(this->Name + ": " + what);
+  throw Error(oneLine(this->Name + ": " + what));
 }
+
+namespace
+{
+
+/** An integer of the header in [least, most]. Throws what the JSON library throws, or a sentence.
+ */
+std::int64_t integerIn(
+  const nlohmann::json& header, const char* key, std::int64_t least, std::int64_t most)
+{
+  const nlohmann::json& value = header.at(key);
+  // A number of another type would be converted without a word.
+  const bool isSigned =
+    value.is_number_integer() &&
+    (!value.is_number_unsigned() || value.get<std::uint64_t>() <= std::uint64_t(INT64_MAX));
+  const std::int64_t number = isSigned ? value.get<std::int64_t>() : -1;
+  if (!isSigned || number < least || number > most)
+  {
+    throw MeshError("says that its " + std::string(key) + " is " + value.dump() + ", not from " +
+                    std::to_string(least) + " to " + std::to_string(most));
+  }
+  return number;
+}
+
+/** The bounds of the vertices: finite, and the smaller one first. */
+std::array<double, 6> boundsOf(const nlohmann::json& header)
+{
+  const nlohmann::json& value = header.at("bounds");
+  std::array<double, 6> bounds{};
+  bool good = value.is_array() && value.size() == bounds.size();
+  for (std::size_t i = 0; good && i < bounds.size(); ++i)
+  {
+    bounds[i] = value[i].get<double>();
+    good = std::isfinite(bounds[i]) && (i % 2 == 0 || bounds[i - 1] <= bounds[i]);
+  }
+  if (!good)
+  {
+    throw MeshError("says that its bounds are " + value.dump() +
+                    ", not six numbers xmin, xmax, ymin, ymax, zmin, zmax");
+  }
+  return bounds;
+}
+
+} // namespace
 
 void VsmFile::readHeader()
 {
@@ -93,6 +143,7 @@ void VsmFile::readHeader()
   }
   try
   {
+    constexpr std::int64_t Most = INT64_MAX;
     const std::string cell = header.at("cell");
     const std::string precision = header.at("precision");
     if ((cell != "triangle" && cell != "tetrahedron") ||
@@ -102,12 +153,22 @@ void VsmFile::readHeader()
     }
     this->Info.cellType = cell == "triangle" ? CellType::Triangle : CellType::Tetrahedron;
     this->Info.doublePositions = precision == "float64";
-    this->Info.vertices = header.at("vertices");
-    this->Info.cells = header.at("cells");
-    this->Info.bounds = header.at("bounds");
-    this->Info.width = header.at("width");
-    this->Info.span = header.at("span");
-    this->MeanWidth = header.at("mean_width");
+    this->Info.vertices = integerIn(header, "vertices", 1, Most);
+    this->Info.cells = integerIn(header, "cells", 1, Most);
+    this->Info.bounds = boundsOf(header);
+    // Whoever reads the stream sizes windows by these.
+    this->Info.width = integerIn(header, "width", 1, this->Info.vertices);
+    this->Info.span = integerIn(header, "span", 0, this->Info.vertices - 1);
+    this->MeanWidth = header.at("mean_width").get<double>();
+    if (!(this->MeanWidth >= 0.0 && this->MeanWidth <= static_cast<double>(this->Info.width)))
+    {
+      throw MeshError("says that its mean_width is " + header.at("mean_width").dump() +
+                      ", not from 0 to its width");
+    }
+  }
+  catch (const MeshError& error)
+  {
+    this->fail(std::string(error.what()) + "; make it anew.");
   }
   catch (const nlohmann::json::exception& error)
   {
@@ -169,12 +230,12 @@ void VsmFile::checkBlocks() const
     for (std::int64_t b = 0; b < blocks; ++b)
     {
       const std::int64_t rows = this->Blocks.blockRows(table, b);
-      if (rows > VsmFormat::BlockRows ||
+      if (rows < 1 || rows > VsmFormat::BlockRows ||
           (packed > 0 &&
             this->Blocks.columnBytes(table, b, 0) > maxPackedBytes(std::size_t(rows * packed))))
       {
         this->fail("table '" + this->Blocks.tables()[table].name + "', block " + std::to_string(b) +
-                   " is too large; make the file anew.");
+                   " is empty or too large; make the file anew.");
       }
     }
   }
@@ -184,10 +245,20 @@ void VsmFile::checkColumns() const
 {
   for (const auto* columns : { &this->Info.vertexColumns, &this->Info.cellColumns })
   {
-    if (std::any_of(columns->begin(), columns->end(),
-          [](const ColumnSpec& column) { return column.components < 1; }))
+    std::set<std::string> names;
+    for (const ColumnSpec& column : *columns)
     {
-      this->fail("has a column without components; make it anew.");
+      if (column.components < 1 || column.name.empty() || isReservedColumn(column.name) ||
+          !names.insert(column.name).second)
+      {
+        this->fail("has a column '" + column.name +
+                   "' without components or a name of its own; make it anew.");
+      }
+    }
+    if (names.size() > VsmFormat::MaxColumns)
+    {
+      this->fail("has " + std::to_string(names.size()) + " columns, but may have " +
+                 std::to_string(VsmFormat::MaxColumns) + "; make it anew.");
     }
   }
   if (std::any_of(this->Info.cellColumns.begin(), this->Info.cellColumns.end(),
@@ -215,12 +286,43 @@ void VsmFile::readBlockTable()
   for (std::int64_t b = 0; b < count; b++)
   {
     good = good && this->FirstVertex[b] <= this->FirstVertex[b + 1] && this->Finalized[b] >= 0 &&
-           this->Finalized[b] <= this->FirstVertex[b + 1];
+           this->Finalized[b] <= this->FirstVertex[b + 1] &&
+           (b == 0 || this->Finalized[b - 1] <= this->Finalized[b]);
   }
   if (!good)
   {
     this->fail("has a table of blocks that makes no sense; make it anew.");
   }
+}
+
+std::int64_t VsmFile::blockBytes() const
+{
+  const auto bytesOf = [this](int table, std::int64_t block)
+  {
+    const auto columns = static_cast<int>(this->Blocks.tables()[table].columns.size());
+    std::int64_t bytes = 0;
+    for (int column = 0; column < columns; ++column)
+    {
+      bytes += static_cast<std::int64_t>(this->Blocks.columnBytes(table, block, column));
+    }
+    return bytes;
+  };
+  const std::int64_t ofVertex = rowBytes(this->Info.vertexColumns);
+  std::int64_t vertices = 0, cells = 0, delivered = 0;
+  for (std::int64_t b = 0; b < this->Blocks.blocks(VsmFormat::Vertices); ++b)
+  {
+    vertices = std::max(vertices, bytesOf(VsmFormat::Vertices, b));
+  }
+  for (std::int64_t b = 0; b < this->cellBlocks(); ++b)
+  {
+    const std::int64_t bytes = bytesOf(VsmFormat::Cells, b);
+    cells = std::max(cells, bytes);
+    // No more than its corners: what the table says otherwise is refused when the block is read.
+    const std::int64_t introduced = std::min(this->firstVertex(b + 1) - this->firstVertex(b),
+      this->Blocks.blockRows(VsmFormat::Cells, b) * cornersOf(this->Info.cellType));
+    delivered = std::max(delivered, bytes + introduced * ofVertex);
+  }
+  return vertices + cells + delivered;
 }
 
 void VsmFile::readPacked(int table, std::int64_t block, std::size_t count)
@@ -240,12 +342,14 @@ void VsmFile::readCorners(std::int64_t block, std::vector<std::int64_t>& corners
   const std::int64_t rows = this->Blocks.blockRows(VsmFormat::Cells, block);
   this->readPacked(VsmFormat::Cells, block, rows * cornersOf(this->Info.cellType));
   corners.resize(this->Numbers.size());
+  // What no later cell uses may be forgotten by now.
+  const std::int64_t least = block > 0 ? this->Finalized[block - 1] : 0;
   std::int64_t introduced = this->FirstVertex[block];
   bool good = true;
   for (std::size_t i = 0; i < corners.size(); i++)
   {
     const auto distance = static_cast<std::int64_t>(this->Numbers[i]);
-    good = good && distance >= 0 && distance <= introduced;
+    good = good && distance >= 0 && distance <= introduced - least;
     corners[i] = introduced - distance;
     introduced += distance == 0 ? 1 : 0;
   }
@@ -261,10 +365,18 @@ void VsmFile::readLastCells(std::int64_t block, std::vector<std::int64_t>& cells
   this->readPacked(VsmFormat::Last, block, this->Blocks.blockRows(VsmFormat::Last, block));
   cells.resize(this->Numbers.size());
   std::uint64_t last = 0;
+  bool good = true;
   for (std::size_t i = 0; i < cells.size(); i++)
   {
     last += static_cast<std::uint64_t>(unzigzag(this->Numbers[i]));
     cells[i] = static_cast<std::int64_t>(last);
+    good = good && cells[i] >= 0 && cells[i] < this->Info.cells;
+  }
+  if (!good)
+  {
+    this->fail("block " + std::to_string(block) +
+               " of the last cells of vertices names a cell that does not exist; make the file "
+               "anew.");
   }
 }
 

@@ -66,6 +66,10 @@ public:
     return this->HasIsolated ? this->Blocks.rows(VsmFormat::Isolated) : 0;
   }
 
+  /** Bytes of the largest blocks: of vertices and of cells in the file, and of the stream with all
+   * columns. */
+  std::int64_t blockBytes() const;
+
   /** The index of the column of this name in its table. */
   int vertexColumn(const std::string& name) const;
   int cellColumn(const std::string& name) const;

@@ -3,6 +3,7 @@
 #include "IO/Formats/Vsm/PieceReader.h"
 #include "IO/Formats/Vsm/VsmFile.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -118,6 +119,22 @@ Codec VsmReader::codec() const
 std::string VsmReader::fingerprint() const
 {
   return std::to_string(this->Self->File.Blocks.contentChecksum());
+}
+
+void VsmReader::requireBlocksWithin(std::int64_t memory) const
+{
+  // The block that is used, the one after it, and what is made of them.
+  constexpr std::int64_t InUse = 4;
+  const std::int64_t bytes = this->Self->File.blockBytes();
+  if (bytes > memory / InUse)
+  {
+    const bool isKnown = bytes <= INT64_MAX / InUse;
+    this->Self->File.fail("its columns are so wide that reading it takes " +
+                          mebibytes(isKnown ? InUse * bytes : bytes) +
+                          ", but the memory limit is " + mebibytes(memory) +
+                          ": raise it, or convert the original mesh anew, without columns that "
+                          "are not needed.");
+  }
 }
 
 std::int64_t VsmReader::vertexBlocks() const

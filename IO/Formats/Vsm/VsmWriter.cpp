@@ -34,6 +34,11 @@ TableSpec tableWith(std::string name, ColumnSpec first, const std::vector<Column
 
 void checkColumns(const std::vector<ColumnSpec>& columns, const std::string& file)
 {
+  if (columns.size() > VsmFormat::MaxColumns)
+  {
+    throw Error(file + ": has room for " + std::to_string(VsmFormat::MaxColumns) +
+                " columns, but there are " + std::to_string(columns.size()) + ": leave some out.");
+  }
   std::set<std::string> names;
   for (const ColumnSpec& column : columns)
   {
@@ -77,6 +82,8 @@ struct VsmWriter::Implementation
     : Name(path.string())
     , Info(info)
     , Corners(cornersOf(info.cellType))
+    , VertexBlock(VsmFormat::blockRows(rowBytes(info.vertexColumns)))
+    , CellBlock(VsmFormat::blockRows(rowBytes(info.cellColumns, rowBytes(info.vertexColumns))))
     , Positions(info.doublePositions)
     , VertexRows(info.vertexColumns)
     , CellRows(info.cellColumns)
@@ -110,8 +117,9 @@ struct VsmWriter::Implementation
   std::string Name;
   StreamInfo Info; ///< what has been appended so far
   int Corners;
-  std::int64_t Introduced = 0; ///< vertices used so far
-  std::int64_t Settled = 0;    ///< vertices whose last cell is known
+  std::int64_t VertexBlock, CellBlock; ///< rows of a block
+  std::int64_t Introduced = 0;         ///< vertices used so far
+  std::int64_t Settled = 0;            ///< vertices whose last cell is known
   double MeanWidth = 0;
 
   PositionBuffer Positions; ///< of the current block
@@ -189,12 +197,12 @@ void VsmWriter::Implementation::addVertices(const MeshBlock& block)
   for (std::int64_t done = 0; done < block.vertices();)
   {
     const std::int64_t count = std::min(
-      block.vertices() - done, VsmFormat::BlockRows - this->Info.vertices % VsmFormat::BlockRows);
+      block.vertices() - done, this->VertexBlock - this->Info.vertices % this->VertexBlock);
     this->addPositions(block, done, count);
     this->VertexRows.append(block.vertexColumns, done, count);
     this->Info.vertices += count;
     done += count;
-    if (this->Info.vertices % VsmFormat::BlockRows == 0)
+    if (this->Info.vertices % this->VertexBlock == 0)
     {
       this->flushVertices();
     }
@@ -226,8 +234,8 @@ void VsmWriter::Implementation::addCells(const MeshBlock& block)
   for (std::int64_t done = 0; done < cells;)
   {
     const std::int64_t count =
-      std::min(cells - done, VsmFormat::BlockRows - this->Info.cells % VsmFormat::BlockRows);
-    if (this->Info.cells % VsmFormat::BlockRows == 0)
+      std::min(cells - done, this->CellBlock - this->Info.cells % this->CellBlock);
+    if (this->Info.cells % this->CellBlock == 0)
     {
       this->FirstVertex.push_back(this->Introduced);
     }
@@ -238,7 +246,7 @@ void VsmWriter::Implementation::addCells(const MeshBlock& block)
     }
     this->CellRows.append(block.cellColumns, done, count);
     done += count;
-    if (this->Info.cells % VsmFormat::BlockRows == 0)
+    if (this->Info.cells % this->CellBlock == 0)
     {
       this->flushCells();
     }
@@ -289,7 +297,7 @@ void VsmWriter::Implementation::settle(std::int64_t end)
       this->flushLast();
     }
     // The blocks that end before the vertex does: this is the first vertex that outlives them.
-    while ((static_cast<std::int64_t>(this->Finalized.size()) + 1) * VsmFormat::BlockRows <= last)
+    while ((static_cast<std::int64_t>(this->Finalized.size()) + 1) * this->CellBlock <= last)
     {
       this->Finalized.push_back(this->Settled);
     }
@@ -352,12 +360,15 @@ StreamInfo VsmWriter::finish(const std::string& origin)
               " belongs to no cell: leave out such vertices.");
   }
   self.settle(info.vertices);
-  if (info.vertices % VsmFormat::BlockRows != 0)
+  if (info.vertices % self.VertexBlock != 0)
   {
     self.flushVertices();
+  }
+  if (info.vertices % VsmFormat::BlockRows != 0)
+  {
     self.flushLast();
   }
-  if (info.cells % VsmFormat::BlockRows != 0)
+  if (info.cells % self.CellBlock != 0)
   {
     self.flushCells();
   }

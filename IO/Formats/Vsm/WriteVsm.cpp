@@ -41,10 +41,10 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
 {
   VsmReader reader(from);
   IsolatedVertices chunk;
-  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += VsmFormat::BlockRows)
+  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
   {
-    reader.readIsolated(
-      first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
     if (complete)
     {
       complete(first, chunk);

@@ -9,13 +9,16 @@
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Files of VTK, legacy and XML. As all sizes are known, every array has its place from the start:
@@ -25,10 +28,21 @@
 namespace smg
 {
 
+std::string xmlText(std::string_view text)
+{
+  return replaced(text, "_",
+    [](std::string_view character)
+    {
+      // U+FFFE and U+FFFF are not characters of XML.
+      const bool isNone = character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF";
+      return !isControl(character) && !isNone;
+    });
+}
+
 std::string xmlEscaped(const std::string& text)
 {
   std::string result;
-  for (const char c : text)
+  for (const char c : xmlText(text))
   {
     switch (c)
     {
@@ -323,6 +337,32 @@ private:
   std::vector<std::int32_t> Numbers;
 };
 
+/** The names of columns in an XML file, each once; notes those that are not what they were. */
+std::vector<std::string> xmlNames(const std::vector<ColumnSpec>& specs, WriteNotes& notes)
+{
+  std::set<std::string> taken;
+  for (const ColumnSpec& spec : specs)
+  {
+    taken.insert(spec.name);
+  }
+  std::vector<std::string> names;
+  for (const ColumnSpec& spec : specs)
+  {
+    const std::string base = xmlText(spec.name);
+    std::string& name = names.emplace_back(base);
+    for (int k = 1; name != spec.name && !taken.insert(name).second; ++k)
+    {
+      name = base + '_' + std::to_string(k);
+    }
+    if (name != spec.name)
+    {
+      notes.push_back("The column " + inQuotes(spec.name) + " is called " + inQuotes(name) +
+                      " in the file, since XML cannot hold its name.");
+    }
+  }
+  return names;
+}
+
 /** VTK XML: PolyData if the name ends with .vtp, else an UnstructuredGrid. Corners are 64-bit
  * numbers. */
 class VtkXmlWriter : public VtkWriter<InlineArray>
@@ -343,15 +383,9 @@ public:
                                         "NumberOfStrips=\"0\" NumberOfPolys=\""
                                       : "\" NumberOfCells=\"") +
                     std::to_string(info.elements) + "\">\n<PointData>\n");
-    for (const ColumnSpec& spec : info.vertexColumns)
-    {
-      this->placeElement(this->PointData, spec, info.vertices);
-    }
+    this->placeElements(this->PointData, info.vertexColumns, info.vertices);
     this->writeText("</PointData>\n<CellData>\n");
-    for (const ColumnSpec& spec : info.elementColumns)
-    {
-      this->placeElement(this->CellData, spec, info.elements);
-    }
+    this->placeElements(this->CellData, info.elementColumns, info.elements);
     this->writeText("</CellData>\n<Points>\n");
     this->placeElement(this->Points, { "Points", this->Positions.type(), 3 }, info.vertices);
     this->writeText("</Points>\n<" + cells);
@@ -380,7 +414,23 @@ public:
     this->append(this->CellData, chunk.columns);
   }
 
+  WriteNotes finish() override
+  {
+    VtkWriter::finish();
+    return std::move(this->Notes);
+  }
+
 private:
+  void placeElements(
+    std::vector<InlineArray>& arrays, const std::vector<ColumnSpec>& specs, std::int64_t tuples)
+  {
+    const std::vector<std::string> names = xmlNames(specs, this->Notes);
+    for (std::size_t i = 0; i < specs.size(); ++i)
+    {
+      this->placeElement(arrays, { names[i], specs[i].type, specs[i].components }, tuples);
+    }
+  }
+
   void placeElement(std::vector<InlineArray>& arrays, const ColumnSpec& spec, std::int64_t tuples)
   {
     this->writeText("<DataArray type=\"" + std::string(vtkXmlTypeName(spec.type)) + "\" Name=\"" +
@@ -391,6 +441,7 @@ private:
   }
 
   const bool IsPolyData;
+  WriteNotes Notes;
   std::int64_t LastEnd = 0; ///< corners of all cells so far
   std::vector<std::int64_t> CellEnds;
   std::vector<std::uint8_t> CellTypes;

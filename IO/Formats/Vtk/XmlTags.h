@@ -68,7 +68,10 @@ constexpr std::string_view vtkXmlTypeName(ScalarType type)
 {
   return VtkXmlTypeNames[static_cast<int>(type)];
 }
-/** The text with the characters that mean something in XML written as entities. */
+/** The text with an underscore for each character that a name in XML cannot have: control
+ * characters, and bytes that are not UTF-8. */
+SMG_EXPORT std::string xmlText(std::string_view text);
+/** The same with the characters that mean something in XML written as entities. */
 SMG_EXPORT std::string xmlEscaped(const std::string& text);
 
 } // namespace smg

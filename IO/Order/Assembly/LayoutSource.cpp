@@ -119,6 +119,7 @@ LayoutSource::LayoutSource(
   , Flags(layout.flags)
   , BlockVertices(layout.blockVertices)
   , BlockFinalized(layout.blockFinalized)
+  , BlockCells(StreamLayout::blockCells(mesh))
 {
   this->Info.cellType = mesh.cellType;
   this->Info.vertices = layout.vertexCount;
@@ -166,8 +167,7 @@ bool LayoutSource::next(MeshBlock& block)
   block.firstVertex = this->NextVertex;
   block.firstCell = this->NextCell;
   this->fillVertices(block, endVertex);
-  this->fillCells(
-    block, std::min(this->NextCell + StreamLayout::BlockCells, this->Layout.cellCount));
+  this->fillCells(block, std::min(this->NextCell + this->BlockCells, this->Layout.cellCount));
   // The blocks are those that the assembly has counted.
   this->BlockFinalized.next(block.finalized);
   return true;

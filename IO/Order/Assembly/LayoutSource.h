@@ -86,6 +86,7 @@ private:
   RecordFile<std::uint32_t>::Reader Corners, Elements;
   RecordFile<FlaggedCell>::Reader Flags;
   RecordFile<std::int64_t>::Reader BlockVertices, BlockFinalized;
+  std::int64_t BlockCells;
   FlaggedCell NextFlag{ NoIndex, 0 };
   std::int64_t NextVertex = 0;
   std::int64_t NextCell = 0;

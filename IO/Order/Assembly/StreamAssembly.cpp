@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/Assembly/StreamAssembly.h"
 
+#include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Order/Assembly/CellWindow.h"
 
 #include <array>
@@ -28,8 +29,10 @@ template <int Corners, class Real>
 class Assembler
 {
 public:
-  Assembler(const OrderedVertices& order, StreamLayout& layout, Workspace& workspace)
+  Assembler(
+    const RawMesh& mesh, const OrderedVertices& order, StreamLayout& layout, Workspace& workspace)
     : Layout(layout)
+    , BlockCells(StreamLayout::blockCells(mesh))
     , Window(order, layout, workspace)
     , Shapes(layout, workspace)
   {
@@ -52,7 +55,7 @@ public:
     }
     this->Layout.corners.put(std::span<const std::uint32_t>(corners));
     this->Layout.elements.put(cell.element);
-    if (++this->Layout.cellCount % StreamLayout::BlockCells == 0)
+    if (++this->Layout.cellCount % this->BlockCells == 0)
     {
       this->endBlock();
     }
@@ -62,7 +65,7 @@ public:
 
   void finish()
   {
-    if (this->Layout.cellCount % StreamLayout::BlockCells != 0)
+    if (this->Layout.cellCount % this->BlockCells != 0)
     {
       this->endBlock();
     }
@@ -83,6 +86,7 @@ private:
   }
 
   StreamLayout& Layout;
+  const std::int64_t BlockCells;
   CellWindow<Real> Window;
   CellShapes<Corners> Shapes;
 };
@@ -135,7 +139,7 @@ void assembleSorted(
     [&cells](std::span<const std::uint32_t> places, std::uint32_t element)
     { cells.put(placedCell<Corners>(places.data(), element)); });
   cells.sort();
-  Assembler<Corners, Real> assembler(order, layout, workspace);
+  Assembler<Corners, Real> assembler(mesh, order, layout, workspace);
   PlacedCell<Corners> before{}, cell{};
   for (bool first = true; cells.next(cell); first = false)
   {
@@ -164,7 +168,7 @@ void assembleAsFiled(
   placeCells(mesh, order, workspace,
     [&placed](std::span<const std::uint32_t> places, std::uint32_t) { placed.put(places); });
   placed.close();
-  Assembler<Corners, Real> assembler(order, layout, workspace);
+  Assembler<Corners, Real> assembler(mesh, order, layout, workspace);
   RecordFile<std::uint32_t>::Reader corners(placed);
   ElementReader elements(mesh);
   std::array<std::uint32_t, Corners> places;
@@ -183,6 +187,19 @@ void assembleAsFiled(
 }
 
 } // namespace
+
+std::int64_t StreamLayout::blockCells(const RawMesh& mesh)
+{
+  std::int64_t bytes = 0;
+  for (const auto* columns : { &mesh.vertexColumns, &mesh.elementColumns })
+  {
+    for (const RawColumn& column : *columns)
+    {
+      bytes += static_cast<std::int64_t>(column.spec.tupleBytes());
+    }
+  }
+  return 2 * VsmFormat::blockRows(bytes);
+}
 
 StreamLayout assembleStream(
   const RawMesh& mesh, OrderedVertices order, CellSequence sequence, Workspace& workspace)

@@ -43,8 +43,8 @@ struct StreamLayout
   {
   }
 
-  /** Cells of a block; the last one may have fewer. */
-  static constexpr std::int64_t BlockCells = 16384;
+  /** Cells of a block of a mesh with these columns; the last one may have fewer. */
+  static std::int64_t blockCells(const RawMesh& mesh);
 
   std::int64_t vertexCount = 0;
   std::int64_t cellCount = 0;

@@ -78,9 +78,13 @@ public:
   Codec codec() const;
   std::string fingerprint() const override;
   std::filesystem::path file() const override { return this->path(); }
-  /** Number of blocks of vertices, of 8192 each, the last one fewer. */
+  /** Throws Error unless the blocks of the file, which are read as a whole, take at most a part of
+   * this many bytes of memory with all their columns. */
+  void requireBlocksWithin(std::int64_t memory) const;
+
+  /** Number of blocks of vertices, of 8192 each or fewer, the last one fewer. */
   std::int64_t vertexBlocks() const;
-  /** Number of blocks of cells, of 8192 each, the last one fewer. */
+  /** Number of blocks of cells, of 8192 each or fewer, the last one fewer. */
   std::int64_t cellBlocks() const;
   /** Size of the file, bytes. */
   std::int64_t storedBytes() const;

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files with right checksums whose numbers do not agree: each is refused when it is opened or read,
+// by an error that names it in one line.
+#include "IO/External/BlockFile.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "Testing/IO/ContainerMeshes.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/TemporaryFolder.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** The column of a block, to be changed. */
+using Edit = std::function<void(int table, int column, std::vector<std::byte>& bytes)>;
+
+/** Writes a block file anew, with another header, tables and blocks, and another column of the
+ * cells, of zeros. */
+void rewrite(const std::filesystem::path& from, const std::filesystem::path& to,
+  const std::string& header, const std::vector<TableSpec>& tables, const Edit& edit = {},
+  const std::optional<ColumnSpec>& added = {})
+{
+  BlockFileReader reader(from);
+  BlockFileWriter writer(to, tables, reader.codec());
+  for (int table = 0; table < static_cast<int>(tables.size()); ++table)
+  {
+    for (std::int64_t block = 0; block < reader.blocks(table); ++block)
+    {
+      const auto columns = static_cast<int>(reader.tables()[table].columns.size());
+      std::vector<std::vector<std::byte>> bytes;
+      std::vector<std::span<const std::byte>> spans;
+      for (int column = 0; column < columns; ++column)
+      {
+        bytes.emplace_back(reader.columnBytes(table, block, column));
+        reader.read(table, block, column, bytes.back());
+        if (edit)
+        {
+          edit(table, column, bytes.back());
+        }
+      }
+      if (added && table == VsmFormat::Cells)
+      {
+        const auto rows = static_cast<std::size_t>(reader.blockRows(table, block));
+        bytes.emplace_back(rows * added->tupleBytes());
+      }
+      spans.assign(bytes.begin(), bytes.end());
+      writer.append(table, reader.blockRows(table, block), spans);
+    }
+  }
+  writer.finish(header);
+}
+
+class ContainerNumbers : public ::testing::Test
+{
+protected:
+  ContainerNumbers()
+  {
+    const StreamMesh stream = testStream(grid(100, 90, 0.1));
+    write(this->Sound, stream);
+    BlockFileReader reader(this->Sound);
+    this->Header = nlohmann::json::parse(reader.header());
+    this->Tables = reader.tables();
+  }
+
+  /** Opens the file and reads all of it. */
+  void readAll() const
+  {
+    VsmReader reader(this->Path);
+    collect(*reader.source());
+    MeshPiece piece;
+    reader.readPiece(0, reader.info().cells, piece);
+    reader.readPiece(reader.info().cells / 2, reader.info().cells, piece);
+  }
+
+  void expectRefused(const std::string& what) const
+  {
+    const std::string message = messageOf([this] { this->readAll(); });
+    EXPECT_NE(message.find(this->Path.string()), std::string::npos) << what << ": " << message;
+    EXPECT_TRUE(std::ranges::none_of(message, [](unsigned char c) { return c < 32 || c == 127; }))
+      << what << ": " << message;
+  }
+
+  TemporaryFolder Folder;
+  std::filesystem::path Sound = Folder / "sound.vsm", Path = Folder / "mesh.vsm";
+  nlohmann::json Header;
+  std::vector<TableSpec> Tables;
+};
+
+} // namespace
+
+TEST_F(ContainerNumbers, OfTheHeaderAreComparedWithEachOther)
+{
+  rewrite(this->Sound, this->Path, this->Header.dump(), this->Tables);
+  this->readAll();
+  const std::int64_t vertices = this->Header["vertices"], width = this->Header["width"];
+  const std::int64_t most = INT64_MAX;
+  const nlohmann::json cases = { { "span", -1 }, { "span", vertices }, { "span", 1LL << 62 },
+    { "span", most }, { "span", 18446744073709551615ULL }, { "span", 1.5 }, { "span", 1e300 },
+    { "span", "7" }, { "span", nullptr }, { "width", 0 }, { "width", -5 },
+    { "width", vertices + 1 }, { "width", 1LL << 62 }, { "width", 1e30 }, { "mean_width", -1 },
+    { "mean_width", width + 1 }, { "mean_width", 1e300 }, { "mean_width", "a" },
+    { "vertices", vertices + 1 }, { "vertices", -1 }, { "vertices", 0 }, { "vertices", 1e300 },
+    { "vertices", most }, { "cells", 0 }, { "cells", -1 }, { "cells", most }, { "cells", 1.5 },
+    { "bounds", { 0, 1, 0, 1, 0 } }, { "bounds", { 0, 1, 0, 1, 0, 1, 0 } },
+    { "bounds", { 1, 0, 0, 1, 0, 1 } }, { "bounds", { 0, 1, 0, 1, 0, nullptr } },
+    { "bounds", { { "a", 1 } } }, { "cell", "x\x1b[31m" }, { "cell", 3 },
+    { "precision", "float16" }, { "precision", nullptr } };
+  for (const nlohmann::json& one : cases)
+  {
+    nlohmann::json header = this->Header;
+    header[one[0].get<std::string>()] = one[1];
+    rewrite(this->Sound, this->Path, header.dump(), this->Tables);
+    this->expectRefused(one.dump());
+    header.erase(one[0].get<std::string>());
+    rewrite(this->Sound, this->Path, header.dump(), this->Tables);
+    this->expectRefused("without " + one[0].dump());
+  }
+}
+
+TEST_F(ContainerNumbers, OfBlocksAreComparedWithEachOther)
+{
+  const auto last = static_cast<std::ptrdiff_t>(BlockFileReader(this->Sound).rows(3)) - 1;
+  const auto set = [this](int column, std::ptrdiff_t row, std::int64_t value)
+  {
+    rewrite(this->Sound, this->Path, this->Header.dump(), this->Tables,
+      [&](int table, int place, std::vector<std::byte>& bytes)
+      {
+        if (table == VsmFormat::Blocks && place == column)
+        {
+          std::memcpy(bytes.data() + row * std::ptrdiff_t(sizeof(value)), &value, sizeof(value));
+        }
+      });
+    this->expectRefused(
+      std::to_string(column) + ", row " + std::to_string(row) + ": " + std::to_string(value));
+  };
+  ASSERT_GE(last, 1);
+  for (const std::int64_t value : { std::int64_t(-1), std::int64_t(1), INT64_MAX, INT64_MIN })
+  {
+    set(0, 0, value); // FirstVertex of the first block is 0
+    set(0, last, value);
+  }
+  for (const std::int64_t value : { std::int64_t(-1), INT64_MAX, INT64_MIN })
+  {
+    set(1, 0, value); // Finalized
+    set(1, last, value);
+  }
+  // What is final cannot be used later.
+  set(1, 0, BlockFileReader(this->Sound).rows(VsmFormat::Vertices) / 2);
+}
+
+TEST_F(ContainerNumbers, ColumnsHaveNamesOfTheirOwn)
+{
+  for (const char* name : { "", "Position", "vertex int8", "GlobalIds" })
+  {
+    std::vector<TableSpec> tables = this->Tables;
+    tables[VsmFormat::Vertices].columns[2].name = name;
+    tables[VsmFormat::Isolated].columns[3].name = name;
+    rewrite(this->Sound, this->Path, this->Header.dump(), tables);
+    this->expectRefused(name);
+  }
+  // Whatever an error quotes is shown in one line.
+  std::vector<TableSpec> tables = this->Tables;
+  tables[VsmFormat::Vertices].columns[2].name = "a\x1b[31m\n\x9b\xff";
+  tables[VsmFormat::Isolated].columns[3].name = "a\x1b[31m\n\x9b\xff";
+  rewrite(this->Sound, this->Path, this->Header.dump(), tables);
+  this->readAll();
+  const std::string message =
+    messageOf([this] { const auto source = VsmReader(this->Path).source({ "none" }, {}); });
+  EXPECT_NE(message.find("a?[31m ??"), std::string::npos) << message;
+}
+
+// Wide rows are in small blocks, in each column of which a mesh has the same values.
+TEST_F(ContainerNumbers, WideColumnsHaveSmallBlocks)
+{
+  for (const int components : { 1, 24, 25, 100, 5000 })
+  {
+    StreamMesh stream = toStream(grid(40, 30, 0.1));
+    stream.vertexColumns = { randomColumn(
+      { "v", ScalarType::Float64, components }, stream.vertices(), 1) };
+    stream.cellColumns = { randomColumn(
+      { "c", ScalarType::Float32, components }, stream.cells(), 2) };
+    write(this->Path, stream);
+    VsmReader reader(this->Path);
+    expectSame(collect(*reader.source()), stream);
+    EXPECT_EQ(reader.cellBlocks() > 1, components > 25) << components;
+    // The smallest memory of a conversion is enough.
+    reader.requireBlocksWithin(std::int64_t(16) << 20);
+    MeshPiece piece;
+    reader.readPiece(100, 900, piece);
+    EXPECT_EQ(piece.cellColumns[0].tuples(), 800U);
+  }
+}
+
+TEST_F(ContainerNumbers, LargeBlocksCountAsMemory)
+{
+  StreamMesh stream = toStream(grid(100, 90, 0.1));
+  write(this->Path, stream);
+  std::vector<TableSpec> tables = BlockFileReader(this->Path).tables();
+  // A column of zeros, of which the file has as good as nothing.
+  const ColumnSpec wide{ "wide", ScalarType::Float64, 1000 };
+  tables[VsmFormat::Cells].columns.push_back(wide);
+  const std::filesystem::path narrow = this->Folder / "narrow.vsm";
+  std::filesystem::rename(this->Path, narrow);
+  rewrite(narrow, this->Path, VsmReader(narrow).header(), tables, {}, wide);
+  EXPECT_LT(std::filesystem::file_size(this->Path), 1U << 20);
+  const VsmReader reader(this->Path);
+  expectError([&] { reader.requireBlocksWithin(std::int64_t(16) << 20); }, "the memory limit is");
+  reader.requireBlocksWithin(std::int64_t(1) << 30);
+  ConversionOptions little;
+  little.memoryLimit = std::int64_t(16) << 20;
+  expectError([&] { openMesh(this->Path, little); }, "the memory limit is 16 MiB");
+  expectError(
+    [&] { convert(this->Path, this->Folder / "out.vsm", little); }, "the memory limit is 16 MiB");
+}
+
+} // namespace smg::testing
