@@ -3,18 +3,15 @@
 
 #include "IO/Files/FileNames.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -175,39 +172,69 @@ JsonNode JsonNode::child(const nlohmann::json& value, const std::string& step) c
 namespace
 {
 
+/** Larger descriptions are refused: their values take up to thirty times their text in memory. */
+constexpr std::int64_t MaxFileBytes = std::int64_t(16) << 20;
+/** Of arrays and objects in each other. */
+constexpr std::size_t MaxDepth = 100;
+
 /**
- * A parser callback that rejects duplicate keys, of which the parser would silently use the last.
+ * A first pass over a text, which rejects duplicate keys, of which the parser would silently use
+ * the last, and values in too many others. Not a callback of the parser: with one it looks through
+ * all elements of an array after each object in it.
  */
-class UniqueKeys
+class KeyCheck : public nlohmann::json_sax<nlohmann::json>
 {
 public:
-  explicit UniqueKeys(std::string file)
+  explicit KeyCheck(std::string file)
     : File(std::move(file))
   {
   }
 
-  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed)
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_array(std::size_t) override { return this->begin(); }
+  bool end_array() override { return this->end(); }
+  bool start_object(std::size_t) override { return this->begin(); }
+  bool end_object() override { return this->end(); }
+  bool key(string_t& key) override
   {
-    if (event == nlohmann::json::parse_event_t::object_start)
+    if (!this->Open.back().insert(key).second)
     {
-      this->Objects.emplace_back();
-    }
-    else if (event == nlohmann::json::parse_event_t::object_end)
-    {
-      this->Objects.pop_back();
-    }
-    else if (event == nlohmann::json::parse_event_t::key &&
-             !this->Objects.back().insert(parsed.get<std::string>()).second)
-    {
-      throw Error(this->File + ": the key " + inQuotes(parsed.get<std::string>()) +
+      throw Error(this->File + ": the key " + inQuotes(key) +
                   " occurs twice in the same object: remove one.");
     }
     return true;
   }
+  /** The parser itself reports it. */
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override
+  {
+    return false;
+  }
 
 private:
+  bool begin()
+  {
+    this->Open.emplace_back();
+    if (this->Open.size() > MaxDepth)
+    {
+      throw Error(this->File + ": has values in more than " + std::to_string(MaxDepth) +
+                  " arrays and objects, one in another: no description needs so many.");
+    }
+    return true;
+  }
+  bool end()
+  {
+    this->Open.pop_back();
+    return true;
+  }
+
   std::string File;
-  std::vector<std::set<std::string>> Objects; ///< the keys of the open objects
+  std::vector<std::set<std::string>> Open; ///< the keys of the open objects; none of arrays
 };
 
 } // namespace
@@ -219,17 +246,20 @@ std::string jsonFileText(const std::string& path)
   {
     throw Error(path + ": this is a folder: name a JSON file.");
   }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
+  const FileDescriptor file = FileDescriptor::openForReading(path);
+  const std::int64_t size = file.size();
+  if (size == 0)
   {
-    throw Error(path + ": cannot be opened: " + std::strerror(errno) + '.');
+    throw Error(path + ": the file is empty or cannot be read.");
   }
-  std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (stream.bad() || text.empty())
+  if (size > MaxFileBytes)
   {
-    throw Error(path + (text.empty() ? ": the file is empty or cannot be read."
-                                     : ": the file cannot be read."));
+    throw Error(path + ": has " + mebibytes(size) + ", but may have at most " +
+                mebibytes(MaxFileBytes) +
+                ": name large parts of a mesh by one of its columns (\"mask\" or \"tag\").");
   }
+  std::string text(static_cast<std::size_t>(size), '\0');
+  file.read(0, std::as_writable_bytes(std::span(text)));
   return text;
 }
 
@@ -242,7 +272,9 @@ nlohmann::json readJsonText(const std::string& text, const std::string& file)
 {
   try
   {
-    return nlohmann::json::parse(text, UniqueKeys(file));
+    KeyCheck check(file);
+    nlohmann::json::sax_parse(text, &check);
+    return nlohmann::json::parse(text);
   }
   catch (const nlohmann::json::exception& error)
   {

@@ -70,7 +70,8 @@ private:
   std::string Place;
 };
 
-/** The text of a JSON file; throws Error if it cannot be read or is empty. */
+/** The text of a JSON file; throws Error if it cannot be read, is empty, is not a regular file or
+ * has more than 16 MiB. */
 SMG_EXPORT std::string jsonFileText(const std::string& path);
 /** Reads a JSON file; throws Error with file, line and column if it is invalid. */
 nlohmann::json readJsonFile(const std::string& path);

@@ -14,10 +14,11 @@
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
+#include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <fstream>
+#include <span>
 #include <system_error>
 #include <vector>
 
@@ -51,23 +52,24 @@ struct FileStart
   std::optional<std::uint64_t> size; ///< of the file; none if it is compressed
 };
 
-/** The start of a file; empty if it cannot be read. */
+/** The start of a regular file; empty if it cannot be read. */
 FileStart startOf(const std::filesystem::path& path)
 {
   FileStart start{ std::string(FormatBytes, '\0'), {} };
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(start.bytes.data(), static_cast<std::streamsize>(FormatBytes));
-  start.bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  try
+  {
+    const FileDescriptor file = FileDescriptor::openForReading(path);
+    start.bytes.resize(file.readSome(0, std::as_writable_bytes(std::span(start.bytes))));
+    start.size = static_cast<std::uint64_t>(file.size());
+  }
+  // Whoever reads the file gets the error.
+  catch (const Error&)
+  {
+    return {};
+  }
   if (isGzip(start.bytes))
   {
-    start.bytes = inflateStart(start.bytes, FormatBytes);
-    return start;
-  }
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error)
-  {
-    start.size = size;
+    start = { inflateStart(start.bytes, FormatBytes), {} };
   }
   return start;
 }

@@ -255,14 +255,17 @@ RegionSelection::RegionSelection(
 /** Tests each vertex by its position and its number, of which the region uses one. */
 void RegionSelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)
 {
-  const Column* ids = this->Selected.vertices() ? this->Columns.ids(block) : nullptr;
+  const Region::Vertices* named = this->Selected.vertices();
+  const Column* ids = named ? this->Columns.ids(block) : nullptr;
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const std::int64_t id =
       ids ? ids->as<std::int64_t>()[i] : block.firstVertex + static_cast<std::int64_t>(i);
     // A mesh without original numbers is numbered as the stream is.
     const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
-    selected[i] = this->Selected.contains(point, id) ? 1 : 0;
+    // Most vertices are beyond a few named ones: a description may have very many such regions.
+    const bool isBeyond = named && (id < named->ids.front() || id > named->ids.back());
+    selected[i] = !isBeyond && this->Selected.contains(point, id) ? 1 : 0;
   }
 }
 
