@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/EdgeCollapse.h"
 
-#include "IO/Simplification/SurfaceTopology.h"
 #include "Solver/Core/Vector.h"
 
 #include <meshoptimizer.h>
@@ -53,9 +52,10 @@ struct Collapse
 class Collapser
 {
 public:
-  Collapser(SurfacePart& part, std::span<const std::uint8_t> open)
+  Collapser(SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll)
     : Part(part)
-    , Surface(part.corners, open)
+    , Surface(part.corners, open, poll)
+    , Polled(poll)
   {
     // Ranks are relative to the extent of the part, so that they neither overflow nor vanish in
     // single precision.
@@ -76,6 +76,7 @@ public:
     this->Part.lacksBoundary.assign(this->Part.vertices(), 1);
     for (std::size_t i = 0; i < corners.size(); i += 3)
     {
+      this->Polled.at(i);
       const std::uint32_t* c = corners.data() + i;
       const Vector area = cross(difference(this->point(c[1]), this->point(c[0])),
         difference(this->point(c[2]), this->point(c[0])));
@@ -92,6 +93,7 @@ public:
     std::vector<std::uint8_t>& lacks = this->Part.lacksBoundary;
     for (std::size_t i = 0; i < corners.size(); ++i)
     {
+      this->Polled.at(i);
       const std::size_t next = i % 3 == 2 ? i - 2 : i + 1, last = i % 3 == 0 ? i + 2 : i - 1;
       const std::uint32_t ends[2] = { corners[i], corners[next] };
       // If either end has had its boundary edges before, this edge was among them.
@@ -122,6 +124,7 @@ public:
     float worth = PinchWorth;
     for (std::size_t left = this->Part.vertices(); left > goal.vertices;)
     {
+      this->Polled.now();
       this->rankEdges(goal.error * goal.error);
       this->Pinched = 0;
       const std::size_t gone = this->collapse(left - goal.vertices, left, worth);
@@ -188,6 +191,7 @@ private:
     this->Edges.clear();
     for (std::size_t i = 0; i < corners.size(); ++i)
     {
+      this->Polled.at(i);
       const std::uint32_t a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
       // An edge of two triangles is listed by that which runs along it upwards; the other one runs
       // along it in the other direction. At the boundary, or where triangles are wound against each
@@ -251,6 +255,7 @@ private:
     std::size_t done = 0;
     for (std::size_t k = 0; k < this->Order.size() && done < most; ++k)
     {
+      this->Polled.at(k);
       const auto [from, to, rank] = this->Edges[this->Order[k]];
       if (k > enough && done > least && rank > Worse * usual)
       {
@@ -303,6 +308,7 @@ private:
 
   SurfacePart& Part;
   SurfaceTopology Surface;
+  const Poll& Polled;
   bool MayPinch = false;
   std::size_t Pinched = 0;    ///< collapses of this pass that changed the topology
   double InverseSquare = 1.0; ///< of the extent of the part, so that ranks are in single precision
@@ -314,14 +320,14 @@ private:
 } // namespace
 
 double collapseEdges(
-  SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal)
+  SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal, const Poll& poll)
 {
   const bool needsPlanes = part.quadrics.empty();
   if (part.triangles() == 0)
   {
     return 0.0;
   }
-  Collapser collapser(part, open);
+  Collapser collapser(part, open, poll);
   if (needsPlanes)
   {
     collapser.addPlanes();
@@ -381,13 +387,14 @@ void dropRepeated(std::vector<std::uint32_t>& corners)
 
 } // namespace
 
-void clusterVertices(SurfacePart& part, std::size_t vertices)
+void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll)
 {
   const std::vector<float> points = unitPoints(part.points);
   // A closed surface has two triangles for each vertex, others have fewer.
   for (std::size_t triangles = 2 * vertices; part.vertices() > vertices && triangles > 0;
        triangles = triangles * 3 / 4)
   {
+    poll.now();
     std::vector<unsigned> left(part.corners.size());
     const std::size_t target = std::min(part.corners.size(), 3 * triangles);
     left.resize(meshopt_simplifySloppy(left.data(), part.corners.data(), part.corners.size(),

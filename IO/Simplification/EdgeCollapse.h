@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Simplification/SurfaceParts.h"
+#include "IO/Simplification/SurfaceTopology.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -48,14 +49,15 @@ inline constexpr std::int64_t CollapseBytes = 110;
  * @param open for each vertex: not 0 if it may have more triangles elsewhere, so that it must not
  * go
  * @param goal where to end
+ * @param poll called now and then; ends the work by an exception
  * @return the largest error of a collapse
  */
-double collapseEdges(
-  SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal);
+double collapseEdges(SurfacePart& part, std::span<const std::uint8_t> open,
+  const CollapseGoal& goal, const Poll& poll = Poll());
 
 /** Merges vertices that are near one another, whatever surface they belong to, into at most
  * `vertices`: for surfaces whose edges cannot be collapsed since their triangles do not share
  * vertices. */
-void clusterVertices(SurfacePart& part, std::size_t vertices);
+void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll = Poll());
 
 } // namespace smg

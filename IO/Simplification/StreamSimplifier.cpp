@@ -67,6 +67,8 @@ std::size_t partOf(std::int64_t memory, const StreamInfo& info)
 StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& target,
   std::int64_t memory, Workers& workers, std::function<void(double)> progress)
   : Memory(memory, SimplificationMemory)
+  , Told(progress)
+  , Polled([this] { this->poll(); })
   , Parts(triangles, this->Memory, partOf(memory, triangles.info()), std::move(progress))
   , Info(triangles.info())
   , Goal{ target.vertices,
@@ -75,7 +77,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
   , Triangles(2 * target.vertices)
   , Jobs(
       workers, PartsOfWindow, // parts in use at once
-      [](Item& item)
+      [this](Item& item)
       {
         std::vector<std::uint8_t> locked(item.part.surface.vertices());
         for (std::size_t v = 0; v < locked.size(); ++v)
@@ -86,7 +88,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
         const auto inside = static_cast<std::size_t>(std::ranges::count(locked, 0));
         CollapseGoal goal{ locked.size() - inside, item.error };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
-        item.error = collapseEdges(item.part.surface, locked, goal);
+        item.error = collapseEdges(item.part.surface, locked, goal, this->Polled);
       },
       [this](Item& item)
       {
@@ -94,6 +96,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
         this->append(item.part);
       })
 {
+  workers.whileSleeping([this] { this->ask(); });
   // Twice as many triangles as vertices, unless the mesh says its counts: then in its proportion.
   const auto window = static_cast<std::int64_t>(this->Capacity);
   if (this->Info.cells > 0 && this->Info.vertices > 0)
@@ -107,6 +110,42 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
   this->Streams = mayBeLarge && (this->limitsError() || this->Triangles > window / 3);
   const std::int64_t used = this->Info.cells > 0 ? std::min(window, this->Info.cells) : window;
   this->Memory.acquire(2 * used * bytesOfTriangle(this->Info));
+}
+
+StreamSimplifier::~StreamSimplifier()
+{
+  // Parts that are in work are not waited for to their end.
+  this->IsCancelled = true;
+  this->Jobs.workers().whileSleeping({});
+}
+
+/** Asks, on the thread of the owner, whether to go on. */
+void StreamSimplifier::ask() noexcept
+{
+  try
+  {
+    if (this->Told && !this->IsCancelled)
+    {
+      this->Told(0.0); // shares only grow
+    }
+  }
+  catch (...)
+  {
+    this->IsCancelled = true;
+  }
+}
+
+/** Throws Cancelled if the work is not to go on: on any thread, of which the owner asks. */
+void StreamSimplifier::poll()
+{
+  if (!Workers::isCaller())
+  {
+    this->ask();
+  }
+  if (this->IsCancelled)
+  {
+    throw Cancelled();
+  }
 }
 
 double StreamSimplifier::done() const
@@ -247,6 +286,11 @@ bool StreamSimplifier::grow()
   return true;
 }
 
+std::size_t StreamSimplifier::rowBytes() const
+{
+  return static_cast<std::size_t>(smg::rowBytes(this->Info.vertexColumns));
+}
+
 /** Simplifies the full window. Of a result that does not fit into it, a part then leaves it. */
 void StreamSimplifier::makeRoom()
 {
@@ -285,7 +329,8 @@ void StreamSimplifier::collapse(std::int64_t vertices, bool mayPinch)
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
     this->Goal.error, mayPinch && !this->limitsError() };
   goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
-  this->Counts.error = std::max(this->Counts.error, collapseEdges(this->Window, locked, goal));
+  this->Counts.error =
+    std::max(this->Counts.error, collapseEdges(this->Window, locked, goal, this->Polled));
 }
 
 /** Simplifies a window whose result stays in it, to about this number of vertices. If collapses
@@ -301,7 +346,7 @@ void StreamSimplifier::shrink(std::size_t vertices)
   }
   if (4 * this->Window.triangles() > 3 * this->Capacity)
   {
-    clusterVertices(this->Window, this->Capacity / 8);
+    clusterVertices(this->Window, this->Capacity / 8, this->Polled);
     this->Counts.isClustered = true;
   }
 }
@@ -416,7 +461,7 @@ void StreamSimplifier::finish()
   if (mayDrop && this->remaining() > most)
   {
     SurfacePart merged = this->Window;
-    clusterVertices(merged, static_cast<std::size_t>(most));
+    clusterVertices(merged, static_cast<std::size_t>(most), this->Polled);
     if (merged.triangles() > 0)
     {
       this->Window = std::move(merged);
@@ -432,6 +477,21 @@ std::int64_t StreamSimplifier::remaining() const
   return std::ranges::count_if(
     this->Window.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
 }
+
+namespace
+{
+
+/** Whether the lists of a surface from a file have the lengths that they say, with rows of so many
+ * bytes, and the corners are vertices. */
+bool isConsistent(const SurfacePart& surface, std::size_t rowBytes)
+{
+  return surface.points.size() == 3 * surface.vertices() &&
+         surface.rows.size() == rowBytes * surface.vertices() && surface.corners.size() % 3 == 0 &&
+         std::ranges::all_of(surface.corners,
+           [&surface](std::uint32_t corner) { return corner < surface.vertices(); });
+}
+
+} // namespace
 
 // The checkpoint of a StreamSimplifier: its state whenever the window was simplified, and each part
 // of the result.
@@ -466,6 +526,8 @@ void StreamSimplifier::loadResult(std::int64_t number, Result& result)
                 "to begin anew.");
   }
   (*state)(result);
+  state->require(isConsistent(result.surface, this->rowBytes()) &&
+                 result.isShared.size() == result.surface.vertices());
   state->finish();
 }
 
@@ -492,13 +554,10 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
   const std::size_t least = this->Capacity;
   this->exchange(*state);
   state->finish();
-  const SurfacePart& window = this->Window;
-  state->require(window.points.size() == 3 * window.vertices() &&
-                 window.quadrics.size() == window.vertices() &&
-                 window.lacksBoundary.size() == window.vertices() &&
-                 window.corners.size() % 3 == 0 && this->Capacity >= least &&
-                 std::ranges::all_of(window.corners,
-                   [&window](std::uint32_t corner) { return corner < window.vertices(); }));
+  state->require(isConsistent(this->Window, this->rowBytes()) &&
+                 this->Window.quadrics.size() == this->Window.vertices() &&
+                 this->Window.lacksBoundary.size() == this->Window.vertices() &&
+                 this->Capacity >= least && this->TakenParts >= 0 && this->KeptResults >= 0);
   this->enlarge(std::exchange(this->Capacity, least));
   this->renumber();
   this->Counts.resumedAt = this->TakenVertices;

@@ -11,6 +11,7 @@
 #include "smg/MeshSource.h"
 #include "smg/Simplify.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -71,6 +72,9 @@ public:
    * needs the number of vertices. */
   StreamSimplifier(MeshSource& triangles, const SimplifyTarget& target, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
+  ~StreamSimplifier();
+  StreamSimplifier(const StreamSimplifier&) = delete;
+  StreamSimplifier& operator=(const StreamSimplifier&) = delete;
 
   /** To be called before next(): saves the state in a kept folder, which must outlive this
    * object, whenever the window has been simplified. A simplification of the same subject that
@@ -96,6 +100,10 @@ private:
   /** The share of the vertices of the stream that is in the window or delivered; 0 if their number
    * is not known. */
   double done() const;
+  /** Of the columns of a vertex. */
+  std::size_t rowBytes() const;
+  void ask() noexcept;
+  void poll();
   bool limitsError() const { return std::isfinite(this->Goal.error); }
   void step();
   double shareOfPart() const;
@@ -118,6 +126,9 @@ private:
   void exchange(State& state);
 
   Pool Memory;
+  std::function<void(double)> Told;
+  std::atomic<bool> IsCancelled{ false };
+  Poll Polled;
   SurfaceParts Parts;
   const StreamInfo& Info;
   SimplifyTarget Goal;    ///< an error of 0 has become infinity

@@ -27,7 +27,7 @@ constexpr std::size_t MaxTriangles = 512;
 } // namespace
 
 SurfaceTopology::SurfaceTopology(
-  std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open)
+  std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open, const Poll& poll)
   : Corners(corners)
   , Open(open)
   , IsFixed(open.size())
@@ -40,6 +40,7 @@ SurfaceTopology::SurfaceTopology(
   this->findStars();
   for (std::uint32_t v = 0; v < open.size(); ++v)
   {
+    poll.at(v);
     this->classify(v);
   }
 }
@@ -185,21 +186,27 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     return Change::Pinch;
   }
   // A triangle with two boundary edges may go, but not one with three: it is all of its body.
-  const bool isLast = shared == 2 ? this->isTetrahedron(from, to, opposite)
-                                  : this->trianglesAt(from, opposite[0]) == 1 &&
-                                      this->trianglesAt(to, opposite[0]) == 1;
+  const bool isLast =
+    shared == 2 ? this->isTetrahedron(from, to, opposite)
+                : this->hasOneTriangle(from, opposite[0]) && this->hasOneTriangle(to, opposite[0]);
   return isLast ? Change::Pinch : Change::None;
 }
 
-/** The number of triangles at the edge from v to w. */
-std::size_t SurfaceTopology::trianglesAt(std::uint32_t v, std::uint32_t w) const
+/** Whether exactly one of the triangles of v is at the edge to w. */
+bool SurfaceTopology::hasOneTriangle(std::uint32_t v, std::uint32_t w) const
 {
-  return static_cast<std::size_t>(std::ranges::count_if(this->star(v),
-    [&](std::uint32_t t)
+  std::size_t triangles = 0;
+  for (const std::uint32_t t : this->star(v))
+  {
+    const auto [a, b] = this->others(t, v);
+    triangles += a != b && (a == w || b == w) ? 1 : 0;
+    // Both ends of an edge of very many triangles have all of them.
+    if (triangles > 1)
     {
-      const auto [a, b] = this->others(t, v);
-      return a != b && (a == w || b == w);
-    }));
+      return false;
+    }
+  }
+  return triangles == 1;
 }
 
 /** Whether both ends of the edge have a triangle with both opposite corners: then the body is a
@@ -245,15 +252,38 @@ void SurfaceTopology::endPass()
   this->findStars();
 }
 
+/** Marks, among sorted triangles, those with the same corners that are wound against each other, in
+ * pairs: each the earliest one that is left. */
+void SurfaceTopology::pairTurned(
+  std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const
+{
+  std::size_t waiting = 0; // the first triangle that has no partner, among those with its corners
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+  {
+    const Triangle& one = triangles[waiting];
+    const Triangle& other = triangles[k];
+    if (one[0] != other[0] || one[1] != other[1])
+    {
+      waiting = k;
+    }
+    else if (this->isTurned(one[2], other[2]))
+    {
+      // All between them are wound as the first one, or have partners.
+      isFolded[one[2]] = isFolded[other[2]] = 1;
+      do
+      {
+        ++waiting;
+      } while (waiting <= k && isFolded[triangles[waiting][2]] != 0);
+    }
+  }
+}
+
 /** For each triangle whether it lies on another one with the same corners that is wound the other
  * way: such triangles are marked in pairs. */
 std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
 {
-  using Triangle = std::array<std::uint32_t, 3>; // its larger corners, ascending, and its place
-  std::vector<Triangle> triangles;               // those with the same least corner
+  std::vector<Triangle> triangles; // those with the same least corner
   std::vector<std::uint8_t> isFolded(this->Corners.size() / 3);
-  const auto areOnEachOther = [&](const Triangle& a, const Triangle& b)
-  { return a[0] == b[0] && a[1] == b[1]; };
   for (std::uint32_t least = 0; least < this->vertices(); ++least)
   {
     triangles.clear();
@@ -267,19 +297,7 @@ std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
       }
     }
     std::ranges::sort(triangles);
-    for (std::size_t k = 0; k < triangles.size(); ++k)
-    {
-      std::uint8_t& isOne = isFolded[triangles[k][2]];
-      for (std::size_t j = k + 1;
-           isOne == 0 && j < triangles.size() && areOnEachOther(triangles[k], triangles[j]); ++j)
-      {
-        std::uint8_t& isOther = isFolded[triangles[j][2]];
-        if (isOther == 0 && this->isTurned(triangles[k][2], triangles[j][2]))
-        {
-          isOne = isOther = 1;
-        }
-      }
-    }
+    this->pairTurned(triangles, isFolded);
   }
   return isFolded;
 }

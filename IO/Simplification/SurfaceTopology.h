@@ -4,11 +4,44 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace smg
 {
+
+/** Whether long work on a part in memory is to go on: calls a function, which may throw Cancelled,
+ * now and then. */
+class Poll
+{
+public:
+  explicit Poll(std::function<void()> function = {})
+    : Function(std::move(function))
+  {
+  }
+
+  void now() const
+  {
+    if (this->Function)
+    {
+      this->Function();
+    }
+  }
+  /** The same in step `i` of a loop, where it is the turn. */
+  void at(std::size_t i) const
+  {
+    constexpr std::size_t Steps = std::size_t(1) << 14; // a few milliseconds
+    if (i % Steps == 0)
+    {
+      this->now();
+    }
+  }
+
+private:
+  std::function<void()> Function;
+};
 
 /**
  * The triangles of a surface whose vertices move onto neighbours, in passes. Within a pass no
@@ -26,7 +59,8 @@ class SurfaceTopology
 public:
   /** `corners`: the triangles, which moves change. `open`: of each vertex, not 0 if it may have
    * more triangles elsewhere: it does not go. Both must outlive this. */
-  SurfaceTopology(std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open);
+  SurfaceTopology(
+    std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open, const Poll& poll);
 
   std::size_t vertices() const { return this->Open.size(); }
   /** Whether a vertex may have more triangles elsewhere. */
@@ -40,11 +74,14 @@ public:
   }
   /** Whether two triangles run along some edge in the same direction. */
   bool isTurned() const { return this->IsTurned; }
-  /** Whether an edge certainly has one triangle, counting those elsewhere. */
+  /** Whether an edge certainly has one triangle, counting those elsewhere. To be called at the
+   * beginning of a pass. */
   bool isBoundary(std::uint32_t a, std::uint32_t b) const
   {
+    // Of an edge to a vertex of very many triangles, the other end has few.
+    const bool swaps = this->star(a).size() > this->star(b).size();
     return this->mayBeBoundary(a, b) && !(this->Open[a] != 0 && this->Open[b] != 0) &&
-           this->trianglesAt(a, b) == 1;
+           this->hasOneTriangle(swaps ? b : a, swaps ? a : b);
   }
 
   /** The triangles of a vertex in this pass. */
@@ -91,9 +128,12 @@ private:
   void findStars();
   void classify(std::uint32_t v);
   bool isFan();
-  std::size_t trianglesAt(std::uint32_t v, std::uint32_t w) const;
+  bool hasOneTriangle(std::uint32_t v, std::uint32_t w) const;
   bool isTetrahedron(std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const;
   bool isTurned(std::size_t one, std::size_t other) const;
+  /** The larger corners of a triangle, ascending, and its place. */
+  using Triangle = std::array<std::uint32_t, 3>;
+  void pairTurned(std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const;
   std::vector<std::uint8_t> foldedTriangles() const;
 
   std::vector<std::uint32_t>& Corners;

@@ -5,6 +5,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <new>
 #include <pthread.h>
@@ -29,6 +30,7 @@ namespace
 /** About 20 microseconds. */
 constexpr int MaxSpins = 400;
 constexpr int MaxThreads = 64;
+constexpr std::chrono::milliseconds BetweenPolls(100);
 
 /** The default takes 8 MiB of address space for each thread. */
 constexpr std::size_t StackBytes = std::size_t(1) << 20;
@@ -244,8 +246,15 @@ void Workers::wait(Job& job)
         throw Error("The process was forked during a computation, which the child cannot continue: "
                     "begin it there anew.");
       }
+      const auto isFinished = [&job] { return job.IsDone.load(std::memory_order_relaxed); };
       this->OwnerSleeps = true;
-      this->Finished.wait(lock, [&job] { return job.IsDone.load(std::memory_order_relaxed); });
+      while (this->Poll && !this->Finished.wait_for(lock, BetweenPolls, isFinished))
+      {
+        lock.unlock();
+        this->Poll();
+        lock.lock();
+      }
+      this->Finished.wait(lock, isFinished);
       this->OwnerSleeps = false;
     }
   }

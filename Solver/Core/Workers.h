@@ -44,6 +44,10 @@ public:
   /** The number of jobs that can run at once, with one of the owner. */
   int threads() const { return this->Threads; }
 
+  /** What the owner does about ten times a second while it sleeps until a job is done. It must not
+   * throw: it may tell the jobs to end. */
+  void whileSleeping(std::function<void()> poll) { this->Poll = std::move(poll); }
+
   /** Whether the caller is a thread of some workers, and not an owner. */
   static bool isCaller();
 
@@ -107,6 +111,7 @@ private:
   bool spinUntil(const std::atomic<bool>& flag);
 
   const int Threads;
+  std::function<void()> Poll;
   std::mutex Mutex;
   std::condition_variable Submitted; ///< for the threads
   std::condition_variable Finished;  ///< for the owner, the only one who submits
