@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/External/BlockFile.h"
 #include "Testing/Fuzzing/FuzzTargets.h"
 #include "Testing/Support/TestFolders.h"
 #include "Testing/Support/TestMeshes.h"
@@ -6,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +84,21 @@ std::string findingOf(const FuzzTarget& target, std::string_view bytes)
   }
 }
 
+/** The bytes of a changed .vsm file with the length of its header in JSON, which comes after the
+ * front, and the place of its index; other files as they are. */
+std::string withHeaderBytes(std::string changed, std::string_view before)
+{
+  if (changed.starts_with(BlockFileMagic) && changed.size() >= sizeof(BlockFileFront))
+  {
+    BlockFileFront front{};
+    std::memcpy(&front, changed.data(), sizeof(front));
+    front.headerBytes +=
+      static_cast<std::int64_t>(changed.size()) - static_cast<std::int64_t>(before.size());
+    std::memcpy(changed.data(), &front, sizeof(front));
+  }
+  return changed;
+}
+
 class FuzzCorpus : public ::testing::TestWithParam<FuzzTarget>
 {
 };
@@ -122,6 +141,39 @@ TEST_P(FuzzCorpus, DamagedAnywhereIsRefusedOrValid)
       Random random(static_cast<std::uint64_t>(i));
       EXPECT_EQ(findingOf(GetParam(), mutated(seed.bytes, random)), "")
         << seed.name << ", mutation " << i;
+    }
+  }
+}
+
+// Each number in the text of a file, also in the header of a container, whose checksums are
+// corrected, becomes one that must not be believed.
+TEST_P(FuzzCorpus, WithAnyNumberIsRefusedOrValid)
+{
+  const std::size_t most = GetParam().solves ? 12 : 40;
+  constexpr std::array numbers{ "0", "-1", "1.5", "1e300", "4294967296", "4611686018427387904",
+    "9223372036854775807", "18446744073709551615" };
+  for (const Seed& seed : corpusOf(GetParam()))
+  {
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < most; ++k)
+    {
+      const auto isDigit = [](unsigned char c) { return std::isdigit(c) != 0; };
+      const auto begin =
+        std::find_if(seed.bytes.begin() + std::ptrdiff_t(at), seed.bytes.end(), isDigit);
+      const auto end = std::find_if_not(begin, seed.bytes.end(), isDigit);
+      if (begin == end)
+      {
+        break;
+      }
+      at = static_cast<std::size_t>(end - seed.bytes.begin());
+      for (const std::string_view number : numbers)
+      {
+        std::string changed(seed.bytes.begin(), begin);
+        changed.append(number).append(end, seed.bytes.end());
+        // A .vsm file says the length of its header.
+        EXPECT_EQ(findingOf(GetParam(), withHeaderBytes(changed, seed.bytes)), "")
+          << seed.name << ", byte " << begin - seed.bytes.begin() << ": " << number;
+      }
     }
   }
 }

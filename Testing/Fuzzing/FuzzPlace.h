@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/External/Workspace.h"
+#include "Solver/Core/Text.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -41,16 +42,9 @@ public:
     return path;
   }
 
-  /** How the errors of a reader quote names in the file. */
-  enum class Names
-  {
-    Printable, ///< only the characters that a terminal shows
-    Any        ///< the bytes of the file
-  };
-
   /** Runs a reader. Returns whether it succeeded; false if it threw an Error. Throws Finding if the
    * Error does not name the file, in one line, or if anything is left in the workspace. */
-  bool run(const auto& read, Names names = Names::Printable)
+  bool run(const auto& read)
   {
     bool accepted = true;
     try
@@ -60,7 +54,7 @@ public:
     catch (const Error& error)
     {
       accepted = false;
-      this->checkMessage(error.what(), names);
+      this->checkMessage(error.what());
     }
     this->checkWorkspace();
     return accepted;
@@ -78,7 +72,7 @@ private:
     return std::distance(std::filesystem::directory_iterator(this->Space.folder()), {});
   }
 
-  void checkMessage(std::string_view message, Names names) const
+  void checkMessage(std::string_view message) const
   {
     // The position may be in another file of the folder: in a piece, or in the nodes of the
     // elements.
@@ -86,8 +80,7 @@ private:
     {
       throw Finding("the Error does not name the file: " + std::string(message));
     }
-    if (names == Names::Printable &&
-        std::ranges::any_of(message, [](unsigned char c) { return c < 32; }))
+    if (oneLine(std::string(message)) != message)
     {
       throw Finding("the Error has a control character: " + std::string(message));
     }

@@ -140,8 +140,12 @@ bool runVsm(std::string_view bytes, CellChoice)
 {
   FuzzPlace& place = FuzzPlace::instance();
   const std::filesystem::path path = place.write("mesh.vsm", sealedVsm(bytes));
-  // A column may have any name.
-  return place.run([&] { checkVsm(path); }, FuzzPlace::Names::Any);
+  return place.run(
+    [&]
+    {
+      checkVsm(path);
+      checkConversions(path, place.workspace().folder());
+    });
 }
 
 constexpr std::array Targets{ FuzzTarget{ "ply", runParser<importPly> },

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/MeshChecks.h"
 
+#include "IO/External/Workspace.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Vsm/VsmFile.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/Support/RawMeshReading.h"
+#include "smg/Convert.h"
+#include "smg/Describe.h"
+#include "smg/Error.h"
+#include "smg/Simplify.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>
@@ -196,6 +201,47 @@ void checkVsm(const std::filesystem::path& path)
   mustHold(std::int64_t(isolated.ids.size()) == reader.isolatedVertices(), "one is missing");
   const bool isWhole = !reader.fingerprint().empty() && smg::checkVsm(path) > 0;
   mustHold(isWhole, "the file has no blocks");
+}
+
+void checkConversions(const std::filesystem::path& path, const std::filesystem::path& folder)
+{
+  ConversionOptions options;
+  options.memoryLimit = Workspace::MinMemory;
+  options.threads = 1;
+  options.scratch = folder;
+  const std::unique_ptr<OpenedMesh> mesh = openMesh(path, options);
+  mustHold(!meshInfo(*mesh).empty(), "there is no information");
+  const auto ofFile = [&path](auto compute)
+  {
+    try
+    {
+      compute();
+    }
+    catch (const Error& error)
+    {
+      // Errors on a mesh do not know its file: its caller names it.
+      throw Error(path.string() + ": " + error.what() + '.');
+    }
+  };
+  ofFile([&] { describe(*mesh, { Workspace::MinMemory, {} }); });
+  const bool isSurface = mesh->info().cellType == CellType::Triangle;
+  for (const StreamOrder order : { StreamOrder::BreadthFirst, StreamOrder::Keep })
+  {
+    options.order = order;
+    const std::filesystem::path out = folder / (order == StreamOrder::Keep ? "out.vtu" : "out.vsm");
+    convert(path, out, options);
+    std::filesystem::remove(out);
+  }
+  if (isSurface)
+  {
+    const std::filesystem::path out = folder / "out.ply";
+    SimplifyOptions simplification;
+    simplification.memoryLimit = Workspace::MinMemory;
+    simplification.threads = 1;
+    simplification.scratch = folder;
+    ofFile([&] { simplify(*mesh, { .vertices = 10 }, out, simplification); });
+    std::filesystem::remove(out);
+  }
 }
 
 } // namespace smg::testing

@@ -22,4 +22,8 @@ void checkStreamFile(const std::filesystem::path& path);
  * vertices and all checksums. Throws Error. */
 void checkVsm(const std::filesystem::path& path);
 
+/** Describes a .vsm file and brings it into other formats, another order and fewer triangles, in
+ * the least memory, with files in `folder`. Throws Error. */
+void checkConversions(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 } // namespace smg::testing

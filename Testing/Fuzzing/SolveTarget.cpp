@@ -103,8 +103,7 @@ bool runSolve(std::string_view bytes, CellChoice cells)
           measureOn(mesh);
           previewOf(mesh);
         });
-    },
-    FuzzPlace::Names::Any);
+    });
 }
 
 } // namespace smg::testing
