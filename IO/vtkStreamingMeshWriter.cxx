@@ -380,11 +380,11 @@ void vtkStreamingMeshWriter::WriteFile()
   catch (const smg::DiskFull& error)
   {
     code = vtkErrorCode::OutOfDiskSpaceError;
-    vtkErrorMacro(<< error.what());
+    vtkErrorMacro(<< smg::oneLine(error.what()));
   }
   catch (const std::exception& error)
   {
-    vtkWarningWithObjectMacro(&this->Self, << smg::oneLine(path.string() + ": " + note));
+    vtkErrorMacro(<< smg::oneLine(error.what()));
   }
   this->SetErrorCode(code);
 }
