@@ -108,9 +108,9 @@ TEST_F(ContainerNumbers, OfTheHeaderAreComparedWithEachOther)
   this->readAll();
   const std::int64_t vertices = this->Header["vertices"], width = this->Header["width"];
   const std::int64_t most = INT64_MAX;
-  const nlohmann::json cases = { { "span", -1 }, { "span", vertices }, { "span", 1LL << 62 },
-    { "span", most }, { "span", 18446744073709551615ULL }, { "span", 1.5 }, { "span", 1e300 },
-    { "span", "7" }, { "span", nullptr }, { "width", 0 }, { "width", -5 },
+  const nlohmann::json cases = nlohmann::json::array({ { "span", -1 }, { "span", vertices },
+    { "span", 1LL << 62 }, { "span", most }, { "span", 18446744073709551615ULL }, { "span", 1.5 },
+    { "span", 1e300 }, { "span", "7" }, { "span", nullptr }, { "width", 0 }, { "width", -5 },
     { "width", vertices + 1 }, { "width", 1LL << 62 }, { "width", 1e30 }, { "mean_width", -1 },
     { "mean_width", width + 1 }, { "mean_width", 1e300 }, { "mean_width", "a" },
     { "vertices", vertices + 1 }, { "vertices", -1 }, { "vertices", 0 }, { "vertices", 1e300 },
@@ -118,7 +118,7 @@ TEST_F(ContainerNumbers, OfTheHeaderAreComparedWithEachOther)
     { "bounds", { 0, 1, 0, 1, 0 } }, { "bounds", { 0, 1, 0, 1, 0, 1, 0 } },
     { "bounds", { 1, 0, 0, 1, 0, 1 } }, { "bounds", { 0, 1, 0, 1, 0, nullptr } },
     { "bounds", { { "a", 1 } } }, { "cell", "x\x1b[31m" }, { "cell", 3 },
-    { "precision", "float16" }, { "precision", nullptr } };
+    { "precision", "float16" }, { "precision", nullptr } });
   for (const nlohmann::json& one : cases)
   {
     nlohmann::json header = this->Header;
@@ -186,7 +186,7 @@ TEST_F(ContainerNumbers, ColumnsHaveNamesOfTheirOwn)
 // Wide rows are in small blocks, in each column of which a mesh has the same values.
 TEST_F(ContainerNumbers, WideColumnsHaveSmallBlocks)
 {
-  for (const int components : { 1, 24, 25, 100, 5000 })
+  for (const int components : { 1, 20, 100, 5000 })
   {
     StreamMesh stream = toStream(grid(40, 30, 0.1));
     stream.vertexColumns = { randomColumn(
@@ -196,7 +196,7 @@ TEST_F(ContainerNumbers, WideColumnsHaveSmallBlocks)
     write(this->Path, stream);
     VsmReader reader(this->Path);
     expectSame(collect(*reader.source()), stream);
-    EXPECT_EQ(reader.cellBlocks() > 1, components > 25) << components;
+    EXPECT_EQ(reader.cellBlocks() > 1, components > 20) << components;
     // The smallest memory of a conversion is enough.
     reader.requireBlocksWithin(std::int64_t(16) << 20);
     MeshPiece piece;
