@@ -67,9 +67,8 @@ void addCount(vtkPointSet& mesh, const char* name, std::int64_t count)
 std::int64_t countBehind(vtkPointSet& mesh, const char* name)
 {
   vtkDataArray* count = mesh.GetFieldData()->GetArray(name);
-  return isPreview(mesh) && count && count->GetNumberOfTuples() > 0
-           ? static_cast<std::int64_t>(count->GetComponent(0, 0))
-           : 0;
+  return isPreview(mesh) && count && count->GetNumberOfTuples() > 0 ? integersOf(*count).front()
+                                                                    : 0;
 }
 
 } // namespace

@@ -150,13 +150,13 @@ bool areUsedInOrder(vtkPointSet& mesh, const std::vector<std::int64_t>& ids, std
 bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& array)
 {
   vtkUnsignedCharArray* ghosts = mesh.GetPointGhostArray();
-  std::vector<std::int64_t> ids, own;
+  const std::vector<std::int64_t> ids = integersOf(array);
+  std::vector<std::int64_t> own;
   for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
   {
-    ids.push_back(static_cast<std::int64_t>(array.GetComponent(i, 0)));
     if (!ghosts || (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT) == 0)
     {
-      own.push_back(ids.back());
+      own.push_back(ids[static_cast<std::size_t>(i)]);
     }
   }
   if (own.empty())
@@ -167,7 +167,8 @@ bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& array)
   std::vector<bool> isSeen(own.size());
   for (const std::int64_t id : own)
   {
-    const auto place = static_cast<std::size_t>(id - first);
+    // The difference of two numbers of 64 bits may not be one.
+    const auto place = static_cast<std::size_t>(id) - static_cast<std::size_t>(first);
     if (place >= isSeen.size() || isSeen[place])
     {
       return false;

@@ -7,8 +7,10 @@
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 
+#include "vtkArrayDispatch.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
@@ -22,6 +24,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace smg
 {
@@ -56,6 +60,22 @@ void copyRows(vtkDataArray& array, std::span<const std::int64_t> rows, Column& c
   }
 }
 
+/** A number as an integer; the smallest one for a floating-point number beyond all of them. */
+template <class Number>
+std::int64_t integerOf(Number number)
+{
+  if constexpr (std::is_floating_point_v<Number>)
+  {
+    constexpr auto Beyond = static_cast<Number>(0x1p63);
+    return number >= -Beyond && number < Beyond ? static_cast<std::int64_t>(number)
+                                                : std::numeric_limits<std::int64_t>::min();
+  }
+  else
+  {
+    return static_cast<std::int64_t>(number);
+  }
+}
+
 /** The value of ColumnSpec::isolated. */
 std::optional<double> isolatedValue(vtkDataArray& array)
 {
@@ -77,6 +97,29 @@ std::optional<ScalarType> scalarTypeOf(vtkDataArray& array)
     default:
       return std::nullopt;
   }
+}
+
+std::vector<std::int64_t> integersOf(vtkDataArray& array)
+{
+  std::vector<std::int64_t> integers;
+  integers.reserve(static_cast<std::size_t>(array.GetNumberOfTuples()));
+  const auto append = [&integers](auto* typed)
+  {
+    for (const auto tuple : vtk::DataArrayTupleRange(typed))
+    {
+      integers.push_back(
+        integerOf(static_cast<vtk::GetAPIType<std::remove_pointer_t<decltype(typed)>>>(tuple[0])));
+    }
+  };
+  if (!vtkArrayDispatch::Dispatch::Execute(&array, append))
+  {
+    // Arrays of implicit values or of bits.
+    for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
+    {
+      integers.push_back(array.GetVariantValue(i * array.GetNumberOfComponents()).ToTypeInt64());
+    }
+  }
+  return integers;
 }
 
 vtkSmartPointer<vtkDataArray> makeArray(const Column& column)

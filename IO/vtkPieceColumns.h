@@ -25,6 +25,10 @@ namespace smg
 /** The scalar type of a VTK array; none for bits, strings and the like. */
 std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
 
+/** The first components of an array as integers. Integers of 64 bits keep all of them, which double
+ * has not; numbers that are no integers are truncated. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> integersOf(vtkDataArray& array);
+
 /** Creates a named VTK array with the type and the values of the column. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 

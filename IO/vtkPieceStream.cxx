@@ -379,12 +379,7 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
       "Streaming Mesh Reader, which makes them, and keep them in the filters between; save a "
       "mesh of another source as .vsm first.");
   }
-  std::vector<std::int64_t> ids(array->GetNumberOfTuples());
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    ids[i] = static_cast<std::int64_t>(array->GetTuple1(static_cast<vtkIdType>(i)));
-  }
-  return ids;
+  return integersOf(*array);
 }
 
 StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path, bool forScratch,

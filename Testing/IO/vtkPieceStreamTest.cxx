@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -10,7 +11,10 @@
 #include "vtkElevationFilter.h"
 #include "vtkIdList.h"
 #include "vtkPolyData.h"
+#include "vtkSOADataArrayTemplate.h"
 #include "vtkSphereSource.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkTypeUInt64Array.h"
 
 #include <limits>
 
@@ -287,6 +291,58 @@ TEST_F(VtkPieceStream, OrdinarySourcesAreRefused)
   vtkNew<vtkSphereSource> source;
   this->Filter->SetInputConnection(source->GetOutputPort());
   EXPECT_NE(this->pull(4).find("GlobalIds"), std::string::npos);
+}
+
+/** Numbers beyond 2^53, of which double has only the even ones, in an array of the type. */
+template <class Array>
+vtkSmartPointer<vtkDataArray> numbersBeyondDouble(vtkIdType count)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName("GlobalIds");
+  array->SetNumberOfComponents(1);
+  array->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    array->SetTypedComponent(i, 0, (std::int64_t(1) << 53) + 1 + i);
+  }
+  return array;
+}
+
+TEST(VtkGlobalIds, AreNeverDoubles)
+{
+  vtkNew<vtkPolyData> mesh;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType corners[] = { 0, 1, 2 };
+  for (int i = 0; i < 3; ++i)
+  {
+    points->InsertNextPoint(i, i * i, 0.0);
+  }
+  cells->InsertNextCell(3, corners);
+  mesh->SetPoints(points);
+  mesh->SetPolys(cells);
+  const std::int64_t first = (std::int64_t(1) << 53) + 1;
+  const vtkSmartPointer<vtkDataArray> arrays[] = { numbersBeyondDouble<vtkIdTypeArray>(3),
+    numbersBeyondDouble<vtkTypeInt64Array>(3), numbersBeyondDouble<vtkTypeUInt64Array>(3),
+    numbersBeyondDouble<vtkSOADataArrayTemplate<vtkTypeInt64>>(3) };
+  for (const vtkSmartPointer<vtkDataArray>& ids : arrays)
+  {
+    mesh->GetPointData()->SetGlobalIds(ids);
+    EXPECT_EQ(
+      globalIdsOf(*mesh, "The input"), (std::vector<std::int64_t>{ first, first + 1, first + 2 }))
+      << ids->GetClassName();
+    EXPECT_FALSE(isOrdinaryMesh(*mesh)) << ids->GetClassName();
+  }
+  // Ids that are no integers at all are those of no point.
+  vtkNew<vtkDoubleArray> real;
+  for (const double id : { 0.0, 1e300, std::nan("") })
+  {
+    real->InsertNextValue(id);
+  }
+  mesh->GetPointData()->SetGlobalIds(real);
+  constexpr std::int64_t None = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(globalIdsOf(*mesh, "The input"), (std::vector<std::int64_t>{ 0, None, None }));
+  EXPECT_TRUE(isOrdinaryMesh(*mesh));
 }
 
 TEST_F(VtkPieceStream, ArraysOfFiltersBetweenBecomeColumns)
