@@ -53,8 +53,9 @@ std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   const auto after = vtkSmartPointer<vtkDataArray>::Take(before->NewInstance());
   after->SetName(before->GetName());
   after->SetNumberOfComponents(before->GetNumberOfComponents());
-  after->SetNumberOfTuples(before->GetNumberOfTuples());
   after->CopyComponentNames(before);
+  // Points of no cell keep what they have; not as double, which cannot hold all integers.
+  after->InsertTuples(0, before->GetNumberOfTuples(), 0, before);
   const Rounding rounded(*before);
   for (vtkIdType i = 0; i < after->GetNumberOfTuples(); ++i)
   {
@@ -62,8 +63,10 @@ std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
     {
       const std::size_t place = static_cast<std::size_t>(i) * stride + first;
       const double value = values[place + static_cast<std::size_t>(k)];
-      // Points of no cell keep what they have.
-      after->SetComponent(i, k, std::isnan(value) ? before->GetComponent(i, k) : rounded(value));
+      if (!std::isnan(value))
+      {
+        after->SetComponent(i, k, rounded(value));
+      }
     }
   }
   mesh.GetPointData()->AddArray(after);

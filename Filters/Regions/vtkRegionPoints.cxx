@@ -4,6 +4,7 @@
 #include "Filters/Regions/RegionSettings.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
 #include "smg/Error.h"
 
@@ -18,7 +19,6 @@
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkSmartPointer.h"
-#include "vtkVariant.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -64,12 +64,7 @@ std::vector<std::int64_t> idsOf(vtkPointSet& mesh, const PointRegionSettings& se
     throw Error(std::string("The input has no point array ") + OriginalIdName +
                 " to seek the ids in: choose Global Ids, or let the reader read that array.");
   }
-  std::vector<std::int64_t> ids(static_cast<std::size_t>(array->GetNumberOfTuples()));
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    ids[i] = static_cast<std::int64_t>(array->GetTuple1(static_cast<vtkIdType>(i)));
-  }
-  return ids;
+  return integersOf(*array);
 }
 
 std::vector<std::int64_t> selectPoints(vtkPointSet& mesh, const RegionContext& context)
@@ -208,11 +203,8 @@ std::optional<std::vector<std::int64_t>> selectedGlobalIds(vtkSelection& selecti
     {
       return std::nullopt;
     }
-    for (vtkIdType k = 0; k < list->GetNumberOfTuples(); ++k)
-    {
-      // As an integer: a double cannot represent all 64-bit integers.
-      ids.push_back(list->GetVariantValue(k).ToTypeInt64());
-    }
+    const std::vector<std::int64_t> more = integersOf(*list);
+    ids.insert(ids.end(), more.begin(), more.end());
   }
   if (ids.empty())
   {
@@ -235,11 +227,7 @@ std::vector<std::int64_t> selectedPoints(vtkPointSet& mesh, vtkSelection& select
   auto* selected = vtkDataSet::SafeDownCast(extract->GetOutputDataObject(0));
   vtkDataArray* numbers =
     selected ? selected->GetPointData()->GetArray("vtkOriginalPointIds") : nullptr;
-  std::vector<std::int64_t> points;
-  for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
-  {
-    points.push_back(static_cast<std::int64_t>(numbers->GetTuple1(i)));
-  }
+  std::vector<std::int64_t> points = numbers ? integersOf(*numbers) : std::vector<std::int64_t>();
   sortOnce(points);
   return points;
 }

@@ -5,6 +5,7 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Results/VertexNormals.h"
 #include "IO/vtkPieceCells.h"
+#include "IO/vtkPieceColumns.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -52,12 +53,13 @@ vtkSmartPointer<vtkPoints> movedPoints(vtkPointSet& piece, const PieceMotion& mo
   };
   if (piece.GetPoints()->GetDataType() == VTK_FLOAT)
   {
-    vtkDataArray* ids = piece.GetPointData()->GetGlobalIds();
+    vtkDataArray* array = piece.GetPointData()->GetGlobalIds();
+    const std::vector<std::int64_t> ids = array ? integersOf(*array) : std::vector<std::int64_t>();
     const auto single = makeTriples(count);
     single->SetName("Points");
     for (vtkIdType i = 0; i < count; ++i)
     {
-      const auto vertex = ids ? static_cast<vtkIdType>(ids->GetTuple1(i)) : i;
+      const std::int64_t vertex = array ? ids[static_cast<std::size_t>(i)] : i;
       const std::array<double, 3> to = moved(i);
       single->SetTypedTuple(i, singlePrecision(to, vertex, "The moved mesh").data());
     }
