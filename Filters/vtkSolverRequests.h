@@ -12,6 +12,7 @@
 #include "Filters/Tasks/vtkStreamedSolve.h"
 #include "Filters/Tasks/vtkWarnOnce.h"
 #include "Filters/vtkRegionChain.h"
+#include "IO/vtkAbort.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkFieldMarks.h"
 #include "IO/vtkMeshPieceData.h"
@@ -80,7 +81,7 @@ struct vtkStreamingSolver::Internals
         !exchange.isParallel() && this->asksForWhole(input, request),
         isForMemory ? &values : nullptr);
     }
-    this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
+    this->Summary.isCancelled = !this->Summary.error.empty() && smg::isAborted(this->Self);
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
     this->check(exchange.isServer());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkAbort.h"
 #include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Progress.h"
@@ -91,7 +92,7 @@ inline ProgressFunction progressOf(vtkAlgorithm& algorithm)
   return [&algorithm](double done)
   {
     algorithm.UpdateProgress(done);
-    return !algorithm.GetAbortExecute();
+    return !isAborted(algorithm);
   };
 }
 
@@ -145,7 +146,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
   }
   catch (const Cancelled&)
   {
-    algorithm.SetAbortExecute(0);
+    endAbort(algorithm);
     data->Initialize();
     completeMesh(*data);
     return failures.refuse(algorithm);

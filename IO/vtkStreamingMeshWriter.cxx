@@ -8,6 +8,7 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/WriteFiles.h"
+#include "IO/vtkAbort.h"
 #include "IO/vtkChosenArrays.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
@@ -392,7 +393,7 @@ void vtkStreamingMeshWriter::WriteFile()
 int vtkStreamingMeshWriter::Write()
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  this->SetAbortExecute(0);
+  smg::endAbort(*this);
   this->InvokeEvent(vtkCommand::StartEvent);
   this->WriteData();
   this->InvokeEvent(vtkCommand::EndEvent);
