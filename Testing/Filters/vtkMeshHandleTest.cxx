@@ -135,6 +135,35 @@ TEST_F(VtkMeshHandle, TurnsGrowsAndMoves)
   }
 }
 
+TEST_F(VtkMeshHandle, OriginalIdsAreNeverDoubles)
+{
+  constexpr std::int64_t Beyond = std::int64_t(1) << 53; // of the next ones only each other
+  StreamMesh mesh = toStream(torus(60, 30, 0.2));
+  for (std::int64_t& id : mesh.originalIds)
+  {
+    id += Beyond;
+  }
+  addColumns(mesh);
+  writeMesh(this->Folder / "beyond.vsm", mesh);
+  this->Reader->SetFileName((this->Folder / "beyond.vsm").c_str());
+  this->Handle->SetRegion(vtkMeshHandle::IDS);
+  this->Handle->SetIdType(vtkMeshHandle::ORIGINAL_IDS);
+  const std::vector<std::int64_t> ids{ Beyond + 3, Beyond + 900, Beyond + 1701 };
+  for (const std::int64_t id : ids)
+  {
+    this->Handle->AddId(id);
+  }
+  const HandleUnion whole = collectWhole(this->Handle);
+  EXPECT_EQ(collectStreamed(this->Handle, 7), whole);
+  std::vector<std::int64_t> held;
+  for (const std::int64_t v : whole.heldIds())
+  {
+    held.push_back(mesh.originalIds[v]);
+  }
+  std::sort(held.begin(), held.end());
+  EXPECT_EQ(held, ids);
+}
+
 TEST_F(VtkMeshHandle, HoldsIdsAndTheirSurroundings)
 {
   this->Handle->SetRegion(vtkMeshHandle::IDS);

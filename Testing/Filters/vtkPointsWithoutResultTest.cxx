@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingMeshSmoothing.h"
 #include "Testing/Filters/vtkLinearSolution.h"
 
 #include "vtkCellArray.h"
@@ -6,6 +7,7 @@
 #include "vtkPlaneSource.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -77,6 +79,35 @@ TEST(VtkPointsWithoutResult, ThoseOfCellsOfHigherOrderThatAreNoCornersAreWarnedO
   EXPECT_NE(
     errors.text().find("200 cells of higher order count by their corners"), std::string::npos)
     << errors.text();
+}
+
+TEST(VtkPointsWithoutResult, KeepIntegersThatAreNotDoubles)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetResolution(12, 9);
+  plane->Update();
+  vtkPolyData* mesh = plane->GetOutput();
+  mesh->GetPoints()->InsertNextPoint(3.0, 4.0, 5.0);
+  mesh->GetPointData()->Initialize();
+  const vtkIdType loose = mesh->GetNumberOfPoints() - 1;
+  const vtkTypeInt64 odd = (vtkTypeInt64(1) << 53) + 1;
+  vtkNew<vtkTypeInt64Array> labels;
+  labels->SetName("Label");
+  for (vtkIdType i = 0; i < loose; ++i)
+  {
+    labels->InsertNextValue(i % 7);
+  }
+  labels->InsertNextValue(odd);
+  mesh->GetPointData()->AddArray(labels);
+  vtkNew<vtkStreamingMeshSmoothing> smoothing;
+  const Errors warnings(smoothing);
+  smoothing->SetInputDataObject(mesh);
+  smoothing->SetArray("Label");
+  ASSERT_TRUE(updatePiece(smoothing, 0, 1));
+  auto* smoothed = vtkTypeInt64Array::SafeDownCast(
+    smoothing->GetPolyDataOutput()->GetPointData()->GetArray("Label"));
+  ASSERT_TRUE(smoothed);
+  EXPECT_EQ(smoothed->GetValue(loose), odd);
 }
 
 } // namespace smg::testing
