@@ -103,8 +103,7 @@ public:
     {
       // Every other triangle of a strip is reversed, so that all have the same orientation.
       const bool odd = this->Corners % 2 != 0;
-      this->triangleOfElement(
-        odd ? this->Last : this->First, odd ? this->First : this->Last, corner);
+      this->triangleOfStrip(odd ? this->Last : this->First, odd ? this->First : this->Last, corner);
     }
     this->First = this->Last;
     this->Last = corner;
@@ -164,6 +163,17 @@ private:
       ++this->Triangles;
     }
   }
+  /** Triangles that begin with the same corner are the fan of a polygon, which the original order
+   * restores: another one than the first of a strip begins with another corner. */
+  void triangleOfStrip(std::int64_t a, std::int64_t b, std::int64_t c)
+  {
+    if (this->Triangles == 0)
+    {
+      this->StripApex = a;
+    }
+    const bool turns = this->Triangles > 0 && a == this->StripApex;
+    turns ? this->triangleOfElement(b, c, a) : this->triangleOfElement(a, b, c);
+  }
   void cell(std::span<const std::int64_t> corners);
   [[noreturn]] void failAtCorner(std::int64_t number, std::int64_t count, std::int64_t line) const;
   void endElement(std::int64_t cells);
@@ -183,6 +193,7 @@ private:
   // The current fan or strip; of a strip, First is the corner before the last one.
   std::int64_t First = 0, Last = 0, Corners = 0;
   std::int64_t Triangles = 0; ///< of the current element
+  std::int64_t StripApex = 0; ///< the first corner of the first of them, if they are of strips
 
   std::array<std::deque<BuiltColumn>, 2> Columns; ///< by ColumnOf
   std::optional<Relabelling> Numbers;

@@ -92,6 +92,16 @@ TEST_F(ImportObj, PolygonsOfAnyLength)
   EXPECT_EQ((Numbers(mesh.corners.end() - 6, mesh.corners.end())), (Numbers{ 2, 1, 2, 2, 2, 1 }));
 }
 
+TEST_F(ImportObj, FacesOfFewerThanThreeCornersAreLeftOutAndCounted)
+{
+  const ReadMesh mesh =
+    this->read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf 3\nf 3 2 1\n");
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 2, 1, 0 }));
+  EXPECT_EQ(mesh.elements, (Numbers{ 1, 3 }));
+  ASSERT_EQ(mesh.counts.notes.size(), 1u);
+  EXPECT_NE(mesh.counts.notes[0].find("2 faces have fewer than three"), std::string::npos);
+}
+
 TEST_F(ImportObj, ErrorsNameFileAndPlace)
 {
   this->expectError("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
@@ -102,7 +112,7 @@ TEST_F(ImportObj, ErrorsNameFileAndPlace)
   this->expectError("a.obj", "v 0 0\nv 0 0 0\n", "line 1: the file or line ends where");
   this->expectError("a.obj", "v 0 0 0\nf 1 -2 1\n", "line 2: a face names vertex -2");
   this->expectError("a.obj", "v 0 0 0\nf 1 0 1\n", "line 2: a face names vertex 0");
-  this->expectError("a.obj", "v 0 0 0\nf 1 1\n", "line 2: a face has fewer than three");
+  this->expectError("a.obj", "v 0 0 0\nf 1 1\n", "no triangles");
   this->expectError("a.obj", "v 0 0 0\nf 1 1 1 99999999999\n", "line 2: the corner 99999999999");
   this->expectError("a.obj", "v 0 0 0\nf 1\\ 1 1\n", "line 2: there is a backslash");
   this->expectError("a.obj", "v 0 0 0\nf 1 1 \\\n x\n", "line 3: 'x' is not an integer");

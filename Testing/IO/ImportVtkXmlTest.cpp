@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg::testing
@@ -278,6 +279,64 @@ TEST_F(ImportVtkXml, GhostsOfParallelFilesAreLeftOut)
     EXPECT_EQ(mesh.elementColumns[0].value(2), 11);
     EXPECT_EQ(mesh.counts.notes.size(), numbers ? 0u : 1u);
   }
+}
+
+TEST_F(ImportVtkXml, GhostsOfALoneFileAreLeftOutWithANote)
+{
+  const std::pair<int, std::int64_t> types[] = { { 0, 2 }, { 1, 1 }, { 2, 2 }, { 8, 1 }, { 16, 2 },
+    { 32, 1 }, { 33, 1 } };
+  for (const auto& [type, cells] : types)
+  {
+    const ReadMesh mesh = this->read(squareFile(0, { type, 0 }, false));
+    EXPECT_EQ(mesh.cells(), cells) << type;
+    EXPECT_EQ(mesh.elementCount, cells);
+    EXPECT_EQ(mesh.elementColumns[0].value(cells - 1), 1);
+    EXPECT_EQ(mesh.counts.notes.size(), cells == 2 ? 0u : 1u) << type;
+  }
+}
+
+TEST_F(ImportVtkXml, NamesMayHaveAnyCharacter)
+{
+  const std::pair<const char*, const char*> names[] = { { "&#228;", "\u00e4" },
+    { "&#xe4;&#8364;", "\u00e4\u20ac" }, { "&#x1F600;", "\U0001F600" }, { "&amp;#228;", "&#228;" },
+    { "&#65;&lt;", "A<" }, { "&#xD800;", "&#xD800;" }, { "&#1114112;", "&#1114112;" },
+    { "&#99999999999;", "&#99999999999;" }, { "&#6x;", "&#6x;" }, { "&nbsp;", "&nbsp;" },
+    { "\u00e4", "\u00e4" } };
+  VtkXmlWriter writer;
+  for (const auto& [name, plain] : names)
+  {
+    const std::string data = writer.array(name, "Int32", std::vector<int>{ 1, 2, 3 });
+    const ReadMesh mesh = this->read(writer.file("PolyData", trianglePiece(writer, 0, data, "")));
+    ASSERT_EQ(mesh.vertexColumns.size(), 1u);
+    EXPECT_EQ(mesh.vertexColumns[0].spec.name, plain);
+  }
+}
+
+TEST_F(ImportVtkXml, ArraysOfOneNameAreAllKept)
+{
+  VtkXmlWriter writer;
+  std::string pieces;
+  for (const int x : { 0, 1 })
+  {
+    std::string data;
+    for (const char* name : { "a", "a_1", "a", "a" })
+    {
+      const int first = 10 * static_cast<int>(data.size()) + x;
+      data += writer.array(name, "Int32", std::vector<int>{ first, first + 1, first + 2 });
+    }
+    pieces += trianglePiece(writer, x, data, "");
+  }
+  const ReadMesh mesh = this->read(writer.file("PolyData", pieces));
+  ASSERT_EQ(mesh.vertexColumns.size(), 4u);
+  const char* const names[] = { "a", "a_1", "a_2", "a_3" };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_EQ(mesh.vertexColumns[i].spec.name, names[i]);
+    EXPECT_EQ(mesh.vertexColumns[i].value(3), mesh.vertexColumns[i].value(0) + 1);
+    EXPECT_TRUE(i == 0 || mesh.vertexColumns[i].value(0) > mesh.vertexColumns[i - 1].value(0));
+  }
+  EXPECT_TRUE(std::ranges::any_of(mesh.counts.notes,
+    [](const std::string& note) { return note.find("NAME_1: 'a'.") != std::string::npos; }));
 }
 
 TEST_F(ImportVtkXml, AMissingPieceIsNamed)

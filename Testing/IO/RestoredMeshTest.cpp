@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Export/RestoredMesh.h"
 
+#include "Testing/IO/MeshText.h"
 #include "Testing/IO/RestoredMeshFixture.h"
 #include "Testing/Support/ColumnValues.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/ProgressRecord.h"
+#include "smg/Convert.h"
 #include "smg/WriteMesh.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace smg::testing
 {
@@ -171,6 +174,32 @@ TEST_F(RestoredMeshTest, CellsThatAreNoFanStayWithTheirOwnValues)
     EXPECT_EQ(mesh.cells[static_cast<std::size_t>(back.cellData.at("part")[i])], back.cells[i]);
   }
   EXPECT_TRUE(this->isNoted("2 cells of the original file"));
+}
+
+TEST_F(RestoredMeshTest, StripsStayTheirTriangles)
+{
+  const std::pair<const char*, std::vector<Corners>> strips[] = {
+    // Triangles around a vertex, which would be a hexagon.
+    { "15 0 1 2 -1 0 2 3 -1 0 3 4 -1 0 4 5",
+      { { 0, 1, 2 }, { 2, 3, 0 }, { 3, 4, 0 }, { 4, 5, 0 } } },
+    // The two of a quadrilateral, of which the second one would come first.
+    { "7 0 1 2 -1 0 3 1", { { 0, 1, 2 }, { 3, 1, 0 } } },
+    { "5 0 1 2 3 4", { { 0, 1, 2 }, { 2, 1, 3 }, { 2, 3, 4 } } }
+  };
+  for (const auto& [strip, triangles] : strips)
+  {
+    writeBytes(this->Folder / "strip.ply",
+      std::string("ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                  "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+                  "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n-1 1 0\n-1 0 0\n") +
+        strip + "\n");
+    convert(this->Folder / "strip.ply", this->Folder / "mesh.vsm");
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
+    writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.off", workspace);
+    EXPECT_TRUE(
+      std::ranges::is_permutation(readFileMesh(this->Folder / "out.off").cells, triangles))
+      << strip;
+  }
 }
 
 TEST_F(RestoredMeshTest, SaysThatTheTrianglesOfAPolygonDiffer)

@@ -42,6 +42,13 @@ public:
                          "belong to corners of faces: save the mesh as PLY to have them of "
                          "vertices.");
     }
+    if (this->Degenerate > 0)
+    {
+      this->Builder.note(
+        std::to_string(this->Degenerate) +
+        (this->Degenerate == 1 ? " face has fewer than three vertices: it is left out."
+                               : " faces have fewer than three vertices: they are left out."));
+    }
   }
 
 private:
@@ -124,7 +131,7 @@ private:
     }
     if (this->Builder.corners() < 3)
     {
-      this->Scanner.fail("a face has fewer than three vertices");
+      ++this->Degenerate;
     }
     this->Builder.endTriangles();
   }
@@ -147,7 +154,8 @@ private:
   RawMeshBuilder& Builder;
   TextColors Colors;
   bool HasCornerAttributes = false;
-  bool Continues = false; ///< whether the next line continues this one
+  std::int64_t Degenerate = 0; ///< faces of fewer than three vertices
+  bool Continues = false;      ///< whether the next line continues this one
 };
 
 } // namespace
@@ -160,11 +168,14 @@ void importObj(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
+/** Red, green and blue: other programs refuse a vertex with seven numbers. */
+constexpr int ObjColorComponents = 3;
+
 /** Writes a colour, from 0 to 1. */
 void writeColor(TextOutput& out, const Column& colors, std::size_t tuple)
 {
   const double one = colors.spec.type == ScalarType::UInt8 ? 255.0 : 1.0;
-  for (int k = 0; k < colors.spec.components; ++k)
+  for (int k = 0; k < ObjColorComponents; ++k)
   {
     out << ' ' << static_cast<float>(colors.value(tuple, k) / one);
   }
@@ -179,6 +190,8 @@ public:
     , DoublePositions(info.doublePositions)
     , Columns(info)
     , Colors(this->Columns.ofVertices(ColorsName, 3, 4))
+    , HasOpacity(this->Colors >= 0 &&
+                 info.vertexColumns[static_cast<std::size_t>(this->Colors)].components > 3)
   {
   }
 
@@ -211,7 +224,13 @@ public:
   WriteNotes finish() override
   {
     this->Out.finish();
-    return this->Columns.leftOut(".obj");
+    WriteNotes notes = this->Columns.leftOut(".obj");
+    if (this->HasOpacity)
+    {
+      notes.push_back("The opacity of the colours is left out, since .obj files have no place for "
+                      "it.");
+    }
+    return notes;
   }
 
 private:
@@ -219,6 +238,7 @@ private:
   bool DoublePositions;
   PlacedColumns Columns;
   std::ptrdiff_t Colors;
+  bool HasOpacity;
 };
 
 std::int64_t bytesOfObj(const MeshToWrite& written)
@@ -226,9 +246,8 @@ std::int64_t bytesOfObj(const MeshToWrite& written)
   constexpr double Keyword = 2;
   const StreamInfo& mesh = written.mesh;
   PlacedColumns columns(mesh);
-  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
-  const double colorCharacters =
-    colors < 0 ? 0 : realCharacters(false) * mesh.vertexColumns[std::size_t(colors)].components;
+  const bool hasColors = columns.ofVertices(ColorsName, 3, 4) >= 0;
+  const double colorCharacters = hasColors ? realCharacters(false) * ObjColorComponents : 0;
   return textBytes(
            mesh.vertices, Keyword + positionCharacters(mesh.doublePositions) + colorCharacters) +
          textBytes(mesh.cells, Keyword + 3 * numberCharacters(mesh.vertices));
@@ -247,11 +266,12 @@ bool looksLikeObj(std::string_view start, std::optional<std::uint64_t> size)
 {
   const bool whole = size && start.size() == *size;
   std::string_view text = withoutMark(start);
+  const char lineEnd = lineEndOf(text);
   bool known = false;
   bool continued = false;
   while (!text.empty())
   {
-    const std::size_t end = text.find('\n');
+    const std::size_t end = text.find(lineEnd);
     if (end == std::string_view::npos && !whole)
     {
       break;

@@ -41,6 +41,7 @@ public:
     layout.files.push_back(this->File.path());
     layout.pieces.push_back(std::move(this->Piece));
     layout.otherArrays = std::move(this->OtherArrays);
+    layout.repeatedArrays = std::move(this->RepeatedArrays);
     return layout;
   }
 
@@ -239,6 +240,7 @@ private:
       this->Scanner.fail("there are more than " + std::to_string(MaxArrays) +
                          " arrays of points or of cells, which are too many");
     }
+    nameApart(array, arrays, this->RepeatedArrays);
     arrays.push_back(std::move(array));
   }
 
@@ -378,7 +380,7 @@ private:
   InputFile& File;
   LegacyVtkScanner Scanner;
   VtkPiece Piece;
-  std::set<std::string> OtherArrays; ///< see VtkLayout
+  std::set<std::string> OtherArrays, RepeatedArrays; ///< see VtkLayout
   bool IsGrid = false;
   bool OfPoints = false;
   std::vector<VtkArray>* Arrays = nullptr; ///< of the points or cells, for the current attributes

@@ -75,9 +75,16 @@ struct VtkLayout
   std::vector<std::filesystem::path> files;
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
-  std::int64_t bytes = 0;            ///< approximate memory of the pieces
-  bool isPart = false; ///< whether there are other, unread pieces, whose cells are omitted
+  /** Names of several arrays of the points, or of the cells; see nameApart(). */
+  std::set<std::string> repeatedArrays;
+  std::int64_t bytes = 0; ///< approximate memory of the pieces
+  bool isPart = false;    ///< whether there are other, unread pieces, whose cells are omitted
 };
+
+/** Gives an array that is to come after `arrays` a name of its own, NAME_1 or more, if one of these
+ * has its name, which is then added to `repeated`. */
+void nameApart(
+  VtkArray& array, const std::vector<VtkArray>& arrays, std::set<std::string>& repeated);
 
 /** Types of cells in VTK, which are the same in its files. */
 namespace VtkCellTypes

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,8 +52,9 @@ public:
   /** Whether the next one does. */
   bool next()
   {
-    constexpr std::int64_t Duplicate = 1; // a bit: the cell belongs to another piece, too
-    return this->areAll() || (this->GhostTypes->next() & Duplicate) == 0;
+    // Bits of VTK: cells that belong to another piece, are refined elsewhere, or hidden.
+    constexpr std::int64_t Duplicate = 1, Refined = 8, Hidden = 32;
+    return this->areAll() || (this->GhostTypes->next() & (Duplicate | Refined | Hidden)) == 0;
   }
 
 private:
@@ -90,6 +92,7 @@ public:
     this->readColumns(&VtkPiece::pointArrays);
     this->readColumns(&VtkPiece::cellArrays);
     this->noteOtherArrays();
+    this->noteGhosts();
   }
 
 private:
@@ -173,8 +176,7 @@ private:
   OwnCells ownCells(const VtkPiece& piece, std::int64_t first)
   {
     const VtkArray* array = find(piece.cellArrays, GhostTypeName);
-    const bool isShared = this->Layout.pieces.size() > 1 || this->Layout.isPart;
-    return array && array->components == 1 && isShared
+    return array && array->components == 1
              ? OwnCells(this->Files.open(piece.file, VtkFiles::Ghosts), *array, first, this->Space)
              : OwnCells();
   }
@@ -210,6 +212,10 @@ private:
         if (own.next())
         {
           takeVtkCell(reader.type(), points, this->Builder);
+        }
+        else
+        {
+          ++this->Ghosts;
         }
       }
     }
@@ -272,16 +278,40 @@ private:
     }
   }
 
-  void noteOtherArrays()
+  static std::string listOf(const std::set<std::string>& all)
   {
     std::string names;
-    for (const std::string& name : this->Layout.otherArrays)
+    for (const std::string& name : all)
     {
       names += (names.empty() ? "" : ", ") + inQuotes(name);
     }
-    if (!names.empty())
+    return names;
+  }
+
+  void noteOtherArrays()
+  {
+    if (!this->Layout.otherArrays.empty())
     {
-      this->Builder.note("Arrays of texts or bits are left out: " + names + ".");
+      this->Builder.note(
+        "Arrays of texts or bits are left out: " + listOf(this->Layout.otherArrays) + ".");
+    }
+    if (!this->Layout.repeatedArrays.empty())
+    {
+      this->Builder.note("Of several arrays of one name, the second one and others have numbers "
+                         "after their names, as NAME_1: " +
+                         listOf(this->Layout.repeatedArrays) + ".");
+    }
+  }
+
+  /** Ghost cells of several pieces belong to others of them; those of a lone piece are missing. */
+  void noteGhosts()
+  {
+    const bool isLone = this->Layout.pieces.size() == 1 && !this->Layout.isPart;
+    if (isLone && this->Ghosts > 0)
+    {
+      this->Builder.note("Cells that the array vtkGhostType marks as ghosts or as hidden are left "
+                         "out: " +
+                         std::to_string(this->Ghosts) + '.');
     }
   }
 
@@ -335,6 +365,7 @@ private:
   Workspace& Space;
   std::unique_ptr<VtkPointMerger> Merger;
   std::int64_t Steps = 0;
+  std::int64_t Ghosts = 0; ///< cells that are left out
 };
 
 } // namespace

@@ -181,9 +181,11 @@ private:
       array.values = this->product(tag, ofPoints ? piece.points : piece.cells, array.components);
       auto& arrays = ofPoints ? piece.pointArrays : piece.cellArrays;
       // Of the same array at several time steps the first one is taken.
-      if (!array.name.empty() &&
-          std::ranges::find(arrays, array.name, &VtkArray::name) == arrays.end())
+      const bool isLater = tag.attribute("TimeStep") &&
+                           std::ranges::find(arrays, array.name, &VtkArray::name) != arrays.end();
+      if (!array.name.empty() && !isLater)
       {
+        nameApart(array, arrays, this->Layout.repeatedArrays);
         this->account(tag, sizeof(array) + array.name.size());
         arrays.push_back(std::move(array));
       }

@@ -2,9 +2,12 @@
 #include "IO/Formats/Vtk/XmlTags.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <system_error>
 
 namespace smg
 {
@@ -17,8 +20,30 @@ constexpr std::size_t MaxTagBytes = std::size_t(64) << 10;
 
 constexpr std::string_view XmlBlanks = " \t\r\n";
 
-/** The character that an entity stands for, as "lt" or "#65"; 0 for others. */
-char characterOf(std::string_view entity)
+/** A character in UTF-8; empty if there is none of this code. */
+std::string utf8Of(std::uint32_t code)
+{
+  const bool isSurrogate = code >= 0xd800 && code < 0xe000;
+  if (code == 0 || code > 0x10ffff || isSurrogate)
+  {
+    return {};
+  }
+  if (code < 0x80)
+  {
+    return { static_cast<char>(code) };
+  }
+  const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3; // bytes after the first
+  constexpr std::array<std::uint32_t, 4> firsts{ 0, 0xc0, 0xe0, 0xf0 };
+  std::string text{ static_cast<char>(firsts[std::size_t(more)] | code >> 6 * more) };
+  for (int k = more - 1; k >= 0; --k)
+  {
+    text += static_cast<char>(0x80 | (code >> 6 * k & 0x3f));
+  }
+  return text;
+}
+
+/** The character that an entity stands for, as "lt" or "#65"; empty for others. */
+std::string characterOf(std::string_view entity)
 {
   constexpr std::pair<std::string_view, char> named[] = { { "lt", '<' }, { "gt", '>' },
     { "amp", '&' }, { "quot", '"' }, { "apos", '\'' } };
@@ -26,17 +51,19 @@ char characterOf(std::string_view entity)
   {
     if (entity == name)
     {
-      return character;
+      return { character };
     }
   }
-  int code = 0;
+  std::uint32_t code = 0;
   if (entity.starts_with("#"))
   {
     const bool hex = entity.starts_with("#x");
     entity.remove_prefix(hex ? 2 : 1);
-    std::from_chars(entity.data(), entity.data() + entity.size(), code, hex ? 16 : 10);
+    const char* const end = entity.data() + entity.size();
+    const auto result = std::from_chars(entity.data(), end, code, hex ? 16 : 10);
+    code = result.ec == std::errc() && result.ptr == end ? code : 0;
   }
-  return code > 0 && code < 128 ? static_cast<char>(code) : '\0';
+  return utf8Of(code);
 }
 
 std::string unescaped(std::string_view text)
@@ -45,10 +72,10 @@ std::string unescaped(std::string_view text)
   for (std::size_t i = 0; i < text.size(); ++i)
   {
     const std::size_t end = text[i] == '&' ? text.find(';', i) : std::string_view::npos;
-    const char character =
-      end == std::string_view::npos ? '\0' : characterOf(text.substr(i + 1, end - i - 1));
-    plain += character ? character : text[i];
-    i = character ? end : i;
+    const std::string character =
+      end == std::string_view::npos ? std::string() : characterOf(text.substr(i + 1, end - i - 1));
+    plain += character.empty() ? std::string(1, text[i]) : character;
+    i = character.empty() ? i : end;
   }
   return plain;
 }
