@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
 
@@ -287,6 +289,96 @@ TEST_F(ImportGmsh, ParametersOfNodesArePassed)
   }
 }
 
+namespace
+{
+
+/** A file of version 4.0: a tetrahedron of volume 7, in group 5, with gaps between the tags. */
+std::string fourZero(bool binary)
+{
+  std::string bytes = std::string("$MeshFormat\n4.0 ") + (binary ? "1 8\n" : "0 8\n");
+  const auto numbers = [&]<class T>(std::initializer_list<T> values)
+  {
+    for (const T value : values)
+    {
+      if (binary)
+      {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+      }
+      else
+      {
+        bytes += exact(static_cast<double>(value)) + ' ';
+      }
+    }
+    bytes += binary ? "" : "\n";
+  };
+  using Long = std::uint64_t;
+  if (binary)
+  {
+    numbers({ 1 });
+    bytes += '\n';
+  }
+  bytes += "$EndMeshFormat\n$Entities\n";
+  numbers({ Long(1), Long(1), Long(0), Long(1) });
+  numbers({ 1 }); // a point, which has a box in this version
+  numbers({ 0., 0., 0., 0., 0., 0. });
+  numbers({ Long(0) });
+  numbers({ 2 }); // a curve, which ends at the point
+  numbers({ 0., 0., 0., 1., 0., 0. });
+  numbers({ Long(0), Long(1) });
+  numbers({ 1 });
+  numbers({ 7 }); // the volume
+  numbers({ 0., 0., 0., 1., 1., 1. });
+  numbers({ Long(1) });
+  numbers({ 5 });
+  numbers({ Long(0) });
+  bytes += binary ? "\n" : "";
+  bytes += "$EndEntities\n$Nodes\n";
+  numbers({ Long(2), Long(4) });
+  numbers({ 2, 1, 1 }); // on the curve, with a parameter
+  numbers({ Long(1) });
+  numbers({ 30 });
+  numbers({ 0., 0., 0., 0.5 });
+  numbers({ 7, 3, 0 });
+  numbers({ Long(3) });
+  for (const int tag : { 10, 20, 40 })
+  {
+    numbers({ tag });
+    numbers({ tag == 10 ? 1. : 0., tag == 20 ? 1. : 0., tag == 40 ? 1. : 0. });
+  }
+  bytes += binary ? "\n" : "";
+  bytes += "$EndNodes\n$Elements\n";
+  numbers({ Long(1), Long(1) });
+  numbers({ 7, 3, 4 });
+  numbers({ Long(1) });
+  numbers({ 1, 30, 10, 20, 40 });
+  bytes += binary ? "\n" : "";
+  return bytes + "$EndElements\n";
+}
+
+} // namespace
+
+TEST_F(ImportGmsh, OlderVersionsAreRead)
+{
+  const std::string nodes = "4\n30 0 0 0\n10 1 0 0\n20 0 1 0\n40 0 0 1\n";
+  const std::string first =
+    "$NOD\n" + nodes + "$ENDNOD\n$ELM\n2\n1 15 0 1 1 30\n2 4 5 7 4 30 10 20 40\n$ENDELM\n";
+  const std::string parametric =
+    Format2 + "$ParametricNodes\n4\n30 0 0 0 0 1\n10 1 0 0 1 2 0.5\n20 0 1 0 2 3 0.5 0.25\n"
+              "40 0 0 1 3 7\n$EndParametricNodes\n$Elements\n1\n1 4 2 5 7 30 10 20 40\n"
+              "$EndElements\n";
+  for (const std::string& bytes : { first, parametric, fourZero(false), fourZero(true) })
+  {
+    const ReadMesh mesh = this->gmsh(bytes);
+    EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }));
+    EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 3 }));
+    ASSERT_EQ(mesh.elementColumns.size(), 2u);
+    EXPECT_EQ(mesh.elementColumns[0].value(mesh.elementCount - 1), 5);
+    EXPECT_EQ(mesh.elementColumns[1].value(mesh.elementCount - 1), 7);
+  }
+  this->expectRefused("$NOD\n" + nodes + "$ENDNOD\n$ELM\n1\n2 4 5 7 3 30 10 20\n$ENDELM\n",
+    "line 10: an element of 3 nodes has a type of 4");
+}
+
 TEST_F(ImportGmsh, OtherSectionsOfBinaryFilesArePassed)
 {
   GmshWriter writer(GmshVariants[4]);
@@ -304,7 +396,7 @@ TEST_F(ImportGmsh, OtherSectionsOfBinaryFilesArePassed)
 TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
 {
   this->expectRefused(Nodes2 + Elements2, "a.msh, line 1: the section $MeshFormat is missing");
-  this->expectRefused("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", "line 2: this version");
+  this->expectRefused("$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", "line 2: this version");
   this->expectRefused("$MeshFormat\n2.2 2 8\n$EndMeshFormat\n", "line 2: the kind of file");
   this->expectRefused(Format2 + Elements2 + Nodes2, "line 4: the elements come before");
   this->expectRefused(Format2 + Nodes2 + Nodes2 + Elements2, "line 11: there are two sections");

@@ -52,7 +52,13 @@ public:
 private:
   void readSection(const std::string& name)
   {
-    const std::string end = "$End" + name.substr(1);
+    // Version 1 has only these sections.
+    const bool isFirstVersion = name == "$NOD" || name == "$ELM";
+    const std::string end = (isFirstVersion ? "$END" : "$End") + name.substr(1);
+    if (isFirstVersion && !this->Input.hasFormat())
+    {
+      this->Input.setFirstVersion();
+    }
     if (name == "$MeshFormat")
     {
       this->Input.readFormat();
@@ -64,7 +70,9 @@ private:
     {
       this->Builder.note("The mesh is partitioned: the physical groups of its parts are not read.");
     }
-    if (name != "$Nodes" && name != "$Elements" && !hasGroups)
+    const bool isParametric = name == "$ParametricNodes";
+    const bool areNodes = name == "$Nodes" || name == "$NOD" || isParametric;
+    if (!areNodes && name != "$Elements" && name != "$ELM" && !hasGroups)
     {
       this->Input.skipSection(end);
       return;
@@ -79,20 +87,20 @@ private:
     }
     else
     {
-      name == "$Nodes" ? this->readNodeSection() : this->readElementSection();
+      areNodes ? this->readNodeSection(isParametric) : this->readElementSection();
     }
     this->Input.endNumbers();
     this->Input.endSection(end);
   }
 
-  void readNodeSection()
+  void readNodeSection(bool isParametric)
   {
     if (this->HasNodes)
     {
-      this->Input.fail("there are two sections $Nodes");
+      this->Input.fail("there are two sections of nodes");
     }
     this->HasNodes = true;
-    this->Input.hasBlocks() ? this->readNodeBlocks() : this->readNodes();
+    this->Input.hasBlocks() ? this->readNodeBlocks() : this->readNodes(isParametric);
     this->Nodes.finish();
     this->Nodes.numberCorners(this->Builder);
   }
@@ -123,7 +131,9 @@ private:
     this->Builder.vertex(point[0], point[1], point[2]);
   }
 
-  void readNodes()
+  /** `areParametric`: with the entity of the geometry to which each node belongs, and its
+   * parameters there. */
+  void readNodes(bool areParametric)
   {
     const std::int64_t nodes = this->Input.lineCount("the number of nodes", 8, 28);
     this->Input.beginNumbers();
@@ -131,6 +141,16 @@ private:
     {
       this->Nodes.add(this->Input.integer("the tag of a node"));
       this->readPoint();
+      if (areParametric)
+      {
+        const std::int64_t dimension = this->Input.integer("the dimension of an entity");
+        this->Input.integer("the tag of an entity");
+        const std::int64_t parameters = dimension == 1 || dimension == 2 ? dimension : 0;
+        for (std::int64_t k = 0; k < parameters; ++k)
+        {
+          this->Input.number("a parameter of a node");
+        }
+      }
     }
   }
 
@@ -138,9 +158,8 @@ private:
   {
     this->Input.beginNumbers();
     const std::int64_t blocks = this->Input.count("the number of blocks", 8, 20);
-    const std::int64_t nodes = this->Input.count("the number of nodes", 8, 32);
-    this->Input.longInteger("the least tag");
-    this->Input.longInteger("the largest tag");
+    const std::int64_t nodes = this->Input.count("the number of nodes", 8, 28);
+    this->skipLimits();
     for (std::int64_t block = 0; block < blocks; ++block)
     {
       this->readNodeBlock();
@@ -148,23 +167,59 @@ private:
     this->checkSum(this->Nodes.count(), nodes, "nodes");
   }
 
+  /** The least and the largest tag, which version 4.0 does not have. */
+  void skipLimits()
+  {
+    if (!this->Input.isFourZero())
+    {
+      this->Input.longInteger("the least tag");
+      this->Input.longInteger("the largest tag");
+    }
+  }
+
+  struct Entity
+  {
+    std::int64_t dimension, tag;
+  };
+
+  /** The entity of a block: its dimension and tag, in version 4.0 the other way round. */
+  Entity readEntity()
+  {
+    const bool tagFirst = this->Input.isFourZero();
+    const std::int64_t first =
+      this->Input.integer(tagFirst ? "the tag of an entity" : "the dimension of an entity");
+    const std::int64_t second =
+      this->Input.integer(tagFirst ? "the dimension of an entity" : "the tag of an entity");
+    return tagFirst ? Entity{ second, first } : Entity{ first, second };
+  }
+
+  /** A tag of a node or element in a block. */
+  std::int64_t blockTag(const char* what)
+  {
+    return this->Input.isFourZero() ? this->Input.integer(what) : this->Input.longInteger(what);
+  }
+
   void readNodeBlock()
   {
-    const std::int64_t dimension = this->Input.integer("the dimension of an entity");
-    this->Input.integer("the tag of an entity");
+    const std::int64_t dimension = this->readEntity().dimension;
     const std::int64_t parametric = this->Input.integer("whether there are parameters");
     if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
     {
       this->Input.fail("a block of nodes begins with its dimension, 0 to 3, its tag, and whether "
                        "there are parameters, 0 or 1");
     }
-    const std::int64_t nodes = this->Input.count("the number of nodes of a block", 8, 32);
-    for (std::int64_t i = 0; i < nodes; ++i)
+    const std::int64_t nodes = this->Input.count("the number of nodes of a block", 8, 28);
+    const bool tagsFirst = !this->Input.isFourZero();
+    for (std::int64_t i = 0; tagsFirst && i < nodes; ++i)
     {
-      this->Nodes.add(this->Input.longInteger("the tag of a node"));
+      this->Nodes.add(this->blockTag("the tag of a node"));
     }
     for (std::int64_t i = 0; i < nodes; ++i)
     {
+      if (!tagsFirst)
+      {
+        this->Nodes.add(this->blockTag("the tag of a node"));
+      }
       this->readPoint();
       for (std::int64_t k = 0; k < dimension * parametric; ++k)
       {
@@ -173,7 +228,7 @@ private:
     }
   }
 
-  /** Elements of version 2, as text: each with its type. */
+  /** Elements of versions 1 and 2, as text: each with its type. */
   void readElements()
   {
     const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
@@ -181,8 +236,12 @@ private:
     {
       this->Input.integer("the tag of an element");
       const GmshElementType type = this->readType();
-      const std::int64_t tags = this->Input.count("the number of tags", 2, 4);
-      this->readTags(tags);
+      this->readTags(
+        this->Input.isFirstVersion() ? 2 : this->Input.count("the number of tags", 2, 4));
+      if (this->Input.isFirstVersion())
+      {
+        this->checkNodes(type, this->Input.integer("the number of nodes of an element"));
+      }
       this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
     }
   }
@@ -219,25 +278,33 @@ private:
   {
     this->Input.beginNumbers();
     const std::int64_t blocks = this->Input.count("the number of blocks", 8, 20);
-    const std::int64_t elements = this->Input.count("the number of elements", 4, 16);
+    const std::int64_t elements = this->Input.count("the number of elements", 4, 8);
     const std::int64_t before = this->Builder.elements();
-    this->Input.longInteger("the least tag");
-    this->Input.longInteger("the largest tag");
+    this->skipLimits();
     for (std::int64_t block = 0; block < blocks; ++block)
     {
-      const std::int64_t dimension = this->Input.integer("the dimension of an entity");
-      const std::int64_t entity = this->Input.integer("the tag of an entity");
-      const std::int64_t group = this->Tags.groupOf(dimension, entity);
+      const Entity entity = this->readEntity();
+      const std::int64_t group = this->Tags.groupOf(entity.dimension, entity.tag);
       const GmshElementType type = this->readType();
-      const std::int64_t count = this->Input.count("the number of elements of a block", 4, 16);
+      const std::int64_t count = this->Input.count("the number of elements of a block", 4, 8);
       for (std::int64_t i = 0; i < count; ++i)
       {
-        this->Input.longInteger("the tag of an element");
-        this->Tags.add(group, entity);
-        this->readElement(type, [this] { return this->Input.longInteger("a node of an element"); });
+        this->blockTag("the tag of an element");
+        this->Tags.add(group, entity.tag);
+        this->readElement(type, [this] { return this->blockTag("a node of an element"); });
       }
     }
     this->checkSum(this->Builder.elements() - before, elements, "elements");
+  }
+
+  /** Of version 1, which says how many nodes follow. */
+  void checkNodes(GmshElementType type, std::int64_t nodes)
+  {
+    if (nodes != type.nodes)
+    {
+      this->Input.fail("an element of " + std::to_string(nodes) + " nodes has a type of " +
+                       std::to_string(type.nodes));
+    }
   }
 
   GmshElementType readType()
@@ -389,7 +456,8 @@ std::int64_t bytesOfGmsh(const MeshToWrite& written)
 
 bool isGmsh(std::string_view start)
 {
-  return textStart(start).starts_with("$MeshFormat");
+  const std::string_view text = textStart(start);
+  return text.starts_with("$MeshFormat") || text.starts_with("$NOD");
 }
 
 constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, true } };

@@ -14,7 +14,7 @@ void GmshInput::readFormat()
     this->fail("there are two sections $MeshFormat");
   }
   const double version = this->Scanner.number("the version");
-  if (version != 4.1 && (version < 2.0 || version >= 3.0))
+  if (version != 4.0 && version != 4.1 && (version < 2.0 || version >= 3.0))
   {
     this->fail("this version of the format is not read: save the mesh as 2.2 or 4.1");
   }
@@ -41,7 +41,8 @@ void GmshInput::readFormat()
     }
     this->endNumbers();
   }
-  this->Version = version == 4.1 ? 4 : 2;
+  this->Version = version >= 4.0 ? 4 : 2;
+  this->IsFourZero = version == 4.0;
 }
 
 std::string GmshInput::sectionName()

@@ -24,11 +24,16 @@ public:
   {
   }
 
-  /** Reads the section $MeshFormat. Only 2.x and 4.1 are supported. */
+  /** Reads the section $MeshFormat. Only 2.x, 4.0 and 4.1 have it. */
   void readFormat();
   bool hasFormat() const { return this->Version != 0; }
-  /** Whether the version is 4.1, with blocks of nodes and elements. */
+  /** For a file of version 1, which does not say so. */
+  void setFirstVersion() { this->Version = 1; }
+  bool isFirstVersion() const { return this->Version == 1; }
+  /** Whether the version is 4.0 or 4.1, with blocks of nodes and elements. */
   bool hasBlocks() const { return this->Version == 4; }
+  /** Whether it is 4.0, in which each node of a block has its tag, and tags are 32 bits. */
+  bool isFourZero() const { return this->IsFourZero; }
   bool isBinary() const { return this->Binary; }
 
   /** The first word of the next line, "$..."; empty at the end of the file. */
@@ -77,7 +82,8 @@ private:
   InputFile& File;
   TextScanner Scanner;
   BinaryInput Numbers; ///< of a binary file
-  int Version = 0;     ///< 2 or 4; 0: unknown yet
+  int Version = 0;     ///< 1, 2 or 4; 0: unknown yet
+  bool IsFourZero = false;
   bool Binary = false;
   bool InNumbers = false; ///< of a binary file
 };

@@ -214,7 +214,8 @@ void GmshTags::readEntities(GmshInput& input)
     for (std::int64_t i = 0; i < counts[dimension]; ++i)
     {
       const std::int64_t entity = input.integer("the tag of an entity");
-      for (int bound = dimension == 0 ? 3 : 0; bound < 6; ++bound)
+      // A point has a box, too, in version 4.0.
+      for (int bound = dimension == 0 && !input.isFourZero() ? 3 : 0; bound < 6; ++bound)
       {
         input.number("a bound of an entity");
       }
