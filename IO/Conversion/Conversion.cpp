@@ -268,8 +268,13 @@ bool isCompressedStream(const std::filesystem::path& path)
 {
   // A text stream looks like an OBJ file: its name decides.
   std::error_code ignored;
+  const auto hasCompression = [&path]
+  {
+    InputFile file(path);
+    return isCompressed(file);
+  };
   return std::filesystem::is_regular_file(path, ignored) &&
-         std::filesystem::file_size(path, ignored) > 0 && isGzip(InputFile(path).at(0, 2)) &&
+         std::filesystem::file_size(path, ignored) > 0 && hasCompression() &&
          (kindOfInput(path) != MeshFileKind::Indexed || streamFormatOfName(path.stem()));
 }
 

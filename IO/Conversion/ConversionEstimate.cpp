@@ -79,7 +79,7 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
   }
   const Format* const format = kind == MeshFileKind::Stream ? &StreamsFormat : formatOfFile(path);
   InputFile file(path);
-  const bool compressed = isGzip(file.at(0, 2));
+  const bool compressed = isCompressed(file);
   if (!format || !format->hasParts)
   {
     checkIsWhole(part, path.string());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/External/Workspace.h"
+#include "IO/Files/Decompressor.h"
 #include "IO/Files/InputFile.h"
 
 #include <cstddef>
@@ -12,19 +13,21 @@
 namespace smg
 {
 
-/** Whether a file with these first bytes is compressed by gzip. */
-inline bool isGzip(std::string_view bytes)
+/** Whether this file is compressed as a whole: by gzip, xz or zstd. */
+inline bool isCompressed(InputFile& file)
 {
-  return bytes.starts_with("\x1f\x8b");
+  constexpr std::size_t SignBytes = 6;
+  return compressionOf(file.at(0, SignBytes)) != Compression::None;
 }
 
 /**
- * Decompresses a gzip file with one or several members to the file `to` and verifies checksums.
- * Throws Error, which names the file and the byte, if it is damaged, truncated or not a gzip file.
+ * Decompresses a file of one or several members to the file `to` and verifies checksums.
+ * Throws Error, which names the file and the byte, if it is damaged, truncated or not compressed.
  */
 void inflateFile(InputFile& file, Workspace& workspace, const std::filesystem::path& to);
 
-/** The decompressed content of a gzip file as a file that is removed at the end of the scope. */
+/** The decompressed content of a compressed file as a file that is removed at the end of the scope.
+ */
 class InflatedFile
 {
 public:

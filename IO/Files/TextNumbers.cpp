@@ -2,6 +2,7 @@
 #include "IO/Files/TextNumbers.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Files/MicrosoftNumbers.h"
 
 #include <fast_float/fast_float.h>
 
@@ -60,6 +61,20 @@ const char* parse(const char* begin, const char* end, T& value)
   }
 }
 
+/** The same for a word such as 1.#QNAN, which the parsers take for a number and a rest. */
+template <class T>
+const char* parseOther(const char* begin, const char* end, T& value)
+{
+  const char* const wordEnd = std::find_if(begin, end, endsWord);
+  const auto number = parseMicrosoft({ begin, static_cast<std::size_t>(wordEnd - begin) });
+  if (!std::is_floating_point_v<T> || !number)
+  {
+    return nullptr;
+  }
+  value = static_cast<T>(*number);
+  return wordEnd;
+}
+
 } // namespace
 
 std::string_view TextNumbers::rest()
@@ -96,7 +111,11 @@ std::size_t TextNumbers::readAs(T* values, std::size_t count)
     const char* at = text.data();
     while (done < count && at < last && *at != '<')
     {
-      const char* const stop = parse(at, end, values[done]);
+      const char* stop = parse(at, end, values[done]);
+      if (stop && stop < end && *stop == '#')
+      {
+        stop = parseOther(at, end, values[done]);
+      }
       if (!stop || (stop < end ? !endsWord(*stop) : !all))
       {
         const char* const wordEnd = std::find_if(at, end, endsWord);

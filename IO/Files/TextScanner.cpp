@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/TextScanner.h"
 
+#include "IO/Files/MicrosoftNumbers.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -318,6 +319,14 @@ double TextScanner::toNumber(std::string_view token, const char* what, bool fini
       this->fail(inQuotes(token) + " is not finite, where " + what + " should be");
     }
     return value;
+  }
+  if (const auto other = parseMicrosoft(token))
+  {
+    if (finite)
+    {
+      this->fail(inQuotes(token) + " is not finite, where " + what + " should be");
+    }
+    return *other;
   }
   if (result.ec != std::errc() || result.ptr != end)
   {

@@ -37,6 +37,7 @@ constexpr const Format* Formats[] = {
   &ObjFormat,
   &OffFormat,
   &MeditFormat,
+  &BinaryMeditFormat,
   &GmshFormat,
   &TetGenFormat,
   &LegacyVtkFormat,
@@ -67,7 +68,7 @@ FileStart startOf(const std::filesystem::path& path)
   {
     return {};
   }
-  if (isGzip(start.bytes))
+  if (compressionOf(start.bytes) != Compression::None)
   {
     start = { inflateStart(start.bytes, FormatBytes), {} };
   }
@@ -160,7 +161,7 @@ const Format* formatOfSuffix(std::string_view suffix)
 const Format* formatOfName(const std::filesystem::path& path)
 {
   const std::string suffix = lowerSuffix(path);
-  return formatOfSuffix(suffix == ".gz" ? lowerSuffix(path.stem()) : suffix);
+  return formatOfSuffix(isCompressedSuffix(suffix) ? lowerSuffix(path.stem()) : suffix);
 }
 
 const Format* formatOfContent(const std::filesystem::path& path)
@@ -184,6 +185,11 @@ const Format* formatOfStart(
   const Format* format = formatLookingRight(start, size);
   format = format ? format : formatOfName(path);
   return format && format->kind == MeshFileKind::Indexed ? format : nullptr;
+}
+
+bool isKnownByContent(std::string_view start, std::optional<std::uint64_t> size)
+{
+  return formatOfSign(start) || formatLookingRight(start, size);
 }
 
 const Format* formatOfFile(const std::filesystem::path& path)

@@ -19,11 +19,11 @@ std::span<const Format* const> formats();
 
 /** The format of a lower-case suffix; null if there is none. */
 SMG_EXPORT const Format* formatOfSuffix(std::string_view suffix);
-/** The format of the suffix of a file name, ignoring a trailing .gz. */
+/** The format of the suffix of a file name, ignoring a trailing .gz, .xz or .zst. */
 const Format* formatOfName(const std::filesystem::path& path);
 
 /** The format by the signature of the file; null for formats without one, such as STL, OBJ and
- * TetGen. For a file compressed by gzip, the format of its content. */
+ * TetGen. For a file compressed, the format of its content. */
 const Format* formatOfContent(const std::filesystem::path& path);
 /** The format without a signature that the first bytes look like; null if there is none. */
 const Format* formatOfForm(const std::filesystem::path& path);
@@ -33,6 +33,9 @@ SMG_EXPORT const Format* formatOfFile(const std::filesystem::path& path);
 /** Like formatOfFile(), for a file that begins with `start`. `size`: none if unknown. */
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path);
+
+/** Whether a file that begins with `start` has the signature or the form of a format. */
+bool isKnownByContent(std::string_view start, std::optional<std::uint64_t> size);
 
 /** The operations of formats. */
 enum class FormatUse

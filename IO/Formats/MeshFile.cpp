@@ -5,6 +5,7 @@
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Foreign/ForeignFile.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Solver/Files/FileDescriptor.h"
@@ -142,7 +143,7 @@ void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
   {
     throw Error(file.name() + ": the format is not known by its content or suffix: meshes are " +
                 "read from " + suffixList(FormatUse::Read, "and") +
-                " files, which may be compressed by gzip.");
+                " files, which may be compressed by gzip, xz or zstd.");
   }
   if (!format->hasParts)
   {
@@ -154,9 +155,13 @@ void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
 RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOptions& options,
   const ProgressFunction& progress)
 {
+  const std::string start(file.at(0, FormatBytes).substr(0, FormatBytes));
   // The name of the file before decompression, with its suffix.
-  const Format* const format = formatOfStart(
-    std::string(file.at(0, FormatBytes).substr(0, FormatBytes)), file.size(), file.name());
+  const Format* const format = formatOfStart(start, file.size(), file.name());
+  if (!isKnownByContent(start, file.size()))
+  {
+    refuseForeign(file.name(), start, format);
+  }
   try
   {
     RawMeshBuilder builder(workspace, options.cells);
@@ -178,7 +183,7 @@ RawMesh importMesh(
   std::optional<InflatedFile> inflated;
   {
     InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
-    if (isGzip(file.at(0, 2)))
+    if (isCompressed(file))
     {
       inflated.emplace(file, workspace, "inflated");
     }

@@ -288,7 +288,8 @@ namespace
 
 bool isPlainPly(const std::filesystem::path& path)
 {
-  return formatOfFile(path) == &PlyFormat && !isGzip(InputFile(path).at(0, 2));
+  InputFile file(path);
+  return formatOfFile(path) == &PlyFormat && !isCompressed(file);
 }
 
 } // namespace

@@ -125,6 +125,8 @@ struct Format
 
   /** Whether the first bytes of a file have the signature of this format. */
   bool (*hasSign)(std::string_view start) = nullptr;
+  /** Whether all of its files have that signature. */
+  bool alwaysSigned = false;
   /**
    * Whether the first bytes look like it, for a format without a sign.
    * @param size of the file, if it is known

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/FileNames.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Gmsh/GmshFormat.h"
@@ -11,9 +12,13 @@
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "Testing/IO/ImportFixture.h"
 
+#include <lzma.h>
 #include <zlib.h>
+#include <zstd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
 
@@ -49,6 +54,39 @@ std::string gzip(std::string_view bytes)
   deflate(&stream, Z_FINISH);
   compressed.resize(stream.total_out);
   deflateEnd(&stream);
+  return compressed;
+}
+
+/** The bytes as a file of xz, with a dictionary of this size. */
+std::string xzWith(std::string_view bytes, std::uint32_t dictionary)
+{
+  lzma_options_lzma options;
+  lzma_lzma_preset(&options, 0);
+  options.dict_size = dictionary;
+  const lzma_filter filters[] = { { LZMA_FILTER_LZMA2, &options }, { LZMA_VLI_UNKNOWN, nullptr } };
+  std::string compressed(lzma_stream_buffer_bound(bytes.size()), '\0');
+  std::size_t size = 0;
+  const lzma_ret result = lzma_stream_buffer_encode(const_cast<lzma_filter*>(filters),
+    LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+    reinterpret_cast<std::uint8_t*>(compressed.data()), &size, compressed.size());
+  EXPECT_EQ(result, LZMA_OK);
+  compressed.resize(size);
+  return compressed;
+}
+
+std::string xz(std::string_view bytes)
+{
+  return xzWith(bytes, std::uint32_t(1) << 20);
+}
+
+std::string zstd(std::string_view bytes)
+{
+  std::string compressed(ZSTD_compressBound(bytes.size()), '\0');
+  ZSTD_CCtx* const context = ZSTD_createCCtx();
+  ZSTD_CCtx_setParameter(context, ZSTD_c_checksumFlag, 1);
+  compressed.resize(
+    ZSTD_compress2(context, compressed.data(), compressed.size(), bytes.data(), bytes.size()));
+  ZSTD_freeCCtx(context);
   return compressed;
 }
 
@@ -129,6 +167,109 @@ TEST_F(ImportFormat, MeshesAreReadWhateverTheSuffix)
   EXPECT_EQ(this->read("a.off", Off.substr(4)).corners, (Numbers{ 0, 1, 2 }));
 }
 
+TEST_F(ImportFormat, LinesOfTextMayEndWithCarriageReturns)
+{
+  const std::pair<const char*, std::string> files[] = {
+    { "a.ply",
+      "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" },
+    { "a.off", "# c\n" + Off }, { "a.obj", "# c\n" + TriangleObj },
+    { "a.stl", "# c\nsolid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+               "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n" },
+    { "a.vtk", "# vtk DataFile Version 3.0\na title\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+               "0 0 0\n1 0 0\n0 1 0\nPOLYGONS 1 4\n3 0 1 2\n" },
+    { "a.mesh", "MeshVersionFormatted 2\n# c\nDimension 3\nVertices\n3\n0 0 0 0\n1 0 0 0\n"
+                "0 1 0 0\nTriangles\n1\n1 2 3 0\nEnd\n" },
+    { "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\nc\n$EndComments\n$Nodes\n3\n"
+               "1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 0 1 1 2 3\n"
+               "$EndElements\n" }
+  };
+  for (const auto& [name, text] : files)
+  {
+    for (const char* end : { "\n", "\r\n", "\r", "\r\r\n" })
+    {
+      std::string ended;
+      for (const char c : text)
+      {
+        c == '\n' ? ended += end : ended += c;
+      }
+      for (const std::string& path : { std::string(name), "b" + lowerSuffix(name) })
+      {
+        const ReadMesh mesh = this->read(path, ended);
+        EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 })) << path;
+        EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 })) << path;
+      }
+    }
+  }
+  this->expectError(
+    "a.off", "OFF\r3 1 0\r0 0 x\r1 0 0\r0 1 0\r3 0 1 2\r", "line 3: 'x' is not a number");
+}
+
+TEST_F(ImportFormat, OtherFilesAreRefusedByName)
+{
+  using namespace std::string_view_literals;
+  const std::pair<std::string, const char*> others[] = {
+    { "<!DOCTYPE html>\n<html>\n", "begins with '<!DOCTYPE html>', as a web page does" },
+    { " <HTML><body>", "as a web page does" },
+    { "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n",
+      "begins with 'version https://git-lfs.github.com/spec/v1', as a pointer of Git LFS does" },
+    { "MFEM mesh v1.0\n\ndimension\n3\n", "begins with 'MFEM mesh v1.0', as a mesh of MFEM does" },
+    { "mesh3d\ndimension\n3\n", "begins with 'mesh3d', as a mesh of Netgen does" },
+    { "PK\x03\x04\x14 and more", "as a ZIP archive does: unpack it first" },
+    { std::string("\xff\xfeO\0F\0F\0\n\0"sv), "as text in UTF-16 does: save it as UTF-8" }
+  };
+  for (const auto& [bytes, part] : others)
+  {
+    for (const Format* format : formats())
+    {
+      for (const FileSuffix& suffix : format->suffixes)
+      {
+        if (format->parse)
+        {
+          const std::string name = "a" + std::string(suffix.text);
+          this->expectError(name, bytes, "is not a");
+          this->expectError(name, bytes, part);
+        }
+      }
+    }
+    this->expectError("a.xyz", bytes, "is not a mesh that is read: it begins with");
+  }
+  for (const char* name : { "a.ply", "a.vtk", "a.vtu", "a.pvtp" })
+  {
+    this->expectError(name, "hello\nworld\n", "file: it begins with 'hello'.");
+  }
+}
+
+TEST_F(ImportFormat, NumbersOfMicrosoftThatAreNotFiniteAreAttributes)
+{
+  const auto ply = [](const std::string& z, const std::string& q)
+  {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nproperty float q\nelement face 1\nproperty list uchar int "
+           "vertex_indices\nend_header\n0 0 " +
+           z + " 1\n1 0 0 " + q + "\n0 1 0 3\n3 0 1 2\n";
+  };
+  const auto vtk = [](const std::string& z, const std::string& q)
+  {
+    return "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 " + z +
+           "\n1 0 0\n0 1 0\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nSCALARS q float\n"
+           "LOOKUP_TABLE default\n1 " +
+           q + " 3\n";
+  };
+  for (const char* nan : { "1.#QNAN", "-1.#IND", "1.#QNAN00", "1.#SNAN", "nan" })
+  {
+    EXPECT_TRUE(std::isnan(this->read("a.ply", ply("0", nan)).vertexColumns[0].value(1))) << nan;
+    EXPECT_TRUE(std::isnan(this->read("a.vtk", vtk("0", nan)).vertexColumns[0].value(1))) << nan;
+    this->expectError("a.ply", ply(nan, "2"), "not finite");
+    this->expectError("a.vtk", vtk(nan, "2"), "not finite");
+  }
+  EXPECT_EQ(this->read("a.ply", ply("0", "-1.#INF")).vertexColumns[0].value(1), -INFINITY);
+  EXPECT_EQ(this->read("a.vtk", vtk("0", "1.#INF00")).vertexColumns[0].value(1), INFINITY);
+  this->expectError("a.ply", ply("0", "1.#X"), "'1.#X' is not a number");
+  this->expectError("a.vtk", vtk("0", "1.#X"), "'1.#X' is not a number");
+}
+
 TEST_F(ImportFormat, WhatIsNoMeshIsRefused)
 {
   std::string garbage;
@@ -166,6 +307,34 @@ TEST_F(ImportFormat, CompressedFilesAreTheSame)
     EXPECT_TRUE(read.positions == mesh.positions);
     EXPECT_TRUE(read.corners == mesh.corners);
   }
+}
+
+TEST_F(ImportFormat, XzAndZstdAreRead)
+{
+  const IndexedTestMesh mesh = torus(150, 150, 0.1);
+  const std::string text = meshText(mesh);
+  const std::string half = text.substr(0, text.size() / 2), rest = text.substr(half.size());
+  using Pack = std::string (*)(std::string_view);
+  const std::pair<Pack, const char*> packs[] = { { xz, ".xz" }, { zstd, ".zst" } };
+  for (const auto& [pack, suffix] : packs)
+  {
+    const std::string name = std::string("a.off") + suffix;
+    for (const std::string& bytes : { pack(text), pack(half) + pack(rest) })
+    {
+      const ReadMesh read = this->read(name, bytes);
+      EXPECT_TRUE(read.positions == mesh.positions);
+      EXPECT_TRUE(read.corners == mesh.corners);
+    }
+    // Without a sign, by the name before compression; by content, whatever the name.
+    EXPECT_EQ(this->read(name, pack(Off.substr(4))).cells(), 1);
+    EXPECT_EQ(this->read("b", pack(TriangleObj)).cells(), 1);
+    const std::string bytes = pack(Off);
+    this->expectError(name, bytes.substr(0, bytes.size() - 1), "truncated");
+    this->expectError(name, bytes + "more", "something comes after the compressed data");
+    this->expectDamageIsFound(name, bytes, 100);
+  }
+  // A setting that takes more memory than is allowed for a file.
+  this->expectError("large.off.xz", xzWith(Off, std::uint32_t(96) << 20), "too much memory");
 }
 
 TEST_F(ImportFormat, NothingOfACompressedFileStays)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/FormatTable.h"
+#include "IO/Formats/Medit/MeditFormat.h"
 #include "Testing/IO/VolumeImport.h"
 #include "Testing/Support/TestFolders.h"
 
@@ -155,6 +157,142 @@ TEST_F(ImportMedit, ArchiveMeshHasItsCounts)
   EXPECT_EQ(mesh.vertices(), 5433);
   EXPECT_EQ(mesh.cells(), 34055);
   EXPECT_TRUE(mesh.vertexColumns.empty());
+}
+
+namespace
+{
+
+/** Writes the numbers of a binary file, version 1 to 4. */
+class MeditBytes
+{
+public:
+  MeditBytes(int version, bool big)
+    : Version(version)
+    , Big(big)
+  {
+    this->put(std::int32_t(1));
+    this->put(std::int32_t(version));
+    this->section(3, 4); // the dimension
+    this->put(std::int32_t(3));
+  }
+
+  void section(std::int32_t code, std::size_t bytes)
+  {
+    this->put(code);
+    const std::size_t next = this->Bytes.size() + (this->Version >= 3 ? 8 : 4) + bytes;
+    this->Version >= 3 ? this->put(static_cast<std::int64_t>(code == 54 ? 0 : next))
+                       : this->put(static_cast<std::int32_t>(code == 54 ? 0 : next));
+  }
+  /** A section of integers. */
+  void integers(std::int32_t code, const std::vector<std::int64_t>& numbers, std::int64_t entries)
+  {
+    this->section(code, (numbers.size() + 1) * (this->Version == 4 ? 8 : 4));
+    this->integer(entries);
+    for (const std::int64_t number : numbers)
+    {
+      this->integer(number);
+    }
+  }
+  void integer(std::int64_t number)
+  {
+    this->Version == 4 ? this->put(number) : this->put(static_cast<std::int32_t>(number));
+  }
+  void real(double number)
+  {
+    this->Version == 1 ? this->put(static_cast<float>(number)) : this->put(number);
+  }
+  std::size_t vertexBytes() const
+  {
+    return 3 * (this->Version == 1 ? 4 : 8) + (this->Version == 4 ? 8 : 4);
+  }
+  const std::string& bytes() const { return this->Bytes; }
+
+private:
+  template <class T>
+  void put(T value)
+  {
+    std::string raw(reinterpret_cast<const char*>(&value), sizeof(value));
+    if (this->Big)
+    {
+      std::ranges::reverse(raw);
+    }
+    this->Bytes += raw;
+  }
+
+  int Version;
+  bool Big;
+  std::string Bytes;
+};
+
+/** Two tetrahedra, as the mesh Mixed has them. */
+std::string binaryMixed(int version, bool big)
+{
+  MeditBytes file(version, big);
+  file.integers(13, { 1 }, 1); // corners, which are skipped
+  file.section(4, (version == 4 ? 8 : 4) + 5 * file.vertexBytes());
+  file.integer(5);
+  const double points[5][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 1 } };
+  const std::int64_t labels[] = { 1, 1, 2, 2, 3 };
+  for (int i = 0; i < 5; ++i)
+  {
+    for (const double coordinate : points[i])
+    {
+      file.real(coordinate);
+    }
+    file.integer(labels[i]);
+  }
+  file.integers(6, { 1, 2, 3, 7 }, 1);
+  file.integers(8, { 1, 2, 3, 4, 8, 2, 3, 4, 5, 9 }, 2);
+  file.section(54, 0);
+  return file.bytes();
+}
+
+} // namespace
+
+TEST_F(ImportMedit, BinaryFilesAreTheSame)
+{
+  const ReadMesh text = this->medit(Mixed, CellChoice::Tetrahedra);
+  for (const int version : { 1, 2, 3, 4 })
+  {
+    for (const bool big : { false, true })
+    {
+      const ReadMesh mesh =
+        this->read(importBinaryMedit, "a.meshb", binaryMixed(version, big), CellChoice::Tetrahedra);
+      EXPECT_EQ(mesh.doublePositions, version > 1);
+      EXPECT_EQ(mesh.positions, text.positions);
+      EXPECT_EQ(mesh.corners, text.corners);
+      EXPECT_EQ(mesh.elements, text.elements);
+      ASSERT_EQ(mesh.vertexColumns.size(), 1u);
+      EXPECT_TRUE(mesh.vertexColumns[0].bytes == text.vertexColumns[0].bytes);
+      EXPECT_TRUE(mesh.elementColumns[0].bytes == text.elementColumns[0].bytes);
+      TemporaryFolder folder;
+      writeBytes(folder / "a", binaryMixed(version, big));
+      EXPECT_EQ(formatOfFile(folder / "a"), &BinaryMeditFormat);
+    }
+  }
+}
+
+TEST_F(ImportMedit, DamageOfBinaryFilesIsFound)
+{
+  const auto expectRefused = [this](const std::string& bytes, const std::string& part)
+  {
+    expectError(
+      [&] { this->read(importBinaryMedit, "a.meshb", bytes, CellChoice::Tetrahedra); }, part);
+  };
+  const std::string bytes = binaryMixed(2, false);
+  for (std::size_t length = 1; length < bytes.size(); ++length)
+  {
+    expectRefused(bytes.substr(0, length), "a.meshb, byte");
+  }
+  const auto changed = [&bytes](std::size_t place, char value)
+  { return std::string(bytes).replace(place, 1, 1, value); };
+  expectRefused(changed(0, 2), "begins with the number 1");
+  expectRefused(changed(4, 9), "the version 9 is not read");
+  expectRefused(changed(12, 1), "which is before the end of this one");
+  expectRefused(changed(16, 5), "the dimension must be 2 or 3");
+  MeditBytes quadratic(2, false);
+  quadratic.integers(30, {}, 0);
+  expectRefused(quadratic.bytes(), "cells of higher order");
 }
 
 } // namespace smg::testing

@@ -18,6 +18,16 @@ const std::string CoffOff = "COFF # with colours\n4 3 0\n0 0 0 255 0 0 255\n1 0 
 
 } // namespace
 
+TEST_F(ImportOff, TheCountsMayFollowTheKeywordWithoutABlank)
+{
+  for (const char* begin : { "OFF3 1 0\n", "OFF3 1 0 # c\n", "# c\nCOFF3 1 0\n", "OFF 3 1 0\n" })
+  {
+    EXPECT_EQ(this->read("a", begin + std::string("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).corners,
+      (Numbers{ 0, 1, 2 }))
+      << begin;
+  }
+}
+
 TEST_F(ImportOff, WithColours)
 {
   const ReadMesh mesh = this->read("a.off", CoffOff);

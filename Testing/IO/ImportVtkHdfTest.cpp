@@ -176,6 +176,37 @@ TEST_F(ImportVtkHdf, TimeStepsOfPolygonalDataHaveOffsetsOfFourKinds)
   EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 6, 7 }));
 }
 
+TEST_F(ImportVtkHdf, AMissingFilterIsNamed)
+{
+  {
+    HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+    this->writeSquareGrid(file);
+    file.finish();
+  }
+  // A filter that exists while the file is written.
+  const H5Z_class2_t filter{ H5Z_CLASS_T_VERS, 300, 1, 1, "shrink", nullptr, nullptr,
+    [](unsigned, std::size_t, const unsigned[], std::size_t bytes, std::size_t*, void**)
+    { return bytes; } };
+  ASSERT_GE(H5Zregister(&filter), 0);
+  const hid_t out = H5Fopen((this->Folder / "a.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+  const hsize_t size = 6;
+  H5Pset_chunk(properties, 1, &size);
+  H5Pset_filter(properties, filter.id, H5Z_FLAG_MANDATORY, 0, nullptr);
+  const hid_t space = H5Screate_simple(1, &size, nullptr);
+  const hid_t set = H5Dcreate2(
+    out, "/VTKHDF/PointData/Shrunk", H5T_NATIVE_FLOAT, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+  const float values[6] = { 1, 2, 3, 4, 5, 6 };
+  EXPECT_GE(H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), 0);
+  H5Dclose(set);
+  H5Sclose(space);
+  H5Pclose(properties);
+  H5Fclose(out);
+  ASSERT_GE(H5Zunregister(filter.id), 0);
+  this->expectRefused(
+    {}, "it is compressed by 'shrink' (filter 300 of HDF5), which the HDF5 library");
+}
+
 TEST_F(ImportVtkHdf, OnePartitionIsReadWithoutTheCellsOfOthers)
 {
   HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");

@@ -6,6 +6,7 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
+#include "IO/Formats/Medit/MeditSections.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
@@ -23,20 +24,11 @@ namespace smg
 namespace
 {
 
-/** Sections of elements that become cells, and their corners. */
-struct Section
-{
-  std::string_view keyword;
-  std::size_t corners;
-};
-constexpr std::array<Section, 6> Sections{ { { "Triangles", 3 }, { "Quadrilaterals", 4 },
-  { "Tetrahedra", 4 }, { "Hexahedra", 8 }, { "Prisms", 6 }, { "Pyramids", 5 } } };
-
 /** Whether the section has cells of higher order, such as TetrahedraP2 and HexahedraQ2. */
 bool isOfHigherOrder(std::string_view keyword)
 {
-  return std::ranges::any_of(Sections,
-    [keyword](const Section& section)
+  return std::ranges::any_of(MeditSections,
+    [keyword](const MeditSection& section)
     {
       const std::string_view order =
         keyword.substr(std::min(section.keyword.size(), keyword.size()));
@@ -102,7 +94,7 @@ private:
       this->readVertices();
       return;
     }
-    for (const Section& section : Sections)
+    for (const MeditSection& section : MeditSections)
     {
       if (keyword == section.keyword)
       {
@@ -162,7 +154,7 @@ private:
     }
   }
 
-  void readElements(const Section& section)
+  void readElements(const MeditSection& section)
   {
     const std::int64_t count = this->Scanner.count("the number of elements", 2 * section.corners);
     std::array<std::int64_t, 8> storage{};
@@ -174,25 +166,8 @@ private:
         corner = this->Scanner.integer("a vertex of an element");
       }
       this->Builder.setLine(this->Scanner.line());
-      this->add(section, corners);
+      addMeditElement(this->Builder, section, corners);
       this->ElementReferences.add(this->reference());
-    }
-  }
-
-  void add(const Section& section, std::span<const std::int64_t> corners)
-  {
-    switch (section.keyword[0])
-    {
-      case 'Q':
-        this->Builder.polygon(corners);
-        break;
-      case 'T':
-        corners.size() == 3
-          ? this->Builder.triangle(corners[0], corners[1], corners[2])
-          : this->Builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
-        break;
-      default:
-        corners.size() == 6 ? this->Builder.invertedPrism(corners) : this->Builder.solid(corners);
     }
   }
 

@@ -8,7 +8,10 @@ namespace smg
 
 /** Medit .mesh as text. */
 extern const Format MeditFormat;
+/** Medit .meshb, binary, which is only read. */
+extern const Format BinaryMeditFormat;
 
 void importMedit(InputFile& file, RawMeshBuilder& builder);
+void importBinaryMedit(InputFile& file, RawMeshBuilder& builder);
 
 } // namespace smg

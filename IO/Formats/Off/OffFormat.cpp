@@ -20,11 +20,28 @@ namespace smg
 namespace
 {
 
+/** The length of the keyword at the beginning of a text, OFF or one of its variants, such as COFF
+ * or STN4OFF; 0: there is none. The number of vertices may follow without a blank, as in files of
+ * ModelNet. */
+std::size_t lengthOfKeyword(std::string_view text)
+{
+  const std::size_t at = text.find("OFF");
+  if (at > 6 || text.substr(0, at).find_first_not_of("STCN4n") != std::string_view::npos)
+  {
+    return 0;
+  }
+  const std::size_t end = at + 3;
+  const bool ends = end == text.size() || isBlank(text[end]) || text[end] == '#' ||
+                    (text[end] >= '0' && text[end] <= '9');
+  return ends ? end : 0;
+}
+
 /** Reads the keyword, if any, and refuses files that are not three-dimensional. */
 void readKeyword(TextScanner& scanner, OffHeader& header)
 {
-  const std::string keyword(scanner.peek());
-  if (!keyword.ends_with("OFF"))
+  const std::string first(scanner.peek());
+  const std::string keyword = first.substr(0, lengthOfKeyword(first));
+  if (keyword.empty())
   {
     return;
   }
@@ -32,7 +49,7 @@ void readKeyword(TextScanner& scanner, OffHeader& header)
   {
     scanner.fail("the vertices of a " + inQuotes(keyword) + " file are not points of space");
   }
-  scanner.tokenInLine();
+  scanner.moveTo(scanner.offset() + keyword.size());
   if (scanner.peek() == "BINARY")
   {
     header.binary = true;
@@ -216,13 +233,9 @@ std::int64_t bytesOfOff(const MeshToWrite& written)
                                  tupleCharacters(mesh.cellColumns, faceColors));
 }
 
-/** Whether the file begins with OFF or one of its variants, such as COFF or STN4OFF. */
 bool isOff(std::string_view start)
 {
-  const std::string_view text = textAfterComments(start);
-  const std::size_t at = text.find("OFF");
-  return at <= 6 && text.substr(0, at).find_first_not_of("STCN4n") == std::string_view::npos &&
-         (at + 3 == text.size() || isBlank(text[at + 3]) || text[at + 3] == '#');
+  return lengthOfKeyword(textAfterComments(start)) > 0;
 }
 
 std::optional<FileCounts> countsOfOff(InputFile& file, const MeshPart&)

@@ -68,6 +68,7 @@ const Format PlyFormat{
   .suffixes = PlySuffixes,
   .attributes = AllColumns,
   .hasSign = isPly,
+  .alwaysSigned = true,
   .parse = parseWith<importPly>,
   .counts = countsOfPly,
   .bytes = bytesOfPly,

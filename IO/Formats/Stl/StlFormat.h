@@ -16,8 +16,8 @@ extern const Format StlFormat;
 
 void importStl(InputFile& file, RawMeshBuilder& builder);
 
-/** Whether a file begins as STL in text does: "solid", any name, then a facet or the end, in letters
- * of any case, after any comments. */
+/** Whether a file begins as STL in text does: "solid", any name, then a facet or the end, in
+ * letters of any case, after any comments. */
 bool isTextStl(std::string_view start);
 
 /** Bytes of the header of a binary STL file: 80 of any text and the number of triangles. */

@@ -3,8 +3,10 @@
 
 #include "IO/Files/FileNames.h"
 #include "IO/Files/SequentialInput.h"
+#include "IO/Formats/Foreign/ForeignFile.h"
 #include "IO/Formats/Streams/BinaryStreamReader.h"
 #include "IO/Formats/Streams/TextStreamReader.h"
+#include "IO/Mesh/Format.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -154,6 +156,12 @@ StreamFormat detectStreamFormat(const std::filesystem::path& path)
     return first == SmbVersion ? StreamFormat::Smb : StreamFormat::Svb;
   }
   const auto byName = streamFormatOfName(path);
+  {
+    const std::span<const std::byte> start = input.peek(FormatBytes);
+    refuseForeign(path.string(),
+      std::string_view(reinterpret_cast<const char*>(start.data()), start.size()),
+      byName ? "an " + std::string(nameOf(*byName)) + " file" : std::string("a mesh stream"));
+  }
   const auto byText = detectText(input);
   if (!byText && (suffix == ".smc" || suffix == ".smd" || suffix == ".svc"))
   {

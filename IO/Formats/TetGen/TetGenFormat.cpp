@@ -139,7 +139,7 @@ private:
   {
     for (double& attribute : this->Attributes)
     {
-      attribute = scanner.number("an attribute");
+      attribute = scanner.toNumber(scanner.token(), "an attribute", false);
     }
     return std::as_bytes(std::span<const double>(this->Attributes));
   }
@@ -195,22 +195,21 @@ private:
   std::vector<double> Attributes;
 };
 
-/** The name of the file, or its name before compression by gzip. */
+/** The name of the file, or its name before compression. */
 std::filesystem::path plainName(const InputFile& file)
 {
   std::filesystem::path name(file.name());
-  return lowerSuffix(name) == ".gz" ? name.replace_extension() : name;
+  return isCompressedSuffix(lowerSuffix(name)) ? name.replace_extension() : name;
 }
 
-/** The other file of the two, possibly also compressed by gzip. */
+/** The other file of the two, possibly also compressed. */
 std::filesystem::path otherFile(const InputFile& file, bool isElements)
 {
   const std::filesystem::path plain =
     plainName(file).replace_extension(isElements ? ".node" : ".ele");
-  const std::filesystem::path compressed = plain.string() + ".gz";
-  for (const std::filesystem::path& other : { plain, compressed })
+  for (const char* packed : { "", ".gz", ".xz", ".zst" })
   {
-    if (std::filesystem::exists(other))
+    if (const std::filesystem::path other = plain.string() + packed; std::filesystem::exists(other))
     {
       return other;
     }
@@ -228,7 +227,7 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
   std::optional<InflatedFile> inflated;
   {
     InputFile start(otherPath);
-    if (isGzip(start.at(0, 2)))
+    if (isCompressed(start))
     {
       inflated.emplace(start, builder.workspace(), "inflated-other");
     }

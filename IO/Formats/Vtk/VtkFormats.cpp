@@ -84,6 +84,7 @@ const Format LegacyVtkFormat{
   .suffixes = LegacySuffixes,
   .attributes = AllColumns,
   .hasSign = isLegacyVtk,
+  .alwaysSigned = true,
   .parse = parseWith<importLegacyVtk>,
   .share = { 45, 3 },
   .bytes = bytesOfVtk,
@@ -95,6 +96,7 @@ const Format VtkXmlFormat{
   .suffixes = XmlSuffixes,
   .attributes = AllColumns,
   .hasSign = isVtkXml,
+  .alwaysSigned = true,
   .parse = parseWith<importVtkXml>,
   .bytes = bytesOfVtkXml,
   .writer = makeVtkXmlWriter,
@@ -106,6 +108,7 @@ const Format ParallelVtkXmlFormat{
   .suffixes = ParallelSuffixes,
   .attributes = AllColumns,
   .hasSign = isParallelVtkXml,
+  .alwaysSigned = true,
   .parse = parseParallel,
 };
 

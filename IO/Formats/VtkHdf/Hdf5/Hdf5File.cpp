@@ -68,6 +68,29 @@ std::uint64_t chunkBytesOf(hid_t properties, std::size_t numberBytes)
   return bytes;
 }
 
+/** The filter of a dataset that the library does not have, as "'NAME' (filter 32015 of HDF5)";
+ * empty if it has all of them. */
+std::string missingFilter(hid_t set)
+{
+  const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(set));
+  const int filters = properties.valid() ? H5Pget_nfilters(properties.id()) : 0;
+  for (int i = 0; i < filters; ++i)
+  {
+    std::array<char, 64> name{};
+    unsigned flags = 0;
+    unsigned config = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(properties.id(), static_cast<unsigned>(i), &flags,
+      &values, nullptr, name.size() - 1, name.data(), &config);
+    if (filter >= 0 && H5Zfilter_avail(filter) <= 0)
+    {
+      return (name[0] ? inQuotes(name.data()) + " " : std::string("a filter ")) + "(filter " +
+             std::to_string(filter) + " of HDF5)";
+    }
+  }
+  return {};
+}
+
 } // namespace
 
 std::int64_t Hdf5Shape::components() const
@@ -90,7 +113,8 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, std::string name)
   this->File = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
   if (this->File < 0)
   {
-    this->fail("the HDF5 library cannot open the file: it is no HDF5 file, truncated or damaged");
+    this->fail("the HDF5 library cannot open the file: it is not an HDF5 file, or it is truncated "
+               "or damaged");
   }
 }
 
@@ -314,8 +338,13 @@ void Hdf5Numbers::readRows(std::byte* values, std::int64_t first, std::int64_t c
   const Hdf5Handle<H5Sclose> memory(H5Screate_simple(1, &numbers, nullptr));
   if (H5Dread(this->Set, nativeType(this->Type), memory.id(), this->Space, H5P_DEFAULT, values) < 0)
   {
+    const std::string filter = missingFilter(this->Set);
     this->File.fail("the dataset " + inQuotes(this->Name) + " cannot be read from row " +
-                    std::to_string(first) + " on: the file is damaged");
+                    std::to_string(first) + " on: " +
+                    (filter.empty() ? "the file is damaged"
+                                    : "it is compressed by " + filter +
+                                        ", which the HDF5 library here does not have: compress it "
+                                        "by gzip (h5repack -f GZIP=6)"));
   }
 }
 
