@@ -40,8 +40,9 @@ class Report(_Facts):
 
     Of a solve for example `vertices`, `cells`, `passes`, `cycles`, `residuals` (relative, one for each
     V-cycle), `converged`, `pool_bytes_peak` (accounted memory, bytes), `seconds` (a dict),
-    `conditions`, `energy`, `mean`, `minimum`, `maximum`, `notes` and `warnings` (sentences). Numbers
-    that are not finite are None. docs/solve.md describes all of them.
+    `conditions`, `energy` (1/2 the integral of grad u . K grad u + s u^2, for each column), `mean`,
+    `minimum`, `maximum`, `notes` and `warnings` (sentences). Numbers that are not finite are None.
+    docs/solve.md describes all of them.
     """
 
     def __repr__(self) -> str:

@@ -2,6 +2,7 @@
 #include "Solver/Assembly/Assembly.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -206,19 +207,31 @@ void Assembly::collectVertex(std::int64_t i)
   const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, rowSum);
   const bool isUndetermined = isKnown && open.dirichlet[i] < 0;
   // Without a prescribed value, edges or a rowSum, nothing determines the vertex.
+  double weights = 0.0;
+  for (std::size_t e = before; rowSum > 0.0 && e < end; ++e)
+  {
+    weights += std::fabs(made.neighbours[e].weight);
+  }
+  const bool isLoose = !isKnown && rowSum > 0.0 && Components::isLoose(rowSum, weights);
+  // In means a vertex counts by its row sum where that holds the component.
+  const double weight = isLoose ? -rowSum : mass;
   const std::int32_t root =
-    isUndetermined ? this->Cells.parts.closeUndetermined(i) : this->Cells.parts.close(i, mass);
+    isUndetermined ? this->Cells.parts.closeUndetermined(i) : this->Cells.parts.close(i, weight);
   // A vertex of flat cells only has no component (-1), but its boundary facets may give it a
   // rowSum.
-  if (root >= 0 && (rowSum > 0.0 || isKnown))
+  if (root >= 0 && isLoose)
+  {
+    this->Parts.hold(this->Cells.parts.label(i), rowSum, weights);
+  }
+  else if (root >= 0 && (rowSum > 0.0 || isKnown))
   {
     this->Parts.anchor(root);
   }
   // Sums of components are kept by label: the root depends on which later cells are in the block,
   // the label does not. Whether the component still is free may depend on it, too, but then it gets
   // a constraint later, and its sums are not used.
-  const bool counts = root >= 0 && this->Parts.isFree(root);
-  made.vertices.push_back({ end, rowSum, mass, this->Reach[i],
+  const bool counts = root >= 0 && this->Parts.isFloating(root);
+  made.vertices.push_back({ end, rowSum, weight, this->Reach[i],
     this->Cells.policy.own() ? open.scale[i] : 1.0F, counts ? this->Cells.parts.label(i) : -1 });
 }
 

@@ -24,6 +24,11 @@
 // subtracted from b (rightSideShifts()), and the constant is chosen such that the solution has the
 // same mean as the initial values (meanShifts()).
 //
+// On a component that is held loosely the same is done with the row sums as weights: with w = S 1
+// and c = (sum of b - w . x0) / sum of w, y = x - c satisfies (L + S) y = b - c w, and the product
+// of w with both sides says that w . y = w . x0. Nothing is neglected; the iteration only has less
+// to represent, and the constant, which V-cycles determine worst, is known beforehand.
+//
 // Memory: a few numbers per label and column; the label of each vertex in memory or on a scratch
 // file (ComponentLabels), 4 bytes for a block of 1024 vertices of one component that has a
 // constraint.
@@ -39,7 +44,7 @@ std::int32_t Components::add()
   }
   this->account(1);
   const auto label = static_cast<std::int32_t>(this->Of.size());
-  this->Of.push_back({ label, false, 1 });
+  this->Of.push_back({ label, false, 1, 0.0, 0.0 });
   return label;
 }
 
@@ -113,14 +118,17 @@ void Components::extendCounts(std::size_t labels)
 }
 
 void Components::count(
-  std::int32_t label, const double* b, const double* x0, const double* residual, double mass)
+  std::int32_t label, const double* b, const double* x0, const double* residual, double weight)
 {
   const auto of = static_cast<std::size_t>(label);
   this->extendCounts(of + 1);
   Unknowns& all = this->Counted[of];
+  const double mass = std::max(weight, 0.0), rowSum = std::max(-weight, 0.0);
   ++all.number;
   all.mass += mass;
   all.massSquares += mass * mass;
+  all.rowSum += rowSum;
+  all.rowSumSquares += rowSum * rowSum;
   for (int k = 0; k < this->Columns; ++k)
   {
     Sums& sum = this->sums(of, k);
@@ -130,6 +138,29 @@ void Components::count(
     sum.weighed += mass * x0[k];
     sum.residual += residual[k];
     sum.residuals += mass * residual[k];
+    sum.held += rowSum * x0[k];
+    sum.heldResiduals += rowSum * residual[k];
+  }
+}
+
+void Components::hold(std::int32_t label, double rowSum, double weights)
+{
+  Component& of = this->Of[static_cast<std::size_t>(label)];
+  of.rowSum += rowSum;
+  of.weights += weights;
+}
+
+/** A component of n vertices that is held by S beside weights that sum to W is about a constant, c,
+ * if n S / W is small: that is s L^2 / K or more, with the size L of the component. */
+void Components::anchorHeld()
+{
+  constexpr double Loose = 1e-3;
+  this->settle();
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    Component& of = this->Of[label];
+    const auto number = static_cast<double>(this->Counted[label].number);
+    of.anchored = of.anchored || (this->isRoot(label) && number * of.rowSum > Loose * of.weights);
   }
 }
 
@@ -155,6 +186,11 @@ void Components::settle()
     whole.number += part.number;
     whole.mass += part.mass;
     whole.massSquares += part.massSquares;
+    whole.rowSum += part.rowSum;
+    whole.rowSumSquares += part.rowSumSquares;
+    Component& held = this->Of[label];
+    this->hold(static_cast<std::int32_t>(root), std::exchange(held.rowSum, 0.0),
+      std::exchange(held.weights, 0.0));
     for (int k = 0; k < this->Columns; ++k)
     {
       Sums& to = this->sums(root, k);
@@ -165,6 +201,8 @@ void Components::settle()
       to.weighed += from.weighed;
       to.residual += from.residual;
       to.residuals += from.residuals;
+      to.held += from.held;
+      to.heldResiduals += from.heldResiduals;
     }
   }
 }
@@ -222,12 +260,38 @@ std::int64_t Components::freeComponents() const
   std::int64_t count = 0;
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    count += this->isRoot(label) && !this->Of[label].anchored ? 1 : 0;
+    count += this->floats(label) && !this->isHeld(label) ? 1 : 0;
   }
   return count;
 }
 
-/** Calls f(label, column) for free components in which b does not sum to zero. */
+std::int64_t Components::floatingComponents() const
+{
+  std::int64_t count = 0;
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    count += this->floats(label) ? 1 : 0;
+  }
+  return count;
+}
+
+Components::Weighed Components::weighed(std::size_t label, int column) const
+{
+  const Unknowns& all = this->Counted[label];
+  const Sums& sum = this->sums(label, column);
+  if (this->isHeld(label))
+  {
+    return { all.rowSum, all.rowSumSquares, sum.held, sum.heldResiduals, sum.b - sum.held };
+  }
+  if (all.mass > 0.0)
+  {
+    return { all.mass, all.massSquares, sum.weighed, sum.residuals, sum.b };
+  }
+  const auto number = static_cast<double>(all.number);
+  return { number, number, sum.initial, sum.residual, sum.b };
+}
+
+/** Calls f(label, column) for floating components in which b does not sum to zero. */
 template <class F>
 void Components::forShifts(F&& f) const
 {
@@ -236,10 +300,9 @@ void Components::forShifts(F&& f) const
   constexpr double Rounding = 1e-12;
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    for (int k = 0; this->isRoot(label) && !this->Of[label].anchored && k < this->Columns; ++k)
+    for (int k = 0; this->floats(label) && k < this->Columns; ++k)
     {
-      const Sums& sum = this->sums(label, k);
-      if (std::fabs(sum.b) > Rounding * sum.absolute)
+      if (std::fabs(this->weighed(label, k).b) > Rounding * this->sums(label, k).absolute)
       {
         f(label, k);
       }
@@ -253,17 +316,29 @@ std::vector<double> Components::rightSideShifts() const
   this->forShifts(
     [&](std::size_t label, int k)
     {
+      const Weighed all = this->weighed(label, k);
       shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
-        this->sums(label, k).b / this->weightSum(label);
+        all.b / all.weights;
     });
   return shifts;
+}
+
+bool Components::shiftsRightSide() const
+{
+  bool any = false;
+  this->forShifts([&](std::size_t, int) { any = true; });
+  return any;
 }
 
 std::vector<double> Components::shiftedSums() const
 {
   std::vector<double> sums(static_cast<std::size_t>(this->Columns));
   this->forShifts(
-    [&](std::size_t label, int k) { sums[static_cast<std::size_t>(k)] += this->sums(label, k).b; });
+    [&](std::size_t label, int k)
+    {
+      const double sum = this->isHeld(label) ? 0.0 : this->sums(label, k).b;
+      sums[static_cast<std::size_t>(k)] += sum;
+    });
   return sums;
 }
 
@@ -274,7 +349,7 @@ double Components::incompatibility() const
     [&](std::size_t label, int k)
     {
       const Sums& sum = this->sums(label, k);
-      largest = std::max(largest, std::fabs(sum.b) / sum.absolute);
+      largest = std::max(largest, this->isHeld(label) ? 0.0 : std::fabs(sum.b) / sum.absolute);
     });
   return largest;
 }
@@ -286,28 +361,42 @@ double Components::shiftedSquares() const
     [&](std::size_t label, int k)
     {
       // ||r - s w||^2 - ||r||^2 with the shift s and the weights w.
-      const Unknowns& all = this->Counted[label];
-      const Sums& sum = this->sums(label, k);
-      const bool masses = all.mass > 0.0;
-      const double shift = sum.b / this->weightSum(label);
-      squares += shift * shift * (masses ? all.massSquares : static_cast<double>(all.number)) -
-                 2.0 * shift * (masses ? sum.residuals : sum.residual);
+      const Weighed all = this->weighed(label, k);
+      const double shift = all.b / all.weights;
+      squares += shift * shift * all.squares - 2.0 * shift * all.residual;
     });
   return squares;
 }
 
+std::vector<double> Components::constantShifts() const
+{
+  std::vector<double> shifts;
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      if (this->isHeld(label))
+      {
+        shifts.resize(this->Summed.size());
+        const Weighed all = this->weighed(label, k);
+        shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
+          -all.b / all.weights;
+      }
+    });
+  return shifts;
+}
+
 std::vector<double> Components::meanShifts(std::span<const double> sums) const
 {
-  std::vector<double> shifts(sums.size());
+  std::vector<double> shifts = this->constantShifts();
+  shifts.resize(sums.size());
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    for (int k = 0; this->isRoot(label) && !this->Of[label].anchored && k < this->Columns; ++k)
+    for (int k = 0; this->floats(label) && k < this->Columns; ++k)
     {
       const std::size_t place =
         label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k);
-      const Sums& sum = this->sums(label, k);
-      const double initial = this->Counted[label].mass > 0.0 ? sum.weighed : sum.initial;
-      shifts[place] = (sums[place] - initial) / this->weightSum(label);
+      const Weighed all = this->weighed(label, k);
+      shifts[place] += (sums[place] - all.initial) / all.weights;
     }
   }
   return shifts;
@@ -360,18 +449,18 @@ void ComponentLabels::finish()
 }
 
 /** Stores the next block. Most blocks have only one label, which is stored once. Masses are stored
- * only if a component of the block may be free: only then are means and shifts needed. A component
+ * only if a component of the block may float: only then are means and shifts needed. A component
  * that has a constraint keeps it. */
 void ComponentLabels::store(std::size_t first, std::size_t count)
 {
   const auto labels = std::span<const std::int32_t>(this->Labels).subspan(first, count);
   const auto masses = std::span<const double>(this->Masses).subspan(first, count);
   const bool one = std::ranges::adjacent_find(labels, std::ranges::not_equal_to()) == labels.end();
-  const auto mayBeFree = [this](std::int32_t label)
-  { return label >= 0 && this->Parts.isFree(this->Parts.root(label)); };
+  const auto mayFloat = [this](std::int32_t label)
+  { return label >= 0 && this->Parts.isFloating(this->Parts.root(label)); };
   this->Record.clear();
   smg::append(this->Record, one ? labels.first(1) : labels);
-  if (one ? mayBeFree(labels.front()) : std::ranges::any_of(labels, mayBeFree))
+  if (one ? mayFloat(labels.front()) : std::ranges::any_of(labels, mayFloat))
   {
     smg::append(this->Record, masses);
   }

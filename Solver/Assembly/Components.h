@@ -7,6 +7,7 @@
 #include "Solver/Memory/Ring.h"
 #include "smg/Export.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,6 +24,12 @@ namespace smg
  * there is a solution only if the right-hand side sums to zero, and it is unique up to a constant;
  * this class accumulates the sums that this takes. Means are weighted by the lumped masses of the
  * vertices, so that it is a constant source that is subtracted; without masses, by 1.
+ *
+ * A component may be held so loosely, by row sums that are tiny beside its weights, that its
+ * solution is a large constant c, the sum of the right-hand side over that of the row sums, plus
+ * what varies. In double precision the constant would leave the variation few digits or none. So
+ * (L + S) (c + y) = F is solved for y, whose right-hand side F - S c sums to zero, and c is added
+ * to the result: as for a free component, with the row sums as weights.
  *
  * One thread may count() while another one adds, joins and anchors labels, since the sums of a
  * label do not depend on when it is joined. settle() ends this.
@@ -43,41 +50,68 @@ public:
   std::int32_t join(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t label) const;
 
-  /** Counts an unknown with this label, which only free components need: its right-hand side,
-   * initial value and residual b - A x0, `columns` numbers each, and its mass. */
+  /** Whether a row with this sum, beside these magnitudes of its weights, constrains its component
+   * only loosely: the rounding of the row is more than the usual tolerance of what the sum holds.
+   */
+  static bool isLoose(double rowSum, double weights) { return rowSum <= LooseRow * weights; }
+
+  /** Counts an unknown with this label, which only floating components need: its right-hand side,
+   * initial value and residual b - A x0, `columns` numbers each, and its weight in means: its mass,
+   * or, with the opposite sign, its row sum if that is not zero. */
   void count(
-    std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
+    std::int32_t label, const double* b, const double* x0, const double* residual, double weight);
+  /** Adds a row with a loose sum to its component, with the magnitudes of its weights. */
+  void hold(std::int32_t label, double rowSum, double weights);
   /** Forgets what was counted, for another right-hand side. */
   void restartCounts();
+  /** To be called once after all vertices: anchors components whose loose rows together are not
+   * loose. */
+  void anchorHeld();
   /** Marks the component as constrained. */
   void anchor(std::int32_t label) { this->Of[static_cast<std::size_t>(label)].anchored = true; }
 
   std::int64_t components() const;
   std::int64_t freeComponents() const;
+  /** The number of components that are free or held loosely. */
+  std::int64_t floatingComponents() const;
+  /** Whether any component is held loosely. */
+  bool anyHeldLoosely() const { return this->freeComponents() < this->floatingComponents(); }
 
   /** Adds the sums of joined labels to those of their roots. The shifts and means below need this.
    */
   void settle();
 
   /** Per column and component (label-major): the mean source, sum of b / sum of masses; 0 for
-   * components that are not free, or if b sums to zero up to rounding. */
+   * components that do not float, or if b sums to zero up to rounding. For one that is held
+   * loosely: the constant c, beside the mean of the initial values. */
   std::vector<double> rightSideShifts() const;
-  /** Per column: the sum of b that the shifts subtract from all components. */
+  /** Whether any of the shifts is not 0. */
+  bool shiftsRightSide() const;
+  /** Per column: the sum of b that the shifts subtract from all free components. */
   std::vector<double> shiftedSums() const;
-  /** The largest |sum of b| / sum of |b| that the shifts subtract; 0 without shifts. */
+  /** The largest |sum of b| / sum of |b| that the shifts subtract from a free component; 0 without
+   * such shifts. */
   double incompatibility() const;
   /** The change of ||r_0||^2 due to the shifts. */
   double shiftedSquares() const;
-  /** Per column and free component: the mean of the values minus the mean of the initial values,
-   * given the sums of the weighted values (label-major). */
+  /** Per column and floating component: what is to be subtracted from the values, given the sums of
+   * the weighted values (label-major): their mean minus that of the initial values; for a component
+   * that is held loosely, minus the constant c, too. */
   std::vector<double> meanShifts(std::span<const double> sums) const;
-  /** The weight of a vertex of this mass in the means of the component. */
-  double weightOf(std::int32_t root, double mass) const
+  /** The part of the shifts that does not depend on the values; empty if no component is held
+   * loosely. */
+  std::vector<double> constantShifts() const;
+  /** The weight of a vertex in the means of the component, given its weight as of count(). */
+  double weightOf(std::int32_t root, double weight) const
   {
-    return this->Counted[static_cast<std::size_t>(root)].mass > 0.0 ? mass : 1.0;
+    const auto label = static_cast<std::size_t>(root);
+    return this->isHeld(label)               ? std::max(-weight, 0.0)
+           : this->Counted[label].mass > 0.0 ? weight
+                                             : 1.0;
   }
   std::int64_t labels() const { return static_cast<std::int64_t>(this->Of.size()); }
-  bool isFree(std::int32_t root) const
+  /** Whether a component has no constraint, or only loose ones. */
+  bool isFloating(std::int32_t root) const
   {
     return !this->Of[static_cast<std::size_t>(root)].anchored;
   }
@@ -90,23 +124,27 @@ public:
   void load(StateReader& state);
 
 private:
+  static constexpr double LooseRow = 1e-7;
+
   struct Component
   {
     std::int32_t parent;
     bool anchored;
-    std::int64_t labels; ///< number of joined labels
+    std::int64_t labels;    ///< number of joined labels
+    double rowSum, weights; ///< sums of hold()
 
     template <class State>
     void exchange(State& state)
     {
-      state(this->parent, this->anchored, this->labels);
+      state(this->parent, this->anchored, this->labels, this->rowSum, this->weights);
     }
   };
-  /** The unknowns of a label and the sums of their masses. */
+  /** The unknowns of a label and the sums of their masses and row sums. */
   struct Unknowns
   {
     std::int64_t number;
     double mass, massSquares;
+    double rowSum, rowSumSquares;
   };
   /** The sums of a column. */
   struct Sums
@@ -114,6 +152,14 @@ private:
     double b, absolute;         ///< of b, |b|
     double initial, weighed;    ///< of x0, mass x0
     double residual, residuals; ///< of r0, mass r0
+    double held, heldResiduals; ///< of rowSum x0, rowSum r0
+  };
+  /** The sums of a column with the weights of the component's means. */
+  struct Weighed
+  {
+    double weights, squares; ///< of the weights
+    double initial, residual;
+    double b; ///< what the right-hand side sums to beside that of the initial values
   };
 
   void account(std::int64_t labels);
@@ -126,11 +172,9 @@ private:
   {
     return const_cast<Components*>(this)->sums(label, column);
   }
-  double weightSum(std::size_t label) const
-  {
-    const Unknowns& all = this->Counted[label];
-    return all.mass > 0.0 ? all.mass : static_cast<double>(all.number);
-  }
+  bool isHeld(std::size_t label) const { return this->Of[label].rowSum > 0.0; }
+  bool floats(std::size_t label) const { return this->isRoot(label) && !this->Of[label].anchored; }
+  Weighed weighed(std::size_t label, int column) const;
   void extendCounts(std::size_t labels);
   template <class F>
   void forShifts(F&& f) const;

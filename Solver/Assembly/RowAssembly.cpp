@@ -304,7 +304,7 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   }
   if (vertex.label >= 0)
   {
-    this->Parts.count(vertex.label, this->B.data(), x, residual.data(), vertex.mass);
+    this->Parts.count(vertex.label, this->B.data(), x, residual.data(), vertex.weight);
   }
   if (this->Listener)
   {

@@ -64,9 +64,9 @@ class FinalVertices
 public:
   struct Vertex
   {
-    std::size_t end; ///< of its edges in `neighbours`
-    double rowSum;   ///< contribution to the diagonal
-    double mass;
+    std::size_t end;    ///< of its edges in `neighbours`
+    double rowSum;      ///< contribution to the diagonal
+    double weight;      ///< in the means of its component: Components::count()
     std::int64_t reach; ///< the largest neighbour of this and all earlier vertices
     float scale;        ///< see OpenVertices
     std::int32_t label; ///< of the component whose sums an unknown counts for; or -1

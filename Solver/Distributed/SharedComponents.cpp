@@ -169,7 +169,7 @@ std::vector<std::int64_t> SharedComponents::representatives(
   for (std::int64_t k = 0; k < own; ++k)
   {
     const Place place = this->of(k);
-    if (place.components && place.components->isFree(place.label) && chosen(k))
+    if (place.components && place.components->isFloating(place.label) && chosen(k))
     {
       std::int64_t& least =
         (place.components == &this->Whole ? ofWhole
@@ -208,7 +208,7 @@ SharedComponents::Shifts SharedComponents::meanShifts(
   for (std::int64_t k = 0; k < static_cast<std::int64_t>(this->Names.size()); ++k)
   {
     const Place place = this->of(k);
-    if (place.components && place.components->isFree(place.label))
+    if (place.components && place.components->isFloating(place.label))
     {
       double* sums = (place.components == &this->Whole ? ofWhole : ofSplit).data() +
                      static_cast<std::size_t>(place.label) * columns;

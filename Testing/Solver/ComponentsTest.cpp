@@ -66,7 +66,7 @@ TEST(Components, AConstraintAnywhereFixesTheWhole)
   parts.anchor(b);
   EXPECT_EQ(parts.freeComponents(), 2);
   const std::int32_t whole = parts.join(a, b);
-  EXPECT_FALSE(parts.isFree(parts.root(whole)));
+  EXPECT_FALSE(parts.isFloating(parts.root(whole)));
   EXPECT_EQ(parts.freeComponents(), 1);
   EXPECT_EQ(parts.components(), 2);
 }
@@ -119,6 +119,47 @@ TEST(Components, WhereNoVertexHasAMassAllCountAlike)
   EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -8.0);
   EXPECT_EQ(parts.weightOf(label, 0.0), 1.0);
   EXPECT_DOUBLE_EQ(parts.meanShifts(std::vector{ 18.0 })[label], 1.0);
+}
+
+TEST(Components, AComponentThatIsHeldLooselyHasAConstant)
+{
+  Components parts(1);
+  const std::int32_t first = parts.add(), second = parts.add();
+  count(parts, first, 3.0, 0.5, 7.0); // in the interior: a mass, no row sum
+  count(parts, first, 1.0, 2.0, -1e-12);
+  count(parts, second, 4.0, 4.0, -3e-12);
+  parts.hold(first, 1e-12, 1.0);
+  parts.hold(second, 3e-12, 1.0);
+  const std::int32_t whole = parts.root(parts.join(first, second));
+  parts.anchorHeld();
+  EXPECT_EQ(parts.freeComponents(), 0);
+  EXPECT_EQ(parts.floatingComponents(), 1);
+  EXPECT_TRUE(parts.shiftsRightSide());
+  // Nothing is taken from the sources.
+  EXPECT_EQ(parts.incompatibility(), 0.0);
+  EXPECT_EQ(parts.shiftedSums()[0], 0.0);
+  // The sum of b over that of the row sums, beside their mean of the initial values.
+  const double constant = 2e12 - 3.5;
+  EXPECT_NEAR(parts.rightSideShifts()[whole], constant, 1e-3);
+  EXPECT_EQ(parts.weightOf(whole, 7.0), 0.0);
+  EXPECT_EQ(parts.weightOf(whole, -3e-12), 3e-12);
+  std::vector<double> sums(2);
+  sums[static_cast<std::size_t>(whole)] = 14e-12 + 4e-12; // 1 above the initial mean
+  EXPECT_NEAR(parts.meanShifts(sums)[whole], 1.0 - constant, 1e-3);
+}
+
+TEST(Components, ManyLooseRowsAreNotLooseTogether)
+{
+  Components parts(1);
+  const std::int32_t label = parts.add();
+  for (int i = 0; i < 20000; ++i)
+  {
+    count(parts, label, 1.0, 0.0, -1e-7);
+    parts.hold(label, 1e-7, 1.0);
+  }
+  parts.anchorHeld();
+  EXPECT_EQ(parts.floatingComponents(), 0);
+  EXPECT_FALSE(parts.shiftsRightSide());
 }
 
 TEST(Components, ARightSideThatSumsToZeroUpToRoundingIsLeftAlone)

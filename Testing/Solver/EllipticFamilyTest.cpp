@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/EllipticTesting.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -124,6 +125,120 @@ TEST(EllipticFamily, AgreesWithADirectSolve)
       EXPECT_LT(relativeError(solved.values, DirectElements(problem).solve()), 1e-7) << datum.name;
     }
   }
+}
+
+namespace
+{
+
+/** A condition that holds a body without prescribed values, of any size. */
+struct Hold
+{
+  std::string name;
+  std::function<void(ElementProblem&, double)> set;
+};
+
+std::vector<Hold> holds()
+{
+  const auto robin = [](ElementProblem& p, double size, const ElementProblem::Where& where)
+  {
+    p.RobinConditions.push_back(
+      { where, [size](const Point&) { return size; }, columnsOf(Columns, wave) });
+  };
+  return {
+    { "Robin everywhere", [robin](ElementProblem& p, double size)
+      { robin(p, size, [](const Point&) { return true; }); } },
+    { "Robin at one end",
+      [robin](ElementProblem& p, double size) { robin(p, size, above(0, 2.5)); } },
+    { "screening", [](ElementProblem& p, double size)
+      { p.VertexScreening = [size](const Point& x) { return size * (1 + x[1] * x[1]); }; } },
+    { "screening of a part", [](ElementProblem& p, double size)
+      { p.CellScreening = [size](const Point& x) { return x[1] > 2 ? size : 0.0; }; } },
+  };
+}
+
+/** The solution of (L + S) u = F without prescribed values, as c + y with c = sum of F / sum of S:
+ * (L + S) y = F - S c, by a dense factor in extended precision, for which no size of S is too
+ * small. S is summed by itself: in the diagonal of L + S its digits are lost. */
+Eigen::MatrixXd heldSolution(const ElementProblem& problem)
+{
+  const DirectElements system(problem);
+  const Eigen::Index n = system.matrix.rows();
+  Eigen::VectorXd hold = system.screening;
+  for (const DirectElements::Facet& facet : system.boundary)
+  {
+    const int robin = problem.conditionOf(problem.RobinConditions, facet.corners);
+    for (const std::int64_t v : facet.corners)
+    {
+      hold[v] += robin < 0 ? 0.0
+                           : facet.area / static_cast<double>(facet.corners.size()) *
+                               problem.RobinConditions[robin].coefficient(problem.vertex(v));
+    }
+  }
+  const Eigen::RowVectorXd c = system.rightSide.colwise().sum() / hold.sum();
+  // In extended precision the matrix is regular for all sizes of this test.
+  using Real = long double;
+  const Eigen::SparseMatrix<Real> matrix = system.stiffness.cast<Real>();
+  const Eigen::Matrix<Real, -1, -1> dense =
+    Eigen::Matrix<Real, -1, -1>(matrix) -
+    Eigen::Matrix<Real, -1, -1>((matrix * Eigen::Matrix<Real, -1, 1>::Ones(n)).asDiagonal()) +
+    Eigen::Matrix<Real, -1, -1>(hold.cast<Real>().asDiagonal());
+  const Eigen::Matrix<Real, -1, -1> rest =
+    dense.ldlt().solve((system.rightSide - hold * c).cast<Real>());
+  return rest.cast<double>().rowwise() + c;
+}
+
+} // namespace
+
+TEST(EllipticFamily, ConditionsOfAllSizesHoldABody)
+{
+  for (const StreamMesh& mesh : { patch(9, 8), block(4, 4, 5) })
+  {
+    for (const Hold& hold : holds())
+    {
+      for (int exponent = -15; exponent <= 8; ++exponent)
+      {
+        ElementProblem problem(mesh);
+        problem.Columns = Columns;
+        problem.VertexSource = columnsOf(Columns, wave);
+        hold.set(problem, std::pow(10.0, exponent));
+        const std::string name = hold.name + " 1e" + std::to_string(exponent);
+        const Solved solved = solveMesh(mesh, problem, accurate(1e-9));
+        EXPECT_TRUE(solved.report.converged) << name;
+        EXPECT_EQ(solved.report.free_components, 0) << name;
+        EXPECT_LT(relativeError(solved.values, heldSolution(problem)), 1e-8) << name;
+      }
+    }
+  }
+}
+
+TEST(EllipticFamily, BodiesThatAreHeldLooselyDoNotKnowEachOther)
+{
+  // One body has a large constant, one a prescribed value, one no condition.
+  const IndexedTestMesh shape = tetBox(4, 4, 5, 0.15);
+  const StreamMesh one = toStream(shape);
+  const StreamMesh three =
+    toStream(disjointUnion(disjointUnion(shape, shape, { 100, 0, 0 }), shape, { 200, 0, 0 }));
+  ElementProblem problem(three);
+  problem.VertexSource = columnsOf(1, [](const Point& p, int) { return std::sin(p[1]) + 1; });
+  problem.RobinConditions.push_back({ below(0, 50), [](const Point&) { return 1e-12; },
+    columnsOf(1, [](const Point&, int) { return 3.0; }) });
+  problem.DirichletConditions.push_back({ [](const Point& p) { return p[0] > 50 && p[0] < 100.6; },
+    columnsOf(1, [](const Point& p, int) { return p[1]; }) });
+  const Solved solved = solveMesh(three, problem, accurate(1e-9));
+  EXPECT_TRUE(solved.report.converged);
+  EXPECT_EQ(solved.report.free_components, 1);
+  ElementProblem alone(one);
+  alone.VertexSource = problem.VertexSource;
+  alone.RobinConditions = problem.RobinConditions;
+  const Eigen::MatrixXd expected = heldSolution(alone);
+  double largest = 0.0, others = 0.0;
+  for (std::int64_t v = 0; v < three.vertices(); ++v)
+  {
+    (three.positions[3 * v] < 50 ? largest : others) =
+      std::max(three.positions[3 * v] < 50 ? largest : others, std::fabs(solved.values(v, 0)));
+  }
+  EXPECT_NEAR(largest / expected.maxCoeff(), 1.0, 1e-9);
+  EXPECT_LT(others, 1e4);
 }
 
 TEST(EllipticFamily, DoesNotDependOnBlocksNorThreads)

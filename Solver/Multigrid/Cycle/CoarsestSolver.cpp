@@ -47,8 +47,10 @@ CoarsestMatrix matrixOf(LevelWindow<float>& level)
         }
         matrix.diagonal.push_back(a.diagonal[k]);
         // Row sums of a free component are exactly zero: what remains is the rounding of this sum,
-        // relative to its terms.
-        matrix.anchored.push_back(std::fabs(sum) > 8.0 * DBL_EPSILON * terms);
+        // relative to its terms. A sum that is not well above it would be wrong by a factor, with
+        // which the V-cycles would not converge: the constant is then left to Components.
+        constexpr double Least = 512.0 * DBL_EPSILON;
+        matrix.anchored.push_back(std::fabs(sum) > Least * terms);
       }
     });
   return matrix;

@@ -101,9 +101,12 @@ void Convergence::add(double norm, double rounding, double share)
   }
   if (norm > Diverged * this->FirstNorm && !this->Converged)
   {
-    throw Error("the solve diverges (relative residual " + scientific(relative) + " after " +
-                std::to_string(this->cycles()) +
-                " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
+    throw Error(
+      "the solve diverges (relative residual " + scientific(relative) + " after " +
+      std::to_string(this->cycles()) +
+      " V-cycles), as it may where cells are very flat or where conductivities, screening "
+      "or coefficients differ by many orders of magnitude: try more sweeps, or uniform "
+      "weights");
   }
   if (this->Fixed)
   {

@@ -204,7 +204,7 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   constexpr std::int64_t StiffShare = 512;
   this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
   Report& r = this->Run.report;
-  this->Run.components.settle();
+  this->Run.components.anchorHeld();
   reportAssembly(assembly, this->Run.components, r);
   r.levels = this->Built.levels().sizes;
   // Vertices with given values have an empty row, but are not unknowns.
@@ -215,10 +215,11 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   return residualOf(assembly.residual(), this->Run.components);
 }
 
-/** Without any condition the iterates are determined but for a constant, which does not matter. */
+/** Without any condition, or with loose ones alone, the iterates are determined but for a constant,
+ * which does not matter. */
 void FirstPass::beginRange(SolveContext& run, const InitialResidual& residual)
 {
-  if (run.range && run.report.free_components < run.report.components)
+  if (run.range && run.components.floatingComponents() < run.report.components)
   {
     run.range->begin(residual.least(), residual.most());
   }
@@ -230,8 +231,8 @@ FirstResidual FirstPass::residualOf(const InitialResidual& residual, const Compo
   const double shifted = std::max(0.0, whole + components.shiftedSquares());
   // If the sources equal their mean, only the rounding of this difference of squares remains, which
   // does not measure the residual: then the sources themselves do.
-  constexpr double MinShare = 1e-14;
-  return { std::sqrt(shifted < MinShare * whole ? whole : shifted),
+  const double minShare = components.anyHeldLoosely() ? 1e-12 : 1e-14;
+  return { std::sqrt(shifted < minShare * whole ? whole : shifted),
     roundingOf(residual.termSquares()) };
 }
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <limits>
 
-// The values of free components are shifted when they are read, not on disk: a shift per component
-// and column is all that is kept, and a vertex finds its own through its label.
+// The values of floating components are shifted when they are read, not on disk: a shift per
+// component and column is all that is kept, and a vertex finds its own through its label.
 
 namespace smg
 {
@@ -40,6 +40,11 @@ void noteFreeComponents(Report& report)
     return;
   }
   report.notes.push_back(note);
+}
+
+void FreeComponents::prepare()
+{
+  this->MeanShifts = this->Parts.constantShifts();
 }
 
 void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<double> values)

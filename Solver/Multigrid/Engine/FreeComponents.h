@@ -31,11 +31,12 @@ enum class UndeterminedValues
 };
 
 /**
- * What the equations leave open. A component without any constraint (a free component) has a
- * solution only if its right-hand side sums to zero, and then up to a constant. Its solution is
- * made unique: the mean of its sources is subtracted, and the mean of its initial values is kept,
- * both weighted with the lumped masses. Values that nothing determines keep the initial value or
- * become not a number, as the problem wants.
+ * What the equations leave open, or nearly so. A component without any constraint (a free
+ * component) has a solution only if its right-hand side sums to zero, and then up to a constant.
+ * Its solution is made unique: the mean of its sources is subtracted, and the mean of its initial
+ * values is kept, both weighted with the lumped masses. A component that is held loosely is solved
+ * like that, too, for what its solution is beside a constant (Components). Values that nothing
+ * determines keep the initial value or become not a number, as the problem wants.
  *
  * A State of the finest level provides nodes(), rewriteB() and readX(), like LevelWindow.
  */
@@ -49,8 +50,8 @@ public:
   {
   }
 
-  /** Makes the right-hand sides of free components sum to zero where they do not: subtracts the
-   * mean of the source, notes this in the report and returns true. */
+  /** Makes the right-hand sides of floating components sum to zero where they do not: subtracts the
+   * mean of the source, notes this in the report if it changes the problem, and returns true. */
   template <class State>
   bool projectRightSide(State& level, Report& report);
 
@@ -75,14 +76,17 @@ public:
 
   UndeterminedValues undetermined() const { return this->Undetermined; }
 
-  /** Completes the values of the vertices [first, first + count): shifts those of free
+  /** Completes the values of the vertices [first, first + count): shifts those of floating
    * components, and marks what is undetermined. */
   void complete(std::int64_t first, std::int64_t count, std::span<double> values);
+  /** Prepares complete() for the iterate of a pass: components that are held loosely get their
+   * constant, nothing else changes. */
+  void prepare();
 
 private:
   static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
 
-  /** Calls f(place, root, weight) for the vertices of a block that belong to free components:
+  /** Calls f(place, root, weight) for the vertices of a block that belong to floating components:
    * the index in the block, the component, and the weight of the vertex in its means. */
   template <class F>
   void forFree(std::int64_t block, F&& f);
@@ -92,7 +96,7 @@ private:
   Components& Parts;
   ComponentLabels& Labels;
   int Columns;
-  std::vector<double> MeanShifts; ///< of free components; empty if there is none
+  std::vector<double> MeanShifts; ///< of floating components; empty if there is none
   UndeterminedValues Undetermined = UndeterminedValues::Stay;
 };
 
@@ -103,7 +107,7 @@ void FreeComponents::forFree(std::int64_t block, F&& f)
   for (std::size_t i = 0; i < masses.size(); ++i)
   {
     const std::int32_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
-    if (root >= 0 && this->Parts.isFree(root))
+    if (root >= 0 && this->Parts.isFloating(root))
     {
       f(i, root, this->Parts.weightOf(root, masses[i]));
     }
@@ -113,8 +117,7 @@ void FreeComponents::forFree(std::int64_t block, F&& f)
 template <class State>
 bool FreeComponents::projectRightSide(State& level, Report& report)
 {
-  const double share = this->Parts.incompatibility();
-  if (share == 0.0)
+  if (!this->Parts.shiftsRightSide())
   {
     return false;
   }
@@ -132,8 +135,11 @@ bool FreeComponents::projectRightSide(State& level, Report& report)
           }
         });
     });
-  report.removed_source = this->Parts.shiftedSums();
-  noteIncompatibility(report, share);
+  if (const double share = this->Parts.incompatibility(); share > 0.0)
+  {
+    report.removed_source = this->Parts.shiftedSums();
+    noteIncompatibility(report, share);
+  }
   return true;
 }
 
@@ -142,7 +148,7 @@ bool FreeComponents::projectRightSide(State& level, Report& report)
 template <class State>
 void FreeComponents::fixMeans(State& level, Report& report)
 {
-  if (report.free_components == 0)
+  if (this->Parts.floatingComponents() == 0)
   {
     return;
   }
@@ -162,7 +168,10 @@ void FreeComponents::fixMeans(State& level, Report& report)
       });
   }
   this->MeanShifts = this->Parts.meanShifts(sums);
-  noteFreeComponents(report);
+  if (report.free_components > 0)
+  {
+    noteFreeComponents(report);
+  }
 }
 
 } // namespace smg

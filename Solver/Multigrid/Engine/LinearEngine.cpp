@@ -167,8 +167,8 @@ void LinearEngine::solve(const Group& group, const Stopping& stopping)
   Iteration iteration(this->Run, this->Levels, convergence);
   convergence = Convergence(stopping, this->begin());
   // As for a first pass: see PoissonSolver.
-  convergence.begin(this->Levels.residualNorm(), this->Run.components.incompatibility() == 0.0,
-    this->Run.shareOfRange());
+  convergence.begin(
+    this->Levels.residualNorm(), !this->Run.components.shiftsRightSide(), this->Run.shareOfRange());
   this->Run.endPass(1.0);
   iteration(false);
   Report& r = this->Run.report;
@@ -199,7 +199,7 @@ void LinearEngine::read(const Group& group, std::span<double> x)
 {
   const Ring<double>& solved = this->Levels.window().x();
   std::vector<double> values(static_cast<std::size_t>(this->Columns));
-  if (this->Run.report.free_components == 0)
+  if (this->Run.components.floatingComponents() == 0)
   {
     this->store(solved, 1.0, group, x);
     return;

@@ -54,7 +54,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     // The residual after the first sweeps does not count if the right-hand side was projected after
     // them.
     convergence.begin(
-      this->Levels.residualNorm(), run.components.incompatibility() == 0.0, run.shareOfRange());
+      this->Levels.residualNorm(), !run.components.shiftsRightSide(), run.shareOfRange());
     run.endPass(1.0);
   }
   iteration(false);
@@ -81,11 +81,15 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
 EnergySquares PoissonSolver::discretisation(Problem& problem)
 {
   const std::unique_ptr<MeshSource> mesh = this->Run->options.again();
+  this->Run->free.prepare();
   try
   {
     DiscretisationError error(this->Run->pool, mesh->info(), problem,
       [this](std::int64_t first, std::int64_t count, std::span<double> values)
-      { this->Levels.window().readX(first, count, values.data()); });
+      {
+        this->Levels.window().readX(first, count, values.data());
+        this->Run->free.complete(first, count, values);
+      });
     for (MeshBlock block; mesh->next(block);)
     {
       error.add(block);
