@@ -244,7 +244,7 @@ void Workers::wait(Job& job)
       if (this->Team.empty())
       {
         throw Error("The process was forked during a computation, which the child cannot continue: "
-                    "begin it there anew.");
+                    "start it again there.");
       }
       const auto isFinished = [&job] { return job.IsDone.load(std::memory_order_relaxed); };
       this->OwnerSleeps = true;
