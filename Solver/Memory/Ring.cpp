@@ -30,6 +30,35 @@ namespace
               "; lower the memory limit or raise that of the system (ulimit -v)");
 }
 
+/** Maps three images of a file side by side; returns the middle one. `place`: where that must be;
+ * null: anywhere. Throws Error. */
+std::byte* mapImages(int file, std::size_t bytes, std::byte* place)
+{
+  // First one reservation of address space for all three images, which ensures that they are
+  // adjacent; the images then replace it part by part (MAP_FIXED).
+  const int fixed = place ? MAP_FIXED_NOREPLACE : 0;
+  void* all = systemCalls().mmap(place ? place - bytes : nullptr, 3 * bytes, PROT_NONE,
+    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | fixed, -1, 0);
+  if (all == MAP_FAILED)
+  {
+    fail("reserving address space");
+  }
+  auto* first = static_cast<std::byte*>(all);
+  for (std::byte* image : { first, first + bytes, first + 2 * bytes })
+  {
+    if (systemCalls().mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, file, 0) ==
+        MAP_FAILED)
+    {
+      const int reason = errno;
+      ::munmap(all, 3 * bytes);
+      errno = reason;
+      fail("mapping");
+    }
+  }
+  // Accesses start in the middle image and may go beyond either end.
+  return first + bytes;
+}
+
 } // namespace
 
 MirroredMemory::MirroredMemory(MirroredMemory&& other) noexcept
@@ -72,9 +101,22 @@ void MirroredMemory::grow(std::size_t bytes)
       fail("memfd");
     }
     // The images lie side by side, so they cannot grow in place: all are mapped again, usually
-    // elsewhere.
+    // elsewhere. Not before the old ones are gone: a limit of the address space counts both.
+    std::byte* const place = this->Data;
     this->unmap();
-    this->map(bytes);
+    try
+    {
+      this->map(bytes);
+    }
+    catch (const Error&)
+    {
+      // Whoever catches the error goes on with the items that there were, where they were.
+      if (place)
+      {
+        this->Data = mapImages(this->Descriptor, before, place);
+      }
+      throw;
+    }
   }
   catch (...)
   {
@@ -85,26 +127,7 @@ void MirroredMemory::grow(std::size_t bytes)
 
 void MirroredMemory::map(std::size_t bytes)
 {
-  // First one reservation of address space for all three images, which ensures that they are
-  // adjacent; the images then replace it part by part (MAP_FIXED).
-  void* all = systemCalls().mmap(
-    nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (all == MAP_FAILED)
-  {
-    fail("reserving address space");
-  }
-  auto* first = static_cast<std::byte*>(all);
-  for (std::byte* image : { first, first + bytes, first + 2 * bytes })
-  {
-    if (systemCalls().mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED,
-          this->Descriptor, 0) == MAP_FAILED)
-    {
-      ::munmap(all, 3 * bytes);
-      fail("mapping");
-    }
-  }
-  // Accesses start in the middle image and may go beyond either end.
-  this->Data = first + bytes;
+  this->Data = mapImages(this->Descriptor, bytes, nullptr);
   this->Size = bytes;
 }
 

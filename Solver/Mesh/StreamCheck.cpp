@@ -32,6 +32,17 @@ void StreamCheck::add(const MeshBlock& block)
                 ", expected " + std::to_string(this->Vertices) + " and " +
                 std::to_string(this->Cells));
   }
+  if (const Column* flags = block.flags())
+  {
+    const auto cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
+    if (flags->spec.type != ScalarType::UInt8 || flags->spec.components != 1 ||
+        flags->bytes.size() != cells)
+    {
+      throw Error(std::string("the mesh stream is not valid: the column ") + CellFlagsName +
+                  " of the block that begins with cell " + std::to_string(block.firstCell) +
+                  " must have one number of type uint8 for each cell");
+    }
+  }
   // Vertices come before the cells of their block, which may use them; what the block declares
   // final comes last, since its own cells may still use that.
   this->addVertices(block);

@@ -31,9 +31,16 @@ auto BoundarySelection::marker()
   };
 }
 
+void BoundarySelection::begin()
+{
+  this->Selection::begin();
+  this->Open.reset();
+  this->Vertices.reset();
+}
+
 /** Adds a block: its facets, and the marks of vertices on boundary facets that become known by
  * it. */
-void BoundarySelection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+void BoundarySelection::add(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   if (!this->Vertices)
   {

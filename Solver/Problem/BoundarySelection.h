@@ -21,8 +21,7 @@ public:
   {
   }
 
-  bool needsPreparing() const override { return !this->Vertices; }
-  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  bool needsPreparing() const override { return !this->Vertices || this->Open; }
   void endPreparing(MeshParts* parts) override;
   VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
   /** Like endPreparing(), but a mesh without a boundary is not an error. Returns the number of
@@ -30,6 +29,8 @@ public:
   std::int64_t finish(MeshParts* parts = nullptr);
 
 protected:
+  void begin() override;
+  void add(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
   std::string predicate() const override { return "is on a boundary: the mesh is closed"; }
 

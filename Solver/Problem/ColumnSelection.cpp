@@ -107,9 +107,19 @@ std::string TagValues::text() const
                         : ": the smallest of its " + std::to_string(count) + " values are " + list;
 }
 
+void CellSelection::begin()
+{
+  this->Selection::begin();
+  this->Tags = {};
+  this->Vertices.reset();
+  this->Marks.restart();
+  this->Marked = this->Written = 0;
+  this->IsPrepared = false;
+}
+
 /** Counts selected cells; if vertices are to be selected, marks their corners, and writes the marks
  * of vertices that no later cell uses. */
-void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+void CellSelection::add(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns.cellType()));
   std::vector<std::uint8_t> selected(block.corners.size() / corners);
@@ -146,7 +156,7 @@ void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path&
 void CellSelection::endPreparing(MeshParts* parts)
 {
   this->Selection::endPreparing(parts);
-  if (this->Vertices)
+  if (this->Vertices && !this->IsPrepared)
   {
     const std::span<std::uint8_t> marks{ this->Marks.at(this->Written),
       this->Marks.at(this->Marked) };
@@ -157,6 +167,7 @@ void CellSelection::endPreparing(MeshParts* parts)
     this->Vertices->append(marks);
     this->Vertices->finish();
     this->Marks.restart();
+    this->IsPrepared = true;
   }
 }
 

@@ -93,13 +93,17 @@ public:
   {
   }
 
-  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override
+protected:
+  void begin() override
   {
-    this->Selection::prepare(block, scratch);
+    this->Selection::begin();
+    this->Tags = {};
+  }
+  void add(const MeshBlock& block, const std::filesystem::path& scratch) override
+  {
+    this->Selection::add(block, scratch);
     this->Tags.add(this->Test.column.in(block), this->atVertices());
   }
-
-protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override
   {
     const std::size_t valid = this->Test.apply(this->Test.column.in(block), 0, selected);
@@ -132,9 +136,8 @@ public:
 
   bool needsPreparing() const override
   {
-    return this->Place == DataPlace::Vertices && !this->Vertices;
+    return this->Place == DataPlace::Vertices && !this->IsPrepared;
   }
-  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
   VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
 
@@ -142,6 +145,8 @@ public:
   void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;
 
 protected:
+  void begin() override;
+  void add(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
   std::string predicate() const override
   {
@@ -155,6 +160,7 @@ private:
   std::optional<VertexSetFile> Vertices; ///< of the selected cells, if requested
   OpenValues<std::uint8_t> Marks;        ///< of open vertices, during preparation
   std::int64_t Marked = 0, Written = 0;  ///< vertices read, and written to the file
+  bool IsPrepared = false;               ///< whether the file has all vertices
 };
 
 } // namespace smg

@@ -31,9 +31,8 @@ NearestSelection::NearestSelection(const NearestVertices& nearest, DataPlace pla
   const std::string& key, const MeshColumns& columns)
   : Selection(place, key, columns)
   , Points(nearest.points)
-  , Distances(nearest.points.size(), std::numeric_limits<double>::infinity())
-  , Vertices(nearest.points.size(), -1)
 {
+  NearestSelection::begin();
   const auto isFinite = [](const std::array<double, 3>& p)
   { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
   // NaN would be nearest to no vertex, and infinity equally near to all of them.
@@ -43,8 +42,17 @@ NearestSelection::NearestSelection(const NearestVertices& nearest, DataPlace pla
   }
 }
 
+void NearestSelection::begin()
+{
+  this->Selection::begin();
+  this->Batch.clear();
+  this->BatchBegin = 0;
+  this->Distances.assign(this->Points.size(), std::numeric_limits<double>::infinity());
+  this->Vertices.assign(this->Points.size(), -1);
+}
+
 /** Collects vertices until they are enough for a batch. A tree of few vertices would not pay. */
-void NearestSelection::prepare(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
+void NearestSelection::add(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
 {
   // Whole blocks, in order: a vertex has the index BatchBegin plus its place in the batch.
   this->Batch.insert(this->Batch.end(), block.positions.begin(), block.positions.end());
@@ -99,6 +107,10 @@ void NearestSelection::searchBatch()
  * list of vertices with their points. */
 void NearestSelection::endPreparing(MeshParts* parts)
 {
+  if (!this->needsPreparing())
+  {
+    return; // no block has come since the last time
+  }
   this->searchBatch();
   // Gives the memory back.
   this->Batch = {};

@@ -21,7 +21,6 @@ public:
     const MeshColumns& columns);
 
   bool needsPreparing() const override { return !this->Distances.empty(); }
-  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
 
   /** The index of the point to which this selected vertex is nearest; the last one if there are
@@ -29,6 +28,8 @@ public:
   std::size_t pointOf(std::int64_t vertex) const;
 
 protected:
+  void begin() override;
+  void add(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
 
 private:

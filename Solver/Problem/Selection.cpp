@@ -140,9 +140,18 @@ void Selection::atFacets(const CellRange& cells, std::span<std::uint8_t> selecte
     });
 }
 
+void Selection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+{
+  if (block.firstVertex == 0)
+  {
+    this->begin();
+  }
+  this->add(block, scratch);
+}
+
 /** Counts selected vertices, or the selected cells or facets, depending on the place of the datum:
  * vertices alone need not make up a whole cell. */
-void Selection::prepare(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
+void Selection::add(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
 {
   this->startBlock(block);
   if (this->Place == DataPlace::Vertices)
@@ -269,11 +278,17 @@ void RegionSelection::select(const MeshBlock& block, std::span<std::uint8_t> sel
   }
 }
 
+void RegionSelection::begin()
+{
+  this->Selection::begin();
+  std::ranges::fill(this->Found, 0);
+}
+
 /** Also looks for each vertex that is named by number: a region must not be smaller than it
  * says. */
-void RegionSelection::prepare(const MeshBlock& block, const std::filesystem::path& scratch)
+void RegionSelection::add(const MeshBlock& block, const std::filesystem::path& scratch)
 {
-  this->Selection::prepare(block, scratch);
+  this->Selection::add(block, scratch);
   const Region::Vertices* named = this->Selected.vertices();
   if (!named)
   {

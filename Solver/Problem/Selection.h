@@ -86,9 +86,9 @@ public:
   /**
    * To be called with all blocks of the stream, followed by endPreparing(): determines data that
    * requires the whole stream, and whether anything is selected. Scratch files are created in
-   * `scratch`.
+   * `scratch`. The first block begins anew, whatever an earlier reading has found.
    */
-  virtual void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
   /** Throws Error, which names the place in the description, if nothing is selected. `parts`: the
    * other parts of the mesh, if the stream is only one of several; else null. */
   virtual void endPreparing(MeshParts* parts);
@@ -115,6 +115,10 @@ protected:
   {
   }
 
+  /** Forgets what was prepared. */
+  virtual void begin() { this->Count = 0; }
+  /** Prepares a block. */
+  virtual void add(const MeshBlock& block, const std::filesystem::path& scratch);
   /** Sets `selected`, initially zero, to 1 at the selected vertices of the block. */
   virtual void select(const MeshBlock& block, std::span<std::uint8_t> selected) = 0;
   /** The predicate of a selected item for messages, for example "is in this region". */
@@ -169,10 +173,11 @@ public:
   RegionSelection(
     const Region& region, DataPlace place, const std::string& key, MeshColumns& columns);
 
-  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
 
 protected:
+  void begin() override;
+  void add(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
   std::string predicate() const override { return "is in this region"; }
 

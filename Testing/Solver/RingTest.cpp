@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Memory/Ring.h"
+#include "Solver/Core/SystemCalls.h"
 #include "Solver/Memory/RaggedRing.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/Error.h"
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <numeric>
+#include <sys/mman.h>
 #include <vector>
 
 namespace smg::testing
@@ -44,6 +49,47 @@ TEST(Ring, ItemsKeepTheirValuesWhileTheWindowMovesAndGrows)
       ASSERT_EQ(ring.end(), end);
     }
   }
+}
+
+namespace
+{
+int mappingsBeforeFailure = 0;
+decltype(SystemCalls::mmap) realMapping = nullptr;
+
+void* failingMapping(void* address, std::size_t size, int protection, int flags, int file, off_t at)
+{
+  if (mappingsBeforeFailure-- == 0)
+  {
+    errno = ENOMEM;
+    return MAP_FAILED;
+  }
+  return realMapping(address, size, protection, flags, file, at);
+}
+} // namespace
+
+TEST(Ring, KeepsItsItemsWhenItCannotGrow)
+{
+  Pool pool(1 << 30);
+  Ring<double> ring(pool);
+  ring.extend(1000);
+  std::iota(ring.at(0), ring.at(0) + 1000, 0.0);
+  ring.release(300);
+  const std::int64_t used = pool.used();
+  realMapping = systemCalls().mmap;
+  systemCalls().mmap = failingMapping;
+  for (int before = 0; before < 4; ++before)
+  {
+    mappingsBeforeFailure = before;
+    expectError([&] { ring.extend(100000); }, "no memory for a window");
+    EXPECT_EQ(pool.used(), used);
+    EXPECT_EQ(ring.end(), 1000);
+    EXPECT_EQ(ring[300], 300.0);
+    EXPECT_EQ(ring[999], 999.0);
+  }
+  systemCalls().mmap = realMapping;
+  ring.extend(100000);
+  EXPECT_EQ(ring[999], 999.0);
+  EXPECT_EQ(ring[99999], 0.0);
 }
 
 TEST(Ring, NeedsMemoryForTheWindowOnly)

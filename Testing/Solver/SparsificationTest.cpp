@@ -128,6 +128,25 @@ private:
 
 } // namespace
 
+TEST(Sparsification, AnOverflowIsNotARemovedEntry)
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  volatile float overflow = infinity;
+  for (const float weight : { overflow - overflow, std::numeric_limits<float>::quiet_NaN(),
+         -std::numeric_limits<float>::quiet_NaN() })
+  {
+    CoarseEntry entry(5, weight);
+    EXPECT_FALSE(entry.removed());
+    CoarseEntry copy(6, 1.0F);
+    copy.takeValue(entry);
+    EXPECT_FALSE(copy.removed());
+    EXPECT_TRUE(std::isnan(copy.value()));
+    entry.remove();
+    copy.takeValue(entry);
+    EXPECT_TRUE(entry.removed() && copy.removed());
+  }
+}
+
 TEST(Sparsification, FollowsItsRuleToTheBit)
 {
   for (const bool dropsNegative : { false, true })

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/State.h"
+#include "Solver/Multigrid/Cycle/IterateHistory.h"
+#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -8,6 +10,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -94,6 +97,28 @@ TEST(State, IsReadAsItWasCompared)
   const FlippedRead flip(1);
   Sample read;
   expectError([&] { state(read); }, "it differs from read to read");
+}
+
+TEST(State, NumbersForAnotherNumberOfColumnsAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto check = [&folder](auto written, auto read)
+  {
+    {
+      const FileDescriptor file = FileDescriptor::openOrCreate(folder / "state");
+      StateWriter state(file, Offset);
+      state(written);
+      state.finish();
+    }
+    Pool pool(1 << 20);
+    StateReader state = readerOf(folder, pool);
+    expectError([&] { state(read); }, "state");
+    std::filesystem::remove(folder / "state");
+  };
+  check(IterateRange(4), IterateRange(1));
+  check(IterateRange(1), IterateRange(8));
+  check(IterateEnergy(4), IterateEnergy(1));
+  check(IterateEnergy(1), IterateEnergy(8));
 }
 
 TEST(State, IsReadAsItWasWritten)

@@ -46,6 +46,12 @@ TEST(StreamCheck, NamesWhatIsWrong)
       "vertex 3 is not a finite number" },
     { [](MeshBlock& b) { b.corners[1] = 4; }, "cell 1 uses vertex 4, which is not defined yet" },
     { [](MeshBlock& b) { b.corners[2] = 0; }, "cell 1 uses vertex 0, which was declared final" },
+    { [](MeshBlock& b)
+      { b.cellColumns = { makeColumn<double>(CellFlagsName, std::vector<double>{ 0.0 }) }; },
+      "CellFlags of the block that begins with cell 1 must have one number of type uint8" },
+    { [](MeshBlock& b)
+      { b.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, std::vector<std::uint8_t>{}) }; },
+      "CellFlags of the block" },
     { [](MeshBlock& b) { b.finalized = 5; }, "declares 5 vertices final but only 4" },
     { [](MeshBlock& b) { b.finalized = 0; }, "declares 0 vertices final, an earlier one 1" },
   };

@@ -376,7 +376,12 @@ public:
   void exchange(State& state)
   {
     state.part("energy");
+    const std::size_t numbers = this->Numbers.size();
     state(this->HasCentre, this->Numbers);
+    if constexpr (requires { state.require(true); })
+    {
+      state.require(this->Numbers.size() == numbers);
+    }
   }
 
 private:

@@ -80,7 +80,12 @@ public:
   void exchange(State& state)
   {
     state.part("range");
+    const std::size_t lanes = this->Now.low.size();
     state(this->First.low, this->First.high);
+    if constexpr (requires { state.require(true); })
+    {
+      state.require(this->First.low.size() == lanes && this->First.high.size() == lanes);
+    }
   }
 
 private:

@@ -24,7 +24,7 @@ FirstResidual FirstPass::operator()(
   SolveOptions alone = this->Run.options;
   alone.threads = 1;
   this->Run.expectedBytes =
-    mesh.info().span < 0 && !alone.inCore
+    (mesh.info().span < 0 && !alone.inCore) || mesh.info().vertices <= 0
       ? 0
       : expectedMemory(mesh.info(), problem.columns(), problem.weights(), alone);
   this->Run.isAmple = permitsTasks(mesh.info(), problem, this->Run.options);

@@ -213,6 +213,10 @@ void Hierarchy::load(StateReader& state)
   this->addFinestLevel();
   state(this->finest());
   const std::int64_t vertices = this->Run.report.vertices;
+  // The report comes first in a state; it has the finest level and at most these, see
+  // noteWindows().
+  const auto reported = static_cast<std::int64_t>(this->Run.report.levels.size());
+  state.require(reported >= 1 && reported <= levels + 1);
   state.require(this->window().nodes() == vertices && this->Run.labels.vertices() == vertices);
   for (int l = 1; l <= levels; ++l)
   {

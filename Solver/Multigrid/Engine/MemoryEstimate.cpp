@@ -107,7 +107,14 @@ bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOpt
   SolveOptions several = options;
   // For any number of threads the same: with two, whatever was asked for.
   several.threads = 2;
-  const std::int64_t expected = expectedMemory(info, problem.columns(), problem.weights(), several);
+  if (info.vertices <= 0)
+  {
+    return false; // nothing is known of the need
+  }
+  StreamInfo known = info;
+  known.span = info.span < 0 ? info.vertices : info.span; // the largest possible one
+  const std::int64_t expected =
+    expectedMemory(known, problem.columns(), problem.weights(), several);
   // Slivers need up to twice as much as expected, and acceleration a fifth more: hence the factor
   // of 2.5.
   return options.memoryLimit > expected / 2 * 5;

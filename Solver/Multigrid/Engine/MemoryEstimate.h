@@ -22,7 +22,8 @@ SMG_EXPORT std::int64_t expectedMemory(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
 
 /** Whether the memory limit leaves room for several tasks per level in the first pass, each some
- * nodes behind the one before it. It does not depend on the number of threads, since the choice
+ * nodes behind the one before it; if the span is unknown, for any span; false if the number of
+ * vertices is unknown. It does not depend on the number of threads, since the choice
  * of acceleration, and with it the solution, depends on the answer (see Iteration). */
 SMG_EXPORT bool permitsTasks(
   const StreamInfo& info, const Problem& problem, const SolveOptions& options);

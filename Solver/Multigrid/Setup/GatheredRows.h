@@ -47,9 +47,10 @@ public:
   float value() const { return std::bit_cast<float>(this->load(0)); }
   void setValue(float value) { std::memcpy(this->Bytes.data(), &value, sizeof(value)); }
 
-  /** Marks the entry as removed, by a NaN instead of its value. */
-  void remove() { this->setValue(std::numeric_limits<float>::quiet_NaN()); }
-  bool removed() const { return std::isnan(this->value()); }
+  /** Marks the entry as removed, by a NaN instead of its value that no calculation returns: the NaN
+   * of an overflow is not taken for it, but spreads until it is noticed. */
+  void remove() { this->setValue(std::bit_cast<float>(Removed)); }
+  bool removed() const { return this->load(0) == Removed; }
   /** Copies the value of `other`, or that it is removed; the coarse node stays. */
   void takeValue(const CoarseEntry& other) { this->setValue(other.value()); }
 
@@ -57,6 +58,8 @@ public:
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(3), near); }
 
 private:
+  static constexpr std::uint32_t Removed = 0x7fda7a11; // quiet, with digits of its own
+
   std::uint32_t load(std::size_t at) const
   {
     std::uint32_t bits = 0;
