@@ -65,6 +65,13 @@ public:
 protected:
   smg::BlendJob& job() override { return this->Job; }
 
+  smg::UsedFiles files() const override
+  {
+    smg::UsedFiles files = this->SolvingCommand::files();
+    this->Hold.addFiles(files);
+    return files;
+  }
+
   void readTask() override { this->Job.description.hold = this->Hold.places(); }
 
 private:

@@ -220,6 +220,14 @@ void CommonOptions::endCancelled() const
 
 void CommonOptions::checkCheckpoint(std::initializer_list<std::filesystem::path> results) const
 {
+  // With a file in it, it is in the folder or is the folder itself.
+  if (!this->checkpoint.empty() && !this->scratch.empty() &&
+      isIn(this->scratch / "file", this->checkpoint))
+  {
+    throw smg::Error(this->scratch.string() +
+                     ": is or lies in the folder of the checkpoint, which is removed at the end: "
+                     "choose another folder for --scratch.");
+  }
   for (const std::filesystem::path& result : results)
   {
     if (!this->checkpoint.empty() && !result.empty() &&
@@ -259,38 +267,16 @@ bool isInPlace(const std::filesystem::path& report)
   throw smg::Error(report.string() + ": the report cannot be written: " + reason + '.');
 }
 
-/** Whether both name the same file, which need not exist. */
-bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
-{
-  // A file that does not exist can only be compared by name.
-  std::error_code absent;
-  const auto named = [](const std::filesystem::path& file)
-  { return std::filesystem::absolute(smg::FileDescriptor::targetOf(file)).lexically_normal(); };
-  return std::filesystem::equivalent(a, b, absent) || named(a) == named(b);
-}
-
 } // namespace
 
-void checkOverwrites(const std::filesystem::path& file, const std::string& what,
-  std::initializer_list<std::filesystem::path> others)
+void CommonOptions::checkFiles(smg::UsedFiles files) const
 {
-  for (const std::filesystem::path& other : others)
-  {
-    if (!other.empty() && sameFile(file, other))
-    {
-      throw smg::Error(file.string() + ": the " + what +
-                       " would overwrite it: choose another name for the " + what + '.');
-    }
-  }
-}
-
-void CommonOptions::checkReport(std::initializer_list<std::filesystem::path> others) const
-{
+  files.write(this->report, "report");
+  files.check();
   if (this->report.empty())
   {
     return;
   }
-  checkOverwrites(this->report, "report", others);
   if (std::filesystem::is_directory(this->report))
   {
     failReport(this->report, std::strerror(EISDIR));

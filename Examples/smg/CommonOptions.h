@@ -3,6 +3,7 @@
 
 #include "HtmlReport/Page.h"
 
+#include "IO/Formats/UsedFiles.h"
 #include "smg/Convert.h"
 
 #include <CLI/CLI.hpp>
@@ -89,9 +90,10 @@ struct CommonOptions
   /** Prints what the command is expected to cost, and which limits are below that. */
   void printEstimate(const smg::JobEstimate& estimate) const;
 
-  /** Throws smg::Error if a requested report cannot be written or would overwrite another file of
-   * the command. */
-  void checkReport(std::initializer_list<std::filesystem::path> others) const;
+  /** Checks all files of a command, once before the work: `files` are all but the report. Throws
+   * smg::Error if one that is written is another one of them, or a requested report cannot be
+   * written. */
+  void checkFiles(smg::UsedFiles files) const;
   /** Whether the report is requested as a page for a person, by the suffix .html or .htm. */
   bool reportsPage() const;
   /** Writes the report if one is requested, as it is or as a page with these facts. Throws
@@ -99,9 +101,6 @@ struct CommonOptions
   void writeReport(const std::string& json, const html::PageFacts& facts) const;
 };
 
-/** Throws smg::Error if `file`, a new `what`, would overwrite one of the others. */
-void checkOverwrites(const std::filesystem::path& file, const std::string& what,
-  std::initializer_list<std::filesystem::path> others);
 /** Checks that the value of an option is one of these; the error lists them. */
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
 /** Checks that the value of an option is a whole number from 0 on. */

@@ -122,7 +122,10 @@ struct ConvertCommand : CommonOptions
   {
     requireOneProcess();
     smg::checkOutputPlace(this->out);
-    this->checkReport({ this->in, this->out });
+    smg::UsedFiles files;
+    files.readMesh(this->in);
+    files.writeMesh(this->out);
+    this->checkFiles(std::move(files));
     this->checkCheckpoint({ this->out, this->report });
     smg::ConversionOptions options = this->conversion();
     if (this->dryRun)

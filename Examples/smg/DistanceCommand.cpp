@@ -46,7 +46,7 @@ public:
 
   void checkUsage() const override
   {
-    if (this->From.given().empty() && !this->Job.description.wall)
+    if (!this->From.isGiven() && !this->Job.description.wall)
     {
       throw CLI::RequiredError("--from or --wall");
     }
@@ -55,12 +55,15 @@ public:
 protected:
   smg::DistanceJob& job() override { return this->Job; }
 
+  smg::UsedFiles files() const override
+  {
+    smg::UsedFiles files = this->MeshCommand::files();
+    this->From.addFiles(files);
+    return files;
+  }
+
   void readTask() override
   {
-    for (const std::string& from : this->From.given())
-    {
-      smg::checkIsNotInput(from, this->Out, "the file that says where the distance is 0");
-    }
     this->Job.description.from = this->From.places();
     this->Job.name = "--from";
   }

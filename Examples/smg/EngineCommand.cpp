@@ -158,7 +158,7 @@ void EngineCommand::computeTraced()
     this->SolvingCommand::compute();
     return;
   }
-  checkOverwrites(this->Trace, "trace", { this->In, this->Out, this->File, this->report });
+  this->checkFiles(this->files());
   smg::TextOutput table(this->Trace);
   table << "pass,step,level,stage,first,end\n";
   this->job().options().trace = [&table](const smg::TraceEntry& entry)
@@ -190,12 +190,12 @@ void EngineCommand::checkDistributed()
   if (isInPieces(this->Out))
   {
     smg::checkOutputPlace(this->Out);
-    this->checkReport({ this->In, this->Out, this->File });
+    this->checkFiles(this->files());
     this->readTask();
   }
   else
   {
-    this->checkFiles();
+    this->prepareFiles();
   }
   this->checkForProcesses();
 }

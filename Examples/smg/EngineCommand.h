@@ -35,6 +35,13 @@ protected:
   std::unique_ptr<smg::Solution> solveOn(
     const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override;
 
+  smg::UsedFiles files() const override
+  {
+    smg::UsedFiles files = this->SolvingCommand::files();
+    files.write(this->Trace, "trace");
+    return files;
+  }
+
 private:
   void computeTraced();
   void checkDistributed();

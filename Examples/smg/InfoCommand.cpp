@@ -248,7 +248,9 @@ struct InfoCommand : CommonOptions
 
   int run() const
   {
-    this->checkReport({ this->file });
+    smg::UsedFiles files;
+    files.readMesh(this->file);
+    this->checkFiles(std::move(files));
     if (this->check && smg::kindOfInput(this->file) != smg::MeshFileKind::Vsm)
     {
       throw smg::Error(

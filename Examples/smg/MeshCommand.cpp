@@ -75,6 +75,14 @@ void PlacesOption::addTo(CLI::App& command, const std::string& what)
     ->type_name("WHERE");
 }
 
+void PlacesOption::addFiles(smg::UsedFiles& files) const
+{
+  for (const std::string& given : this->Given)
+  {
+    files.read(isJson(given) ? "" : given, "the file of " + this->Name);
+  }
+}
+
 std::vector<smg::Where> PlacesOption::placesOf(const std::string& given) const
 {
   return isJson(given) ? smg::readPlacesText(given, this->Name) : smg::readPlacesFile(given);
@@ -147,16 +155,23 @@ int MeshCommand::run()
   return this->Converged ? 0 : NotConverged;
 }
 
-smg::ResultFile MeshCommand::checkFiles()
+smg::UsedFiles MeshCommand::files() const
+{
+  smg::UsedFiles files;
+  files.readMesh(this->In);
+  files.read(this->File, "the file that says what to do");
+  files.writeMesh(this->Out);
+  return files;
+}
+
+smg::ResultFile MeshCommand::prepareFiles()
 {
   smg::ResultFile out(this->job(), { .in = this->In,
                                      .out = this->Out,
                                      .scratch = this->scratch,
                                      .welds = this->input.weld.has_value(),
                                      .threads = this->threads });
-  smg::checkIsNotInput(this->In, this->Out);
-  smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
-  this->checkReport({ this->In, this->Out, this->File });
+  this->checkFiles(this->files());
   this->checkCheckpoint({ this->Out, this->report });
   this->readTask();
   this->job().setLimits({ this->memoryBytes(0), this->threads, this->scratch });
@@ -186,7 +201,7 @@ void MeshCommand::compute()
 {
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
-  smg::ResultFile out = this->checkFiles();
+  smg::ResultFile out = this->prepareFiles();
   if (this->DryRun)
   {
     const smg::JobEstimate estimate = this->estimate(out);

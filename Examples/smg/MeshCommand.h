@@ -31,8 +31,9 @@ public:
    */
   void addTo(CLI::App& command, const std::string& what);
 
-  /** The values given: JSON or names of files. */
-  const std::vector<std::string>& given() const { return this->Given; }
+  bool isGiven() const { return !this->Given.empty(); }
+  /** Adds the files among the values. */
+  void addFiles(smg::UsedFiles& files) const;
   /** The parts of all options. Throws smg::Error. */
   std::vector<smg::Where> places() const;
 
@@ -78,8 +79,10 @@ protected:
   const smg::MeshJob& job() const { return const_cast<MeshCommand*>(this)->job(); }
   /** Does what run() does, without the end of a cancelled command. */
   virtual void compute();
+  /** The files that the command reads and writes, but the report. */
+  virtual smg::UsedFiles files() const;
   /** Checks the files and reads the task. */
-  smg::ResultFile checkFiles();
+  smg::ResultFile prepareFiles();
   /** Prints what the user is to know at the end. */
   void tell(const smg::Report& report);
   bool isDryRun() const { return this->DryRun; }

@@ -47,8 +47,10 @@ int PreviewCommand::run() const
   requireOneProcess();
   const auto start = std::chrono::steady_clock::now();
   this->checkOutputName();
-  smg::checkIsNotInput(this->in, this->out);
-  this->checkReport({ this->in, this->out });
+  smg::UsedFiles files;
+  files.readMesh(this->in);
+  files.writeMesh(this->out);
+  this->checkFiles(std::move(files));
   nlohmann::ordered_json report;
   std::vector<std::string> notes;
   {

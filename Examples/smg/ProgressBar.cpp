@@ -38,6 +38,11 @@ void catchInterrupts()
   }
 }
 
+int interruptingSignal()
+{
+  return TheSignal;
+}
+
 ProgressBar::ProgressBar(std::string title, bool quiet, const std::filesystem::path& input)
   : Title(std::move(title))
   , Visible(!quiet)

@@ -10,6 +10,8 @@
 /** Makes SIGINT, SIGTERM and SIGHUP (unless ignored) cancel the running operation with a clean-up,
  * instead of terminating the program. A second signal terminates it. */
 void catchInterrupts();
+/** The signal that has come since then; 0: none. */
+int interruptingSignal();
 
 /** The progress with the remaining time on standard error: a bar if that is a terminal, else a line
  * at most every ten seconds; cancels the work on an interrupt. */

@@ -96,8 +96,10 @@ int SimplifyCommand::run()
 {
   requireOneProcess();
   smg::checkSimplifiedPath(this->Out);
-  smg::checkIsNotInput(this->In, this->Out);
-  this->checkReport({ this->In, this->Out });
+  smg::UsedFiles files;
+  files.readMesh(this->In);
+  files.writeMesh(this->Out);
+  this->checkFiles(std::move(files));
   this->checkCheckpoint({ this->Out, this->report });
   if (this->DryRun)
   {

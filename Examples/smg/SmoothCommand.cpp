@@ -44,6 +44,13 @@ public:
 protected:
   smg::SmoothJob& job() override { return this->Job; }
 
+  smg::UsedFiles files() const override
+  {
+    smg::UsedFiles files = this->SolvingCommand::files();
+    this->Hold.addFiles(files);
+    return files;
+  }
+
   void readTask() override
   {
     this->Job.smoothing.hold = this->Hold.places();

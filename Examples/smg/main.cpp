@@ -13,7 +13,8 @@
 //   smg simplify scan.ply small.ply --vertices 100000
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
-// Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
+// Exit status: 0; 1 with one line on standard error; 2 for wrong usage; 3 if the result has not the
+// accuracy that was asked for; 128 + n with one line after signal n.
 
 #include "CommonOptions.h"
 #include "HtmlReport/Page.h"
@@ -185,6 +186,8 @@ int main(int argc, char** argv)
   }
   catch (const std::exception& error)
   {
-    return fail(error.what());
+    const int code = fail(error.what());
+    const int signal = interruptingSignal();
+    return signal != 0 ? 128 + signal : code; // as shells report it
   }
 }

@@ -14,7 +14,7 @@ namespace smg
 MeshBlocks::MeshBlocks(const std::filesystem::path& file,
   std::shared_ptr<const OriginalOrder> order, std::shared_ptr<const AddedColumns> added,
   const MeshBlocksOptions& options)
-  : Reader(file)
+  : Reader(file, nullptr, options.fingerprint)
   , Order(std::move(order))
   , Added(std::move(added))
   , Points(options.points)

@@ -95,7 +95,8 @@ std::int64_t OriginalOrder::countVertices(
   const StoredMesh& mesh, const ConversionReport* conversion)
 {
   const bool isTold = conversion && !conversion->keeps_numbers && hasNumbers(mesh);
-  return mesh.info().vertices + VsmReader(mesh.file()).isolatedVertices() +
+  return mesh.info().vertices +
+         VsmReader(mesh.file(), nullptr, mesh.fingerprint()).isolatedVertices() +
          (isTold ? conversion->merged_points : 0);
 }
 
@@ -108,7 +109,7 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
   SeenNumbers seen(this->Vertices.count);
   visitBlocks(*mesh.source({ OriginalIdName }, {}), progress, 0.0, 1.0,
     [&seen](const MeshBlock& block) { seen.add(block.vertexColumns[0].as<std::int64_t>()); });
-  VsmReader reader(mesh.file());
+  VsmReader reader(mesh.file(), nullptr, mesh.fingerprint());
   IsolatedVertices chunk;
   const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
   for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)

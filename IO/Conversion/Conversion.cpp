@@ -41,6 +41,7 @@ Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::p
   , Memory(options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory)
   , From(kindOfInput(in))
   , To(kindOfOutput(out))
+  , State(this->From == MeshFileKind::Vsm ? InputState() : InputState(in))
 {
   this->checkOptions();
 }
@@ -152,6 +153,7 @@ std::filesystem::path Conversion::importStream()
   options.progress = this->progress();
   const std::filesystem::path path = this->workspace().folder() / "stream.vsm";
   this->Report.isolated_vertices = streamToVsm(this->In, path, options).isolatedVertices;
+  this->checkInput();
   return path;
 }
 

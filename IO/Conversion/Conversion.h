@@ -3,6 +3,7 @@
 
 #include "IO/External/Workspace.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Formats/UsedFiles.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Mesh/Format.h"
 #include "Solver/Files/ScratchFolder.h"
@@ -59,6 +60,9 @@ public:
   bool isStream() const;
   /** Whether the cells are only copied. */
   bool copies() const;
+  /** Throws Error if the input has been replaced or changed since the conversion began. A .vsm file
+   * is compared by its reader. */
+  void checkInput() const { this->State.check(); }
   /** Opens such an input as a .vsm file. Throws Error if it does not have the requested cells. */
   const VsmReader& openStream();
   /** The opened stream, if any. */
@@ -84,6 +88,7 @@ private:
   const std::int64_t Memory;
   MeshImporter Importer;
   MeshFileKind From, To;
+  InputState State;
   std::optional<ScratchFolder> Kept;
   std::optional<Workspace> Space; // in the kept folder, if there is one
   std::optional<VsmReader> Stream;

@@ -208,8 +208,10 @@ RawMesh readInput(Conversion& conversion)
   }
   if (!conversion.isStream())
   {
-    return importMesh(conversion.in(), space,
+    RawMesh mesh = importMesh(conversion.in(), space,
       { conversion.options().cells, conversion.progress(), conversion.part() });
+    conversion.checkInput();
+    return mesh;
   }
   return readStream(*conversion.openStream().source(), conversion.in().string(), space);
 }
@@ -319,7 +321,7 @@ void convertMesh(Conversion& conversion)
       // Those of a stream are already stored separately, by their indices in the original file.
       if (const VsmReader* const stream = conversion.stream())
       {
-        copyIsolated(stream->path(), source.info(), writer);
+        copyIsolated(stream->path(), source.info(), writer, {}, stream->fingerprint());
       }
     });
   stages.discard();
@@ -410,8 +412,8 @@ void copyStream(Conversion& conversion)
     source = withFlags(std::move(source), reader.info().cellType);
   }
   space.beginPart(1.0, Unknown);
-  conversion.write(
-    *source, [&](VsmWriter& writer) { copyIsolated(reader.path(), source->info(), writer); });
+  conversion.write(*source, [&](VsmWriter& writer)
+    { copyIsolated(reader.path(), source->info(), writer, {}, reader.fingerprint()); });
 }
 
 namespace

@@ -8,6 +8,7 @@
 #include "IO/Formats/Foreign/ForeignFile.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/UsedFiles.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 
@@ -126,11 +127,10 @@ void checkOutputPlace(const std::filesystem::path& path)
 void checkIsNotInput(
   const std::filesystem::path& in, const std::filesystem::path& out, const std::string& what)
 {
-  std::error_code absent;
-  if (std::filesystem::equivalent(in, out, absent))
-  {
-    throw Error(out.string() + " is " + what + ": choose another name for the result.");
-  }
+  UsedFiles files;
+  files.readMesh(in, what);
+  files.writeMesh(out);
+  files.check();
 }
 
 namespace

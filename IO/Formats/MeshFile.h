@@ -33,8 +33,8 @@ SMG_EXPORT void checkOutput(const std::filesystem::path& path);
  * a pipe, or its folder does not exist or is not writable. */
 SMG_EXPORT void checkOutputPlace(const std::filesystem::path& path);
 
-/** Throws Error if the output is an input, also by another name or link. `what` describes the
- * input, for example "the mesh itself". */
+/** Throws Error if a file of the mesh `out` is one of the mesh `in`, see UsedFiles. `what`
+ * describes the input, for example "the mesh itself". */
 SMG_EXPORT void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
   const std::string& what = "the mesh itself");
 

@@ -229,6 +229,7 @@ std::vector<std::string> writeMesh(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
 {
   checkOutput(path, source.info().cellType);
+  checkIsNotInput(options.isolatedFrom, path);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
   if (format.turn == PartTurn::AsTheyCome)
   {
@@ -241,7 +242,8 @@ std::vector<std::string> writeMesh(
     {
       if (!options.isolatedFrom.empty())
       {
-        copyIsolated(options.isolatedFrom, source.info(), writer, options.completeIsolated);
+        copyIsolated(options.isolatedFrom, source.info(), writer, options.completeIsolated,
+          options.isolatedFingerprint);
       }
     };
     writeVsm(source, path,
@@ -271,12 +273,14 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress,
   const std::filesystem::path& scratch)
 {
+  checkIsNotInput(vsm, path);
   VsmReader reader(vsm);
   checkOutput(path, reader.info().cellType);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
   WriteMeshOptions options;
   options.scratch = scratch;
   options.isolatedFrom = vsm;
+  options.isolatedFingerprint = reader.fingerprint();
   options.progress = progress;
   return format.kind == MeshFileKind::Vsm || format.turn == PartTurn::AsTheyCome
            ? writeMesh(*reader.source(), path, options)
@@ -308,6 +312,7 @@ bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& ou
 void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,
   MeshSource& moved, const RewriteOptions& options)
 {
+  checkIsNotInput(in, out);
   if (!canRewrite(in, out))
   {
     throw Error(out.string() + ": the order of " + in.string() +
@@ -319,11 +324,11 @@ void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& o
   const ProgressFunction progress = partOf(options.progress, 0.3, 1.0);
   if (formatOfName(out) == &PlyFormat)
   {
-    rewritePly(in, out, vertices, progress);
+    rewritePly(in, out, vertices, progress, options.beforeEnd);
   }
   else
   {
-    rewriteStream(in, out, vertices, progress);
+    rewriteStream(in, out, vertices, progress, options.beforeEnd);
   }
 }
 

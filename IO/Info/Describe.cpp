@@ -313,7 +313,8 @@ MeshDescription describe(const StoredMesh& mesh, const DescribeOptions& options)
   MeshDescription description = describer.finish();
   if (const std::filesystem::path file = mesh.file(); !file.empty())
   {
-    description.isolated_vertices += VsmReader(file).isolatedVertices();
+    description.isolated_vertices +=
+      VsmReader(file, nullptr, mesh.fingerprint()).isolatedVertices();
   }
   return description;
 }

@@ -33,6 +33,10 @@ ResultFile::ResultFile(const MeshJob& job, Options options)
 ResultFile::ResultFile(Options options)
   : Files(std::move(options))
 {
+  if (!this->Files.state && !this->Files.in.empty())
+  {
+    this->Files.state.emplace(this->Files.in);
+  }
   if (this->mayRestore())
   {
     checkOutputPlace(this->Files.out);
@@ -160,6 +164,7 @@ std::vector<std::string> ResultFile::write(const StoredMesh& mesh, MeshSource& r
     options.scratch = this->Files.scratch;
     options.memory = memory;
     options.progress = progress;
+    options.beforeEnd = [this] { this->Files.state->check(); };
     rewriteMesh(this->Files.in, this->Files.out, result, options);
     return {};
   }
@@ -170,6 +175,7 @@ std::vector<std::string> ResultFile::write(const StoredMesh& mesh, MeshSource& r
   WriteMeshOptions options;
   options.scratch = this->Files.scratch;
   options.isolatedFrom = mesh.file();
+  options.isolatedFingerprint = mesh.fingerprint();
   options.completeIsolated = this->Files.isolated;
   options.threads = this->threads(memory);
   options.progress = progress;
@@ -184,6 +190,7 @@ std::vector<std::string> ResultFile::writeRestored(const StoredMesh& mesh, MeshS
   WriteMeshOptions options;
   options.codec = Codec::Lz4;
   options.isolatedFrom = mesh.file();
+  options.isolatedFingerprint = mesh.fingerprint();
   options.completeIsolated = this->Files.isolated;
   options.threads = this->threads(memory);
   options.progress = partOf(progress, 0.0, 0.4);

@@ -3,6 +3,7 @@
 
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Formats/FormatTable.h"
+#include "IO/Formats/UsedFiles.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
@@ -45,6 +46,8 @@ public:
     bool adds = false;
     /** Adds columns to vertices of no cell; see WriteMeshOptions. */
     CompleteIsolated isolated = {};
+    /** The state of `in` before it was read; none: now, before it is read. */
+    std::optional<InputState> state = {};
   };
 
   /** Throws Error if the name of the result is invalid. */

@@ -166,6 +166,11 @@ struct Format
    * last uses of vertices, or pieces with their points. The suffix is one for these cells. */
   WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;
+
+  /** The files that a mesh has besides the one that is named; null: none. A file that cannot be
+   * read has none: whoever reads it gets the error. */
+  std::vector<std::filesystem::path> (*furtherInputs)(const std::filesystem::path& path) = nullptr;
+  std::vector<std::filesystem::path> (*furtherOutputs)(const std::filesystem::path& path) = nullptr;
 };
 
 /** Format::parse of a function that reports progress only by the bytes it reads. */

@@ -61,6 +61,7 @@ struct SolvedMesh::Implementation
     , wanted(options)
     , info(source->info())
     , file(mesh.file())
+    , fingerprint(mesh.fingerprint())
   {
     if (solution.vertices() != this->info.vertices)
     {
@@ -90,6 +91,7 @@ struct SolvedMesh::Implementation
   ResultOptions wanted;
   StreamInfo info;
   std::filesystem::path file; ///< empty: the mesh is in none
+  std::string fingerprint;    ///< of the mesh
   bool ended = false;         ///< the stream has been read to its end
 };
 
@@ -143,7 +145,7 @@ void SolvedMesh::finish(Report& report)
   {
     return;
   }
-  VsmReader mesh(this->Self->file);
+  VsmReader mesh(this->Self->file, nullptr, this->Self->fingerprint);
   Column id;
   renumberExtremes(report,
     [&](std::int64_t vertex)
@@ -163,8 +165,10 @@ Report write(const StoredMesh& mesh, const ProblemDescription& description, Solu
   wanted.gradient = wanted.gradient || description.gradientOutput;
   wanted.flux = wanted.flux || description.fluxOutput;
   SolvedMesh solved(mesh, problem, solution, wanted);
-  const auto notes =
-    writeMesh(solved, path, { .isolatedFrom = mesh.file(), .threads = results.threads });
+  const auto notes = writeMesh(solved, path,
+    { .isolatedFrom = mesh.file(),
+      .isolatedFingerprint = mesh.fingerprint(),
+      .threads = results.threads });
   Report report = solution.report();
   solved.finish(report);
   report.notes.insert(report.notes.end(), notes.begin(), notes.end());

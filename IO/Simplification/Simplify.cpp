@@ -203,6 +203,7 @@ SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
 {
   check(target, options);
   checkSimplifiedPath(path);
+  checkIsNotInput(mesh.file(), path);
   const Timer timer;
   const double cpu = processSeconds();
   const bool isVsm = kindOfOutput(path) == MeshFileKind::Vsm;

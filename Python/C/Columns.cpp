@@ -149,7 +149,7 @@ smg_status smg_open_blocks(smg_mesh* mesh, smg_field* field, const char* options
     [&]
     {
       smg::required(blocks, "blocks") = nullptr;
-      const smg::MeshBlocksOptions given = smg::blocksOptions(options);
+      smg::MeshBlocksOptions given = smg::blocksOptions(options);
       const smg::ProgressFunction reported = smg::progressOf(progress, user);
       auto made = std::make_unique<smg_blocks>();
       if (field)
@@ -164,6 +164,7 @@ smg_status smg_open_blocks(smg_mesh* mesh, smg_field* field, const char* options
       {
         const smg_mesh of = smg::required(mesh, "mesh and field").withoutArguments();
         made->shared = of.shared;
+        given.fingerprint = of.stored().fingerprint();
         made->blocks = std::make_unique<smg::MeshBlocks>(
           of.stored().file(), of.shared->order(reported), of.added, given);
       }

@@ -60,6 +60,7 @@ const std::filesystem::path& smg_field::file(const smg::ProgressFunction& progre
         write.codec = smg::Codec::Lz4;
         write.scratch = scratch->path();
         write.isolatedFrom = this->stored().file();
+        write.isolatedFingerprint = this->stored().fingerprint();
         write.completeIsolated = smg::isolatedOf(this->added);
         write.threads = options.threads;
         write.progress = writing;
@@ -87,6 +88,7 @@ ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedC
 {
   ResultFile::Options options;
   options.in = mesh.name();
+  options.state = mesh.state();
   options.out = path;
   options.scratch = limits.scratch;
   options.welds = mesh.options().weld.has_value();

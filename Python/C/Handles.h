@@ -3,6 +3,7 @@
 
 #include "IO/Arrays/AddedColumns.h"
 #include "IO/Arrays/OriginalOrder.h"
+#include "IO/Formats/UsedFiles.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
@@ -25,11 +26,12 @@ namespace smg
 class SharedMesh
 {
 public:
-  /** `name`: the file, or empty for arrays. */
-  SharedMesh(
-    std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, ConversionOptions options)
+  /** `name`: the file, or empty for arrays. `state`: of the file before it was read. */
+  SharedMesh(std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, InputState state,
+    ConversionOptions options)
     : Mesh(std::move(mesh))
     , Name(std::move(name))
+    , State(std::move(state))
     , Options(std::move(options))
   {
   }
@@ -51,6 +53,8 @@ public:
   const OpenedMesh& mesh() const { return *this->Mesh; }
   /** The file that was opened; empty: the mesh was made of arrays. */
   const std::filesystem::path& name() const { return this->Name; }
+  /** The state of this file before it was read. */
+  const InputState& state() const { return this->State; }
   /** The number of vertices in the original order. */
   std::int64_t vertices() const
   {
@@ -79,6 +83,7 @@ public:
 private:
   std::unique_ptr<OpenedMesh> Mesh;
   std::filesystem::path Name;
+  InputState State;
   ConversionOptions Options;
   std::mutex Mutex;
   std::shared_ptr<const OriginalOrder> Order;

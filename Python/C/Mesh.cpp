@@ -21,11 +21,12 @@ bool namesVertices(const nlohmann::json& node)
                                    std::ranges::any_of(node, &namesVertices));
 }
 
-smg_mesh* handleOf(
-  std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, const ConversionOptions& options)
+smg_mesh* handleOf(std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name, InputState state,
+  const ConversionOptions& options)
 {
   auto handle = std::make_unique<smg_mesh>();
-  handle->shared = std::make_shared<SharedMesh>(std::move(mesh), std::move(name), options);
+  handle->shared =
+    std::make_shared<SharedMesh>(std::move(mesh), std::move(name), std::move(state), options);
   return handle.release();
 }
 
@@ -100,7 +101,8 @@ smg_status smg_open(
       smg::ConversionOptions given = smg::optionsOf(options, true);
       smg::ConversionOptions opening = given;
       opening.progress = smg::progressOf(progress, user);
-      *mesh = smg::handleOf(smg::openMesh(file, opening), file, given);
+      smg::InputState state(file);
+      *mesh = smg::handleOf(smg::openMesh(file, opening), file, std::move(state), given);
     });
 }
 
@@ -116,7 +118,7 @@ smg_status smg_open_arrays(const smg_array* points, const smg_array* cells, cons
       smg::ConversionOptions given = smg::optionsOf(options, false);
       smg::ConversionOptions opening = given;
       opening.progress = smg::progressOf(progress, user);
-      *mesh = smg::handleOf(smg::openArrays(ofPoints, ofCells, opening), {}, given);
+      *mesh = smg::handleOf(smg::openArrays(ofPoints, ofCells, opening), {}, {}, given);
     });
 }
 

@@ -41,18 +41,20 @@ void removeEntry(int parent, const char* name) noexcept
   }
   // unlinkat() refuses folders. O_NOFOLLOW: what was a folder may be a link by this time.
   const int file = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (file < 0)
+  // Without a descriptor, of which the process may have none left, an empty folder can go all the
+  // same.
+  if (file >= 0)
   {
-    return;
+    FolderEntries entries(file);
+    while (const char* entry = entries.next())
+    {
+      removeEntry(file, entry);
+    }
+    if (!entries.isOpen())
+    {
+      ::close(file);
+    }
   }
-  // closedir() will close `file`, but the entries are removed relative to an open folder.
-  const int own = ::fcntl(file, F_DUPFD_CLOEXEC, 0);
-  FolderEntries entries(file);
-  while (const char* entry = entries.next())
-  {
-    removeEntry(own, entry);
-  }
-  ::close(own);
   systemCalls().unlinkat(parent, name, AT_REMOVEDIR);
 }
 

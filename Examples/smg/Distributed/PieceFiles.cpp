@@ -194,7 +194,7 @@ void removePiecesFrom(const std::filesystem::path& out, int first)
 smg::StreamInfo writePiece(const smg::Team& team, const smg::VsmReader& mesh, PieceResult result,
   const std::filesystem::path& path)
 {
-  smg::VsmReader pieces(mesh.path());
+  smg::VsmReader pieces(mesh.path(), nullptr, mesh.fingerprint());
   smg::MeshPiece piece;
   pieces.readPiece(firstCellOf(mesh.info(), team.rank(), team.size()),
     firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);

@@ -27,6 +27,6 @@ class MovedVertices;
  * Throws Error; Cancelled.
  */
 void rewritePly(const std::filesystem::path& in, const std::filesystem::path& out,
-  MovedVertices& moved, const ProgressFunction& progress = {});
+  MovedVertices& moved, const ProgressFunction& progress, const std::function<void()>& beforeEnd);
 
 } // namespace smg

@@ -205,7 +205,7 @@ private:
 } // namespace
 
 void rewritePly(const std::filesystem::path& in, const std::filesystem::path& out,
-  MovedVertices& moved, const ProgressFunction& progress)
+  MovedVertices& moved, const ProgressFunction& progress, const std::function<void()>& beforeEnd)
 {
   InputFile file(in, progress);
   const PlyHeader header = readPlyHeader(file);
@@ -226,6 +226,10 @@ void rewritePly(const std::filesystem::path& in, const std::filesystem::path& ou
         copier.copy(header.elements[e], fates[e]);
       }
     });
+  if (beforeEnd)
+  {
+    beforeEnd();
+  }
   output.finish();
 }
 

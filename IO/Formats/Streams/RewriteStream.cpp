@@ -161,7 +161,7 @@ private:
 } // namespace
 
 void rewriteStream(const std::filesystem::path& in, const std::filesystem::path& out,
-  MovedVertices& moved, const ProgressFunction& progress)
+  MovedVertices& moved, const ProgressFunction& progress, const std::function<void()>& beforeEnd)
 {
   StreamFileHeader header = openStreamFile(in)->header();
   const CellType cellType = cellTypeOf(header.format);
@@ -187,6 +187,10 @@ void rewriteStream(const std::filesystem::path& in, const std::filesystem::path&
     elements.next(event);
     copier.take(event);
   } while (event.kind != StreamEvent::End);
+  if (beforeEnd)
+  {
+    beforeEnd();
+  }
   writer->finish();
 }
 

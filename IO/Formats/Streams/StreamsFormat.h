@@ -15,6 +15,6 @@ class MovedVertices;
  * its vertices moved; see rewriteMesh(). Comments are kept in text. Throws Error; Cancelled.
  */
 void rewriteStream(const std::filesystem::path& in, const std::filesystem::path& out,
-  MovedVertices& moved, const ProgressFunction& progress = {});
+  MovedVertices& moved, const ProgressFunction& progress, const std::function<void()>& beforeEnd);
 
 } // namespace smg

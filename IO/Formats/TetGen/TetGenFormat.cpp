@@ -20,6 +20,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -195,35 +197,71 @@ private:
   std::vector<double> Attributes;
 };
 
-/** The name of the file, or its name before compression. */
-std::filesystem::path plainName(const InputFile& file)
+/** The name of a file before compression. */
+std::filesystem::path plainName(std::filesystem::path name)
 {
-  std::filesystem::path name(file.name());
   return isCompressedSuffix(lowerSuffix(name)) ? name.replace_extension() : name;
 }
 
-/** The other file of the two, possibly also compressed. */
-std::filesystem::path otherFile(const InputFile& file, bool isElements)
+bool isOfElements(const std::filesystem::path& name)
+{
+  return lowerSuffix(plainName(name)) == ".ele";
+}
+
+/** The other file of the two, possibly also compressed; empty: there is none. */
+std::filesystem::path otherFile(const std::filesystem::path& name)
 {
   const std::filesystem::path plain =
-    plainName(file).replace_extension(isElements ? ".node" : ".ele");
+    plainName(name).replace_extension(isOfElements(name) ? ".node" : ".ele");
   for (const char* packed : { "", ".gz", ".xz", ".zst" })
   {
-    if (const std::filesystem::path other = plain.string() + packed; std::filesystem::exists(other))
+    std::error_code ignored;
+    if (const std::filesystem::path other = plain.string() + packed;
+        std::filesystem::exists(other, ignored))
     {
       return other;
     }
   }
-  throw Error(file.name() + ": the file " + inQuotes(plain.string()) + ", which has the " +
-              (isElements ? "nodes" : "elements") + ", must lie beside it.");
+  return {};
+}
+
+std::vector<std::filesystem::path> furtherTetGenInputs(const std::filesystem::path& path)
+{
+  const std::filesystem::path other = otherFile(path);
+  return other.empty() ? std::vector<std::filesystem::path>{} : std::vector{ other };
+}
+
+/** Both files that are written for a name: that of the nodes and that of the elements. */
+std::pair<std::filesystem::path, std::filesystem::path> writtenTetGen(
+  const std::filesystem::path& path)
+{
+  const auto with = [&path](const char* suffix)
+  {
+    return std::filesystem::path(path).replace_extension(
+      lowerSuffix(path) == suffix ? path.extension() : suffix);
+  };
+  return { with(".node"), with(".ele") };
+}
+
+std::vector<std::filesystem::path> furtherTetGenOutputs(const std::filesystem::path& path)
+{
+  const auto [nodes, elements] = writtenTetGen(path);
+  return { isOfElements(path) ? nodes : elements };
 }
 
 } // namespace
 
 void importTetGen(InputFile& file, RawMeshBuilder& builder)
 {
-  const bool isElements = lowerSuffix(plainName(file)) == ".ele";
-  const std::filesystem::path otherPath = otherFile(file, isElements);
+  const bool isElements = isOfElements(file.name());
+  const std::filesystem::path otherPath = otherFile(file.name());
+  if (otherPath.empty())
+  {
+    const std::filesystem::path absent =
+      plainName(file.name()).replace_extension(isElements ? ".node" : ".ele");
+    throw Error(file.name() + ": the file " + inQuotes(absent.string()) + ", which has the " +
+                (isElements ? "nodes" : "elements") + ", must lie beside it.");
+  }
   std::optional<InflatedFile> inflated;
   {
     InputFile start(otherPath);
@@ -261,10 +299,8 @@ class TetGenWriter : public MeshFileWriter
 {
 public:
   TetGenWriter(const std::filesystem::path& path, const MeshFileInfo& info)
-    : Nodes(std::filesystem::path(path).replace_extension(
-        lowerSuffix(path) == ".node" ? path.extension() : ".node"))
-    , Elements(std::filesystem::path(path).replace_extension(
-        lowerSuffix(path) == ".ele" ? path.extension() : ".ele"))
+    : Nodes(writtenTetGen(path).first)
+    , Elements(writtenTetGen(path).second)
     , DoublePositions(info.doublePositions)
     , CornersOfCell(cornersOf(info.cellType))
     , Columns(info)
@@ -351,6 +387,8 @@ const Format TetGenFormat{
   .bytes = bytesOfTetGen,
   .writer = makeWriter<TetGenWriter>,
   .maxCorners = 3,
+  .furtherInputs = furtherTetGenInputs,
+  .furtherOutputs = furtherTetGenOutputs,
 };
 
 } // namespace smg

@@ -77,10 +77,18 @@ void RowReader::gather(std::span<const std::int64_t> rows, std::byte* values)
   }
 }
 
-VsmFile::VsmFile(const std::filesystem::path& path, IoStatistics* statistics)
+VsmFile::VsmFile(
+  const std::filesystem::path& path, IoStatistics* statistics, const std::string& fingerprint)
   : Blocks(path, statistics)
   , Name(path.string())
 {
+  // The index that is read again has the checksums of all blocks: a file that changes later is
+  // found when they are read.
+  if (!fingerprint.empty() && this->fingerprint() != fingerprint)
+  {
+    this->fail("is another mesh than before: it was replaced or changed while it was in use; run "
+               "this again, and leave the file as it is meanwhile.");
+  }
   this->readHeader();
   this->readTables();
   this->readBlockTable();

@@ -45,9 +45,14 @@ private:
 class VsmFile
 {
 public:
-  VsmFile(const std::filesystem::path& path, IoStatistics* statistics);
+  /** @param fingerprint unless empty, that which the file must have; see fingerprint() */
+  VsmFile(const std::filesystem::path& path, IoStatistics* statistics,
+    const std::string& fingerprint = {});
 
   [[noreturn]] void fail(const std::string& what) const;
+
+  /** Stands for the content of the whole file. */
+  std::string fingerprint() const { return std::to_string(this->Blocks.contentChecksum()); }
 
   /** Vertices introduced before a block of the cells; also for the block after the last one. */
   std::int64_t firstVertex(std::int64_t block) const { return this->FirstVertex[block]; }

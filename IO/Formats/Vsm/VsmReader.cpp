@@ -19,7 +19,8 @@ class VsmSource : public MeshSource
 {
 public:
   VsmSource(const std::filesystem::path& path, const std::vector<std::string>& vertexColumns,
-    const std::vector<std::string>& cellColumns, IoStatistics* statistics);
+    const std::vector<std::string>& cellColumns, IoStatistics* statistics,
+    const std::string& fingerprint);
 
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;
@@ -59,10 +60,11 @@ std::vector<std::string> withFlags(
 
 struct VsmReader::Implementation
 {
-  Implementation(std::filesystem::path path, IoStatistics* statistics)
+  Implementation(
+    std::filesystem::path path, IoStatistics* statistics, const std::string& fingerprint)
     : Path(std::move(path))
     , Statistics(statistics)
-    , File(this->Path, statistics)
+    , File(this->Path, statistics, fingerprint)
     , LastCells(this->File)
   {
   }
@@ -84,8 +86,9 @@ struct VsmReader::Implementation
   std::unique_ptr<PieceReader> Pieces; ///< made when the columns are chosen or a piece is read
 };
 
-VsmReader::VsmReader(std::filesystem::path path, IoStatistics* statistics)
-  : Self(std::make_unique<Implementation>(std::move(path), statistics))
+VsmReader::VsmReader(
+  std::filesystem::path path, IoStatistics* statistics, const std::string& fingerprint)
+  : Self(std::make_unique<Implementation>(std::move(path), statistics, fingerprint))
 {
 }
 
@@ -118,7 +121,7 @@ Codec VsmReader::codec() const
 
 std::string VsmReader::fingerprint() const
 {
-  return std::to_string(this->Self->File.Blocks.contentChecksum());
+  return this->Self->File.fingerprint();
 }
 
 void VsmReader::requireBlocksWithin(std::int64_t memory) const
@@ -180,7 +183,8 @@ std::unique_ptr<MeshSource> VsmReader::source(
   std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
 {
   return std::make_unique<VsmSource>(this->Self->Path, vertexColumns,
-    withFlags(std::move(cellColumns), this->info().cellColumns), this->Self->Statistics);
+    withFlags(std::move(cellColumns), this->info().cellColumns), this->Self->Statistics,
+    this->fingerprint());
 }
 
 void VsmReader::selectColumns(
@@ -252,8 +256,8 @@ void VsmReader::readIsolated(std::int64_t first, std::int64_t count, IsolatedVer
 
 VsmSource::VsmSource(const std::filesystem::path& path,
   const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns,
-  IoStatistics* statistics)
-  : File(path, statistics)
+  IoStatistics* statistics, const std::string& fingerprint)
+  : File(path, statistics, fingerprint)
   , Info(this->File.Info)
   , Positions(this->File)
 {

@@ -37,9 +37,9 @@ void fill(Column& column, double value)
 } // namespace
 
 void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer,
-  const CompleteIsolated& complete)
+  const CompleteIsolated& complete, const std::string& fingerprint)
 {
-  VsmReader reader(from);
+  VsmReader reader(from, nullptr, fingerprint);
   IsolatedVertices chunk;
   const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
   for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)

@@ -51,10 +51,11 @@ WrittenVsm writeVsm(
 /**
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
  * stream like `info`, since a stream made from a .vsm file does not contain them. Columns with a
- * value ColumnSpec::isolated get that. `complete` adds columns to those of the file.
+ * value ColumnSpec::isolated get that. `complete` adds columns to those of the file. `fingerprint`:
+ * unless empty, that which the file must have.
  */
 SMG_EXPORT void copyIsolated(const std::filesystem::path& from, const StreamInfo& info,
-  VsmWriter& writer, const CompleteIsolated& complete = {});
+  VsmWriter& writer, const CompleteIsolated& complete = {}, const std::string& fingerprint = {});
 
 /** The container of this library. */
 extern const Format VsmFileFormat;

@@ -103,6 +103,11 @@ const Format VtkXmlFormat{
   .turn = PartTurn::AsTheyCome,
 };
 
+namespace
+{
+std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path);
+} // namespace
+
 const Format ParallelVtkXmlFormat{
   .name = "VTK XML in pieces",
   .suffixes = ParallelSuffixes,
@@ -110,6 +115,7 @@ const Format ParallelVtkXmlFormat{
   .hasSign = isParallelVtkXml,
   .alwaysSigned = true,
   .parse = parseParallel,
+  .furtherInputs = namedPieces,
 };
 
 namespace
@@ -160,6 +166,19 @@ std::vector<std::filesystem::path> pieceFiles(InputFile& file)
     file.fail(root.begin, "the file names no pieces");
   }
   return files;
+}
+
+std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path)
+{
+  try
+  {
+    InputFile file(path);
+    return pieceFiles(file);
+  }
+  catch (const Error&)
+  {
+    return {};
+  }
 }
 
 } // namespace

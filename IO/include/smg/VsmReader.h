@@ -58,9 +58,12 @@ public:
    * @param path the file
    * @param statistics counts what is read, and must outlive the reader and its sources; null: no
    * counts
-   * @throws Error if it is not a .vsm file or its header is damaged
+   * @param fingerprint unless empty, that which the file must have, for a file that has been open
+   * before
+   * @throws Error if it is not a .vsm file, its header is damaged, or it is another mesh
    */
-  explicit VsmReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
+  explicit VsmReader(std::filesystem::path path, IoStatistics* statistics = nullptr,
+    const std::string& fingerprint = {});
   ~VsmReader() override;
   VsmReader(const VsmReader&) = delete;
   VsmReader& operator=(const VsmReader&) = delete;
@@ -93,8 +96,8 @@ public:
 
   /**
    * The mesh stream with all columns, from its first block, read ahead. Each block of the stream is
-   * a block of cells with the vertices that it introduces. The source opens the file for itself and
-   * may outlive the reader.
+   * a block of cells with the vertices that it introduces. The source opens the file for itself,
+   * may outlive the reader, and throws Error if the file has been replaced or changed meanwhile.
    */
   std::unique_ptr<MeshSource> source() const;
   std::unique_ptr<MeshSource> source(

@@ -31,6 +31,8 @@ struct WriteMeshOptions
   /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
    * .vsm file; empty: none. */
   std::filesystem::path isolatedFrom{};
+  /** Unless empty, the fingerprint that this file must have (VsmReader::fingerprint()). */
+  std::string isolatedFingerprint{};
   /** Adds to these vertices columns that the .vsm file does not have. */
   CompleteIsolated completeIsolated{};
   /** Threads that compress the blocks of a .vsm file; 0: one per core. The file does not depend on
@@ -80,6 +82,8 @@ struct RewriteOptions
   std::int64_t memory = std::int64_t(64) << 20;
   /** Progress callback; empty: none. */
   ProgressFunction progress{};
+  /** Called before `out` gets its name: what it throws leaves that as it was. Empty: none. */
+  std::function<void()> beforeEnd{};
 };
 
 /**
