@@ -95,6 +95,11 @@ std::string unknownOption(const CLI::App& command)
   for (const std::string& word : command.remaining())
   {
     const std::string name = word.substr(0, word.find('='));
+    if (name.size() > 1 && name[0] == '-' && name[1] != '-')
+    {
+      return word + " begins as an option does: a file of this name is ./" + word +
+             ", or comes after --";
+    }
     if (!name.starts_with("--") || name.size() < 3)
     {
       continue;
@@ -111,6 +116,10 @@ std::string unknownOption(const CLI::App& command)
           nearest = known;
         }
       }
+    }
+    if (least == 0)
+    {
+      return name + " comes after --, where all words are names of files: put options before it";
     }
     return name + " is not an option of smg " + command.get_name() +
            (nearest.empty() ? "" : ": did you mean --" + nearest + '?');

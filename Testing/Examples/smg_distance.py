@@ -94,7 +94,8 @@ def test_errors():
     write_torus("torus.obj", 60, 30)
     usage = run("distance", "torus.obj", "out.vtp", code=2).stderr
     assert "--from or --wall is required" in usage
-    for wrong, sentence in (("--form", "--form is not an option of smg distance: did you mean --from?"),
+    for wrong, sentence in (("-form", "-form begins as an option does: a file of this name is ./-form, or comes after --"),
+                            ("--form", "--form is not an option of smg distance: did you mean --from?"),
                             ("--nothing-like-it", "--nothing-like-it is not an option of smg distance (")):
         assert sentence in run("distance", "torus.obj", "out.vtp", wrong, "x", code=2).stderr
     places = ("--from", '{"vertices": [0]}', "--quiet")
