@@ -9,6 +9,7 @@
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
 
@@ -18,6 +19,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <optional>
@@ -194,8 +196,8 @@ int vtkStreamingMeshPreview::RequestData(
       vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
       const smg::PieceRequest request(outputVector->GetInformationObject(0));
       smg::PieceInput input(*this, 0);
-      auto& present = *vtkPointSet::GetData(inputInfo);
-      if (smg::isOrdinaryMesh(present) && !smg::isPreview(present))
+      const vtkSmartPointer<vtkPointSet> shown = smg::meshOf(vtkDataObject::GetData(inputInfo));
+      if (shown && smg::isOrdinaryMesh(*shown) && !smg::isPreview(*shown))
       {
         throw smg::Error("Streaming Mesh Preview shows a mesh of the Streaming Mesh Reader: use "
                          "Streaming Mesh Simplification for one that ParaView has in memory.");

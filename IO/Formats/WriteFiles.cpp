@@ -312,7 +312,6 @@ bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& ou
 void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,
   MeshSource& moved, const RewriteOptions& options)
 {
-  checkIsNotInput(in, out);
   if (!canRewrite(in, out))
   {
     throw Error(out.string() + ": the order of " + in.string() +
