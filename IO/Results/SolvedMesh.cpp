@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -61,13 +62,16 @@ struct SolvedMesh::Implementation
     , wanted(options)
     , info(source->info())
     , file(mesh.file())
-    , fingerprint(mesh.fingerprint())
   {
     if (solution.vertices() != this->info.vertices)
     {
       throw Error((this->file.empty() ? "the mesh" : this->file.string()) + " has " +
                   std::to_string(this->info.vertices) + " vertices, the solution " +
                   std::to_string(solution.vertices()) + ": it is that of another mesh.");
+    }
+    if (!this->file.empty() && findColumn(this->info.vertexColumns, OriginalIdSpec) >= 0)
+    {
+      this->numbers.emplace(this->file, nullptr, mesh.fingerprint());
     }
     const int columns = problem.columns();
     for (std::vector<ColumnSpec>* specs : { &this->info.vertexColumns, &this->info.cellColumns })
@@ -91,8 +95,10 @@ struct SolvedMesh::Implementation
   ResultOptions wanted;
   StreamInfo info;
   std::filesystem::path file; ///< empty: the mesh is in none
-  std::string fingerprint;    ///< of the mesh
-  bool ended = false;         ///< the stream has been read to its end
+  /** Opened before the result is written, so that no error follows it; none: there are no original
+   * numbers. */
+  std::optional<VsmReader> numbers;
+  bool ended = false; ///< the stream has been read to its end
 };
 
 SolvedMesh::SolvedMesh(
@@ -141,11 +147,11 @@ void SolvedMesh::finish(Report& report)
     throw Error("the results of a solution are known when its mesh has been read to the end");
   }
   this->Self->results.finish(report);
-  if (this->Self->file.empty() || findColumn(this->Self->info.vertexColumns, OriginalIdSpec) < 0)
+  if (!this->Self->numbers)
   {
     return;
   }
-  VsmReader mesh(this->Self->file, nullptr, this->Self->fingerprint);
+  VsmReader& mesh = *this->Self->numbers;
   Column id;
   renumberExtremes(report,
     [&](std::int64_t vertex)
