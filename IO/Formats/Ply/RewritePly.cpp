@@ -43,7 +43,7 @@ int axisOf(std::string_view name, std::string_view prefix)
 }
 
 /** Moved coordinates and computed normals are not integers. */
-ScalarType positionType(ScalarType type)
+ScalarType movedPositionType(ScalarType type)
 {
   const bool isLong = type == ScalarType::Int32 || type == ScalarType::UInt32;
   return isLong ? ScalarType::Float64 : std::max(type, ScalarType::Float32);
@@ -64,7 +64,7 @@ std::vector<Fate> fatesOf(const PlyElement& element, bool hasNormals)
     const int normal = property.list ? -1 : axisOf(property.name, "n");
     if (isVertex && axis >= 0)
     {
-      fate = { Fate::Position, axis, positionType(property.type) };
+      fate = { Fate::Position, axis, movedPositionType(property.type) };
     }
     else if (normal >= 0 && (isVertex || element.name == "face"))
     {
