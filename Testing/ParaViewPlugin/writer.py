@@ -98,21 +98,6 @@ for suffixes, source, properties in (("ply obj stl vtk vtp vtu", reader, {"Resto
     for suffix in suffixes.split():
         label, shown = dialog(suffix, source)
         assert label.startswith("Streaming Mesh Writer") and shown == properties, (suffix, label, shown)
-# The mark is known by its name, not by its shape.
-alike = ProgrammableFilter(Input=Sphere(), Script="""
-from paraview.vtk import vtkUnsignedCharArray
-output.ShallowCopy(inputs[0].VTKObject)
-for components in 17, 19:
-    array = vtkUnsignedCharArray()
-    array.SetName(f"Of{components}")
-    array.SetNumberOfComponents(components)
-    array.SetNumberOfTuples(1)
-    output.GetFieldData().AddArray(array)
-""")
-alike.UpdatePipeline()
-assert len(alike.FieldData.keys()) == 2
-for suffix in "ply", "vtp", "csv", "pvtp":
-    assert not dialog(suffix, alike)[0].startswith("Streaming Mesh Writer"), suffix
 
 # Chosen arrays alone are written.
 SaveData(os.path.join(folder, "chosen.vtp"), proxy=calculator, ChooseArraysToWrite=1, PointDataArrays=["X"], CellDataArrays=[])
