@@ -17,6 +17,8 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 LONGEST = 40
+SLOW = 10
+"""From how many seconds on a test is to be in slow.txt."""
 
 
 def tests(folder):
@@ -45,6 +47,11 @@ def compilations(folder, since):
     return commands.values()
 
 
+def known_slow():
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "slow.txt"), encoding="utf-8") as names:
+        return {line.strip() for line in names}
+
+
 def is_newer(path, since):
     return os.path.exists(path) and os.path.getmtime(path) >= since
 
@@ -70,6 +77,11 @@ def main():
             for seconds, target in compilations(folder, since):
                 compiled[where, target] += seconds
     table(f"The {LONGEST} longest of {len(ran)} tests:", sorted(ran, reverse=True)[:LONGEST])
+    known = known_slow()
+    table(
+        f"Over {SLOW} s, and not in Testing/slow.txt:",
+        sorted(((s, w, n) for s, w, n in ran if w == "build" and s > SLOW and n not in known), reverse=True),
+    )
     table("Tests of each label:", [(seconds, *key) for key, seconds in labelled.most_common()])
     table("Compilation of each target:", [(seconds, *key) for key, seconds in compiled.most_common(LONGEST)])
 
