@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/LinearSolver.h"
 
+#include "Solver/Core/Forks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/LinearEngine.h"
 #include "Solver/Multigrid/Extended.h"
@@ -34,7 +35,15 @@ struct LinearSolver::Implementation
     this->engine.build(mesh, problem);
   }
 
+  /** The engine to compute with. Throws Error in a forked child. */
+  LinearEngine& ownEngine()
+  {
+    this->process.require("a linear solver");
+    return this->engine;
+  }
+
   LinearEngine engine;
+  OwnProcess process;
 };
 
 LinearSolver::LinearSolver(MeshSource& mesh, Problem& problem, const SolveOptions& options)
@@ -77,18 +86,18 @@ const Report& LinearSolver::solve(std::span<const double> b, std::span<double> x
   asked.maxCycles = maxCycles;
   checkOptions(asked);
   refuseAutomaticTolerance(asked, "a linear solver");
-  this->Self->engine.solve(b, x, { tolerance, maxCycles }, progress);
+  this->Self->ownEngine().solve(b, x, { tolerance, maxCycles }, progress);
   return this->report();
 }
 
 void LinearSolver::precondition(std::span<const double> r, std::span<double> z)
 {
-  this->Self->engine.precondition(r, z);
+  this->Self->ownEngine().precondition(r, z);
 }
 
 void LinearSolver::multiply(std::span<const double> x, std::span<double> y)
 {
-  this->Self->engine.multiply(x, y);
+  this->Self->ownEngine().multiply(x, y);
 }
 
 const Report& LinearSolver::report() const

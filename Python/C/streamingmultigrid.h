@@ -23,8 +23,9 @@
  * its blocks and a solver keep what they need of their mesh: handles may be closed in any order.
  *
  * After fork(), a child may use its copies of handles that no thread was using, as long as the
- * parent has not closed its own, and closes them without effect on the parent. In the child a
- * solver computes on one thread. A progress function that forks cancels the call in the child.
+ * parent has not closed its own, and closes them without effect on the parent. Solvers are not for
+ * the child, where they return an error: it would share their memory with the parent. A progress
+ * function that forks cancels the call in the child.
  */
 #ifndef STREAMINGMULTIGRID_H
 #define STREAMINGMULTIGRID_H

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Error.h"
+
 #include <functional>
 #include <map>
 #include <mutex>
 #include <pthread.h>
+#include <string>
+#include <unistd.h>
 #include <utility>
 
 // A child of fork() has the memory of its parent, but of its threads only the one that forked, and
@@ -78,6 +82,25 @@ private:
 
   std::mutex Mutex;
   std::map<const void*, ForkActions> Actions;
+};
+
+/** The process that made an object whose memory a forked child would share with it: rings are
+ * mapped files in memory. */
+class OwnProcess
+{
+public:
+  /** Throws Error in a forked child. `what` is the object, for the message. */
+  void require(const char* what) const
+  {
+    if (::getpid() != this->Maker)
+    {
+      throw Error(std::string("The process was forked: its parent has the memory of ") + what +
+                  "; make it again in the child.");
+    }
+  }
+
+private:
+  pid_t Maker = ::getpid();
 };
 
 /** A mutex of the whole process, which no other thread holds in a forked child. */

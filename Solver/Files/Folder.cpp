@@ -294,7 +294,16 @@ std::shared_ptr<FolderLock> FolderLock::acquire(const std::filesystem::path& fol
 
 FolderLock::~FolderLock()
 {
-  systemCalls().close(this->Folder);
+  this->leaveToParent();
+}
+
+void FolderLock::leaveToParent() noexcept
+{
+  if (this->Folder >= 0)
+  {
+    systemCalls().close(this->Folder);
+    this->Folder = -1;
+  }
 }
 
 void FolderLock::use(const std::filesystem::path& folder)

@@ -63,6 +63,8 @@ public:
   /** Begins to use the folder. Throws Error if another part of the program does, like acquire(). */
   void use(const std::filesystem::path& folder);
   void endUse() noexcept;
+  /** In a forked child: the lock is its parent's alone, and ends with it. */
+  void leaveToParent() noexcept;
 
 private:
   explicit FolderLock(int folder)

@@ -139,19 +139,23 @@ bool isMade(std::string_view name)
            name.substr(prefix.size()), [](unsigned char c) { return std::isalnum(c) != 0; });
 }
 
-/** From now on the object of a forked child leaves the folder, and its lock, to the parent. */
-void leaveToParent(const ScratchFolder& folder, int& lock)
+/** From now on the object of a forked child leaves the folder, and its lock, to the parent, whose
+ * own descriptors keep it. */
+void leaveToParent(const ScratchFolder& folder, int& lock, FolderLock* kept)
 {
-  ForkedObjects::all().add(&folder, { {}, {},
-                                      [&lock]
-                                      {
-                                        if (lock >= 0)
-                                        {
-                                          systemCalls().close(
-                                            lock); // the parent's own descriptor keeps the lock
-                                        }
-                                        lock = OfParent;
-                                      } });
+  const auto inherit = [&lock, kept]
+  {
+    if (lock >= 0)
+    {
+      systemCalls().close(lock);
+    }
+    lock = OfParent;
+    if (kept)
+    {
+      kept->leaveToParent();
+    }
+  };
+  ForkedObjects::all().add(&folder, { {}, {}, inherit });
 }
 
 /** Removes the scratch folders of terminated programs in `base`. */
@@ -237,7 +241,7 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent, std::int64_t l
       this->Path.swap(name);
     }
     this->Account = ScratchAccount::open(this->Path, limit);
-    leaveToParent(*this, this->Lock);
+    leaveToParent(*this, this->Lock, nullptr);
   }
   catch (...) // no memory
   {
@@ -275,7 +279,7 @@ ScratchFolder::ScratchFolder(const KeptFolder& kept, std::int64_t limit)
     this->openKept();
     this->Account = ScratchAccount::open(this->Path, limit);
     this->countKept();
-    leaveToParent(*this, this->Lock);
+    leaveToParent(*this, this->Lock, this->KeptLock.get());
   }
   catch (...)
   {

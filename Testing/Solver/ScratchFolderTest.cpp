@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -126,6 +127,41 @@ TEST(ScratchFolder, IsLeftToItsParentByAForkedChild)
   kept.reset();
   temporary.reset();
   EXPECT_EQ(folder.entries(), 0);
+}
+
+/** Children outlive their parents: what the parent has locked is free when it ends. */
+TEST(ScratchFolder, IsUnlockedByTheEndOfAParentWhoseChildLives)
+{
+  const TemporaryFolder folder;
+  std::array<int, 2> said{}, ending{};
+  ASSERT_EQ(pipe(said.data()), 0);
+  ASSERT_EQ(pipe(ending.data()), 0);
+  const pid_t parent = fork();
+  ASSERT_GE(parent, 0);
+  if (parent == 0)
+  {
+    ScratchFolder kept(KeptFolder(folder / "kept"));
+    kept.retain();
+    if (fork() == 0)
+    {
+      char end = 0;
+      close(ending[1]);
+      write(said[1], "c", 1);
+      read(ending[0], &end, 1); // until the test has closed its end
+      _exit(0);
+    }
+    pause();
+  }
+  char word = 0;
+  ASSERT_EQ(read(said[0], &word, 1), 1);
+  EXPECT_THROW(ScratchFolder(KeptFolder(folder / "kept")), Error);
+  kill(parent, SIGKILL);
+  ASSERT_EQ(waitpid(parent, nullptr, 0), parent);
+  EXPECT_NO_THROW(ScratchFolder(KeptFolder(folder / "kept")));
+  for (const int end : { said[0], said[1], ending[0], ending[1] })
+  {
+    close(end);
+  }
 }
 
 /** A program may be killed before it marks its folder, and a power cut may take the marker. */

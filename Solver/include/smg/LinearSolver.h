@@ -33,7 +33,8 @@ namespace smg
  * by side. As many as the problem has are solved together, then the next ones, the last time with
  * zeros for what is lacking; each time the norms are those of these columns together.
  *
- * One thread may use a solver at a time.
+ * One thread may use a solver at a time, of the process that has made it: in a forked child, which
+ * would share its memory, all functions that compute throw Error.
  */
 class SMG_EXPORT LinearSolver
 {
