@@ -27,6 +27,7 @@ void markFixed(const smg_mesh& mesh, const ProblemDescription& description,
   DescribedProblem problem(description, stored.info(), "region");
   const auto order = mesh.shared->order(partOf(progress, 0.0, 0.2));
   const OriginalRows& places = order->vertices();
+  problem.acceptEmpty(); // it may be a part of what the caller combines
   problem.prepare(*stored.source(problem.vertexColumns(), problem.cellColumns()), opened.scratch);
 
   std::vector<std::string> columns = problem.vertexColumns();

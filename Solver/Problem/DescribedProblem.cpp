@@ -257,6 +257,11 @@ void DescribedProblem::prepare(
   this->Data->selections.endPreparing(nullptr);
 }
 
+void DescribedProblem::acceptEmpty()
+{
+  this->Data->selections.acceptEmpty();
+}
+
 /** Without parts of the mesh there is nothing to prepare. The reading also checks that no part is
  * empty. */
 void DescribedProblem::preparePart(

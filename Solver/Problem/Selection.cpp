@@ -174,7 +174,7 @@ void Selection::endPreparing(MeshParts* parts)
   {
     parts->sum({ &this->Count, 1 });
   }
-  if (this->Count == 0)
+  if (this->Count == 0 && !this->MayBeEmpty)
   {
     const char* what = this->Place == DataPlace::Vertices               ? "vertex"
                        : this->Place == DataPlace::Cells                ? "cell"
@@ -221,6 +221,14 @@ void Selections::prepare(const MeshBlock& block, const std::filesystem::path& sc
 
 /** All processes have the same selections and come here in the same order, as MeshParts requires.
  */
+void Selections::acceptEmpty()
+{
+  for (const auto& selection : this->All)
+  {
+    selection->acceptEmpty();
+  }
+}
+
 void Selections::endPreparing(MeshParts* parts)
 {
   for (const auto& selection : this->All)

@@ -92,6 +92,8 @@ public:
   /** Throws Error, which names the place in the description, if nothing is selected. `parts`: the
    * other parts of the mesh, if the stream is only one of several; else null. */
   virtual void endPreparing(MeshParts* parts);
+  /** That nothing is selected is no error any more. */
+  void acceptEmpty() { this->MayBeEmpty = true; }
 
   /** The selected vertices, if preparation stores them, after endPreparing(); else null. */
   virtual VertexSetFile* preparedVertices() { return nullptr; }
@@ -134,6 +136,7 @@ protected:
 private:
   OpenValues<std::uint8_t> Open;
   std::int64_t Finalized = 0; ///< of the previous block
+  bool MayBeEmpty = false;
   std::span<const std::uint8_t> Current;
 };
 
@@ -158,6 +161,8 @@ public:
   /** See Selection. */
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
   void endPreparing(MeshParts* parts);
+  /** See Selection. */
+  void acceptEmpty();
   void startBlock(const MeshBlock& block);
 
 private:

@@ -83,6 +83,7 @@ class ProblemTest(unittest.TestCase):
         mesh["Part"], mesh["Half"] = part, x > 0.5
         outside = ((points == 0) | (points == 1)).any(axis=1)
         ball, left = smg.sphere((0, 0, 0), 0.9), smg.below(x=0.3)
+        far = smg.sphere((9, 9, 9), 1)  # of no vertex
         in_ball, on_left = (points**2).sum(axis=1) <= 0.81, x <= 0.3
         of_part = np.zeros(len(points), bool)
         of_part[cells[part == 1]] = True
@@ -106,6 +107,10 @@ class ProblemTest(unittest.TestCase):
             (smg.tag("Part", 1) & smg.mask("Part"), part == 1),
             (smg.tag("Part", 1) & smg.below(x=0.5), of_part & (x <= 0.5)),
             (left | smg.tag("Part", 1), of_part | on_left),
+            (ball | far, in_ball),
+            (ball - far, in_ball),
+            (~far & left, on_left),
+            (smg.everywhere - far, in_ball | True),
         ):
             with self.subTest(region=region):
                 np.testing.assert_array_equal(mesh.select(region), mask)

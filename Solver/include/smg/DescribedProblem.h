@@ -61,6 +61,8 @@ public:
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {},
     std::int64_t memoryLimit = std::int64_t(1) << 30);
+  /** That a condition holds nowhere is no error of prepare() any more. */
+  void acceptEmpty();
   /** The first half of prepare(), for the part of the mesh that a process has: see
    * DistributedSolver. */
   void preparePart(MeshSource& part, const std::filesystem::path& scratch = {},
