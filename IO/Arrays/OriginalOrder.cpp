@@ -69,7 +69,7 @@ OriginalOrder::OriginalOrder(
   const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
   : StreamVertices(mesh.info().vertices)
 {
-  this->Vertices.count = countVertices(mesh, conversion);
+  this->Vertices.count = countVertices(mesh);
   this->Cells.count = mesh.info().cells;
   const bool isTold = conversion && !conversion->keeps_numbers;
   if (isTold && hasNumbers(mesh))
@@ -91,13 +91,10 @@ OriginalOrder::OriginalOrder(
   }
 }
 
-std::int64_t OriginalOrder::countVertices(
-  const StoredMesh& mesh, const ConversionReport* conversion)
+std::int64_t OriginalOrder::countVertices(const StoredMesh& mesh)
 {
-  const bool isTold = conversion && !conversion->keeps_numbers && hasNumbers(mesh);
   return mesh.info().vertices +
-         VsmReader(mesh.file(), nullptr, mesh.fingerprint()).isolatedVertices() +
-         (isTold ? conversion->merged_points : 0);
+         VsmReader(mesh.file(), nullptr, mesh.fingerprint()).isolatedVertices();
 }
 
 void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction& progress)

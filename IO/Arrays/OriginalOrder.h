@@ -80,7 +80,7 @@ public:
     const ProgressFunction& progress = {});
 
   /** The number of vertices in the original order, for which nothing is read but the header. */
-  static std::int64_t countVertices(const StoredMesh& mesh, const ConversionReport* conversion);
+  static std::int64_t countVertices(const StoredMesh& mesh);
 
   const OriginalRows& vertices() const { return this->Vertices; }
   const OriginalRows& cells() const { return this->Cells; }

@@ -59,7 +59,7 @@ public:
   std::int64_t vertices() const
   {
     return this->isResult() ? this->Order->vertices().count
-                            : OriginalOrder::countVertices(*this->Mesh, this->Mesh->conversion());
+                            : OriginalOrder::countVertices(*this->Mesh);
   }
   /** How it was opened, without the progress function. */
   const ConversionOptions& options() const { return this->Options; }
