@@ -351,7 +351,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     def as_mesh(self, progress: Optional[types.Progress] = None) -> Mesh:
         """The mesh with the result as a `Mesh`, for other jobs; its columns and order are those of this
         field. The first time it is written to a scratch file."""
-        if self._as_mesh is None:
+        if self._as_mesh is None or self._as_mesh._is_closed:
             from ._opening import mesh_of
 
             self._as_mesh = mesh_of(self, self._handle, self._job, progress)

@@ -208,6 +208,10 @@ class NativeHandle:
     def __exit__(self, *_: Any) -> None:
         self.lock.__exit__()
 
+    @property
+    def is_closed(self) -> bool:
+        return not self._finalizer.alive
+
     def close(self) -> None:
         """Closes it and removes its scratch files; twice is nothing."""
         process.require_no_call()

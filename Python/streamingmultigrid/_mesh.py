@@ -104,6 +104,10 @@ class Mesh:
         own = {name: value for name, value in given.items() if value is not None}
         return {**self.defaults(*given), **own}
 
+    @property
+    def _is_closed(self) -> bool:
+        return self._opened is not None and self._opened.is_closed
+
     def close(self) -> None:
         """Removes scratch files; also done when nothing refers to the mesh any more. Fields that were
         made from it stay."""
@@ -237,8 +241,8 @@ class Mesh:
         if not isinstance(name, str):
             raise InputError("%r: the name of a column is a text." % (name,))
         column = Columns(self).add(values, name, cells, name=name)
-        if copy and isinstance(values, np.ndarray) and np.may_share_memory(column.values, values):
-            column = column._replace(values=column.values.copy())
+        if copy:  # also of what only lends its memory, as other libraries' arrays do
+            column = column._replace(values=np.array(column.values))
         with self._handle() as mesh:
             self._add_column(mesh, column)
             self._own[name, column.cells] = column.values

@@ -6,6 +6,7 @@ import os
 import unittest
 import warnings
 import weakref
+from array import array
 
 from testing import bits, cube, np, smg, sphere, write_off
 
@@ -214,6 +215,19 @@ class ColumnsTest(unittest.TestCase):
                 before = mesh["Values"].copy()
                 values[:] = 0
                 self.assertEqual(np.array_equal(mesh["Values"], before), copy)
+
+        class Lender:  # as the arrays of other libraries
+            def __init__(self, array):
+                self.array = array
+
+            def __array__(self, *_, **__):
+                return self.array
+
+        for lent in (array("d", points[:, 0]), Lender(points[:, 0].copy()), memoryview(points[:, 0].copy())):
+            mesh = smg.mesh(points, cells)
+            mesh["Values"] = lent
+            np.asarray(lent)[:] = 0
+            self.assertEqual(bits(mesh["Values"]), bits(points[:, 0]))
         mesh = smg.mesh(points, cells)
         values = points[:, 0].copy()
         mesh["Values"] = values

@@ -114,6 +114,8 @@ class TableTest(unittest.TestCase):
         for case, kind, _, field, names in self.each():
             with case:
                 field.save("result.vsm")
+                with field.as_mesh() as closed:
+                    closed.n_vertices
                 with smg.open("result.vsm") as file:
                     chained = field.as_mesh()
                     self.assertEqual(bits(chained.points), bits(file.points))
