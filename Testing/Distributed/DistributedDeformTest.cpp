@@ -29,7 +29,7 @@ std::vector<StreamMesh> meshesToDeform()
     with(tetBox(4, 5, 12, 0.15), box), with(tetBox(9, 6, 6), box) };
 }
 
-bool isFloating(const Eigen::Vector3d& p)
+bool isFree(const Eigen::Vector3d& p)
 {
   return p.x() > 50;
 }
@@ -41,14 +41,14 @@ ArrayHandles handlesOf(const StreamMesh& mesh)
   for (std::int64_t v = 0; v < mesh.vertices(); ++v)
   {
     const Eigen::Vector3d point = positionsOf(mesh).row(v);
-    low = isFloating(point) ? low : std::min(low, point.z());
-    high = isFloating(point) ? high : std::max(high, point.z());
+    low = isFree(point) ? low : std::min(low, point.z());
+    high = isFree(point) ? high : std::max(high, point.z());
   }
   const double size = high - low;
   const auto between = [=](double from, double to)
   {
     return [=](const Eigen::Vector3d& p)
-    { return !isFloating(p) && p.z() >= low + from * size && p.z() <= low + to * size; };
+    { return !isFree(p) && p.z() >= low + from * size && p.z() <= low + to * size; };
   };
   ArrayHandles handles(mesh.vertices());
   handles.hold(mesh, between(0.0, 0.1), turn(-20.0, { 0, 0, 1 }));
@@ -148,7 +148,7 @@ void expectExact(const StreamMesh& mesh, const Eigen::MatrixXd& positions)
     const Eigen::Vector3d rest = positionsOf(mesh).row(v);
     const bool isHeld = handles.Values.mask[v] > 0;
     const auto target = Eigen::Vector3d::Map(&handles.Values.target[3 * v]);
-    if (isHeld || isFloating(rest))
+    if (isHeld || isFree(rest))
     {
       ++(isHeld ? held : free);
       ASSERT_EQ(Eigen::Vector3d(positions.row(v)), isHeld ? Eigen::Vector3d(target) : rest);

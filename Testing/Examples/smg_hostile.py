@@ -8,6 +8,7 @@ import base64
 import json
 import math
 import os
+import shutil
 import signal
 import struct
 import subprocess
@@ -193,6 +194,7 @@ def descriptions():
                         ("deform", "grid.vtu", "out.vsm", "--handles", name),
                         ("distance", "grid.vtu", "out.vsm", "--from", name)):
             check(*command, refused=refused)
+        os.remove(name)
     # Long lists take a time that is linear in their length.
     n = 10000 if SANITIZED else 100000
     write_json("p.json", {"dirichlet": [{"vertices": [k % 25], "value": 0} for k in range(n)]})
@@ -293,6 +295,8 @@ def names():
 
 
 def main():
+    for entry in os.listdir("."):  # remains of an earlier run
+        shutil.rmtree(entry) if os.path.isdir(entry) else os.remove(entry)
     wide_columns()
     many_columns()
     no_files()

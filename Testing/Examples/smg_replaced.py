@@ -35,6 +35,8 @@ def write_meshes():
     """Folders a and b with the same meshes in different orders, in each kind of file."""
     surface, solid = torus(60, 40), tetrahedra(9)
     solid = [tuple(x / 4 - 1 for x in point) for point in solid[0]], solid[1]
+    for entry in os.listdir("."):  # remains of an earlier run
+        shutil.rmtree(entry) if os.path.isdir(entry) else os.remove(entry)
     for folder, seed in (("a", 1), ("b", 2)):
         os.mkdir(folder)
         points, cells, _ = shuffled(*surface, seed)
