@@ -36,9 +36,8 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo ordinaryMeshInfo(vtkPointSet& mesh);
 VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkPointSet> withoutOriginalNumbers(
   vtkPointSet& mesh);
 
-/** Writes a whole mesh in memory with its arrays, of solids and surfaces the solids: VTK writes it
- * to a file in the scratch folder, and convert() converts that. Throws like convert(), and Error if
- * VTK cannot write the file. */
+/** Writes a whole mesh in memory with its arrays, of solids and surfaces the solids. Throws like
+ * convertArrays(). */
 VTKSTREAMINGMULTIGRIDIO_EXPORT ConversionReport writeOrdinaryMesh(
   vtkPointSet& mesh, const std::filesystem::path& path, const ConversionOptions& options);
 

@@ -32,7 +32,7 @@ constexpr const char* FolderInMemory = "/dev/shm";
 
 /** A folder for the scratch files of a solve on a mesh that VTK has in memory: there, too, if none
  * is given and they take at most half of the memory limit and a quarter of what is free. The mesh
- * is written as it is, sorted, and written in order; a solve has some hundred bytes a point. */
+ * is sorted and written in order; a solve has some hundred bytes a point. */
 std::unique_ptr<ScratchFolder> folderFor(
   vtkPointSet& mesh, const StreamedSolve::PieceReading& reading)
 {

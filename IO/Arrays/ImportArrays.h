@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Arrays/ArrayView.h"
+#include "IO/Arrays/MeshArrays.h"
 #include "IO/External/Workspace.h"
 #include "IO/Import/RawMesh.h"
 #include "smg/Error.h"
+
+#include <string>
 
 namespace smg
 {
@@ -17,5 +19,12 @@ void checkArrays(const ArrayView& points, const ArrayView& cells);
  */
 RawMesh importArrays(const ArrayView& points, const ArrayView& cells, Workspace& workspace,
   const ProgressFunction& progress);
+
+/** The mesh of arrays with cells of any type and attributes, as that of a file of VTK: cells that
+ * are marked as ghosts are left out. Throws Error, which begins with the name of the mesh and names
+ * the point or the cell, if a coordinate is not finite, a corner is not a vertex, a type is not
+ * read, or there are no cells of the chosen kind; Cancelled. */
+RawMesh importArrays(const MeshArrays& mesh, const std::string& name, CellChoice choice,
+  Workspace& workspace, const ProgressFunction& progress);
 
 } // namespace smg

@@ -127,4 +127,15 @@ std::unique_ptr<OpenedMesh> openArrays(
   return opened;
 }
 
+ConversionReport convertArrays(const MeshArrays& mesh, const std::string& name,
+  const std::filesystem::path& out, const ConversionOptions& options)
+{
+  checkOutputPlace(out);
+  const std::filesystem::path in(name);
+  Conversion converting([&](Workspace& space, const ProgressFunction& progress)
+    { return importArrays(mesh, name, options.cells, space, progress); },
+    in, out, options);
+  return runConversion(converting);
+}
+
 } // namespace smg

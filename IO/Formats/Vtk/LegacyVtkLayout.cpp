@@ -3,6 +3,7 @@
 
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 
 #include <limits>
 #include <string>

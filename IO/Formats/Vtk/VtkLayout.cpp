@@ -6,26 +6,6 @@
 namespace smg
 {
 
-void nameApart(
-  VtkArray& array, const std::vector<VtkArray>& arrays, std::set<std::string>& repeated)
-{
-  const auto isTaken = [&arrays](const std::string& name)
-  { return std::ranges::find(arrays, name, &VtkArray::name) != arrays.end(); };
-  if (!isTaken(array.name))
-  {
-    return;
-  }
-  if (repeated.size() < MaxOtherArrays)
-  {
-    repeated.insert(array.name);
-  }
-  const std::string name = array.name + '_';
-  for (int number = 1; isTaken(array.name); ++number)
-  {
-    array.name = name + std::to_string(number);
-  }
-}
-
 InputFile& VtkFiles::open(std::size_t file, Window window)
 {
   const std::filesystem::path& path = this->Layout.files[file];

@@ -66,25 +66,17 @@ void forEachArray(auto& piece, const auto& visit)
   }
 }
 
-/** The maximum number of stored names of unsupported arrays. */
-inline constexpr std::size_t MaxOtherArrays = 20;
-
 /** The positions of all data of a mesh in its files. */
 struct VtkLayout
 {
   std::vector<std::filesystem::path> files;
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
-  /** Names of several arrays of the points, or of the cells; see nameApart(). */
+  /** Names of several arrays of the points, or of the cells; see nameApart() in VtkAttributes.h. */
   std::set<std::string> repeatedArrays;
   std::int64_t bytes = 0; ///< approximate memory of the pieces
   bool isPart = false;    ///< whether there are other, unread pieces, whose cells are omitted
 };
-
-/** Gives an array that is to come after `arrays` a name of its own, NAME_1 or more, if one of these
- * has its name, which is then added to `repeated`. */
-void nameApart(
-  VtkArray& array, const std::vector<VtkArray>& arrays, std::set<std::string>& repeated);
 
 /** Types of cells in VTK, which are the same in its files. */
 namespace VtkCellTypes

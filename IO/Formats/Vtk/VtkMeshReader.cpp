@@ -3,6 +3,7 @@
 
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/VtkArrayReader.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/Formats/Vtk/VtkCellReader.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,12 +50,7 @@ public:
 
   bool areAll() const { return !this->GhostTypes; }
   /** Whether the next one does. */
-  bool next()
-  {
-    // Bits of VTK: cells that belong to another piece, are refined elsewhere, or hidden.
-    constexpr std::int64_t Duplicate = 1, Refined = 8, Hidden = 32;
-    return this->areAll() || (this->GhostTypes->next() & (Duplicate | Refined | Hidden)) == 0;
-  }
+  bool next() { return this->areAll() || isOwnVtkCell(this->GhostTypes->next()); }
 
 private:
   std::unique_ptr<VtkIndexReader> GhostTypes;
@@ -91,8 +86,12 @@ public:
     }
     this->readColumns(&VtkPiece::pointArrays);
     this->readColumns(&VtkPiece::cellArrays);
-    this->noteOtherArrays();
-    this->noteGhosts();
+    noteArrays(this->Builder, this->Layout.otherArrays, this->Layout.repeatedArrays);
+    // Ghost cells of several pieces belong to others of them; those of a lone piece are missing.
+    if (this->Layout.pieces.size() == 1 && !this->Layout.isPart)
+    {
+      noteGhosts(this->Builder, this->Ghosts);
+    }
   }
 
 private:
@@ -226,14 +225,6 @@ private:
     reader.finish();
   }
 
-  /** The name of the column: the usual one for normals, unless another array has it. */
-  static std::string columnName(
-    const VtkArray& array, const std::vector<VtkArray>& arrays, const std::string& normals)
-  {
-    const bool areNormals = array.name == normals && array.components == 3;
-    return areNormals && !find(arrays, NormalsName) ? NormalsName : array.name;
-  }
-
   void readColumns(std::vector<VtkArray> VtkPiece::*arrays)
   {
     const bool ofPoints = arrays == &VtkPiece::pointArrays;
@@ -265,8 +256,8 @@ private:
                            " is left out, since not all pieces have it in the same type.");
         continue;
       }
-      const std::string name =
-        columnName(array, (*full).*arrays, ofPoints ? (*full).pointNormals : (*full).cellNormals);
+      const std::string name = columnName(array.name, array.components, (*full).*arrays,
+        ofPoints ? (*full).pointNormals : (*full).cellNormals);
       const ColumnSpec spec{ name, array.columnType, array.components };
       ImportColumn column(this->Builder, ofPoints ? ColumnOf::Vertices : ColumnOf::Elements, spec);
       if (column.exists())
@@ -275,43 +266,6 @@ private:
                  : this->readCellColumn(array.name, column);
         column.close();
       }
-    }
-  }
-
-  static std::string listOf(const std::set<std::string>& all)
-  {
-    std::string names;
-    for (const std::string& name : all)
-    {
-      names += (names.empty() ? "" : ", ") + inQuotes(name);
-    }
-    return names;
-  }
-
-  void noteOtherArrays()
-  {
-    if (!this->Layout.otherArrays.empty())
-    {
-      this->Builder.note(
-        "Arrays of texts or bits are left out: " + listOf(this->Layout.otherArrays) + ".");
-    }
-    if (!this->Layout.repeatedArrays.empty())
-    {
-      this->Builder.note("Of several arrays of one name, the second one and others have numbers "
-                         "after their names, as NAME_1: " +
-                         listOf(this->Layout.repeatedArrays) + ".");
-    }
-  }
-
-  /** Ghost cells of several pieces belong to others of them; those of a lone piece are missing. */
-  void noteGhosts()
-  {
-    const bool isLone = this->Layout.pieces.size() == 1 && !this->Layout.isPart;
-    if (isLone && this->Ghosts > 0)
-    {
-      this->Builder.note("Cells that the array vtkGhostType marks as ghosts or as hidden are left "
-                         "out: " +
-                         std::to_string(this->Ghosts) + '.');
     }
   }
 

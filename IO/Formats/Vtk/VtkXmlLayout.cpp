@@ -2,6 +2,7 @@
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
 

@@ -4,6 +4,7 @@
 #include "IO/Files/FileNames.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/ByteSource.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "Solver/Memory/Pool.h"
 
