@@ -16,12 +16,24 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <cstdint>
+
 namespace smg
 {
 namespace
 {
 
 using BlockIterator = vtkSmartPointer<vtkCompositeDataIterator>;
+
+void requireNoPreview(vtkDataObject* block)
+{
+  auto* mesh = vtkPointSet::SafeDownCast(block);
+  if (mesh && isPreview(*mesh))
+  {
+    throw Error("A block of the input is the preview of a mesh: put this filter between the reader "
+                "of the mesh and the filter that makes blocks.");
+  }
+}
 
 bool hasCells(vtkDataObject* block)
 {
@@ -32,12 +44,18 @@ bool hasCells(vtkDataObject* block)
 /** At the single block with cells of `blocks`. */
 BlockIterator singleBlock(vtkCompositeDataSet& blocks)
 {
+  if (blocks.IsA("vtkUniformGridAMR"))
+  {
+    throw Error("The input is an image with refined parts (AMR), not a mesh: make tetrahedra of it "
+                "with Tetrahedralize, and one mesh of these with Merge Blocks.");
+  }
   if (hasSeveralProcesses())
   {
     throw Error("The input consists of blocks, on which several processes cannot work: make them "
                 "one mesh with Merge Blocks, save it as .vsm and open that.");
   }
   BlockIterator found;
+  std::int64_t count = 0;
   const auto at = BlockIterator::Take(blocks.NewIterator());
   for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
   {
@@ -45,10 +63,10 @@ BlockIterator singleBlock(vtkCompositeDataSet& blocks)
     {
       continue;
     }
-    if (found)
+    requireNoPreview(at->GetCurrentDataObject());
+    if (++count > 1)
     {
-      throw Error("The input has several blocks with cells: take one with Extract Block, or make "
-                  "them one mesh with Merge Blocks.");
+      continue; // one of the others may be a preview
     }
     found = BlockIterator::Take(blocks.NewIterator());
     found->InitTraversal();
@@ -56,6 +74,11 @@ BlockIterator singleBlock(vtkCompositeDataSet& blocks)
     {
       found->GoToNextItem();
     }
+  }
+  if (count > 1)
+  {
+    throw Error("The input has several blocks with cells: take one with Extract Block, or make "
+                "them one mesh with Merge Blocks.");
   }
   if (!found)
   {
@@ -70,15 +93,10 @@ vtkSmartPointer<vtkPointSet> ordinaryMesh(vtkDataObject& block)
 {
   if (!block.IsA("vtkPolyData") && !block.IsA("vtkUnstructuredGrid"))
   {
-    throw Error(std::string("The block with cells of the input is a ") + block.GetClassName() +
-                ": a vtkPolyData or vtkUnstructuredGrid is needed.");
+    throw Error("The block with cells of the input is an image or a structured grid, not a mesh: "
+                "make tetrahedra of it with Tetrahedralize.");
   }
   auto* mesh = vtkPointSet::SafeDownCast(&block);
-  if (isPreview(*mesh))
-  {
-    throw Error("The block with cells of the input is the preview of a mesh: put this filter "
-                "between the reader of the mesh and the filter that makes blocks.");
-  }
   if (isOrdinaryMesh(*mesh))
   {
     return mesh;
