@@ -2,7 +2,7 @@
 """Builds wheels and source archives of the package streamingmultigrid (PEP 517), with CMake.
 
 A wheel has the package, the library behind it, and the libraries that this needs beyond those of C and
-C++; it serves every Python 3, and systems whose C library is not older than that of the machine that
+C++, by names of their own (own_names.py); it serves every Python 3, and systems whose C library is not older than that of the machine that
 built it. Nothing is downloaded: ``pip install --no-index --no-build-isolation .`` needs the packages of
 `smg_build_packages` in cmake/packages.sh.
 
@@ -30,10 +30,17 @@ import tarfile
 import tempfile
 import zipfile
 
+from own_names import own_name, renamed
+
 _TREE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 _PACKAGE = "streamingmultigrid"
 # Of the C and C++ libraries, which every Linux with Python has.
 _SYSTEM = re.compile(r"(linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so)")
+
+
+def is_of_system(name):
+    """Whether a library of this name is one of those that a wheel does not carry."""
+    return _SYSTEM.match(name) is not None
 
 
 def _toml():
@@ -140,7 +147,7 @@ def _needed(library):
     return {
         name: os.path.realpath(path)
         for name, path in pairs
-        if not _SYSTEM.match(name) and not name.startswith("libsmg")
+        if not is_of_system(name) and not name.startswith("libsmg")
     }
 
 
@@ -157,6 +164,24 @@ def _licences(files):
             if package and os.path.exists(path):
                 found[package] = path
     return found
+
+
+def _bytes(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def _libraries(installed, needed):
+    """The libraries of a wheel, as {path in the wheel: bytes}: those of the package, and the libraries of
+    the system that these need. All but those that the package opens by name have a name of their own."""
+    data = {os.path.basename(inside): _bytes(file) for inside, file in installed.items()}
+    data.update((soname, _bytes(file)) for soname, file in needed.items())
+    opened = re.compile("libstreamingmultigrid|libsmgVtkHdf")
+    names = {name: own_name(name, content) for name, content in data.items() if not opened.match(name)}
+    return {
+        "%s/lib/%s" % (_PACKAGE, names.get(name, name)): renamed(content, names)
+        for name, content in data.items()
+    }
 
 
 class _Wheel:
@@ -176,9 +201,8 @@ class _Wheel:
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
         self._records.append("%s,sha256=%s,%d" % (name, digest, len(data)))
 
-    def add_file(self, name, path, executable=False):
-        with open(path, "rb") as file:
-            self.add(name, file.read(), executable)
+    def add_file(self, name, path):
+        self.add(name, _bytes(path))
 
     def close(self):
         record = _dist_info() + "/RECORD"
@@ -214,11 +238,15 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     wheel = _Wheel(path)
     with tempfile.TemporaryDirectory() as prefix:
         files = _installed(build, prefix)
-        library = next(file for file in files.values() if "/libstreamingmultigrid.so" in file)
+        installed = {inside: file for inside, file in files.items() if ".so" in inside}
+        library = next(file for file in installed.values() if "/libstreamingmultigrid.so" in file)
         needed = _needed(library)
-        files.update(("%s/lib/%s" % (_PACKAGE, soname), file) for soname, file in needed.items())
+        libraries = _libraries(installed, needed)
         for inside, file in sorted(files.items()):
-            wheel.add_file(inside, file, executable=".so" in inside)
+            if inside not in installed:
+                wheel.add_file(inside, file)
+        for inside, content in sorted(libraries.items()):
+            wheel.add(inside, content, executable=True)
     licences = _dist_info() + "/licenses/"
     wheel.add_file(licences + "LICENSE", os.path.join(_TREE, "LICENSE"))
     for package, file in sorted(_licences(needed.values()).items()):
