@@ -44,6 +44,7 @@ struct MeshFileInfo
   std::int64_t maxCorners = 0;     ///< of an element
   std::vector<ColumnSpec> vertexColumns;
   std::vector<ColumnSpec> elementColumns;
+  bool text = false; ///< whether a format that has either form is to write text
 };
 
 /** Consecutive vertices of a mesh. */

@@ -121,6 +121,60 @@ void FanChain::walk(std::uint32_t start)
   }
 }
 
+bool StripChain::build(std::span<const std::uint32_t> triangles)
+{
+  const std::size_t count = triangles.size() / 3;
+  const auto triangle = [&triangles](std::uint32_t place)
+  { return triangles.subspan(3 * std::size_t(place), 3); };
+  this->Begins.clear();
+  for (std::uint32_t place = 0; place < count; ++place)
+  {
+    const std::span<const std::uint32_t> corners = triangle(place);
+    this->Begins.push_back({ { corners[0], corners[1] }, place });
+  }
+  std::ranges::sort(this->Begins);
+  const auto sameBegin = [](const auto& a, const auto& b) { return a.first == b.first; };
+  if (std::ranges::adjacent_find(this->Begins, sameBegin) != this->Begins.end())
+  {
+    return false;
+  }
+
+  std::vector<bool> follows(count);
+  for (std::uint32_t place = 0; place < count; ++place)
+  {
+    for (const bool isEven : { false, true })
+    {
+      if (const std::uint32_t next = this->after(triangle(place), isEven); next != None)
+      {
+        follows[next] = true;
+      }
+    }
+  }
+  const auto first = std::ranges::find(follows, false);
+  if (first == follows.end())
+  {
+    return false;
+  }
+  this->Order.clear();
+  std::vector<bool> taken(count);
+  for (auto next = static_cast<std::uint32_t>(first - follows.begin());
+       next != None && !taken[next];
+       next = this->after(triangle(next), this->Order.size() % 2 == 1))
+  {
+    taken[next] = true;
+    this->Order.push_back(next);
+  }
+  return this->Order.size() == count;
+}
+
+std::uint32_t StripChain::after(std::span<const std::uint32_t> triangle, bool isEven) const
+{
+  const Edge begin = isEven ? Edge{ triangle[2], triangle[1] } : Edge{ triangle[0], triangle[2] };
+  const auto found = std::ranges::lower_bound(
+    this->Begins, begin, {}, [](const auto& entry) { return entry.first; });
+  return found != this->Begins.end() && found->first == begin ? found->second : None;
+}
+
 namespace
 {
 
@@ -224,17 +278,35 @@ void ElementRestorer::endGroup()
   // More memory would only help a polygon: other elements of several cells stay these cells anyway.
   this->Large += this->TooLarge && this->MayBeFan ? 1 : 0;
   this->Split += isOne || (this->TooLarge && this->MayBeFan) ? 0 : 1;
+  if (!isOne && !this->TooLarge && this->CornersOfCell == 3)
+  {
+    this->Fan = {}; // whose memory serves for the strip
+    if (this->Strip.build(this->Corners))
+    {
+      for (const std::uint32_t cell : this->Strip.order())
+      {
+        this->writeCell(cell);
+      }
+      this->Corners.clear();
+      this->Tuples.clear();
+    }
+  }
   this->writeCells();
+}
+
+void ElementRestorer::writeCell(std::size_t cell)
+{
+  const std::size_t bytes = this->Columns.bytes();
+  this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
+    std::span(this->Tuples).subspan(cell * bytes, bytes));
 }
 
 /** Writes the collected cells as they are. */
 void ElementRestorer::writeCells()
 {
-  const std::size_t bytes = this->Columns.bytes();
   for (std::size_t cell = 0; cell < this->Corners.size() / this->CornersOfCell; ++cell)
   {
-    this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
-      std::span(this->Tuples).subspan(cell * bytes, bytes));
+    this->writeCell(cell);
   }
   this->Corners.clear();
   this->Tuples.clear();

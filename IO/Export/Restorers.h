@@ -90,10 +90,36 @@ private:
 };
 
 /**
+ * Restores the order of the triangles of a strip. The strip v0 v1 v2 ... was split into the
+ * triangles v0 v1 v2, v2 v1 v3, v2 v3 v4, v4 v3 v5 ..., which may come in any order: a b c in an
+ * even place is followed by c b d, in an odd place by a c d.
+ */
+class StripChain
+{
+public:
+  /** Whether the triangles, 3 corners each, are such a strip in one order only, which is then
+   * order(). A strip that ends where it begins has several. */
+  bool build(std::span<const std::uint32_t> triangles);
+
+  /** The triangles from the first to the last, by their places. */
+  std::span<const std::uint32_t> order() const { return this->Order; }
+
+private:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  static constexpr std::uint32_t None = UINT32_MAX;
+
+  /** The triangle that follows one in an even or an odd place. */
+  std::uint32_t after(std::span<const std::uint32_t> triangle, bool isEven) const;
+
+  std::vector<std::pair<Edge, std::uint32_t>> Begins; ///< the first two corners of each triangle
+  std::vector<std::uint32_t> Order;
+};
+
+/**
  * Restores the elements of the original file, in its order, from the cells of a mesh stream, out of
  * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
- * element that are the fan of a polygon become this polygon; other cells of one element stay as
- * they are, in their order.
+ * element that are the fan of a polygon become this polygon; those of a strip are written along it;
+ * other cells of one element stay as they are, in their order.
  */
 class ElementRestorer
 {
@@ -122,6 +148,7 @@ private:
   void take(const RowSort::Row& row);
   void endGroup();
   void writeCells();
+  void writeCell(std::size_t cell);
   void write(std::span<const std::uint32_t> corners, std::span<const std::byte> tuples);
 
   Workspace& Space;
@@ -140,6 +167,7 @@ private:
   bool MayBeFan = false;  ///< all its cells are triangles that begin with
   std::uint32_t Apex = 0; ///< this corner
   FanChain Fan;
+  StripChain Strip;
   std::int64_t Split = 0, Large = 0, Different = 0; ///< elements of that kind
 
   std::optional<BucketFile::Reader> Reader;

@@ -202,6 +202,34 @@ TEST_F(RestoredMeshTest, StripsStayTheirTriangles)
   }
 }
 
+TEST_F(RestoredMeshTest, StripsAreTheirTrianglesInTheirOrder)
+{
+  for (int corners = 3; corners < 40; ++corners)
+  {
+    // As VTK's triangle filter splits it, between two polygons.
+    std::vector<Corners> triangles{ { 0, 1, 2 } };
+    std::string points, strip = std::to_string(corners);
+    for (int k = 0; k < corners; ++k)
+    {
+      points += std::to_string(k / 2) + ' ' + std::to_string(k % 2) + " 0\n";
+      strip += ' ' + std::to_string(k);
+      if (k >= 2)
+      {
+        k % 2 == 0 ? triangles.push_back({ k - 2, k - 1, k })
+                   : triangles.push_back({ k - 1, k - 2, k });
+      }
+    }
+    writeBytes(this->Folder / "strip.vtk",
+      "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS " + std::to_string(corners) +
+        " float\n" + points + "POLYGONS 1 4\n3 0 1 2\nTRIANGLE_STRIPS 1 " +
+        std::to_string(corners + 1) + '\n' + strip + '\n');
+    convert(this->Folder / "strip.vtk", this->Folder / "mesh.vsm");
+    Workspace workspace(this->Folder.path(), Workspace::MinMemory);
+    writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.off", workspace);
+    EXPECT_EQ(readFileMesh(this->Folder / "out.off").cells, triangles) << corners;
+  }
+}
+
 TEST_F(RestoredMeshTest, SaysThatTheTrianglesOfAPolygonDiffer)
 {
   MeshOfFile mesh = randomMeshOfFile(CellType::Triangle, 3, true);
