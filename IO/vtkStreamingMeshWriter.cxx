@@ -87,6 +87,7 @@ struct Job
   std::filesystem::path path;
   /** The .vsm file with the points of no cell; empty: that of the input. */
   std::filesystem::path streamFile;
+  bool text; ///< see vtkStreamingMeshWriter::SetWriteText()
   smg::Progress& progress;
 
   smg::PieceStream stream() const
@@ -143,7 +144,8 @@ Notes writeThroughContainer(const Job& job)
   smg::checkOutput(job.path, stream.info().cellType);
   smg::Progress half(job.part(0.0, 0.5));
   smg::writeContainer(stream, container, true, half);
-  Notes notes = smg::writeFromVsm(container, job.path, job.part(0.5, 1.0), scratch.path());
+  Notes notes =
+    smg::writeFromVsm(container, job.path, job.part(0.5, 1.0), scratch.path(), job.text);
   noteIsolated(job, notes);
   return notes;
 }
@@ -159,7 +161,7 @@ Notes restoreOrderOf(const Job& job, smg::CellType cells, MakeContainer&& makeCo
   const std::filesystem::path container = workspace.folder() / "mesh.vsm";
   Notes notes = makeContainer(container);
   workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-  const Notes more = smg::writeRestored(container, job.path, workspace);
+  const Notes more = smg::writeRestored(container, job.path, workspace, job.text);
   notes.insert(notes.end(), more.begin(), more.end());
   return notes;
 }
@@ -202,6 +204,7 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
   {
     smg::ConversionOptions options;
     options.scratch = std::filesystem::absolute(job.path).parent_path();
+    options.text = job.text && path == job.path;
     options.progress = job.part(0.0, share);
     return smg::writeOrdinaryMesh(ordinary, path, options).notes;
   };
@@ -288,6 +291,7 @@ struct vtkStreamingMeshWriter::Internals
     }
     code = vtkErrorCode::UnrecognizedFileTypeError;
     const WriteFunction write = this->Self.RestoreOrder ? writeInOriginalOrder : writerOf(path);
+    smg::checkForm(path, this->Self.WriteText);
     code = vtkErrorCode::UnknownError;
     smg::Progress progress(smg::progressOf(this->Self));
     smg::PieceInput all(this->Self, 0);
@@ -306,7 +310,8 @@ struct vtkStreamingMeshWriter::Internals
   {
     const Trial trial = tryPiece(input, this->Self.NumberOfStreamedPieces);
     const char* streamFile = this->Self.StreamFileName;
-    const Job job{ input, trial.pieces, path, streamFile ? streamFile : "", progress };
+    const Job job{ input, trial.pieces, path, streamFile ? streamFile : "", this->Self.WriteText,
+      progress };
     Notes notes = trial.isOrdinary && write != writeIndexedPieces
                     ? writeOrdinary(job, this->Self.RestoreOrder)
                     : write(job);
@@ -422,6 +427,7 @@ void vtkStreamingMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "RestoreOrder: " << this->RestoreOrder << "\n";
+  os << indent << "WriteText: " << this->WriteText << "\n";
   os << indent << "StreamFileName: " << (this->StreamFileName ? this->StreamFileName : "(none)")
      << "\n";
   os << indent << "NumberOfStreamedPieces: " << this->NumberOfStreamedPieces << "\n";

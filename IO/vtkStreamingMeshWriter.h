@@ -69,6 +69,14 @@ public:
   ///@}
 
   ///@{
+  /** Whether to write text where the format has a binary and a text form: .ply, .stl, .vtk. Numbers
+   * read back exactly. Formats of binary files are an error. Default: off. */
+  vtkSetMacro(WriteText, bool);
+  vtkGetMacro(WriteText, bool);
+  vtkBooleanMacro(WriteText, bool);
+  ///@}
+
+  ///@{
   /** The .vsm file with the points of no cell. Default: none (the file in
    * vtkStreamingMeshKeys::STREAM_FILE() of the input, if any). Required only for other data. */
   vtkSetFilePathMacro(StreamFileName);
@@ -112,6 +120,7 @@ private:
   char* FileName = nullptr;
   int NumberOfStreamedPieces = 0;
   bool RestoreOrder = false;
+  bool WriteText = false;
   char* StreamFileName = nullptr;
   bool ChooseArraysToWrite = false;
   std::unique_ptr<Internals> Internal;

@@ -136,6 +136,13 @@ void CommonOptions::addInputTo(CLI::App& command)
     ->type_name("K");
 }
 
+void CommonOptions::addTextTo(CLI::App& command)
+{
+  command.add_flag("--text", this->writesText,
+    "Write text where OUT may be binary or text (.ply, .stl, .vtk), for programs that read no "
+    "binary files; numbers read back exactly");
+}
+
 smg::ConversionOptions CommonOptions::inputOptions() const
 {
   smg::ConversionOptions options;

@@ -42,6 +42,7 @@ struct CommonOptions
   std::int64_t scratchLimit = 0;    ///< bytes of the scratch files at once; 0: none
   std::filesystem::path checkpoint; ///< folder, of commands that have one; empty: none
   bool quiet = false;
+  bool writesText = false; ///< of the mesh that is written, of commands that write one
 
   /**
    * Adds the options to a command, except --threads. `memoryDefault` is the default of --memory,
@@ -51,6 +52,8 @@ struct CommonOptions
     const std::string& moreOnMemory = {});
   /** Adds --cells, --weld, --time-step and --partition. */
   void addInputTo(CLI::App& command);
+  /** Adds --text. */
+  void addTextTo(CLI::App& command);
   /** Adds --threads. */
   void addThreadsTo(CLI::App& command);
 

@@ -71,6 +71,7 @@ struct ConvertCommand : CommonOptions
                     : this->codec == "lz4" ? smg::Codec::Lz4
                                            : smg::Codec::None;
     options.restoreOrder = this->restoreOrder;
+    options.text = this->writesText;
     options.checkpoint = this->checkpoint;
     return options;
   }
@@ -111,6 +112,7 @@ struct ConvertCommand : CommonOptions
         "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
           smg::suffixList(smg::FormatUse::Restore, "or") + " file")
       ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
+    this->addTextTo(command);
     command.add_flag("--dry-run", this->dryRun,
       "Only estimate the size of the mesh and the cost of the conversion");
     this->addCheckpointTo(command);
@@ -122,6 +124,7 @@ struct ConvertCommand : CommonOptions
   {
     requireOneProcess();
     smg::checkOutputPlace(this->out);
+    smg::checkForm(this->out, this->writesText);
     smg::UsedFiles files;
     files.readMesh(this->in);
     files.writeMesh(this->out);

@@ -106,6 +106,7 @@ void MeshCommand::addFiles(CLI::App& command, const std::string& result)
 
 void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
 {
+  this->addTextTo(command);
   this->addInputTo(command);
   this->addTo(command, std::to_string(memoryLimit >> 20), "; without it, 256 MiB to convert IN");
   this->addThreadsTo(command);
@@ -119,7 +120,7 @@ smg::JobEstimate MeshCommand::estimate(const smg::ResultFile& out) const
   const smg::EstimatedInput in(this->In, conversion);
   smg::JobEstimate estimate(in,
     { this->Out, this->job().addedTo(in.info), out.expectedOrder(in.info),
-      this->job().writerMemory() },
+      this->job().writerMemory(), this->writesText },
     this->costsOn(in.info), conversion);
   estimate.memory_limit = this->job().memoryLimit();
   return estimate;
@@ -170,7 +171,8 @@ smg::ResultFile MeshCommand::prepareFiles()
                                      .out = this->Out,
                                      .scratch = this->scratch,
                                      .welds = this->input.weld.has_value(),
-                                     .threads = this->threads });
+                                     .threads = this->threads,
+                                     .text = this->writesText });
   this->checkFiles(this->files());
   this->checkCheckpoint({ this->Out, this->report });
   this->readTask();

@@ -40,6 +40,7 @@ void PreviewCommand::checkOutputName() const
       smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") + '.');
   }
   smg::checkOutput(this->out, smg::CellType::Triangle);
+  smg::checkForm(this->out, this->writesText);
 }
 
 int PreviewCommand::run() const
@@ -62,6 +63,7 @@ int PreviewCommand::run() const
       mesh->reader(), this->points, smg::partOf(bar.function(), begin, 0.95), this->in.string());
     smg::WriteMeshOptions options;
     options.scratch = this->scratch;
+    options.text = this->writesText;
     options.progress = smg::partOf(bar.function(), 0.95, 1.0);
     notes = smg::writeMesh(preview, this->out, options);
     report["vertices"] = mesh->reader().info().vertices;
@@ -106,6 +108,7 @@ void PreviewCommand::addOptions(CLI::App& command)
     ->check(CLI::Range(smg::MinPreviewPoints, smg::MaxPreviewPoints))
     ->capture_default_str()
     ->type_name("N");
+  this->addTextTo(command);
   this->addInputTo(command);
   this->addTo(command, "256", "; to convert IN: a .vsm file is not converted");
 }

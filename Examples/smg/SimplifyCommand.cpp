@@ -43,6 +43,7 @@ smg::JobEstimate SimplifyCommand::estimate() const
   conversion.scratch = this->scratchPlace();
   smg::SimplifyOptions options = this->Simplify;
   options.memoryLimit = this->memoryBytes(options.memoryLimit);
+  options.text = this->writesText;
   return smg::simplifyEstimate(
     { this->In, conversion }, this->Target, this->Out, options, conversion);
 }
@@ -60,6 +61,7 @@ smg::SimplifyReport SimplifyCommand::simplified()
       this->openInput(this->In, smg::partOf(bar.function(), 0.0, 0.5));
     this->Simplify.memoryLimit = this->memoryBytes(this->Simplify.memoryLimit);
     this->Simplify.threads = this->threads;
+    this->Simplify.text = this->writesText;
     this->Simplify.scratch = this->scratch;
     this->Simplify.checkpoint = this->checkpoint;
     this->Simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
@@ -96,6 +98,7 @@ int SimplifyCommand::run()
 {
   requireOneProcess();
   smg::checkSimplifiedPath(this->Out);
+  smg::checkForm(this->Out, this->writesText);
   smg::UsedFiles files;
   files.readMesh(this->In);
   files.writeMesh(this->Out);
@@ -144,6 +147,7 @@ void SimplifyCommand::addOptions(CLI::App& command)
       })
     ->type_name("LENGTH");
   command.add_flag("--dry-run", this->DryRun, "Only estimate the size of the mesh and the costs");
+  this->addTextTo(command);
   this->addInputTo(command);
   this->addTo(command);
   this->addThreadsTo(command);

@@ -211,7 +211,7 @@ void Conversion::write(MeshSource& source, const AddTables& add)
   if (!direct)
   {
     for (std::string& note :
-      writeFromVsm(path, this->Out, partOf(progress, 0.6, 1.0), space.folder()))
+      writeFromVsm(path, this->Out, partOf(progress, 0.6, 1.0), space.folder(), this->Options.text))
     {
       this->Report.notes.push_back(std::move(note));
     }

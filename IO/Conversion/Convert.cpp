@@ -6,6 +6,7 @@
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Formats/WriteFiles.h"
@@ -67,7 +68,7 @@ void restoreMesh(Conversion& conversion)
   report.order = "restored";
   report.vertices = info.vertices;
   report.cells = info.cells;
-  report.notes = writeRestored(conversion.in(), conversion.out(), space);
+  report.notes = writeRestored(conversion.in(), conversion.out(), space, conversion.options().text);
   report.seconds.write = conversion.lap();
 }
 
@@ -125,6 +126,7 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
 {
   checkIsNotInput(in, out);
   checkOutputPlace(out);
+  checkForm(out, options.text);
   if (!options.checkpoint.empty() && !Conversion::hasStages(in, options))
   {
     throw Error(in.string() +

@@ -57,7 +57,8 @@ struct NamedFormat
   /** Whether the bytes depend on the numbers in the file, and can be far fewer than estimated. */
   bool dependsOnNumbers() const
   {
-    return !this->format || this->format->kind == MeshFileKind::Vsm || this->suffix.isText;
+    return !this->format || this->format->kind == MeshFileKind::Vsm ||
+           this->suffix.form == FileForm::Text;
   }
 
   std::string text;
@@ -119,7 +120,7 @@ struct ResultMesh
 
 /** Bytes of a file of the result; of a .vsm file where its format is not known. */
 std::int64_t fileBytes(const ResultMesh& result, const std::filesystem::path& out,
-  WrittenOrder order, Codec codec = Codec::Zstd)
+  WrittenOrder order, bool text, Codec codec = Codec::Zstd)
 {
   const NamedFormat named(out);
   const std::int64_t vsm = result.bytes(codec);
@@ -127,21 +128,23 @@ std::int64_t fileBytes(const ResultMesh& result, const std::filesystem::path& ou
     order == WrittenOrder::Restored || (named.format && !named.format->isStreamed());
   return named.format && named.format->bytes
            ? named.format->bytes(
-               { isRestored ? result.restored() : result.mesh, vsm, named.suffix })
+               { isRestored ? result.restored() : result.mesh, vsm, named.suffix, text })
            : vsm;
 }
 
 /** The scratch files of the writer of a file of this suffix. */
-std::int64_t writerBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix)
+std::int64_t writerBytes(
+  const StreamInfo& mesh, std::int64_t memory, std::string_view suffix, bool text)
 {
   const Format* const format = formatOfSuffix(suffix);
-  return format && format->scratch ? format->scratch(mesh, memory) : 0;
+  return format && format->scratch ? format->scratch(mesh, memory, text) : 0;
 }
 
 /** About the most bytes of scratch files at once while RestoredMesh sorts the mesh of a .vsm file
  * in a workspace of `memory` bytes, and a file of this suffix is written of it. `mesh` has the
  * columns of that file. */
-std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::string_view suffix)
+std::int64_t restoreBytes(
+  const StreamInfo& mesh, std::int64_t memory, std::string_view suffix, bool text)
 {
   constexpr std::int64_t Number = sizeof(std::uint32_t);
   const std::int64_t corners = mesh.cells * cornersOf(mesh.cellType);
@@ -154,7 +157,7 @@ std::int64_t restoreBytes(const StreamInfo& mesh, std::int64_t memory, std::stri
     rowSortBytes(mesh.cells, element, memory / 3);
   const std::int64_t numbers = mesh.vertices * 2 * Number + corners * Number;
   const std::int64_t elements = mesh.cells * (Number + element);
-  return sorted + std::max(numbers, elements + writerBytes(mesh, memory, suffix));
+  return sorted + std::max(numbers, elements + writerBytes(mesh, memory, suffix, text));
 }
 
 /** The most scratch files at once while the result is written. */
@@ -169,7 +172,7 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
   {
     case WrittenOrder::Restored:
       return normals + result.bytes(Codec::Lz4) +
-             restoreBytes(result.restored(), written.memory, suffix);
+             restoreBytes(result.restored(), written.memory, suffix, written.text);
     case WrittenOrder::Rewritten:
     {
       // As MovedVertices: a number, the position and the normal of each, sorted by numbers.
@@ -181,9 +184,10 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
       break;
   }
   const Format* const format = formatOfSuffix(suffix);
-  const bool readsAgain = format && (format->writeVsm || !format->isStreamed());
+  const bool readsAgain = format && (format->writeVsm || !format->isStreamed() ||
+                                      format->turnOf(written.text) != format->turn);
   return normals + (readsAgain ? result.bytes(Codec::Lz4) : 0) +
-         writerBytes(result.mesh, StreamOrderMemory, suffix);
+         writerBytes(result.mesh, StreamOrderMemory, suffix, written.text);
 }
 
 } // namespace
@@ -249,7 +253,8 @@ JobEstimate::JobEstimate(const EstimatedInput& in, const EstimatedResult& result
   , passes(costs.passes)
 {
   const ResultMesh mesh(in, result.added);
-  this->output_bytes = result.out.empty() ? 0 : fileBytes(mesh, result.out, result.order);
+  this->output_bytes =
+    result.out.empty() ? 0 : fileBytes(mesh, result.out, result.order, result.text);
   const std::int64_t stream = in.converts ? in.streamBytes : 0;
   this->scratch_bytes = std::max(in.conversionScratch,
     stream +
@@ -277,10 +282,11 @@ JobEstimate::JobEstimate(const std::filesystem::path& in, const std::filesystem:
   this->cells = estimate.cells;
   this->counted = estimate.counted;
   this->memory_bytes = this->memory_limit = estimate.memory_bytes;
-  this->output_bytes = fileBytes(result, out, order, options.codec);
-  this->scratch_bytes = options.restoreOrder
-                          ? restoreBytes(result.restored(), estimate.memory_bytes, lowerSuffix(out))
-                          : estimate.scratch_bytes;
+  this->output_bytes = fileBytes(result, out, order, options.text, options.codec);
+  this->scratch_bytes =
+    options.restoreOrder
+      ? restoreBytes(result.restored(), estimate.memory_bytes, lowerSuffix(out), options.text)
+      : estimate.scratch_bytes;
   this->cpu_seconds = estimate.cpu_seconds;
 }
 

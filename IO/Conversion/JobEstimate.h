@@ -63,6 +63,7 @@ struct EstimatedResult
   AddedValues added;
   WrittenOrder order = WrittenOrder::Stream;
   std::int64_t memory = 0; ///< bytes for the sorts of the orders of a file
+  bool text = false;       ///< see WriteMeshOptions
 };
 
 /** An estimate of the costs of a command that computes something on a mesh, before it starts. */

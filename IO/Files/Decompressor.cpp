@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <new>
+#include <system_error>
 
 namespace smg
 {
@@ -166,9 +167,22 @@ Compression compressionOf(std::string_view bytes)
                                        : Compression::None;
 }
 
-bool isCompressedSuffix(std::string_view suffix)
+std::filesystem::path plainOrCompressed(const std::filesystem::path& path)
 {
-  return suffix == ".gz" || suffix == ".xz" || suffix == ".zst";
+  std::error_code absent;
+  if (std::filesystem::exists(path, absent))
+  {
+    return path;
+  }
+  for (const std::string_view suffix : CompressedSuffixes)
+  {
+    std::filesystem::path compressed = path;
+    if (std::filesystem::exists(compressed += suffix, absent))
+    {
+      return compressed;
+    }
+  }
+  return {};
 }
 
 std::unique_ptr<Decompressor> makeDecompressor(Compression compression)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -21,8 +24,15 @@ enum class Compression
 /** By the first bytes of a file, at least 6. */
 Compression compressionOf(std::string_view bytes);
 
-/** Whether a suffix, in lower case, is added to the names of compressed files: .gz, .xz or .zst. */
-bool isCompressedSuffix(std::string_view suffix);
+/** The suffixes that are added to the names of compressed files. */
+inline constexpr std::array<std::string_view, 3> CompressedSuffixes{ ".gz", ".xz", ".zst" };
+/** Whether a suffix, in lower case, is one of these. */
+constexpr bool isCompressedSuffix(std::string_view suffix)
+{
+  return std::ranges::find(CompressedSuffixes, suffix) != CompressedSuffixes.end();
+}
+/** The file of this name, or else that of this name and such a suffix; empty: there is none. */
+std::filesystem::path plainOrCompressed(const std::filesystem::path& path);
 
 /** Decompresses the members of a file, one after the other. */
 class Decompressor

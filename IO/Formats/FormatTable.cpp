@@ -254,4 +254,20 @@ void checkHolds(const std::filesystem::path& path, const FileSuffix& suffix, Cel
   }
 }
 
+void checkForm(const std::filesystem::path& path, bool text)
+{
+  const std::string name = lowerSuffix(path);
+  const Format* const format = text ? formatOfSuffix(name) : nullptr;
+  if (format &&
+      std::ranges::find(format->suffixes, std::string_view(name), &FileSuffix::text)->form ==
+        FileForm::Binary)
+  {
+    const FormatUse written = FormatUse::Write;
+    throw Error(path.string() + ": a " + name + " file is not written as text: choose " +
+                suffixesOf({ &written, 1 }, "or",
+                  [](const FileSuffix& other) { return other.form != FileForm::Binary; }) +
+                ", or do not ask for text.");
+  }
+}
+
 } // namespace smg

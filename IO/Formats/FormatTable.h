@@ -71,4 +71,8 @@ SMG_EXPORT std::string suffixList(
 SMG_EXPORT void checkHolds(const std::filesystem::path& path, const FileSuffix& suffix,
   CellType cells, const std::string& choices);
 
+/** Throws Error if `text` is requested, but files of this name are binary. A suffix that is not
+ * written at all is no matter of this. */
+SMG_EXPORT void checkForm(const std::filesystem::path& path, bool text);
+
 } // namespace smg

@@ -107,6 +107,13 @@ void UsedFiles::check() const
   }
 }
 
+std::vector<std::filesystem::path> filesOfMesh(const std::filesystem::path& path)
+{
+  Paths files = furtherInputs(path);
+  files.insert(files.begin(), path);
+  return files;
+}
+
 InputState::File::File(std::filesystem::path name)
   : path(std::move(name))
 {
@@ -125,7 +132,7 @@ InputState::InputState(const std::filesystem::path& mesh)
 {
   // The state comes before the look into the file, which may be another one then.
   this->Files.emplace_back(mesh);
-  for (std::filesystem::path& file : smg::furtherInputs(mesh))
+  for (std::filesystem::path& file : furtherInputs(mesh))
   {
     this->Files.emplace_back(std::move(file));
   }

@@ -44,6 +44,9 @@ private:
   std::vector<Used> Read, Written;
 };
 
+/** The files of a mesh that is read; `path` is the first. */
+SMG_EXPORT std::vector<std::filesystem::path> filesOfMesh(const std::filesystem::path& path);
+
 /** The files of a mesh that is read, as they are when this object is made. What is computed in
  * several passes over them belongs to one mesh only if they remain what they are. */
 class SMG_EXPORT InputState

@@ -61,9 +61,11 @@ WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileIn
 /** Writes vertices and elements apart, in the order in which `mesh` gives them. */
 template <class Mesh>
 WriteNotes writeParts(
-  Mesh& mesh, const Format& format, const std::filesystem::path& path, Workspace& space)
+  Mesh& mesh, const Format& format, const std::filesystem::path& path, Workspace& space, bool text)
 {
-  const std::unique_ptr<MeshFileWriter> writer = format.writer(path, mesh.info(), &space);
+  MeshFileInfo info = mesh.info();
+  info.text = text;
+  const std::unique_ptr<MeshFileWriter> writer = format.writer(path, info, &space);
   const auto writeVertices = [&]
   {
     for (VertexChunk chunk; mesh.next(chunk);)
@@ -92,7 +94,7 @@ WriteNotes writeParts(
     writeVertices();
     writeElements();
   }
-  return finish(*writer, format, mesh.info());
+  return finish(*writer, format, info);
 }
 
 void take(MeshBlock& block, VertexChunk& chunk)
@@ -111,18 +113,21 @@ void take(MeshBlock& block, CellType cells, ElementChunk& chunk)
   chunk.sizes.assign(chunk.corners.size() / corners, corners);
 }
 
-/** The mesh of a .vsm file in stream order, without the columns that a conversion adds: its
- * vertices and, from another reading, its cells. */
+/** The mesh of a .vsm file in stream order: its vertices and, from another reading, its cells. */
 class StreamedMesh
 {
 public:
-  StreamedMesh(const std::filesystem::path& vsm, const ProgressFunction& progress)
+  /** `allColumns`: also those that a conversion adds. */
+  StreamedMesh(const std::filesystem::path& vsm, bool allColumns, const ProgressFunction& progress)
     : Reader(vsm)
     , Info(this->Reader.info())
     , Reported(progress)
   {
-    this->Info.vertexColumns = ownColumns(this->Info.vertexColumns);
-    this->Info.elementColumns = ownColumns(this->Info.elementColumns);
+    if (!allColumns)
+    {
+      this->Info.vertexColumns = ownColumns(this->Info.vertexColumns);
+      this->Info.elementColumns = ownColumns(this->Info.elementColumns);
+    }
     this->Vertices = this->Reader.source(columnNames(this->Info.vertexColumns), {});
   }
 
@@ -208,19 +213,20 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
     return format.writeVsm(vsm, path, options);
   }
   Workspace space(options.scratch, StreamOrderMemory);
-  StreamedMesh mesh(vsm, options.progress);
-  return writeParts(mesh, format, path, space);
+  StreamedMesh mesh(vsm, format.isStreamed(), options.progress);
+  return writeParts(mesh, format, path, space, options.text);
 }
 
 } // namespace
 
-std::vector<std::string> writeRestored(
-  const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace)
+std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
+  const std::filesystem::path& out, Workspace& workspace, bool text)
 {
   checkRestoredPath(out, VsmReader(vsm).info().cellType);
+  checkForm(out, text);
   RestoredMesh mesh(vsm, workspace);
   std::vector<std::string> notes = mesh.notes();
-  const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace);
+  const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace, text);
   notes.insert(notes.end(), more.begin(), more.end());
   return notes;
 }
@@ -229,9 +235,10 @@ std::vector<std::string> writeMesh(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
 {
   checkOutput(path, source.info().cellType);
+  checkForm(path, options.text);
   checkIsNotInput(options.isolatedFrom, path);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
-  if (format.turn == PartTurn::AsTheyCome)
+  if (format.turnOf(options.text) == PartTurn::AsTheyCome)
   {
     return writeAsTheyCome(source, format, path, options.progress);
   }
@@ -271,18 +278,20 @@ std::vector<std::string> writeMesh(
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress,
-  const std::filesystem::path& scratch)
+  const std::filesystem::path& scratch, bool text)
 {
   checkIsNotInput(vsm, path);
   VsmReader reader(vsm);
   checkOutput(path, reader.info().cellType);
+  checkForm(path, text);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
   WriteMeshOptions options;
+  options.text = text;
   options.scratch = scratch;
   options.isolatedFrom = vsm;
   options.isolatedFingerprint = reader.fingerprint();
   options.progress = progress;
-  return format.kind == MeshFileKind::Vsm || format.turn == PartTurn::AsTheyCome
+  return format.kind == MeshFileKind::Vsm || format.turnOf(text) == PartTurn::AsTheyCome
            ? writeMesh(*reader.source(), path, options)
            : writeAgain(format, vsm, path, options);
 }
@@ -323,7 +332,7 @@ void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& o
   const ProgressFunction progress = partOf(options.progress, 0.3, 1.0);
   if (formatOfName(out) == &PlyFormat)
   {
-    rewritePly(in, out, vertices, progress, options.beforeEnd);
+    rewritePly(in, out, vertices, options, progress);
   }
   else
   {

@@ -25,13 +25,13 @@ inline constexpr std::int64_t StreamOrderMemory = std::int64_t(64) << 20;
  * The suffix selects the format: .ply, .vtp, .vtu and .vtk with all columns; .obj, .off, .mesh,
  * .msh and .node with .ele with the columns that they support (see IO/Mesh/Columns.h); .stl
  * without. Tetrahedra require .vtu, .vtk, .mesh, .msh or .node with .ele. Numbers in text read back
- * exactly.
+ * exactly. `text`: as WriteMeshOptions::text.
  * @return a note for each part of the mesh that the file cannot represent exactly
  * @throws Error if checkRestoredPath() does, the original order is unknown (see RestoredMesh), or a
  * file cannot be read or written; Cancelled. No part of the output is left then.
  */
-SMG_EXPORT std::vector<std::string> writeRestored(
-  const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace);
+SMG_EXPORT std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
+  const std::filesystem::path& out, Workspace& workspace, bool text = false);
 
 /** Throws Error unless writeRestored() can write files of this name with these cells. */
 SMG_EXPORT void checkRestoredPath(const std::filesystem::path& path, CellType cellType);

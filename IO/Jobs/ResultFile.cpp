@@ -37,6 +37,7 @@ ResultFile::ResultFile(Options options)
   {
     this->Files.state.emplace(this->Files.in);
   }
+  checkForm(this->Files.out, this->Files.text);
   if (this->mayRestore())
   {
     checkOutputPlace(this->Files.out);
@@ -163,6 +164,7 @@ std::vector<std::string> ResultFile::write(const StoredMesh& mesh, MeshSource& r
     RewriteOptions options;
     options.scratch = this->Files.scratch;
     options.memory = memory;
+    options.text = this->Files.text;
     options.progress = progress;
     options.beforeEnd = [this] { this->Files.state->check(); };
     rewriteMesh(this->Files.in, this->Files.out, result, options);
@@ -178,6 +180,7 @@ std::vector<std::string> ResultFile::write(const StoredMesh& mesh, MeshSource& r
   options.isolatedFingerprint = mesh.fingerprint();
   options.completeIsolated = this->Files.isolated;
   options.threads = this->threads(memory);
+  options.text = this->Files.text;
   options.progress = progress;
   return writeMesh(result, this->Files.out, options);
 }
@@ -197,7 +200,7 @@ std::vector<std::string> ResultFile::writeRestored(const StoredMesh& mesh, MeshS
   const std::filesystem::path stream = space.folder() / "result.vsm";
   smg::writeMesh(result, stream, options);
   space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-  return smg::writeRestored(stream, this->Files.out, space);
+  return smg::writeRestored(stream, this->Files.out, space, this->Files.text);
 }
 
 std::vector<std::string> ResultFile::notesOn(

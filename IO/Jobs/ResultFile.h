@@ -40,7 +40,8 @@ public:
     std::string columns = {};
     /** The names of these columns, of the vertices, if the mesh has them. */
     std::vector<std::string> changed = {};
-    int threads = 0; ///< that write; 0: one per core
+    int threads = 0;   ///< that write; 0: one per core
+    bool text = false; ///< see WriteMeshOptions
     /** Whether the mesh has columns that are not in its file, so that this cannot be written again
      * with other positions. */
     bool adds = false;

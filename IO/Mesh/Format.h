@@ -46,12 +46,20 @@ enum class MeshFileKind
   Unknown  ///< none of these
 };
 
+/** How the numbers of a mesh are written. */
+enum class FileForm
+{
+  Binary,
+  Text,
+  Either ///< as text on request
+};
+
 /** A suffix of the files of a format, and the cells written with it. */
 struct FileSuffix
 {
   std::string_view text; ///< in lower case, with the dot
   bool triangles = true, tetrahedra = true;
-  bool isText = false; ///< whether meshes are written as text
+  FileForm form = FileForm::Binary;
 
   bool holds(CellType cells) const
   {
@@ -72,6 +80,7 @@ struct MeshToWrite
   StreamInfo mesh;           ///< with the columns of the result
   std::int64_t vsmBytes = 0; ///< as a .vsm file
   FileSuffix suffix = {};    ///< of the file
+  bool text = false;         ///< requested for a suffix with either form
 };
 
 /** Bytes of a vertex in a file, with its share of cells: two triangles, six tetrahedra. */
@@ -151,9 +160,14 @@ struct Format
   /** Begins a file of an indexed mesh, in the order of its original file or of a mesh stream. */
   MeshFileFunction* writer = nullptr;
   PartTurn turn = PartTurn::VerticesFirst;
+  /** The turn for text on request, whose numbers have no places that are known before. */
+  PartTurn turnOf(bool text) const
+  {
+    return text && this->turn == PartTurn::AsTheyCome ? PartTurn::VerticesFirst : this->turn;
+  }
   /** The scratch files of this writer in a workspace of `memory` bytes, bytes; null: it has none.
    */
-  std::int64_t (*scratch)(const StreamInfo& mesh, std::int64_t memory) = nullptr;
+  std::int64_t (*scratch)(const StreamInfo& mesh, std::int64_t memory, bool text) = nullptr;
   /**
    * Whether a mesh stream is written as such: in its order, with all columns, also those of a
    * conversion (OriginalId ...). Other files are like an original: in its order if that is known,

@@ -160,7 +160,8 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
     result.info.vertices = std::min(result.info.vertices, target.vertices);
     result.info.cells = std::min(result.info.cells, 2 * result.info.vertices);
   }
-  JobEstimate estimate(result, { out, { { OriginalIdSpec }, {} } }, costs, conversion);
+  JobEstimate estimate(result,
+    { .out = out, .added = { { OriginalIdSpec }, {} }, .text = options.text }, costs, conversion);
   estimate.vertices = mesh.info.vertices;
   estimate.cells = mesh.info.cells;
   estimate.memory_limit = options.memoryLimit;
@@ -203,6 +204,7 @@ SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
 {
   check(target, options);
   checkSimplifiedPath(path);
+  checkForm(path, options.text);
   checkIsNotInput(mesh.file(), path);
   const Timer timer;
   const double cpu = processSeconds();
@@ -223,7 +225,7 @@ SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
   if (!isVsm)
   {
     const std::vector<std::string> notes =
-      writeFromVsm(vsm, path, partOf(options.progress, 0.9, 1.0), scratch.path());
+      writeFromVsm(vsm, path, partOf(options.progress, 0.9, 1.0), scratch.path(), options.text);
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
   }
   if (kept)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPanelWidgets.h"
 
+#include "IO/Files/Decompressor.h"
+
 #include "pqApplicationCore.h"
 #include "pqIntVectorPropertyWidget.h"
 #include "pqInterfaceTracker.h"
@@ -77,7 +79,7 @@ private:
     if (chosen.empty() || chosen == this->Suggested)
     {
       std::filesystem::path beside = name;
-      beside.replace_extension(beside.extension() == ".gz" ? "" : ".vsm");
+      beside.replace_extension(smg::isCompressedSuffix(beside.extension().string()) ? "" : ".vsm");
       beside.replace_extension(".vsm");
       this->Suggested = beside.string() == name ? "" : beside.string();
       vtkSMUncheckedPropertyHelper(this->Output).Set(this->Suggested.c_str());

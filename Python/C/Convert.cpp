@@ -17,10 +17,11 @@ namespace
 /** The options of smg_convert(). */
 ConversionOptions convertingIn(const JsonNode& node)
 {
-  ConversionOptions options = conversionIn(node, true, { "codec", "restore" });
+  ConversionOptions options = conversionIn(node, true, { "codec", "restore", "text" });
   options.codec = node.has("codec")
                     ? static_cast<Codec>(choiceIn(node.member("codec"), { "none", "lz4", "zstd" }))
                     : Codec::Zstd;
+  options.text = node.has("text") && flagIn(node.member("text"));
   options.restoreOrder = node.has("restore") && flagIn(node.member("restore"));
   for (const char* key : { "order", "weld", "cells", "codec", "time_step", "partition" })
   {

@@ -84,15 +84,16 @@ CompleteIsolated isolatedOf(const std::shared_ptr<const AddedColumns>& added)
 }
 
 ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedColumns>& added,
-  const MeshJob* job, const char* path, const JobLimits& limits)
+  const MeshJob* job, const char* path, const WritingOptions& writing)
 {
   ResultFile::Options options;
   options.in = mesh.name();
   options.state = mesh.state();
   options.out = path;
-  options.scratch = limits.scratch;
+  options.scratch = writing.limits.scratch;
   options.welds = mesh.options().weld.has_value();
-  options.threads = limits.threads;
+  options.threads = writing.limits.threads;
+  options.text = writing.text;
   // Only a job can move the vertices of the file itself.
   options.adds = added || !job || mesh.isResult();
   options.isolated = isolatedOf(added);
@@ -134,13 +135,13 @@ smg_mesh* meshOf(smg_field& field, const ProgressFunction& progress)
 std::string save(
   smg_field& field, const char* path, const char* text, const ProgressFunction& progress)
 {
-  const JobLimits limits = writingLimits(text, limitsOf(field.shared->options()));
-  ResultFile out = resultFile(*field.shared, field.added, field.job.get(), path, limits);
+  const WritingOptions options = writingOptions(text, limitsOf(field.shared->options()));
+  ResultFile out = resultFile(*field.shared, field.added, field.job.get(), path, options);
   const ConversionReport* const conversion = field.shared->mesh().conversion();
   out.chooseOrder(field.stored(), conversion);
   std::vector<std::string> notes;
-  const std::int64_t memory =
-    MeshJob::writerMemory(limits.memory > 0 ? limits.memory : field.job->memoryLimit());
+  const std::int64_t memory = MeshJob::writerMemory(
+    options.limits.memory > 0 ? options.limits.memory : field.job->memoryLimit());
   field.pass([&](MeshSource& result, const ProgressFunction& writing)
     { notes = out.write(field.stored(), result, memory, writing); },
     progress);

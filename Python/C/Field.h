@@ -4,6 +4,7 @@
 #include "IO/Jobs/MeshJob.h"
 #include "IO/Jobs/ResultFile.h"
 #include "Python/C/Handles.h"
+#include "Python/C/Options.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
@@ -56,6 +57,6 @@ CompleteIsolated isolatedOf(const std::shared_ptr<const AddedColumns>& added);
 
 /** Where the result of a job on a mesh is written; with no job, the mesh itself. */
 ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedColumns>& added,
-  const MeshJob* job, const char* path, const JobLimits& limits);
+  const MeshJob* job, const char* path, const WritingOptions& writing);
 
 } // namespace smg

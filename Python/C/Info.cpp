@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/JobEstimate.h"
+#include "IO/Formats/UsedFiles.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Python/C/Call.h"
 #include "Python/C/Field.h"
@@ -93,7 +94,7 @@ std::string estimateText(
   in.info = mesh.withoutArguments().stored().info();
   return estimateText(in, kind, description, path, options,
     [&](const MeshJob& job)
-    { return resultFile(*mesh.shared, mesh.added, &job, path, limitsOf(opened)); });
+    { return resultFile(*mesh.shared, mesh.added, &job, path, { limitsOf(opened) }); });
 }
 
 std::string estimateFileText(const std::filesystem::path& file, const char* text,
@@ -114,6 +115,19 @@ std::string estimateFileText(const std::filesystem::path& file, const char* text
     });
 }
 
+std::string filesText(const std::filesystem::path& path)
+{
+  nlohmann::json files = nlohmann::json::array();
+  for (const std::filesystem::path& file : filesOfMesh(path))
+  {
+    files.push_back(file.string());
+  }
+  return files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/** The text that smg_files() last returned on this thread. */
+thread_local std::string FilesText;
+
 /** The text that smg_estimate_file() last returned on this thread. */
 thread_local std::string FileEstimate;
 
@@ -129,6 +143,17 @@ smg_status smg_info(smg_mesh* mesh, int full, smg_progress progress, void* user,
       smg_mesh& given = smg::required(mesh, "mesh");
       given.text = smg::infoText(given, full != 0, smg::progressOf(progress, user));
       *json = given.text.c_str();
+    });
+}
+
+smg_status smg_files(const char* path, const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::required(json, "json") = nullptr;
+      smg::FilesText = smg::filesText(&smg::required(path, "path"));
+      *json = smg::FilesText.c_str();
     });
 }
 

@@ -263,7 +263,8 @@ SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults)
     [&]
     {
       const JsonNode node(json, "simplify");
-      node.requireObject({ "vertices", "error", "memory", "threads", "scratch", "checkpoint" });
+      node.requireObject(
+        { "vertices", "error", "memory", "threads", "scratch", "checkpoint", "text" });
       if (!node.has("vertices") && !node.has("error"))
       {
         node.fail("needs \"vertices\", \"error\" or both");
@@ -282,6 +283,7 @@ SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults)
           node.member("error").fail("must be a length above 0");
         }
       }
+      call.options.text = node.has("text") && flagIn(node.member("text"));
       if (node.has("checkpoint"))
       {
         call.options.checkpoint = node.member("checkpoint").string();

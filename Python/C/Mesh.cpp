@@ -62,14 +62,15 @@ void removeColumn(smg_mesh& mesh, const std::string& name, bool ofCells)
 std::string saveMesh(
   smg_mesh& mesh, const char* path, const char* text, const ProgressFunction& progress)
 {
-  const JobLimits limits = writingLimits(text, limitsOf(mesh.shared->options()));
+  const WritingOptions options = writingOptions(text, limitsOf(mesh.shared->options()));
   const smg_mesh own = mesh.withoutArguments();
-  ResultFile out = resultFile(*own.shared, own.added, nullptr, path, limits);
+  ResultFile out = resultFile(*own.shared, own.added, nullptr, path, options);
   const StoredMesh& stored = own.stored();
   const StreamInfo& info = stored.info();
   out.chooseOrder(stored, own.shared->mesh().conversion());
   const auto source = stored.source(columnNames(info.vertexColumns), columnNames(info.cellColumns));
-  const std::int64_t memory = limits.memory > 0 ? limits.memory : ConversionOptions::DefaultMemory;
+  const std::int64_t memory =
+    options.limits.memory > 0 ? options.limits.memory : ConversionOptions::DefaultMemory;
   const nlohmann::json notes = out.write(stored, *source, MeshJob::writerMemory(memory), progress);
   return notes.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -113,15 +113,16 @@ JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults)
   return limits;
 }
 
-JobLimits writingLimits(const char* options, const JobLimits& defaults)
+WritingOptions writingOptions(const char* options, const JobLimits& defaults)
 {
   const nlohmann::json json = optionsText(options, "options");
   return argument(
     [&]
     {
       const JsonNode node(json, "options");
-      node.requireObject({ "memory", "threads", "scratch" });
-      return limitsIn(node, defaults);
+      node.requireObject({ "memory", "threads", "scratch", "text" });
+      return WritingOptions{ limitsIn(node, defaults),
+        node.has("text") && flagIn(node.member("text")) };
     });
 }
 

@@ -32,8 +32,14 @@ inline constexpr std::initializer_list<const char*> LimitKeys{ "memory", "thread
 /** The limits of an object; those that it does not have are `defaults`. */
 JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults = {});
 
-/** The limits with which a file is written: the only keys of these options. */
-JobLimits writingLimits(const char* options, const JobLimits& defaults);
+/** How a file is written. */
+struct WritingOptions
+{
+  JobLimits limits;
+  bool text = false; ///< see WriteMeshOptions
+};
+/** Of an object with no other keys. */
+WritingOptions writingOptions(const char* options, const JobLimits& defaults);
 
 /** How to open a mesh. `isFile`: of a file, not of arrays. `more`: keys of the caller. */
 ConversionOptions conversionIn(

@@ -135,6 +135,10 @@ extern "C"
   /* The numbers of vertices and cells in the original order. */
   SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
 
+  /* The files of a mesh, which are several of TetGen, or of VTK in pieces: a JSON list of paths,
+   * the given one first. The text is valid until the next call on this thread. */
+  SMG_C_EXPORT smg_status smg_files(const char* path, const char** json);
+
   /* What a job of smg_run(), or "simplify", is expected to cost, before it starts: the JSON of
    * `--dry-run --report`, without the conversion that smg_open() has made. `path`: where the result
    * is to be written; NULL: nowhere. The text as that of smg_info(). */
@@ -171,14 +175,14 @@ extern "C"
     smg_field* field, smg_progress progress, void* user, smg_mesh** mesh);
 
   /* Writes the simplified surface. description: "vertices", "error", "memory", "threads",
-   * "scratch", "checkpoint". The report is that of `smg simplify --report`; its text as that of
-   * smg_info(). */
+   * "scratch", "checkpoint", "text". The report is that of `smg simplify --report`; its text as
+   * that of smg_info(). */
   SMG_C_EXPORT smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* path,
     smg_progress progress, void* user, const char** report);
 
   /* Converts a file: options as of smg_open(), and "codec" ("none", "lz4", "zstd"), "restore"
-   * (true: in the order of the original file). The report is that of `smg convert --report`, valid
-   * until the next call on this thread; it may be NULL. */
+   * (true: in the order of the original file), "text" as of smg_save(). The report is that of `smg
+   * convert --report`, valid until the next call on this thread; it may be NULL. */
   SMG_C_EXPORT smg_status smg_convert(const char* in, const char* out, const char* options,
     smg_progress progress, void* user, const char** report);
 
@@ -193,7 +197,8 @@ extern "C"
   SMG_C_EXPORT smg_status smg_shape(const smg_field* field, int64_t* vertices, int64_t* columns);
 
   /* Writes the mesh with the result, in the format of the suffix and in the order of the command
-   * line. options: "memory", "threads", "scratch". The report is that of smg_report(), with a
+   * line. options: "memory", "threads", "scratch", "text" (true: text where the format has a binary
+   * and a text form). The report is that of smg_report(), with a
    * warning of each thing that the format cannot hold; it may be NULL. */
   SMG_C_EXPORT smg_status smg_save(smg_field* field, const char* path, const char* options,
     smg_progress progress, void* user, const char** report);

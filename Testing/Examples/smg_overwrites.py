@@ -5,8 +5,10 @@ command writes, with the name of every other file that it uses, also through a l
 
 import gzip
 import json
+import lzma
 import os
 import shutil
+import subprocess
 
 from program import run, write_medit, write_ply
 from tetrahedra import tetrahedra
@@ -16,7 +18,8 @@ STREAMED = ("--threads", "1")
 # Meshes with all their files, and a result of the same cells.
 MESHES = {"t.vsm": ["t.vsm"], "t.ply": ["t.ply"], "t.sma": ["t.sma"], "s.node": ["s.node", "s.ele"],
           "s.ele": ["s.node", "s.ele"], "s.node.gz": ["s.node.gz", "s.ele"],
-          "s.pvtu": ["s.pvtu", "pieces/s.vtu"], "s.vsm": ["s.vsm"]}
+          "s.pvtu": ["s.pvtu", "pieces/s.vtu"], "s.vsm": ["s.vsm"],
+          "z.pvtu.gz": ["z.pvtu.gz", "pieces/z.vtu.gz"]}
 # The second file of a result.
 WITH_SECOND = {".node": ".ele", ".ele": ".node"}
 
@@ -34,6 +37,12 @@ def write_inputs():
     with open("s.pvtu", "w", encoding="utf-8") as file:
         file.write('<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid>'
                    '<Piece Source="pieces/s.vtu"/></PUnstructuredGrid></VTKFile>\n')
+    # The index names the piece as it was before it was compressed.
+    with gzip.open("z.pvtu.gz", "wt", encoding="utf-8") as file:
+        file.write('<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid>'
+                   '<Piece Source="pieces/z.vtu"/></PUnstructuredGrid></VTKFile>\n')
+    with open("pieces/s.vtu", "rb") as plain, gzip.open("pieces/z.vtu.gz", "wb") as packed:
+        shutil.copyfileobj(plain, packed)
     with open("s.node", "rb") as plain, gzip.open("s.node.gz", "wb") as packed:
         shutil.copyfileobj(plain, packed)
     with open("where.json", "w", encoding="utf-8") as file:
@@ -110,6 +119,49 @@ def test_table():
     run("convert", "s.vsm", "q.node", "--report", "q.json", "--quiet")
 
 
+def test_compressed_pieces():
+    """A mesh in pieces is the same however index and pieces are compressed, each by itself."""
+    packers = {"": None, ".gz": gzip.open, ".xz": lzma.open}
+    if shutil.which("zstd"):
+        packers[".zst"] = None
+
+    def pack(text, name, suffix):
+        if packers[suffix]:
+            with packers[suffix](name + suffix, "wb") as file:
+                file.write(text)
+            return
+        with open(name, "wb") as file:
+            file.write(text)
+        if suffix:
+            subprocess.run(["zstd", "--quiet", "--rm", name], check=True)
+
+    with open("pieces/s.vtu", "rb") as file:
+        piece = file.read()
+    run("convert", "s.pvtu", "expected.vtu", "--order", "keep", "--quiet")
+    with open("expected.vtu", "rb") as file:
+        expected = file.read()
+    for of_index in packers:
+        for of_piece in packers:
+            for named in {"", of_piece}:
+                shutil.rmtree("packed", ignore_errors=True)
+                os.makedirs("packed/in")
+                pack(piece, "packed/in/p.vtu", of_piece)
+                index = ('<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid>'
+                         '<Piece Source="in/p.vtu%s"/></PUnstructuredGrid></VTKFile>\n' % named)
+                pack(index.encode(), "packed/a.pvtu", of_index)
+                mesh = "packed/a.pvtu" + of_index
+                run("convert", mesh, "found.vtu", "--order", "keep", "--quiet")
+                with open("found.vtu", "rb") as file:
+                    assert file.read() == expected, (of_index, of_piece, named)
+                error = run("info", mesh, "--report", "packed/in/p.vtu" + of_piece, code=1).stderr
+                assert "would overwrite it" in error, error
+    # An error names the compressed file.
+    pack(piece[:len(piece) // 2], "packed/in/broken.vtu", ".gz")
+    pack(index.replace("in/p.vtu" + named, "in/broken.vtu").encode(), "packed/broken.pvtu", "")
+    error = run("convert", "packed/broken.pvtu", "found.vtu", code=1).stderr
+    assert "broken.vtu.gz" in error and "piece0" not in error, error
+
+
 def test_folders():
     """A folder that is removed at the end is no place for scratch files."""
     os.makedirs("folder", exist_ok=True)
@@ -127,6 +179,6 @@ def test_folders():
 
 for entry in os.listdir("."):  # remains of an earlier run
     shutil.rmtree(entry) if os.path.isdir(entry) else os.remove(entry)
-for each in (test_table, test_folders):
+for each in (test_table, test_compressed_pieces, test_folders):
     each()
     print("passed", each.__name__)

@@ -92,7 +92,7 @@ def dialog(suffix, source):
 
 
 ARRAYS = {"ChooseArraysToWrite", "PointDataArrays", "CellDataArrays"}
-for suffixes, source, properties in (("ply obj stl vtk vtp vtu", reader, {"RestoreOrder"} | ARRAYS),
+for suffixes, source, properties in (("ply obj stl vtk vtp vtu", reader, {"RestoreOrder", "WriteText"} | ARRAYS),
                                      ("vtkhdf pvtp pvtu vsm", reader, {"NumberOfPieces"} | ARRAYS),
                                      ("csv case", reader, set())):
     for suffix in suffixes.split():

@@ -460,7 +460,7 @@ bool isGmsh(std::string_view start)
   return text.starts_with("$MeshFormat") || text.starts_with("$NOD");
 }
 
-constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, true } };
+constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, FileForm::Text } };
 
 } // namespace
 

@@ -310,7 +310,7 @@ bool isMedit(std::string_view start)
   return textAfterComments(start).starts_with("MeshVersionFormatted");
 }
 
-constexpr FileSuffix MeditSuffixes[] = { { ".mesh", true, true, true } };
+constexpr FileSuffix MeditSuffixes[] = { { ".mesh", true, true, FileForm::Text } };
 
 } // namespace
 

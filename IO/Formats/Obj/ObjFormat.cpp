@@ -293,7 +293,7 @@ bool looksLikeObj(std::string_view start, std::optional<std::uint64_t> size)
   return known;
 }
 
-constexpr FileSuffix ObjSuffixes[] = { { ".obj", true, false, true } };
+constexpr FileSuffix ObjSuffixes[] = { { ".obj", true, false, FileForm::Text } };
 constexpr std::string_view ObjColumns[] = { ColorsName };
 
 } // namespace

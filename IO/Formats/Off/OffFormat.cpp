@@ -249,7 +249,7 @@ std::optional<FileCounts> countsOfOff(InputFile& file, const MeshPart&)
   return counts;
 }
 
-constexpr FileSuffix OffSuffixes[] = { { ".off", true, false, true } };
+constexpr FileSuffix OffSuffixes[] = { { ".off", true, false, FileForm::Text } };
 constexpr std::string_view OffColumns[] = { NormalsName, ColorsName, TextureCoordinatesName };
 
 } // namespace

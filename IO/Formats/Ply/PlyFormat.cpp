@@ -59,7 +59,7 @@ std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
   return counts;
 }
 
-constexpr FileSuffix PlySuffixes[] = { { ".ply", true, false } };
+constexpr FileSuffix PlySuffixes[] = { { ".ply", true, false, FileForm::Either } };
 
 } // namespace
 

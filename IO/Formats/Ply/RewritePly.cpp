@@ -8,6 +8,8 @@
 #include "IO/Results/MovedVertices.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -77,10 +79,10 @@ std::vector<Fate> fatesOf(const PlyElement& element, bool hasNormals)
 }
 
 /** The lines of the old header, in the format of the new file and without dropped properties. */
-std::string newHeader(
-  std::string_view text, const PlyHeader& header, const std::vector<std::vector<Fate>>& fates)
+std::string newHeader(std::string_view text, const PlyHeader& header,
+  const std::vector<std::vector<Fate>>& fates, bool asText)
 {
-  std::string result = plyFormatLines();
+  std::string result = plyFormatLines(asText);
   int element = -1;
   std::size_t property = 0;
   const char lineEnd = lineEndOf(text);
@@ -127,10 +129,11 @@ template <class Cursor>
 class BodyCopier
 {
 public:
-  BodyCopier(Cursor& cursor, MovedVertices& moved, SequentialOutput& out)
+  BodyCopier(Cursor& cursor, MovedVertices& moved, SequentialOutput& out, bool text)
     : In(cursor)
     , Moved(moved)
     , Out(out)
+    , Text(text)
   {
   }
 
@@ -146,6 +149,10 @@ public:
       {
         element.properties[k].list ? this->copyList(element.properties[k], fates[k])
                                    : this->copyNumber(element.properties[k], fates[k], i);
+      }
+      if (this->Text)
+      {
+        this->Record.push_back(std::byte('\n'));
       }
       this->Out.put(this->Record);
     }
@@ -190,14 +197,31 @@ private:
       [this, value]<class T>(T)
       {
         const T number = static_cast<T>(value);
+        if (this->Text)
+        {
+          this->addText(number);
+          return;
+        }
         const auto bytes = std::as_bytes(std::span(&number, 1));
         this->Record.insert(this->Record.end(), bytes.begin(), bytes.end());
       });
   }
 
+  /** With the blank before it, but at the beginning of a line. */
+  template <class T>
+  void addText(T number)
+  {
+    std::array<char, 33> text{ ' ' };
+    const char* const end = std::to_chars(text.data() + 1, text.data() + text.size(), number).ptr;
+    const char* const begin = text.data() + (this->Record.empty() ? 1 : 0);
+    const auto bytes = std::as_bytes(std::span(begin, end));
+    this->Record.insert(this->Record.end(), bytes.begin(), bytes.end());
+  }
+
   Cursor& In;
   MovedVertices& Moved;
   SequentialOutput& Out;
+  const bool Text;
   bool HasMoved = false; ///< the current vertex
   std::vector<std::byte> Record;
 };
@@ -205,7 +229,7 @@ private:
 } // namespace
 
 void rewritePly(const std::filesystem::path& in, const std::filesystem::path& out,
-  MovedVertices& moved, const ProgressFunction& progress, const std::function<void()>& beforeEnd)
+  MovedVertices& moved, const RewriteOptions& options, const ProgressFunction& progress)
 {
   InputFile file(in, progress);
   const PlyHeader header = readPlyHeader(file);
@@ -216,19 +240,20 @@ void rewritePly(const std::filesystem::path& in, const std::filesystem::path& ou
     fates.push_back(fatesOf(element, moved.hasNormals()));
   }
   SequentialOutput output(out);
-  output.put(newHeader(file.at(0, header.bodyOffset).substr(0, header.bodyOffset), header, fates));
+  output.put(newHeader(
+    file.at(0, header.bodyOffset).substr(0, header.bodyOffset), header, fates, options.text));
   withPlyBody(file, header, nullptr,
     [&](auto& cursor)
     {
-      BodyCopier copier(cursor, moved, output);
+      BodyCopier copier(cursor, moved, output, options.text);
       for (std::size_t e = 0; e < header.elements.size(); ++e)
       {
         copier.copy(header.elements[e], fates[e]);
       }
     });
-  if (beforeEnd)
+  if (options.beforeEnd)
   {
-    beforeEnd();
+    options.beforeEnd();
   }
   output.finish();
 }

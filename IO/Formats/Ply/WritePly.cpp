@@ -2,6 +2,7 @@
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/SequentialOutput.h"
+#include "IO/Files/TextOutput.h"
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyHeader.h"
 #include "IO/Mesh/Columns.h"
@@ -13,10 +14,10 @@
 #include <string>
 #include <utility>
 
-// Binary PLY in this machine's byte order. Columns become properties of the vertices or faces,
-// named so that importPly() restores the same columns: `Normals` of 3 components nx, ny, nz;
-// `Colors` of 3 or 4 red, green, blue, alpha; a column of one component its own name, and one of
-// several NAME_0, NAME_1 ..., which come back as columns of their own. What is no visible ASCII
+// PLY, in binary in this machine's byte order or as text. Columns become properties of the vertices
+// or faces, named so that importPly() restores the same columns: `Normals` of 3 components nx, ny,
+// nz; `Colors` of 3 or 4 red, green, blue, alpha; a column of one component its own name, and one
+// of several NAME_0, NAME_1 ..., which come back as columns of their own. What is no visible ASCII
 // character in a name becomes an underscore, and a name whose property another column or the mesh
 // has is followed by _1, _2 ...; columns that need no other name keep theirs. PLY has no 64-bit
 // integers: they are written, and come back, as double, which is exact up to 2^53. So convert()
@@ -26,10 +27,11 @@
 namespace smg
 {
 
-std::string plyFormatLines()
+std::string plyFormatLines(bool text)
 {
   const bool little = std::endian::native == std::endian::little;
-  return std::string("ply\nformat binary_") + (little ? "little" : "big") + "_endian 1.0\n";
+  const std::string form = text ? "ascii" : little ? "binary_little_endian" : "binary_big_endian";
+  return "ply\nformat " + form + " 1.0\n";
 }
 
 namespace
@@ -129,18 +131,19 @@ public:
   {
   }
 
-  /** Adds the property described by a line, of `bytes` bytes in each record. */
-  void add(const std::string& property, std::size_t bytes)
+  /** Adds the lists of corners, which precede the records and are no part of them. */
+  void addCorners(const std::string& lengthType)
   {
-    this->Names.push_back(property.substr(property.rfind(' ') + 1));
-    this->addProperty(property, bytes);
+    this->Names.emplace_back("vertex_indices");
+    this->Header += "property list " + lengthType + " int vertex_indices\n";
   }
   /** Adds the coordinates x, y and z. */
   void addPositions(ScalarType type)
   {
     for (const char* name : { "x", "y", "z" })
     {
-      this->add(std::string(plyTypeName(type)) + ' ' + name, sizeOf(type));
+      this->Names.emplace_back(name);
+      this->addProperty(type, name);
     }
   }
   /** Adds the properties of columns. Other names are noted. */
@@ -148,6 +151,8 @@ public:
 
   const std::string& header() const { return this->Header; }
   std::size_t recordBytes() const { return this->RecordBytes; }
+  /** About the characters of a record as text. */
+  double recordCharacters() const;
 
   /** Makes `count` records, whose fields must be filled. */
   void begin(std::size_t count) { this->Records.resize(count * this->RecordBytes); }
@@ -156,12 +161,15 @@ public:
   /** Fills in the columns that were added. Rounded values are noted. */
   void fill(const std::vector<Column>& columns, WrittenPly& written);
   std::span<const std::byte> records() const { return this->Records; }
+  /** Writes the numbers of a record as text, with a blank before each but the first of a line. */
+  void write(TextOutput& out, std::size_t record, bool beginsLine) const;
 
 private:
-  void addProperty(const std::string& property, std::size_t bytes)
+  void addProperty(ScalarType type, const std::string& name)
   {
-    this->Header += "property " + property + '\n';
-    this->RecordBytes += bytes;
+    this->Header += "property " + std::string(plyTypeName(type)) + ' ' + name + '\n';
+    this->Types.push_back(type);
+    this->RecordBytes += sizeOf(type);
   }
   /** Whether no property has one of these names. */
   bool areFree(const std::vector<std::string>& names) const
@@ -173,6 +181,7 @@ private:
 
   std::string Header;
   std::vector<std::string> Names;
+  std::vector<ScalarType> Types; ///< of the numbers of a record
   std::size_t RecordBytes = 0;
   std::vector<std::ptrdiff_t> Places; ///< of each column in the record
   std::vector<std::byte> Records;
@@ -225,7 +234,7 @@ void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written
     this->Places.push_back(static_cast<std::ptrdiff_t>(this->RecordBytes));
     for (const std::string& property : names[i])
     {
-      this->addProperty(std::string(plyTypeName(type)) + ' ' + property, sizeOf(type));
+      this->addProperty(type, property);
     }
   }
 }
@@ -279,6 +288,37 @@ bool PlyRecords::fill(std::ptrdiff_t place, const Column& column)
   return !exact;
 }
 
+double PlyRecords::recordCharacters() const
+{
+  double characters = 0;
+  for (const ScalarType type : this->Types)
+  {
+    const ColumnSpec number{ "", type, 1 };
+    characters += tupleCharacters({ &number, 1 }, 0);
+  }
+  return characters;
+}
+
+void PlyRecords::write(TextOutput& out, std::size_t record, bool beginsLine) const
+{
+  const std::byte* from = this->Records.data() + record * this->RecordBytes;
+  for (const ScalarType type : this->Types)
+  {
+    if (!beginsLine)
+    {
+      out << ' ';
+    }
+    beginsLine = false;
+    dispatch(type,
+      [&]<class T>(T number)
+      {
+        std::memcpy(&number, from, sizeof(number));
+        out << number;
+        from += sizeof(number);
+      });
+  }
+}
+
 /** Throws Error if there are more vertices than PLY has numbers for. */
 const std::filesystem::path& checkedForPly(const std::filesystem::path& path, std::int64_t vertices)
 {
@@ -291,25 +331,97 @@ const std::filesystem::path& checkedForPly(const std::filesystem::path& path, st
   return path;
 }
 
-/** Writes vertices and faces at their places, which are known from the counts. */
-class PlyWriter : public MeshFileWriter
+/** The elements of a PLY file, as their header describes them. */
+class PlyElements : public MeshFileWriter
 {
-public:
-  PlyWriter(const std::filesystem::path& path, const MeshFileInfo& info)
-    : File(checkedForPly(path, info.vertices))
-    , Positions(info.doublePositions)
+protected:
+  explicit PlyElements(const MeshFileInfo& info)
+    : Positions(info.doublePositions)
     , Vertices("vertex", info.vertices)
     , Faces("face", info.elements)
     , CountBytes(info.maxCorners > UINT8_MAX ? sizeof(std::int32_t) : 1)
   {
     this->Vertices.addPositions(this->Positions.type());
-    // The list precedes each record and is not part of it.
-    this->Faces.add(
-      this->CountBytes > 1 ? "list int int vertex_indices" : "list uchar int vertex_indices", 0);
+    this->Faces.addCorners(this->CountBytes > 1 ? "int" : "uchar");
     this->Vertices.add(info.vertexColumns, this->Written);
     this->Faces.add(info.elementColumns, this->Written);
-    const std::string header =
-      plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n";
+  }
+
+  std::string header(bool text) const
+  {
+    return plyFormatLines(text) + this->Vertices.header() + this->Faces.header() + "end_header\n";
+  }
+  void fillVertices(const VertexChunk& chunk)
+  {
+    this->Vertices.begin(static_cast<std::size_t>(chunk.count()));
+    this->Vertices.fill(0, this->Positions.bytes(chunk.positions), this->Positions.size());
+    this->Vertices.fill(chunk.columns, this->Written);
+  }
+  void fillFaces(const ElementChunk& chunk)
+  {
+    this->Faces.begin(chunk.sizes.size());
+    this->Faces.fill(chunk.columns, this->Written);
+  }
+
+  FilePositions Positions;
+  PlyRecords Vertices, Faces;
+  const std::size_t CountBytes; ///< of the number of the corners of a face
+  WrittenPly Written;
+};
+
+/** Writes text, the vertices first. */
+class TextPlyWriter : public PlyElements
+{
+public:
+  TextPlyWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : PlyElements(info)
+    , Out(checkedForPly(path, info.vertices))
+  {
+    this->Out << this->header(true);
+  }
+
+  void vertices(const VertexChunk& chunk) override
+  {
+    this->fillVertices(chunk);
+    for (std::int64_t vertex = 0; vertex < chunk.count(); ++vertex)
+    {
+      this->Vertices.write(this->Out, static_cast<std::size_t>(vertex), true);
+      this->Out << '\n';
+    }
+  }
+
+  void elements(const ElementChunk& chunk) override
+  {
+    this->fillFaces(chunk);
+    chunk.forEach(
+      [this](std::span<const std::int64_t> corners, std::size_t face)
+      {
+        this->Out << corners.size();
+        this->Out.corners(corners, 0);
+        this->Faces.write(this->Out, face, false);
+        this->Out << '\n';
+      });
+  }
+
+  WriteNotes finish() override
+  {
+    this->Out.finish();
+    return notesOn(this->Written);
+  }
+
+private:
+  TextOutput Out;
+};
+
+/** Writes binary: vertices and faces at their places, which are known from the counts. */
+class BinaryPlyWriter : public PlyElements
+{
+public:
+  BinaryPlyWriter(const std::filesystem::path& path, const MeshFileInfo& info)
+    : PlyElements(info)
+    , File(checkedForPly(path, info.vertices))
+  {
+    const std::string header = this->header(false);
     this->write(std::as_bytes(std::span(header)), this->VertexEnd);
     const std::size_t faceBytes = this->CountBytes + this->Faces.recordBytes();
     this->FaceEnd =
@@ -320,9 +432,7 @@ public:
 
   void vertices(const VertexChunk& chunk) override
   {
-    this->Vertices.begin(static_cast<std::size_t>(chunk.count()));
-    this->Vertices.fill(0, this->Positions.bytes(chunk.positions), this->Positions.size());
-    this->Vertices.fill(chunk.columns, this->Written);
+    this->fillVertices(chunk);
     this->write(this->Vertices.records(), this->VertexEnd);
   }
 
@@ -330,8 +440,7 @@ public:
   {
     const std::size_t faces = chunk.sizes.size();
     const std::size_t recordBytes = this->Faces.recordBytes();
-    this->Faces.begin(faces);
-    this->Faces.fill(chunk.columns, this->Written);
+    this->fillFaces(chunk);
     this->Lists.resize(
       faces * (this->CountBytes + recordBytes) + chunk.corners.size() * sizeof(std::int32_t));
     std::byte* to = this->Lists.data();
@@ -368,12 +477,8 @@ private:
   }
 
   PositionedFile File;
-  FilePositions Positions;
-  PlyRecords Vertices, Faces;
-  const std::size_t CountBytes; ///< of the number of the corners of a face
   std::int64_t VertexEnd = 0, FaceEnd = 0;
   std::vector<std::byte> Lists; ///< of corners, with the records
-  WrittenPly Written;
 };
 
 } // namespace
@@ -381,7 +486,11 @@ private:
 std::unique_ptr<MeshFileWriter> makePlyWriter(
   const std::filesystem::path& path, const MeshFileInfo& info, Workspace*)
 {
-  return std::make_unique<PlyWriter>(path, info);
+  if (info.text)
+  {
+    return std::make_unique<TextPlyWriter>(path, info);
+  }
+  return std::make_unique<BinaryPlyWriter>(path, info);
 }
 
 std::int64_t bytesOfPly(const MeshToWrite& written)
@@ -391,10 +500,16 @@ std::int64_t bytesOfPly(const MeshToWrite& written)
   WrittenPly ignored;
   vertices.addPositions(positionType(mesh.doublePositions));
   vertices.add(mesh.vertexColumns, ignored);
-  faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
   faces.add(mesh.cellColumns, ignored);
+  if (written.text)
+  {
+    const double corners = 2 + 3 * numberCharacters(mesh.vertices);
+    return textBytes(mesh.vertices, vertices.recordCharacters()) +
+           textBytes(mesh.cells, corners + faces.recordCharacters());
+  }
+  constexpr std::int64_t CornersBytes = 1 + 3 * sizeof(std::int32_t);
   return mesh.vertices * static_cast<std::int64_t>(vertices.recordBytes()) +
-         mesh.cells * static_cast<std::int64_t>(faces.recordBytes());
+         mesh.cells * (CornersBytes + static_cast<std::int64_t>(faces.recordBytes()));
 }
 
 } // namespace smg

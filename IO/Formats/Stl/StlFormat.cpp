@@ -43,7 +43,8 @@ std::array<float, 3> normalOf(const Triangle& t)
 
 /**
  * Triangles with the coordinates of their corners, joined out of core: binary if these are single
- * precision numbers, else text, which holds them exactly. There is no place for isolated vertices.
+ * precision numbers and text is not requested, else text, which holds them exactly. There is no
+ * place for isolated vertices.
  */
 class StlWriter : public MeshFileWriter
 {
@@ -54,7 +55,7 @@ public:
     , Sorted(space, space.available() / 3, sizeof(Position))
     , ByVertex(std::in_place, space, space.available() / 3, sizeof(std::uint64_t))
   {
-    if (!info.doublePositions && info.cells > std::int64_t(UINT32_MAX))
+    if (!this->isText() && info.cells > std::int64_t(UINT32_MAX))
     {
       throw Error(this->Path.string() +
                   ": a binary .stl file has room for 4294967295 triangles, but there are " +
@@ -99,7 +100,7 @@ public:
   {
     this->Sorted.sort();
     this->ByVertex.reset();
-    this->Info.doublePositions ? this->writeText() : this->writeBinary();
+    this->isText() ? this->writeText() : this->writeBinary();
     WriteNotes notes = PlacedColumns(this->Info).leftOut(".stl");
     if (this->Info.isolated > 0)
     {
@@ -110,6 +111,8 @@ public:
   }
 
 private:
+  bool isText() const { return this->Info.doublePositions || this->Info.text; }
+
   /** The next triangle; returns false at the end. */
   bool next(Triangle& triangle)
   {
@@ -162,7 +165,7 @@ private:
       for (const Position& position : triangle)
       {
         out << "vertex ";
-        out.position(position, true);
+        out.position(position, this->Info.doublePositions);
         out << '\n';
       }
       out << "endloop\nendfacet\n";
@@ -187,7 +190,7 @@ std::unique_ptr<MeshFileWriter> makeStlWriter(
 }
 
 /** The corners are sorted by vertices, then with coordinates by triangles. */
-std::int64_t scratchOfStl(const StreamInfo& mesh, std::int64_t memory)
+std::int64_t scratchOfStl(const StreamInfo& mesh, std::int64_t memory, bool)
 {
   constexpr std::int64_t NumbersBytes = 2 * sizeof(std::uint32_t);
   const std::int64_t corners = mesh.cells * cornersOf(mesh.cellType);
@@ -200,9 +203,9 @@ std::int64_t bytesOfStl(const MeshToWrite& written)
   const StreamInfo& mesh = written.mesh;
   constexpr std::int64_t BinaryBytes = 50;
   constexpr double Words = 63; // of a facet as text
-  return mesh.doublePositions
-           ? textBytes(mesh.cells, Words + positionCharacters(false) + 3 * positionCharacters(true))
-           : mesh.cells * BinaryBytes;
+  const double numbers = positionCharacters(false) + 3 * positionCharacters(mesh.doublePositions);
+  return mesh.doublePositions || written.text ? textBytes(mesh.cells, Words + numbers)
+                                              : mesh.cells * BinaryBytes;
 }
 
 bool looksLikeStl(std::string_view start, std::optional<std::uint64_t> size)
@@ -210,7 +213,7 @@ bool looksLikeStl(std::string_view start, std::optional<std::uint64_t> size)
   return (size && isBinaryStl(start, *size)) || isTextStl(textStart(start));
 }
 
-constexpr FileSuffix StlSuffixes[] = { { ".stl", true, false } };
+constexpr FileSuffix StlSuffixes[] = { { ".stl", true, false, FileForm::Either } };
 
 } // namespace
 

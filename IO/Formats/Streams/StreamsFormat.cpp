@@ -38,7 +38,7 @@ std::int64_t bytesOfStream(const MeshToWrite& written)
 {
   const StreamInfo& mesh = written.mesh;
   const int corners = cornersOf(mesh.cellType);
-  if (written.suffix.isText)
+  if (written.suffix.form == FileForm::Text)
   {
     constexpr double Keyword = 2.0;
     return textBytes(mesh.vertices, Keyword + positionCharacters(false)) +
@@ -48,8 +48,8 @@ std::int64_t bytesOfStream(const MeshToWrite& written)
   return elements * corners * 4 + elements / 8;
 }
 
-constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false, true }, { ".smb", true, false },
-  { ".sva", false, true, true }, { ".svb", false, true } };
+constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false, FileForm::Text },
+  { ".smb", true, false }, { ".sva", false, true, FileForm::Text }, { ".svb", false, true } };
 
 } // namespace
 

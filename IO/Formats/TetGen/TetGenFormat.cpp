@@ -211,18 +211,8 @@ bool isOfElements(const std::filesystem::path& name)
 /** The other file of the two, possibly also compressed; empty: there is none. */
 std::filesystem::path otherFile(const std::filesystem::path& name)
 {
-  const std::filesystem::path plain =
-    plainName(name).replace_extension(isOfElements(name) ? ".node" : ".ele");
-  for (const char* packed : { "", ".gz", ".xz", ".zst" })
-  {
-    std::error_code ignored;
-    if (const std::filesystem::path other = plain.string() + packed;
-        std::filesystem::exists(other, ignored))
-    {
-      return other;
-    }
-  }
-  return {};
+  return plainOrCompressed(
+    plainName(name).replace_extension(isOfElements(name) ? ".node" : ".ele"));
 }
 
 std::vector<std::filesystem::path> furtherTetGenInputs(const std::filesystem::path& path)
@@ -373,8 +363,8 @@ std::int64_t bytesOfTetGen(const MeshToWrite& written)
                                  tupleCharacters(mesh.cellColumns, ofCells));
 }
 
-constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, true },
-  { ".ele", true, true, true } };
+constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, FileForm::Text },
+  { ".ele", true, true, FileForm::Text } };
 
 } // namespace
 

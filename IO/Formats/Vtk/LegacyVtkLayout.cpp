@@ -39,7 +39,7 @@ public:
     }
     this->check();
     VtkLayout layout;
-    layout.files.push_back(this->File.path());
+    layout.files.emplace_back(this->File);
     layout.pieces.push_back(std::move(this->Piece));
     layout.otherArrays = std::move(this->OtherArrays);
     layout.repeatedArrays = std::move(this->RepeatedArrays);

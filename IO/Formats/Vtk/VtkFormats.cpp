@@ -2,6 +2,7 @@
 #include "IO/Formats/Vtk/VtkFormats.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Vtk/LegacyVtkLayout.h"
@@ -11,6 +12,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -61,7 +63,7 @@ void parseParallel(
   importParallelVtkXml(file, builder, progress);
 }
 
-constexpr FileSuffix LegacySuffixes[] = { { ".vtk" } };
+constexpr FileSuffix LegacySuffixes[] = { { ".vtk", true, true, FileForm::Either } };
 constexpr FileSuffix XmlSuffixes[] = { { ".vtp", true, false }, { ".vtu" } };
 constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" } };
 
@@ -89,6 +91,7 @@ const Format LegacyVtkFormat{
   .share = { 45, 3 },
   .bytes = bytesOfVtk,
   .writer = makeLegacyVtkWriter,
+  .scratch = scratchOfTextVtk,
 };
 
 const Format VtkXmlFormat{
@@ -124,7 +127,8 @@ namespace
 /** The names of the pieces are held in memory. */
 constexpr std::size_t MaxPieces = 100000;
 
-/** The files that a .pvtp or .pvtu file names. Throws Error if it is none. */
+/** The files that a .pvtp or .pvtu file names, or the same compressed. Throws Error if it is none.
+ */
 std::vector<std::filesystem::path> pieceFiles(InputFile& file)
 {
   XmlTags tags(file);
@@ -158,7 +162,8 @@ std::vector<std::filesystem::path> pieceFiles(InputFile& file)
                                " is not in the folder of the file or below: only such "
                                "files are read");
       }
-      files.push_back(folder / source);
+      const std::filesystem::path found = plainOrCompressed(folder / source);
+      files.push_back(found.empty() ? folder / source : found);
     }
   }
   if (files.empty())
@@ -173,7 +178,14 @@ std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path
   try
   {
     InputFile file(path);
-    return pieceFiles(file);
+    if (!isCompressed(file))
+    {
+      return pieceFiles(file);
+    }
+    Workspace space({}, Workspace::MinMemory);
+    const InflatedFile inflated(file, space, "index");
+    InputFile index(inflated.path(), {}, path.string());
+    return pieceFiles(index);
   }
   catch (const Error&)
   {
@@ -188,6 +200,7 @@ void importParallelVtkXml(
 {
   const std::int64_t maxBytes = builder.workspace().available() / 2;
   VtkLayout layout;
+  std::deque<InflatedFile> inflated;
   for (const std::filesystem::path& path : pieceFiles(file))
   {
     std::error_code ignored;
@@ -197,7 +210,15 @@ void importParallelVtkXml(
                   " that the file names does not exist.");
     }
     InputFile piece(path);
-    addVtkXmlLayout(piece, layout, maxBytes);
+    if (!isCompressed(piece))
+    {
+      addVtkXmlLayout(piece, layout, maxBytes);
+      continue;
+    }
+    const std::string name = "piece" + std::to_string(inflated.size());
+    inflated.emplace_back(piece, builder.workspace(), name.c_str());
+    InputFile content(inflated.back().path(), {}, path.string());
+    addVtkXmlLayout(content, layout, maxBytes);
   }
   readVtkMesh(file, layout, builder, progress);
 }

@@ -23,6 +23,12 @@ void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 
 MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
+/** A name as one word of a legacy file, in VTK's encoding. */
+std::string encodedVtkName(const std::string& name);
+/** Of legacy files as text. */
+MeshFileFunction makeTextVtkWriter;
+std::int64_t scratchOfTextVtk(const StreamInfo& mesh, std::int64_t memory, bool text);
+std::int64_t bytesOfTextVtk(const StreamInfo& mesh);
 std::int64_t bytesOfVtk(const MeshToWrite& written);
 std::int64_t bytesOfVtkXml(const MeshToWrite& written);
 

@@ -8,9 +8,8 @@ namespace smg
 
 InputFile& VtkFiles::open(std::size_t file, Window window)
 {
-  const std::filesystem::path& path = this->Layout.files[file];
-  const bool isFirst = path == this->First.path();
-  if (isFirst && window == Main)
+  const VtkFile& wanted = this->Layout.files[file];
+  if (wanted.path == this->First.path() && window == Main)
   {
     return this->First;
   }
@@ -20,7 +19,7 @@ InputFile& VtkFiles::open(std::size_t file, Window window)
     // Long reads still poll for cancellation.
     const auto same = [this](double) { return !this->Report || this->Report(this->Done); };
     opened.window.reset();
-    opened.window.emplace(path, same, isFirst ? this->First.name() : path.string());
+    opened.window.emplace(wanted.path, same, wanted.name);
     opened.file = file;
   }
   return *opened.window;

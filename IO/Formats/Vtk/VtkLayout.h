@@ -66,10 +66,23 @@ void forEachArray(auto& piece, const auto& visit)
   }
 }
 
+/** A file of a mesh, which may be a temporary one with the content of a compressed file. */
+struct VtkFile
+{
+  explicit VtkFile(const InputFile& file)
+    : path(file.path())
+    , name(file.name())
+  {
+  }
+
+  std::filesystem::path path;
+  std::string name; ///< in error messages
+};
+
 /** The positions of all data of a mesh in its files. */
 struct VtkLayout
 {
-  std::vector<std::filesystem::path> files;
+  std::vector<VtkFile> files;
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
   /** Names of several arrays of the points, or of the cells; see nameApart() in VtkAttributes.h. */

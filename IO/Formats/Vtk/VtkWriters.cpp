@@ -232,8 +232,9 @@ protected:
   std::vector<Array> Points, Cells, Ends, Types, PointData, CellData;
 };
 
-/** A name as one word, in VTK's encoding. */
-std::string encoded(const std::string& name)
+} // namespace
+
+std::string encodedVtkName(const std::string& name)
 {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string text;
@@ -252,9 +253,11 @@ std::string encoded(const std::string& name)
   return text;
 }
 
+namespace
+{
+
 /** Throws Error if there are more vertices than a legacy file has numbers for. */
-const std::filesystem::path& checkedForLegacy(
-  const std::filesystem::path& path, std::int64_t vertices)
+void checkLegacyVertices(const std::filesystem::path& path, std::int64_t vertices)
 {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (vertices > most)
@@ -262,7 +265,6 @@ const std::filesystem::path& checkedForLegacy(
     throw Error(path.string() + ": such a .vtk file has room for " + std::to_string(most) +
                 " vertices, but there are " + std::to_string(vertices) + ": choose .vtp or .vtu.");
   }
-  return path;
 }
 
 /** Legacy VTK, binary, version 3.0, which is widely supported: polygonal data, or an unstructured
@@ -271,7 +273,7 @@ class LegacyVtkWriter : public VtkWriter<LegacyArray>
 {
 public:
   LegacyVtkWriter(const std::filesystem::path& path, const MeshFileInfo& info)
-    : VtkWriter(checkedForLegacy(path, info.vertices), info)
+    : VtkWriter(path, info)
   {
     const bool isSurface = info.cellType == CellType::Triangle;
     const std::string cells = std::to_string(info.elements);
@@ -328,7 +330,7 @@ private:
                     std::to_string(specs.size()) + '\n');
     for (const ColumnSpec& spec : specs)
     {
-      this->writeText(encoded(spec.name) + ' ' + std::to_string(spec.components) + ' ' +
+      this->writeText(encodedVtkName(spec.name) + ' ' + std::to_string(spec.components) + ' ' +
                       std::to_string(tuples) + ' ' + std::string(legacyTypeName(spec.type)) + '\n');
       this->placeLine(arrays, spec, tuples);
     }
@@ -450,8 +452,13 @@ private:
 } // namespace
 
 std::unique_ptr<MeshFileWriter> makeLegacyVtkWriter(
-  const std::filesystem::path& path, const MeshFileInfo& info, Workspace*)
+  const std::filesystem::path& path, const MeshFileInfo& info, Workspace* space)
 {
+  checkLegacyVertices(path, info.vertices);
+  if (info.text)
+  {
+    return makeTextVtkWriter(path, info, space);
+  }
   return std::make_unique<LegacyVtkWriter>(path, info);
 }
 
@@ -465,6 +472,10 @@ std::int64_t bytesOfVtk(const MeshToWrite& written)
 {
   const StreamInfo& mesh = written.mesh;
   const bool isSurface = mesh.cellType == CellType::Triangle;
+  if (written.text)
+  {
+    return bytesOfTextVtk(mesh);
+  }
   const std::int64_t numbers = cornersOf(mesh.cellType) + (isSurface ? 1 : 2);
   return mesh.vertices * rowBytes(mesh.vertexColumns, positionBytes(mesh)) +
          mesh.cells * rowBytes(mesh.cellColumns, numbers * std::int64_t(sizeof(std::int32_t)));

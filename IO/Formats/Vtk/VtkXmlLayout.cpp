@@ -37,7 +37,7 @@ public:
   void read()
   {
     this->readRoot();
-    this->Layout.files.push_back(this->File.path());
+    this->Layout.files.emplace_back(this->File);
     for (XmlTag tag; this->Tags.next(tag);)
     {
       if (tag.name == "AppendedData")

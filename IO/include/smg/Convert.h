@@ -67,6 +67,7 @@ struct ConversionOptions
   bool restoreOrder = false;
   /** Compression of a .vsm file. */
   Codec codec = Codec::Zstd;
+  bool text = false; ///< of the result: see WriteMeshOptions
   /** Text on the origin of the mesh for the header of a .vsm file, in UTF-8; empty: none. */
   std::string origin;
   /** Folder for scratch files; empty: the system's temporary folder. */

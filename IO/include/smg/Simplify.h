@@ -34,6 +34,7 @@ struct SimplifyOptions
   int threads = 0;
   /** Compression of the result. */
   Codec codec = Codec::Zstd;
+  bool text = false; ///< of the result: see WriteMeshOptions
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch = {};
   /**

@@ -26,6 +26,9 @@ struct WriteMeshOptions
 {
   /** Compression of a .vsm file. */
   Codec codec = Codec::Zstd;
+  /** Write text where the format has a binary and a text form: .ply, .stl, .vtk. Numbers read back
+   * exactly. With a format of binary files it is an error. */
+  bool text = false;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch{};
   /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
@@ -65,13 +68,14 @@ SMG_EXPORT std::vector<std::string> writeMesh(
  * @param path the file to write
  * @param progress progress callback; empty: none
  * @param scratch folder for scratch files; empty: the system's temporary folder
+ * @param text see WriteMeshOptions::text
  * @return as writeMesh()
  * @throws Error as writeMesh(), or if `vsm` cannot be read
  * @throws Cancelled as writeMesh()
  */
 SMG_EXPORT std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress = {},
-  const std::filesystem::path& scratch = {});
+  const std::filesystem::path& scratch = {}, bool text = false);
 
 /** How to write a mesh file again with other positions. */
 struct RewriteOptions
@@ -80,6 +84,7 @@ struct RewriteOptions
   std::filesystem::path scratch{};
   /** Memory for positions that are being sorted, bytes; less than 16 MiB counts as 16 MiB. */
   std::int64_t memory = std::int64_t(64) << 20;
+  bool text = false; ///< see WriteMeshOptions; a streaming format is text or binary by its suffix
   /** Progress callback; empty: none. */
   ProgressFunction progress{};
   /** Called before `out` gets its name: what it throws leaves that as it was. Empty: none. */
@@ -102,9 +107,9 @@ SMG_EXPORT bool canRewrite(const std::filesystem::path& in, const std::filesyste
  * final where they do in `in`; counts and bounds are in the header if `in` has them. Positions are
  * rounded to single precision.
  *
- * PLY: the same elements, properties and comments, in binary. If `moved` has the vertex column
- * Normals of 3 components, it replaces properties nx, ny, nz of the vertices; otherwise these are
- * left out, and so are always those of faces, since they would be stale.
+ * PLY: the same elements, properties and comments, in binary or text. If `moved` has the vertex
+ * column Normals of 3 components, it replaces properties nx, ny, nz of the vertices; otherwise
+ * these are left out, and so are always those of faces, since they would be stale.
  *
  * @param in the mesh file
  * @param out the file to write; see canRewrite()

@@ -34,7 +34,7 @@ void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part
 {
   const Hdf5File hdf(file.path(), file.name());
   VtkHdfLayout layout = vtkHdfLayout(hdf, part, builder.workspace().available() / 2);
-  layout.files.front() = file.path();
+  layout.files.emplace_back(file);
   builder.noteParts(layout.timeSteps, layout.partitions);
   if (layout.timeSteps > 1)
   {

@@ -324,7 +324,6 @@ private:
 
   void addPieces()
   {
-    this->Layout.files.emplace_back();
     this->PointNormals = this->File.text(VtkHdfRoot + "PointData", "Normals").value_or("");
     this->CellNormals = this->File.text(VtkHdfRoot + "CellData", "Normals").value_or("");
     this->GlobalIds = this->globalIds();
