@@ -21,8 +21,8 @@
 Meshes: `open`, `mesh`, `from_pyvista`, which make a `Mesh` with the jobs `solve`, `deform`, `smooth`,
 `blend`, `distance`, `simplify` and `solver`; on arrays the functions of these names. Regions: `plane`,
 `above`, `below`, `halfspace`, `box`, `sphere`, `vertices`, `nearest`, `tag`, `mask`, `boundary`,
-`everywhere`, combined by ``|``, ``&`` and ``~``; ``region >> value`` pairs one with a value. Errors: `Error` and its subclasses. `progress`
-says how calls report how far they are.
+`everywhere`, combined by ``|``, ``&`` and ``~``; ``region >> value`` pairs one with a value, and so do `dirichlet`, `neumann`, `robin`
+and `soft`. Errors: `Error` and its subclasses. `progress` says how calls report how far they are.
 """
 
 from ._errors import (
@@ -45,11 +45,15 @@ from ._regions import (
     below,
     boundary,
     box,
+    dirichlet,
     everywhere,
     halfspace,
     mask,
     nearest,
+    neumann,
     plane,
+    robin,
+    soft,
     sphere,
     tag,
     vertices,
@@ -78,6 +82,7 @@ __all__ = [  # not `open`: import * would replace that of Python
     "boundary",
     "box",
     "deform",
+    "dirichlet",
     "distance",
     "everywhere",
     "from_pyvista",
@@ -86,9 +91,12 @@ __all__ = [  # not `open`: import * would replace that of Python
     "mask",
     "mesh",
     "nearest",
+    "neumann",
     "plane",
+    "robin",
     "simplify",
     "smooth",
+    "soft",
     "solve",
     "solver",
     "sphere",

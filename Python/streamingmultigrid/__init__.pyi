@@ -65,7 +65,7 @@ class Mesh:
     ) -> Iterator[Block]: ...
     def save(
         self, path: types.Path, *, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None, progress: Optional[types.Progress] = None
+        scratch: Optional[types.Path] = None, text: bool = False, progress: Optional[types.Progress] = None
     ) -> None: ...
     def estimate(
         self, job: types.Job, *arguments: Any, path: Optional[types.Path] = None, **options: Any
@@ -146,6 +146,7 @@ class Region:
     def __rand__(self, other: Any) -> Region: ...
     def __ror__(self, other: Any) -> Region: ...
     def __invert__(self) -> Region: ...
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> Any: ...
 
 class Solver:
     shape: Tuple[int, int]
@@ -196,6 +197,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
     ) -> npt.NDArray[Any]: ...
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> npt.NDArray[Any]: ...
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any: ...
     def __getitem__(self, name: str) -> npt.NDArray[Any]: ...
     def as_mesh(self, progress: Optional[types.Progress] = None) -> Mesh: ...
     def blocks(
@@ -203,7 +205,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Iterator[Block]: ...
     def save(
         self, path: types.Path, *, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None, progress: Optional[types.Progress] = None
+        scratch: Optional[types.Path] = None, text: bool = False, progress: Optional[types.Progress] = None
     ) -> Report: ...
     def to_pyvista(self) -> Any: ...
     def close(self) -> None: ...
@@ -277,13 +279,76 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Estimate: ...
     def select(self, region: types.Where, progress: Optional[types.Progress] = None) -> npt.NDArray[Any]: ...
 
+class Estimate(Dict[str, Any]):
+    vertices: int
+    cells: int
+    counted: bool
+    memory_bytes: int
+    memory_limit: int
+    scratch_bytes: int
+    scratch_free: int
+    output_bytes: int
+    output_free: int
+    passes: int
+    cpu_seconds: float
+    def to_dict(self) -> Dict[str, Any]: ...
+
+class Report(Dict[str, Any]):
+    vertices: int
+    cells: int
+    levels: List[Dict[str, Any]]
+    passes: int
+    resumed_passes: int
+    cycles: int
+    residuals: List[float]
+    by_pass: List[Dict[str, Any]]
+    stages: List[Dict[str, Any]]
+    acceleration: str
+    converged: bool
+    steps: List[Dict[str, Any]]
+    peak_nodes: int
+    pool_bytes_peak: int
+    rss_bytes_peak: int
+    scratch_bytes_peak: int
+    bytes_read: int
+    bytes_written: int
+    bytes_by_kind: List[Dict[str, Any]]
+    seconds: Dict[str, float]
+    cpu_seconds: float
+    threads: int
+    prescribed: int
+    shared: int
+    held: int
+    degenerate_cells: int
+    coincident_cells: int
+    clamped_weights: int
+    components: int
+    free_components: int
+    removed_source: List[float]
+    errors: Dict[str, Any]
+    conditions: List[Dict[str, Any]]
+    energy: List[float]
+    mean: List[float]
+    minimum: List[Dict[str, Any]]
+    maximum: List[Dict[str, Any]]
+    source: List[float]
+    screening: List[float]
+    balance: List[float]
+    volume: Dict[str, Any]
+    seams: List[Dict[str, Any]]
+    clipped: int
+    distance: Dict[str, Any]
+    inverted: Dict[str, Any]
+    vertices_before: int
+    cells_before: int
+    error: Optional[float]
+    dropped_bodies: int
+    resumed_vertices: int
+    notes: List[str]
+    warnings: List[str]
+    def to_dict(self) -> Dict[str, Any]: ...
+
 class Error(RuntimeError): ...
-
-class Estimate(Dict[str, Any], Generic):
-    def __getattr__(self, name: str) -> Any: ...
-
-class Report(Dict[str, Any], Generic):
-    def __getattr__(self, name: str) -> Any: ...
 
 class NotConverged(Error):
     result: Any
@@ -322,6 +387,8 @@ def deform(
     checkpoint: Optional[types.Path] = None, progress: Optional[types.Progress] = None, strict: bool = False
 ) -> npt.NDArray[Any]: ...
 
+def dirichlet(region: types.Where, value: types.Value) -> Placed: ...
+
 def distance(
     points: npt.ArrayLike, cells: npt.ArrayLike, sources: Optional[types.Places] = None, *,
     wall: Optional[bool] = None, source: Optional[bool] = None, direction: Optional[bool] = None,
@@ -355,6 +422,8 @@ def mesh(
 
 def nearest(points: npt.ArrayLike) -> Region: ...
 
+def neumann(region: types.Where, value: types.Value) -> Placed: ...
+
 def open(
     path: types.Path, *, memory: Optional[types.Size] = None, threads: Optional[int] = None,
     scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
@@ -367,6 +436,8 @@ def plane(
     x: Optional[float] = None, y: Optional[float] = None, z: Optional[float] = None,
     tolerance: Optional[float] = None
 ) -> Region: ...
+
+def robin(region: types.Where, coefficient: types.Value, ambient: types.Value) -> Placed: ...
 
 def simplify(
     points: npt.ArrayLike, cells: npt.ArrayLike, vertices: Optional[int] = None, *,
@@ -385,6 +456,8 @@ def smooth(
     scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
     strict: bool = False
 ) -> npt.NDArray[Any]: ...
+
+def soft(region: types.Where, weight: types.Value, value: types.Value) -> Placed: ...
 
 def solve(
     points: npt.ArrayLike, cells: npt.ArrayLike, *, dirichlet: Optional[types.Conditions] = None,
@@ -439,6 +512,7 @@ __all__ = [
     "boundary",
     "box",
     "deform",
+    "dirichlet",
     "distance",
     "everywhere",
     "from_pyvista",
@@ -447,9 +521,12 @@ __all__ = [
     "mask",
     "mesh",
     "nearest",
+    "neumann",
     "plane",
+    "robin",
     "simplify",
     "smooth",
+    "soft",
     "solve",
     "solver",
     "sphere",

@@ -11,7 +11,7 @@ import numpy as np
 from . import _types as types
 from ._arrays import Array, copy, shaped
 from ._errors import Error, InputError
-from ._library import NativeHandle, call, call_reporting, json_text, parse, text
+from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse
 from .progress import reporting
 from ._report import Report, warn_of
 
@@ -74,7 +74,7 @@ class Block:
         return self._array("smg_block_ghosts").view(bool)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._array("smg_block_array", text(name), int(name in self._of_cells))
+        return self._array("smg_block_array", encoded(name), int(name in self._of_cells))
 
     def _array(self, function: str, *arguments: Any) -> np.ndarray:
         """What a function of the library says of the block; read once."""
@@ -175,7 +175,7 @@ def read_column(
 ) -> np.ndarray:
     """A whole column in the original order; `cells`: None: of the vertices if these have it."""
     places = [False, True] if cells is None else [cells]
-    specs = {
+    specs: Dict[Tuple[bool, str], Tuple[Any, int]] = {
         (of, name_): (spec["type"], spec["components"])
         for of, place in ((False, "vertices"), (True, "cells"))
         for name_, spec in columns[place].items()
@@ -187,7 +187,7 @@ def read_column(
             type_, components = specs[of_cells, name]
             values = np.empty((counts[of_cells], components), type_)
             pointer = values.ctypes.data_as(c_void_p)
-            call_reporting("smg_read", (mesh, field, text(name), int(of_cells)), report, pointer)
+            call_reporting("smg_read", (mesh, field, encoded(name), int(of_cells)), report, pointer)
             return shaped(values, components)
     names = sorted(name_ for of, name_ in specs if of in places)
     raise InputError("There is no column %r; there are %s." % (name, ", ".join(names)))
@@ -375,6 +375,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         memory: Optional[types.Size] = None,
         threads: Optional[int] = None,
         scratch: Optional[types.Path] = None,
+        text: bool = False,
         progress: Optional[types.Progress] = None,
     ) -> Report:
         """Writes the mesh with the result to a file, in the format of its suffix.
@@ -384,6 +385,8 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
 
         Args:
             path: .vsm, .ply, .vtk, .vtp, .vtu, .vtkhdf ...
+            text: True: text where the format has a binary and a text form (.ply, .stl, .vtk); numbers
+                read back exactly.
             memory, threads, scratch: as of `Mesh.solve`.
 
         Returns:
@@ -391,10 +394,10 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         """
         self.mesh.check_output(path)
         result = c_char_p()
-        options = self.mesh.saving(memory, threads, scratch)
+        options = self.mesh.saving(memory, threads, scratch, text)
         with reporting(progress, "writing") as report, self._handle as field:
             call_reporting(
-                "smg_save", (field, text(path), json_text(options)), report, byref(result)
+                "smg_save", (field, encoded(path), json_text(options)), report, byref(result)
             )
             self._report = Report(parse(result))
         warn_of(self._report, set(self._said))

@@ -81,7 +81,7 @@ def simplify(
     Returns:
         Its points, (k, 3) float64, and triangles, (l, 3) int64.
     """
-    options = {"memory": memory, "threads": threads, "scratch": scratch}
+    options: Dict[str, Any] = {"memory": memory, "threads": threads, "scratch": scratch}
     with _opened(points, cells, options) as opened:
         with opened.simplify(vertices, error=error, progress=progress, **options) as small:
             return small.points, small.cells

@@ -124,7 +124,7 @@ def _data(thing: Any, cells: Optional[np.ndarray]) -> Dict[Tuple[str, bool], np.
     """The numeric arrays that belong to vertices and cells; others stay behind."""
     found: Dict[Tuple[str, bool], np.ndarray] = {}
     for attribute, of_cells in (("point_data", False), ("cell_data", True)):
-        data = getattr(thing, attribute, None)
+        data: Any = getattr(thing, attribute, None)
         for name in list(data.keys()) if data is not None else []:
             values = data[name]
             if of_cells and isinstance(values, (list, tuple)):  # meshio: an array for each block

@@ -34,6 +34,7 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_select": [c_void_p, c_char_p, *_REPORTED, c_void_p],
     "smg_info": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
     "smg_counts": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
+    "smg_files": [c_char_p, POINTER(c_char_p)],
     "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],
     "smg_estimate_file": [c_char_p] * 5 + [POINTER(c_char_p)],
     "smg_run": [c_void_p, c_char_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
@@ -109,14 +110,14 @@ def version() -> str:
     return library().smg_version().decode()
 
 
-def text(value: Any) -> Optional[bytes]:
+def encoded(value: Any) -> Optional[bytes]:
     """A path or name as the C interface takes it. Raises InputError if it contains a zero byte."""
     if value is None:
         return None
-    encoded = os.fsencode(value)
-    if b"\0" in encoded:
+    name = os.fsencode(value)
+    if b"\0" in name:
         raise InputError("%r: a name cannot contain the character 0." % (value,))
-    return encoded
+    return name
 
 
 def json_text(description: Mapping[str, Any]) -> bytes:

@@ -22,7 +22,7 @@ from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning, warn
 from ._field import OF_EVERY_MESH, Block, Field, names_of, read_blocks, read_column, read_columns
-from ._library import NativeHandle, call, call_reporting, json_text, parse, text
+from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse
 from ._process import HandleLock, require_no_call
 from ._solver import Solver
 from .progress import part, reporting
@@ -78,12 +78,13 @@ class Mesh:
     def _handle(self, report: Any = None) -> NativeHandle:
         require_no_call()
         with self._opening:
-            if self._opened is None:
+            opened: Any = self._opened
+            if opened is None:
                 with contextlib.ExitStack() as stack:
                     if report is None:
                         report = stack.enter_context(reporting(self._progress, "opening"))
-                    self._opened = self._opener(report)
-            return self._opened
+                    opened = self._opened = self._opener(report)
+            return opened
 
     def _arrays(self) -> List[Any]:
         """What the library uses of the mesh as it is now: arrays, and its folder."""
@@ -98,11 +99,11 @@ class Mesh:
         """Of `memory`, `threads`, `scratch`, `scratch_limit`: those that the mesh was opened with."""
         return {name: self._defaults[name] for name in names if self._defaults.get(name) is not None}
 
-    def saving(self, memory: Any, threads: Optional[int], scratch: Any) -> Dict[str, Any]:
+    def saving(self, memory: Any, threads: Optional[int], scratch: Any, as_text: bool) -> Dict[str, Any]:
         """The options with which a file is written."""
         given = {"memory": memory, "threads": threads, "scratch": scratch}
         own = {name: value for name, value in given.items() if value is not None}
-        return {**self.defaults(*given), **own}
+        return {**self.defaults(*given), **own, "text": bool(as_text)}
 
     @property
     def _is_closed(self) -> bool:
@@ -266,22 +267,25 @@ class Mesh:
         memory: Optional[types.Size] = None,
         threads: Optional[int] = None,
         scratch: Optional[types.Path] = None,
+        text: bool = False,
         progress: Optional[types.Progress] = None,
     ) -> None:
         """Writes the mesh with its columns to a file, in the format of its suffix.
 
         Args:
             path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh ...
+            text: True: text where the format has a binary and a text form (.ply, .stl, .vtk); numbers
+                read back exactly.
             memory, threads, scratch: as of `smg.open`; default: those of the mesh.
 
         What the format cannot hold is left out, with a ReportWarning.
         """
         self.check_output(path)
         result = c_char_p()
-        options = self.saving(memory, threads, scratch)
+        options = self.saving(memory, threads, scratch, text)
         with reporting(progress, "writing") as report, self._handle() as mesh:
             call_reporting(
-                "smg_save_mesh", (mesh, text(path), json_text(options)), report, byref(result)
+                "smg_save_mesh", (mesh, encoded(path), json_text(options)), report, byref(result)
             )
             notes = parse(result)
         for note in notes:
@@ -310,11 +314,11 @@ class Mesh:
         result = c_char_p()
         if self._opened is None:  # what is said of the job did not need it
             call(
-                "smg_estimate_file", *self._file, text(job), description, text(path), byref(result)
+                "smg_estimate_file", *self._file, encoded(job), description, encoded(path), byref(result)
             )
             return Estimate(parse(result))
         with self.with_columns(columns) as mesh:
-            call("smg_estimate", mesh, text(job), description, text(path), byref(result))
+            call("smg_estimate", mesh, encoded(job), description, encoded(path), byref(result))
             return Estimate(parse(result))
 
     def _with_defaults(self, job: str, description: Dict[str, Any]) -> Dict[str, Any]:
@@ -338,13 +342,13 @@ class Mesh:
                 yield pointer
             finally:
                 for column in columns.added:
-                    call("smg_remove_column", pointer, text(column.name), int(column.cells))
+                    call("smg_remove_column", pointer, encoded(column.name), int(column.cells))
 
     @staticmethod
     def _add_column(pointer: Any, column: Column) -> None:
         call_reporting(
             "smg_add_argument" if column.is_argument else "smg_add_column",
-            (pointer, text(column.name), int(column.cells), byref(table(column.values))),
+            (pointer, encoded(column.name), int(column.cells), byref(table(column.values))),
             None,
         )
 
@@ -360,7 +364,7 @@ class Mesh:
             with self.with_columns(columns) as mesh:
                 call_reporting(
                     "smg_run",
-                    (mesh, text(job), description),
+                    (mesh, encoded(job), description),
                     part(report, opening, 1),
                     byref(handle.pointer),
                 )
@@ -441,7 +445,7 @@ class Mesh:
             with self._handle(part(report, 0, opening)) as mesh:
                 call_reporting(
                     "smg_simplify",
-                    (mesh, json_text(description), text(path)),
+                    (mesh, json_text(description), encoded(path)),
                     part(report, opening, 1),
                     byref(result),
                 )

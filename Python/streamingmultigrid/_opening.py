@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from ctypes import byref
+from ctypes import byref, c_char_p
 from typing import Any, Dict, List, Optional, Union
 
 import numpy.typing as npt
@@ -14,19 +14,18 @@ from . import _types as types
 from ._arrays import points_and_cells, table
 from ._errors import Error
 from ._field import Field
-from ._library import NativeHandle, call_reporting, json_text, text, version
+from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse, version
 from ._mesh import Mesh
 
 _LIMITS = ("memory", "threads", "scratch", "scratch_limit")
 
 
 def _files(path: str) -> List[str]:
-    """The files of a mesh: those of TetGen are two, of which `path` is one."""
-    name, suffix = os.path.splitext(path[:-3] if path.lower().endswith(".gz") else path)
-    if suffix.lower() not in (".node", ".ele"):
-        return [path]
-    others = [name + each + packed for each in (".node", ".ele") for packed in ("", ".gz")]
-    return [path, *(other for other in others if os.path.exists(other))]
+    """The files of a mesh: `path`, and the other one of TetGen, or the pieces of VTK."""
+    result = c_char_p()
+    call("smg_files", encoded(path), byref(result))
+    files: Any = parse(result)
+    return [path, *(other for other in files[1:] if os.path.exists(other))]
 
 
 def _cached(path: str, cache: Any, options: Dict[str, Any]) -> str:
@@ -85,18 +84,18 @@ def open(  # noqa: A001, the word of the trade
     Raises:
         FileNotFoundError: there is no such file. Error, at the first use: it cannot be read.
     """
-    path = os.path.abspath(os.fspath(path))
-    text(path)  # InputError
-    os.stat(path)  # FileNotFoundError at once, not at the first use
-    own = {
+    name = os.path.abspath(os.fspath(path))
+    encoded(name)  # InputError
+    os.stat(name)  # FileNotFoundError at once, not at the first use
+    given: Dict[str, Any] = {
         "cells": cells,
         "weld": weld,
         "time_step": time_step,
         "partition": partition,
         "order": order,
     }
-    own = {key: value for key, value in own.items() if value is not None}
-    defaults = {
+    own = {key: value for key, value in given.items() if value is not None}
+    defaults: Dict[str, Any] = {
         "memory": memory,
         "threads": threads,
         "scratch": scratch,
@@ -105,21 +104,21 @@ def open(  # noqa: A001, the word of the trade
     options = {**own, **defaults}
 
     def opener(report: Any) -> NativeHandle:
-        file = path
-        if cache is not None and cache is not False and not path.endswith(".vsm"):
-            file = _cached(path, cache, own)
+        file = name
+        if cache is not None and cache is not False and not name.endswith(".vsm"):
+            file = _cached(name, cache, own)
             if not os.path.exists(file):
                 call_reporting(
-                    "smg_convert", (text(path), text(file), json_text(options)), report, None
+                    "smg_convert", (encoded(name), encoded(file), json_text(options)), report, None
                 )
-        given = options if file == path else defaults
+        how = options if file == name else defaults
         handle = NativeHandle("mesh")
-        call_reporting("smg_open", (text(file), json_text(given)), report, byref(handle.pointer))
+        call_reporting("smg_open", (encoded(file), json_text(how)), report, byref(handle.pointer))
         return handle
 
-    opened = Mesh(path, opener, defaults, progress)
-    opened._file = text(path), json_text(options)
-    opened._source = path
+    opened = Mesh(name, opener, defaults, progress)
+    opened._file = encoded(name), json_text(options)
+    opened._source = name
     opened._reopening = {**options, "cache": cache}
     return opened
 
@@ -148,15 +147,15 @@ def mesh(
         cells: (m, 3), triangles, or (m, 4), tetrahedra: integers of any type, rows of `points`.
         memory, threads, scratch, scratch_limit, weld, order, progress: as of `smg.open`.
     """
-    points, cells = points_and_cells(points, cells)
-    defaults = {
+    places, corners = points_and_cells(points, cells)
+    defaults: Dict[str, Any] = {
         "memory": memory,
         "threads": threads,
         "scratch": scratch,
         "scratch_limit": scratch_limit,
     }
     options = {**defaults, "weld": weld, "order": order}
-    arrays = table(points), table(cells)
+    arrays = table(places), table(corners)
 
     def opener(report: Any) -> NativeHandle:
         handle = NativeHandle("mesh")
@@ -164,7 +163,7 @@ def mesh(
         call_reporting("smg_open_arrays", arguments, report, byref(handle.pointer))
         return handle
 
-    made = Mesh("arrays of %d points and %d cells" % (len(points), len(cells)), opener, defaults, progress)
+    made = Mesh("arrays of %d points and %d cells" % (len(places), len(corners)), opener, defaults, progress)
     made._handle()
     made._opener = None  # which has the arrays
     return made

@@ -29,7 +29,8 @@ _Entry = Tuple[Region, Any]
 def _entries(values: Any, what: str) -> List[_Entry]:
     """The places and values of one datum, later ones winning; a value alone holds everywhere."""
     if isinstance(values, Placed):
-        return [(values.region, values.value)]
+        placed = values.of_datum(what)
+        return [(placed.region, placed.value)]
     if isinstance(values, Mapping):
         ids = list(values)
         if not all(isinstance(each, (int, np.integer)) for each in ids):
@@ -107,11 +108,11 @@ class _Data:
             return [{**region.where(self.columns), **write(*values)}]
         if len(np.unique(ids)) != len(ids):
             raise InputError("%s: a vertex has several values: give each vertex once." % what)
-        rows = [
+        rows: List[Any] = [
             numbers(value, what) if own else [value] * len(ids) for own, value in zip(apart, values)
         ]
         groups: Dict[tuple, list] = {}
-        for number, *row in zip(ids.tolist(), *rows):
+        for number, row in zip(ids.tolist(), zip(*rows)):
             key = tuple(item for value in row for item in np.ravel(value).tolist())
             groups.setdefault(key, [row]).append(number)
         if len(groups) <= _FEW:
@@ -192,11 +193,12 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
     }
     data = _Data(columns, given.get("columns") or base.get("columns"))
     if data.width is None:
-        widths = {
+        found_widths = {
             data.widths(region, value)
             for entries in (*placed.values(), *([(r, v) for r, _, v in p] for p in pairs.values()))
             for region, value in entries
-        } - {None, 1}
+        }
+        widths = {width for width in found_widths if width is not None and width != 1}
         if len(widths) > 1:
             raise InputError(
                 "The values have %s components: give `columns`, and values of as many or of one number."
@@ -215,10 +217,10 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
                     region, name, lambda v: {"value": data.value(v, name, cells)}, value  # noqa: B023
                 )
             ]
-    for name, cells in (("source", None), ("initial", False)):
+    for name, of in (("source", None), ("initial", False)):
         if name in placed:
             entries = placed[name]
-            found[name] = _several(entries, lambda v: data.value(v, name, cells), columns)  # noqa: B023
+            found[name] = _several(entries, lambda v: data.value(v, name, of), columns)  # noqa: B023
     for name, (first, second) in (("robin", ("coefficient", "ambient")), ("soft", ("weight", "value"))):
         if pairs[name]:
             found[name] = [
@@ -264,7 +266,8 @@ def _coefficients(values: Any, what: str, form: str) -> list:
     entries = values if isinstance(values, list) else [values]
     found = []
     for entry in entries:
-        region, pair = (entry.region, entry.value) if isinstance(entry, Placed) else (everywhere, entry)
+        placed = entry.of_datum(what) if isinstance(entry, Placed) else Placed(everywhere, entry)
+        region, pair = placed.region, placed.value
         if not isinstance(pair, tuple) or len(pair) != 2:
             raise InputError("%s: an entry is %s, or a list of these." % (what, form))
         found.append((region, *pair))

@@ -11,6 +11,7 @@ from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
+from . import _types as types
 from ._arrays import numbers
 from ._columns import Columns
 from ._errors import InputError
@@ -73,13 +74,20 @@ class Region:
 
 
 class Placed:
-    """A region with its value: what ``region >> value`` makes."""
+    """A region with its value: what ``region >> value`` makes, for any datum, and `dirichlet` and the like,
+    of which `of` is the argument of `Mesh.solve`."""
 
-    def __init__(self, region: Region, value: Any) -> None:
-        self.region, self.value = region, value
+    def __init__(self, region: Region, value: Any, of: Optional[str] = None) -> None:
+        self.region, self.value, self.of = region, value, of
 
     def __repr__(self) -> str:
         return "%r >> %r" % (self.region, self.value)
+
+    def of_datum(self, name: str) -> "Placed":
+        """Itself. Raises InputError if it is of another datum."""
+        if self.of not in (None, name):
+            raise InputError("%s: %r is of another kind: it belongs to %s=." % (name, self, self.of))
+        return self
 
 
 class _Everywhere(Region):
@@ -269,10 +277,11 @@ def vertices(numbers_: Union[int, Iterable[int], npt.ArrayLike]) -> Region:
     As a value, an array with a row for each of the numbers gives each its own:
     ``vertices([4, 7]) >> [1.0, 2.0]``.
     """
-    if not isinstance(numbers_, np.ndarray):
-        numbers_ = np.atleast_1d(np.asarray(list(numbers_) if not np.isscalar(numbers_) else numbers_))
-    ids = numbers(numbers_, "vertices")
-    if ids.size and ids.dtype.kind not in "iu" or np.asarray(numbers_).dtype == bool:
+    given: Any = numbers_
+    if not isinstance(given, np.ndarray):
+        given = np.atleast_1d(np.asarray(given if np.isscalar(given) else list(given)))
+    ids = numbers(given, "vertices")
+    if ids.size and ids.dtype.kind not in "iu" or given.dtype == bool:
         raise InputError("vertices: numbers of vertices are integers; of a mask use smg.mask().")
     if ids.ndim != 1 or ids.size == 0 or ids.min() < 0:
         raise InputError("vertices: a list of numbers of at least 0 is needed, and not an empty one.")
@@ -335,3 +344,34 @@ def as_regions(value: Any) -> List[Region]:
     if isinstance(value, (list, tuple)) and not all(isinstance(each, (int, bool)) for each in value):
         return [as_region(each) for each in value]
     return [as_region(value)]
+
+
+# Conditions by name, where `region >> value` would need a region of its own, as of a mask.
+
+
+def dirichlet(region: types.Where, value: types.Value) -> Placed:
+    """u = value at the vertices of a region, for ``solve(dirichlet=...)``; as ``region >> value``.
+
+    Args:
+        region: a region; a mask, or numbers of vertices.
+        value: as of `Mesh.solve`; of numbers of vertices also a row for each.
+    """
+    return Placed(as_region(region), value, "dirichlet")
+
+
+def neumann(region: types.Where, value: types.Value) -> Placed:
+    """(K grad u - q) . n = value on the part of the boundary in a region, positive into the body, for
+    ``solve(flux=...)``; as ``region >> value``. `region` and `value` are as of `dirichlet`."""
+    return Placed(as_region(region), value, "flux")
+
+
+def robin(region: types.Where, coefficient: types.Value, ambient: types.Value) -> Placed:
+    """(K grad u - q) . n = coefficient * (ambient - u) on the part of the boundary in a region, for
+    ``solve(robin=...)``; as ``region >> (coefficient, ambient)``. `region` is as of `dirichlet`."""
+    return Placed(as_region(region), (coefficient, ambient), "robin")
+
+
+def soft(region: types.Where, weight: types.Value, value: types.Value) -> Placed:
+    """Adds weight * (u - value), a density, at the vertices of a region, for ``solve(soft=...)``; as
+    ``region >> (weight, value)``. `region` is as of `dirichlet`."""
+    return Placed(as_region(region), (weight, value), "soft")

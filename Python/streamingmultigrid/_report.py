@@ -3,23 +3,36 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List
+import difflib
+from typing import Any, Dict, List, Optional
 
 from ._display import estimate_html, report_html
 from ._errors import NotConvergedWarning, ReportWarning, warn
 
 
-class _Facts(Dict[str, Any]):
-    """A dict whose keys are attributes, too."""
+class _Facts(dict):
+    """A dict whose keys are attributes, too: those that its class declares are all that there may be."""
 
     def __getattr__(self, name: str) -> Any:
         try:
             return self[name]
         except KeyError:
-            raise AttributeError(name) from None
+            raise AttributeError(self._without(name)) from None
+
+    def _without(self, name: str) -> str:
+        """The sentence on an entry that is asked for, but not there."""
+        if name in type(self).__annotations__:
+            return "This %s has no entry %r, which other jobs or arguments have." % (type(self).__name__.lower(), name)
+        near = difflib.get_close_matches(name, [*self, *type(self).__annotations__], 1)
+        meant = ": %r is meant" % near[0] if near else ""
+        return "There is no entry %r in reports and estimates%s." % (name, meant)
 
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self]
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The entries as a dict of Python's own types, as json.dumps() takes it."""
+        return dict(self)
 
 
 def in_bytes(count: float) -> str:
@@ -42,8 +55,61 @@ class Report(_Facts):
     V-cycle), `converged`, `pool_bytes_peak` (accounted memory, bytes), `seconds` (a dict),
     `conditions`, `energy` (1/2 the integral of grad u . K grad u + s u^2, for each column), `mean`,
     `minimum`, `maximum`, `notes` and `warnings` (sentences). Numbers that are not finite are None.
-    docs/solve.md describes all of them.
+    docs/solve.md describes all of them. Some are of some jobs alone; `to_dict` makes a plain dict.
     """
+
+    vertices: int
+    cells: int
+    levels: List[Dict[str, Any]]
+    passes: int
+    resumed_passes: int
+    cycles: int
+    residuals: List[float]
+    by_pass: List[Dict[str, Any]]
+    stages: List[Dict[str, Any]]
+    acceleration: str
+    converged: bool
+    steps: List[Dict[str, Any]]
+    peak_nodes: int
+    pool_bytes_peak: int
+    rss_bytes_peak: int
+    scratch_bytes_peak: int
+    bytes_read: int
+    bytes_written: int
+    bytes_by_kind: List[Dict[str, Any]]
+    seconds: Dict[str, float]
+    cpu_seconds: float
+    threads: int
+    prescribed: int
+    shared: int
+    held: int
+    degenerate_cells: int
+    coincident_cells: int
+    clamped_weights: int
+    components: int
+    free_components: int
+    removed_source: List[float]
+    errors: Dict[str, Any]
+    conditions: List[Dict[str, Any]]
+    energy: List[float]
+    mean: List[float]
+    minimum: List[Dict[str, Any]]
+    maximum: List[Dict[str, Any]]
+    source: List[float]
+    screening: List[float]
+    balance: List[float]
+    volume: Dict[str, Any]
+    seams: List[Dict[str, Any]]
+    clipped: int
+    distance: Dict[str, Any]
+    inverted: Dict[str, Any]
+    vertices_before: int
+    cells_before: int
+    error: Optional[float]
+    dropped_bodies: int
+    resumed_vertices: int
+    notes: List[str]
+    warnings: List[str]
 
     def __repr__(self) -> str:
         return "\n".join(self._lines())
@@ -61,9 +127,7 @@ class Report(_Facts):
             lines.append("  %s, %d passes" % (outcome, self.get("passes", 0)))
         if "error" in self:
             lines.append("  error %s" % self["error"])
-        seconds = self.get("seconds") or {}
-        if isinstance(seconds, dict):
-            seconds = seconds.get("total", 0)
+        seconds = (self.get("seconds") or {}).get("total", 0)
         lines.append(
             "  %.3g s, %.3g s of CPU, %s of memory accounted"
             % (seconds, self.get("cpu_seconds", 0), in_bytes(self.get("pool_bytes_peak", 0)))
@@ -84,6 +148,18 @@ class Estimate(_Facts):
     (bytes), `passes` over the mesh, and `cpu_seconds`. `counted` says whether `vertices` and `cells`
     are known; else they are estimated from the size of the file.
     """
+
+    vertices: int
+    cells: int
+    counted: bool
+    memory_bytes: int
+    memory_limit: int
+    scratch_bytes: int
+    scratch_free: int
+    output_bytes: int
+    output_free: int
+    passes: int
+    cpu_seconds: float
 
     def __repr__(self) -> str:
         about = "" if self.get("counted", True) else "about "

@@ -89,7 +89,8 @@ def part(report: Optional[Report], begin: float, end: float) -> Optional[Report]
     """Of a step that takes the part of a job from `begin` to `end`."""
     if report is None:
         return None
-    return lambda done: report(begin + done * (end - begin))
+    whole = report
+    return lambda done: whole(begin + done * (end - begin))
 
 
 class Cancellation:

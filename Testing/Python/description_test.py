@@ -55,6 +55,27 @@ class ProblemTest(unittest.TestCase):
             with self.assertRaisesRegex(smg.InputError, "smg.mask"):
                 as_region(mask)
 
+    def test_conditions_by_name(self):
+        """They say what region >> value says, take masks and numbers, and know where they belong."""
+        conditions = {
+            "dirichlet": (smg.dirichlet, (7.0,), 7.0),
+            "flux": (smg.neumann, (7.0,), 7.0),
+            "robin": (smg.robin, (2.0, 20.0), (2.0, 20.0)),
+            "soft": (smg.soft, (2.0, 20.0), (2.0, 20.0)),
+        }
+        mask = np.arange(8) > 3
+        for name, (function, arguments, value) in conditions.items():
+            with self.subTest(name=name):
+                for region in (smg.boundary, smg.tag("T", 3), smg.sphere([0, 0, 0], 1)):
+                    self.assertEqual(said(**{name: [function(region, *arguments)]})[0], said(**{name: [region >> value]})[0])
+                for region, same in ((mask, smg.mask(mask)), ([4, 7], smg.vertices([4, 7]))):
+                    self.assertEqual(said(**{name: [function(region, *arguments)]})[0], said(**{name: [same >> value]})[0])
+                self.assertEqual(said(**{name: function(smg.boundary, *arguments)}), said(**{name: smg.boundary >> value}))
+                for other in ("dirichlet", "flux", "robin", "soft", "source", "conductivity"):
+                    if other != name:
+                        with self.assertRaisesRegex(smg.InputError, "^%s: .* belongs to %s=" % (other, name)):
+                            said(**{other: [function(smg.boundary, *arguments)]})
+
     def test_regions(self):
         for region, where in (
             (smg.above(z=1), {"halfspace": [0, 0, 1, 1]}),

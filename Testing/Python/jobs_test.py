@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Each job in Python has the bits of the command line, from files and from arrays."""
 
+import gzip
 import json
+import lzma
 import os
 import shutil
 import unittest
@@ -326,6 +328,21 @@ class ResultTest(unittest.TestCase):
             bounds = smg.open("pair.ele", cache="two").bounds
             np.testing.assert_allclose(bounds, np.array(mesh.bounds) * scale)
             self.assertEqual(smg.open("pair.node", cache="two").bounds, bounds)
+        for pack, suffix in ((gzip.open, ".gz"), (lzma.open, ".xz")):  # also if they are compressed
+            for scale in (1, 3):
+                with open("scaled%d.node" % scale, "rb") as plain, pack("packed.node" + suffix, "wb") as packed:
+                    packed.write(plain.read())
+                shutil.copy("scaled1.ele", "packed.ele")
+                bounds = smg.open("packed.ele", cache="two").bounds
+                np.testing.assert_allclose(bounds, np.array(mesh.bounds) * scale)
+            os.remove("packed.node" + suffix)
+        for scale in (1, 3):  # or a piece
+            smg.mesh(points * scale, cells).save("piece.vtu")
+            with open("pieces.pvtu", "w", encoding="utf-8") as index:
+                index.write('<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid>'
+                            '<Piece Source="piece.vtu"/></PUnstructuredGrid></VTKFile>')  # fmt: skip
+            bounds = smg.open("pieces.pvtu", cache="two").bounds
+            np.testing.assert_allclose(bounds, np.array(mesh.bounds) * scale)
         with self.assertRaisesRegex(smg.Error, "cache: .*cached.off"):
             smg.open(file, cache="cached.off").info()
 

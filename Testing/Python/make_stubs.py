@@ -12,6 +12,7 @@ import inspect
 import os
 import re
 import textwrap
+from typing import Generic
 
 import streamingmultigrid as smg
 
@@ -32,13 +33,13 @@ __version__: str
 """
 
 _SPECIAL = {
-    "__getattr__", "__getitem__", "__setitem__", "__contains__", "__len__", "__enter__",
-    "__exit__", "__array__", "__matmul__", "__rshift__", "__and__", "__or__", "__sub__", "__rand__",
-    "__ror__", "__invert__",
+    "__getitem__", "__setitem__", "__contains__", "__len__", "__enter__", "__exit__", "__array__",
+    "__array_ufunc__", "__matmul__", "__rshift__", "__and__", "__or__", "__sub__", "__rand__", "__ror__",
+    "__invert__",
 }  # fmt: skip
 #: What the parts of the package have for each other.
 _INTERNAL = {
-    "check_output", "defaults", "description", "lines", "preview_svg", "saving", "select_vertices",
+    "check_output", "defaults", "description", "lines", "of_datum", "preview_svg", "saving", "select_vertices",
     "selected", "where", "with_columns",
 }  # fmt: skip
 
@@ -88,6 +89,8 @@ def _bases(cls):
             yield from _bases(base)
         elif base is dict:
             yield "Dict[str, Any]"
+        elif base is Generic:
+            continue
         elif base.__name__ == "NDArrayOperatorsMixin":
             yield "np.lib.mixins.NDArrayOperatorsMixin"
         elif base is not object:

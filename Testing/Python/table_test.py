@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every job with every option, by every way out: a table of jobs, and what holds of each of them."""
 
+import json
 import os
+import typing
 import unittest
 import warnings
 
 from testing import bits, cube, np, smg, sphere
+
+from streamingmultigrid import _report
 
 MESHES = {"surface": sphere(2), "solid": cube(3)}
 
@@ -96,6 +100,17 @@ class TableTest(unittest.TestCase):
                             field.save(path)
                         continue
                     field.save(path)
+                    if suffix in ("ply", "stl", "vtk"):  # as text it is the same mesh
+                        field.save("text." + suffix, text=True)
+                        with open("text." + suffix, encoding="ascii") as text:
+                            self.assertGreater(len(text.read()), 0)
+                        with smg.open("text." + suffix) as found, smg.open(path) as binary:
+                            self.assertEqual(bits(found.points.astype(np.float32)), bits(binary.points.astype(np.float32)))
+                            self.assertEqual(found.columns, binary.columns)
+                        os.remove("text." + suffix)
+                    elif suffix in ("vsm", "vtu", "vtkhdf", "vtp", "smb", "svb"):
+                        with self.assertRaisesRegex(smg.Error, "not written as text"):
+                            field.save(path, text=True)
                     with smg.open(path) as found:
                         self.assertEqual(found.n_cells, mesh.n_cells, suffix)
                         if suffix in LOSSY:
@@ -108,6 +123,34 @@ class TableTest(unittest.TestCase):
                             written = found.read(name, cells=cells).reshape(expected.shape)
                             np.testing.assert_allclose(written, expected, rtol=1e-6, err_msg=suffix)
                     os.remove(path)
+
+    def test_reports(self):
+        """All entries are attributes that are declared, of the types that are declared."""
+        hints = typing.get_type_hints(smg.Report, vars(_report))
+        seen = set()
+        fields = [(case, field.report) for case, _, _, field, _ in self.each()]
+        small = [(self.subTest(job="simplify"), smg.mesh(*MESHES["surface"]).simplify(50).report)]
+        for case, report in fields + small:
+            with case:
+                self.assertLessEqual(set(report), set(hints))
+                for name, value in report.items():
+                    kind = typing.get_origin(hints[name]) or hints[name]
+                    kind = (float, int, type(None)) if kind is typing.Union else (float, int) if kind is float else kind
+                    self.assertIsInstance(value, kind, name)
+                    self.assertIs(getattr(report, name), value)
+                    seen.add(name)
+                self.assertIs(type(report.to_dict()), dict)
+                self.assertEqual(json.loads(json.dumps(report.to_dict())), report)
+                with self.assertRaisesRegex(AttributeError, "no entry 'vertexes' .*: 'vertices' is meant"):
+                    report.vertexes
+        self.assertLessEqual({"energy", "steps", "seams", "distance", "dropped_bodies"}, seen)
+        mesh = smg.mesh(*MESHES["surface"])
+        estimate = mesh.estimate("smooth")
+        self.assertLessEqual(set(estimate), set(smg.Estimate.__annotations__))
+        with self.assertRaisesRegex(AttributeError, "no entry 'memory_byte' .*: 'memory_bytes' is meant"):
+            estimate.memory_byte
+        with self.assertRaisesRegex(AttributeError, "This report has no entry 'seams'"):
+            mesh.smooth().report.seams
 
     def test_next_jobs(self):
         """A result goes into every other job, and what that finds is what it finds of a file of it."""

@@ -31,6 +31,11 @@ smg.distance([[0, 0, 0]], [[0, 1, 2]], [0], sources=3)
 mesh.simplify("many")
 mesh.points.shapes
 mesh.solve().reports
+mesh.solve().report.residual
+mesh.estimate("smooth").memory
+smg.dirichlet(smg.boundary)
+smg.robin(smg.boundary, 1)
+mesh.save("a.ply", text="yes")
 mesh.save(path=None)
 smg.mesh([[0, 0, 0]], [[0, 1, 2]], order="zig")
 mesh.solver(tolerance=1e-8)
@@ -59,7 +64,11 @@ values: npt.NDArray[Any] = u.to_numpy() + np.sqrt(u)
 small: smg.Mesh = mesh.smooth(size="8edges", hold=[part, [1, 2]]).simplify(1000)
 name: str = small.name
 report: smg.Report = u.report
-report.residuals[-1]
+last: float = report.residuals[-1]
+notes: list[str] = report.notes
+plain: dict[str, Any] = report.to_dict()
+mesh.solve(dirichlet=smg.dirichlet([0, 1], 0), flux=[smg.neumann(part, 1.0)], robin=[smg.robin(values > 0, 1, 20)])
+mesh.save("a.stl", text=True)
 blended: smg.Field = mesh.blend({"a": values}, patch=values > 0)
 moved: npt.NDArray[Any] = smg.deform(values, values, [smg.handle(part, rotate=([0, 1, 0], 30))])
 mesh["a"] = [1, 2, 3]
@@ -67,15 +76,17 @@ x: npt.NDArray[Any] = mesh.solver(dirichlet=part >> 0).solve(values)
 """
 
 
-def errors(name, *texts):
-    """What mypy says of files, without the sentence that sums it up."""
+def errors(name, *texts, package=None):
+    """What mypy says of files, or of the sources of a package, without the sentence that sums it up."""
     files = []
     for number, text in enumerate(texts):
         files.append("%s_%d.py" % (name, number))
         with open(files[-1], "w", encoding="utf-8") as file:
             file.write(text)
-    command = [sys.executable, "-m", "mypy", "--no-error-summary", "--cache-dir=.mypy", *files]
-    environment = {**os.environ, "MYPYPATH": os.environ["PYTHONPATH"].split(os.pathsep)[0]}
+    files += ["-p", package] if package else []
+    command = [sys.executable, "-m", "mypy", "--no-error-summary", "--cache-dir=.mypy-" + name, *files]
+    place = os.path.join(SOURCE, "Python") if package else os.environ["PYTHONPATH"].split(os.pathsep)[0]
+    environment = {**os.environ, "MYPYPATH": place}
     done = subprocess.run(
         command + ["--ignore-missing-imports", "--check-untyped-defs"],
         capture_output=True,
@@ -102,6 +113,9 @@ class TypesTest(unittest.TestCase):
 
     def test_right_calls_are_not(self):
         self.assertEqual(errors("right", RIGHT), [])
+
+    def test_the_package_itself(self):
+        self.assertEqual(errors("package", package="streamingmultigrid"), [])
 
     def test_documents_and_examples(self):
         texts = [blocks("docs/python.md", ""), blocks("README.md", "streamingmultigrid as smg")]
