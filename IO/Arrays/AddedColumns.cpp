@@ -277,7 +277,6 @@ std::unique_ptr<MeshSource> AddedColumns::source(
 
 std::string AddedColumns::fingerprint() const
 {
-  // VsmFile compares the first word with the file.
   std::string text = this->Mesh->fingerprint();
   for (const std::vector<Added>* added : { &this->OfVertices, &this->OfCells })
   {

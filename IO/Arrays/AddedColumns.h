@@ -38,6 +38,7 @@ public:
   /** That of the mesh, and of the numbers of all arrays. */
   std::string fingerprint() const override;
   std::filesystem::path file() const override { return this->Mesh->file(); }
+  std::string fileFingerprint() const override { return this->Mesh->fileFingerprint(); }
 
   /** Adds the added columns to vertices of no cell that were read from the file(), in place of
    * those of the same names; `first` is the number of the first one. */

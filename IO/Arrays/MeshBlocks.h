@@ -23,7 +23,7 @@ struct MeshBlocksOptions
   std::int64_t points = 1000000; ///< the most vertices of a block, at least 4
   std::optional<std::vector<std::string>> vertexColumns = {}; ///< none: all
   std::optional<std::vector<std::string>> cellColumns = {};   ///< none: all
-  std::string fingerprint = {}; ///< that the file must have; empty: any
+  std::string fingerprint = {}; ///< StoredMesh::fileFingerprint(); empty: any file
 };
 
 /** A mesh in blocks of consecutive cells with all their vertices, at most so many, as arrays. */

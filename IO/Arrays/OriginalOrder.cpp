@@ -94,7 +94,7 @@ OriginalOrder::OriginalOrder(
 std::int64_t OriginalOrder::countVertices(const StoredMesh& mesh)
 {
   return mesh.info().vertices +
-         VsmReader(mesh.file(), nullptr, mesh.fingerprint()).isolatedVertices();
+         VsmReader(mesh.file(), nullptr, mesh.fileFingerprint()).isolatedVertices();
 }
 
 void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction& progress)
@@ -106,7 +106,7 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
   SeenNumbers seen(this->Vertices.count);
   visitBlocks(*mesh.source({ OriginalIdName }, {}), progress, 0.0, 1.0,
     [&seen](const MeshBlock& block) { seen.add(block.vertexColumns[0].as<std::int64_t>()); });
-  VsmReader reader(mesh.file(), nullptr, mesh.fingerprint());
+  VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
   IsolatedVertices chunk;
   const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
   for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)

@@ -81,7 +81,7 @@ std::vector<std::string> withNumbers(std::vector<std::string> names, const Origi
 template <class Use>
 void forIsolated(const StoredMesh& mesh, const AddedColumns* added, const Use& use)
 {
-  VsmReader reader(mesh.file(), nullptr, mesh.fingerprint());
+  VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
   IsolatedVertices chunk;
   const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
   for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)

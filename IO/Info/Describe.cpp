@@ -314,7 +314,7 @@ MeshDescription describe(const StoredMesh& mesh, const DescribeOptions& options)
   if (const std::filesystem::path file = mesh.file(); !file.empty())
   {
     description.isolated_vertices +=
-      VsmReader(file, nullptr, mesh.fingerprint()).isolatedVertices();
+      VsmReader(file, nullptr, mesh.fileFingerprint()).isolatedVertices();
   }
   return description;
 }

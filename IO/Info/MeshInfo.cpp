@@ -176,7 +176,7 @@ std::string MeshDescription::json(int indent) const
 
 std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options)
 {
-  const VsmReader reader(mesh.file(), nullptr, mesh.fingerprint());
+  const VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
   const StreamInfo& info = mesh.info();
   Json json;
   json["file"] = options.file.string();

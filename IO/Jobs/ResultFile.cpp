@@ -114,7 +114,7 @@ bool numbersArePlaces(const StoredMesh& mesh)
   std::int64_t count = mesh.info().vertices;
   if (!mesh.file().empty())
   {
-    count += VsmReader(mesh.file()).isolatedVertices();
+    count += VsmReader(mesh.file(), nullptr, mesh.fileFingerprint()).isolatedVertices();
   }
   bool arePlaces = true;
   visitBlocks(*mesh.source({ OriginalIdName }, {}), {}, 0.0, 1.0,
@@ -177,7 +177,7 @@ std::vector<std::string> ResultFile::write(const StoredMesh& mesh, MeshSource& r
   WriteMeshOptions options;
   options.scratch = this->Files.scratch;
   options.isolatedFrom = mesh.file();
-  options.isolatedFingerprint = mesh.fingerprint();
+  options.isolatedFingerprint = mesh.fileFingerprint();
   options.completeIsolated = this->Files.isolated;
   options.threads = this->threads(memory);
   options.text = this->Files.text;
@@ -193,7 +193,7 @@ std::vector<std::string> ResultFile::writeRestored(const StoredMesh& mesh, MeshS
   WriteMeshOptions options;
   options.codec = Codec::Lz4;
   options.isolatedFrom = mesh.file();
-  options.isolatedFingerprint = mesh.fingerprint();
+  options.isolatedFingerprint = mesh.fileFingerprint();
   options.completeIsolated = this->Files.isolated;
   options.threads = this->threads(memory);
   options.progress = partOf(progress, 0.0, 0.4);

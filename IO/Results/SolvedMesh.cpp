@@ -71,7 +71,7 @@ struct SolvedMesh::Implementation
     }
     if (!this->file.empty() && findColumn(this->info.vertexColumns, OriginalIdSpec) >= 0)
     {
-      this->numbers.emplace(this->file, nullptr, mesh.fingerprint());
+      this->numbers.emplace(this->file, nullptr, mesh.fileFingerprint());
     }
     const int columns = problem.columns();
     for (std::vector<ColumnSpec>* specs : { &this->info.vertexColumns, &this->info.cellColumns })
@@ -173,7 +173,7 @@ Report write(const StoredMesh& mesh, const ProblemDescription& description, Solu
   SolvedMesh solved(mesh, problem, solution, wanted);
   const auto notes = writeMesh(solved, path,
     { .isolatedFrom = mesh.file(),
-      .isolatedFingerprint = mesh.fingerprint(),
+      .isolatedFingerprint = mesh.fileFingerprint(),
       .threads = results.threads });
   Report report = solution.report();
   solved.finish(report);

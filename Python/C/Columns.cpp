@@ -164,7 +164,7 @@ smg_status smg_open_blocks(smg_mesh* mesh, smg_field* field, const char* options
       {
         const smg_mesh of = smg::required(mesh, "mesh and field").withoutArguments();
         made->shared = of.shared;
-        given.fingerprint = of.stored().fingerprint();
+        given.fingerprint = of.stored().fileFingerprint();
         made->blocks = std::make_unique<smg::MeshBlocks>(
           of.stored().file(), of.shared->order(reported), of.added, given);
       }

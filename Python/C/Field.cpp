@@ -60,7 +60,7 @@ const std::filesystem::path& smg_field::file(const smg::ProgressFunction& progre
         write.codec = smg::Codec::Lz4;
         write.scratch = scratch->path();
         write.isolatedFrom = this->stored().file();
-        write.isolatedFingerprint = this->stored().fingerprint();
+        write.isolatedFingerprint = this->stored().fileFingerprint();
         write.completeIsolated = smg::isolatedOf(this->added);
         write.threads = options.threads;
         write.progress = writing;

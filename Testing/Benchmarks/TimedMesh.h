@@ -53,6 +53,7 @@ public:
   }
   std::string fingerprint() const override { return this->Mesh.fingerprint(); }
   std::filesystem::path file() const override { return this->Mesh.file(); }
+  std::string fileFingerprint() const override { return this->Mesh.fileFingerprint(); }
 
 private:
   const StoredMesh& Mesh;

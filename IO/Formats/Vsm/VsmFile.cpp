@@ -83,9 +83,8 @@ VsmFile::VsmFile(
   , Name(path.string())
 {
   // The index that is read again has the checksums of all blocks: a file that changes later is
-  // found when they are read. In the fingerprint of a mesh with added columns, that of its file is
-  // the first word (AddedColumns::fingerprint()).
-  if (!fingerprint.empty() && this->fingerprint() != fingerprint.substr(0, fingerprint.find(' ')))
+  // found when they are read.
+  if (!fingerprint.empty() && this->fingerprint() != fingerprint)
   {
     this->fail("is another mesh than before: it was replaced or changed while it was in use; run "
                "this again, and leave the file as it is meanwhile.");

@@ -34,7 +34,7 @@ struct WriteMeshOptions
   /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
    * .vsm file; empty: none. */
   std::filesystem::path isolatedFrom{};
-  /** Unless empty, the fingerprint that this file must have (VsmReader::fingerprint()). */
+  /** Unless empty, the fingerprint that this file must have (StoredMesh::fileFingerprint()). */
   std::string isolatedFingerprint{};
   /** Adds to these vertices columns that the .vsm file does not have. */
   CompleteIsolated completeIsolated{};

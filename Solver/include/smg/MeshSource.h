@@ -146,6 +146,10 @@ public:
   virtual std::string fingerprint() const { return {}; }
   /** The .vsm file that has the mesh, for what is beside its stream; empty: there is none. */
   virtual std::filesystem::path file() const { return {}; }
+  /** A text that names the content of file(), with which whoever opens that again compares it:
+   * VsmReader::fingerprint() of the file. It is fingerprint() unless the mesh has more than its
+   * file. Empty: none is known. */
+  virtual std::string fileFingerprint() const { return this->fingerprint(); }
 };
 
 } // namespace smg
