@@ -139,6 +139,7 @@ PieceReader::PieceReader(VsmFile& file, const std::vector<std::string>& vertexCo
   , Corners(cornersOf(file.Info.cellType))
   , InOrder(file, vertexNumbers(file, vertexColumns))
   , Anywhere(file, vertexNumbers(file, vertexColumns))
+  , LastCells(file)
 {
   for (const int column : vertexNumbers(file, vertexColumns))
   {
@@ -185,11 +186,87 @@ void PieceReader::read(std::int64_t firstCell, std::int64_t endCell, MeshPiece& 
     this->remember(end, endCell);
   }
   piece.firstCell = firstCell;
+  piece.ghostCells.clear();
   piece.ghost.assign(this->Rows.size(), 0);
   std::fill_n(piece.ghost.begin(), ghosts, 1);
   piece.finalized.resize(this->Rows.size());
   std::transform(this->Rows.lastCells.begin(), this->Rows.lastCells.end(), piece.finalized.begin(),
     [endCell](std::int64_t last) { return last < endCell ? 1 : 0; });
+  std::swap(piece.ids, this->Rows.ids);
+  std::swap(piece.positions, this->Rows.positions);
+  std::swap(piece.vertexColumns, this->Rows.columns);
+}
+
+void PieceReader::addGhosts(
+  std::int64_t firstCell, std::int64_t endCell, int levels, MeshPiece& piece)
+{
+  const std::int64_t begin = firstCell < endCell ? this->introducedBefore(firstCell) : 0;
+  for (std::int64_t& corner : piece.corners)
+  {
+    corner = piece.ids[static_cast<std::size_t>(corner)];
+  }
+  const GhostCells ghosts(
+    this->File, this->LastCells, { firstCell, endCell, begin }, piece.ids, levels);
+  this->addCells(ghosts, piece);
+  std::vector<std::int64_t> vertices = ghosts.corners();
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::erase_if(vertices,
+    [&piece](std::int64_t vertex) { return std::ranges::binary_search(piece.ids, vertex); });
+  this->addVertices(vertices, piece);
+  for (std::int64_t& corner : piece.corners)
+  {
+    corner = std::ranges::lower_bound(piece.ids, corner) - piece.ids.begin();
+  }
+}
+
+void PieceReader::addCells(const GhostCells& ghosts, MeshPiece& piece)
+{
+  const std::vector<std::int64_t>& cells = ghosts.cells();
+  const std::ptrdiff_t before = std::ranges::lower_bound(cells, piece.firstCell) - cells.begin();
+  const std::size_t own = piece.corners.size() / static_cast<std::size_t>(this->Corners);
+  piece.ghostCells.assign(own, 0);
+  piece.ghostCells.insert(piece.ghostCells.begin(), static_cast<std::size_t>(before), 1);
+  piece.ghostCells.resize(own + cells.size(), 1);
+  // Of what has `size` entries a cell.
+  const auto surround = [before](auto& values, const auto& added, std::ptrdiff_t size)
+  {
+    const auto behind = added.begin() + before * size;
+    values.insert(values.end(), behind, added.end());
+    values.insert(values.begin(), added.begin(), behind);
+  };
+  surround(piece.corners, ghosts.corners(), this->Corners);
+  for (std::size_t c = 0; c < this->CellColumns.size(); ++c)
+  {
+    RowReader& reader = this->CellColumns[c];
+    std::vector<std::byte> tuples(cells.size() * reader.tupleBytes());
+    reader.gather(cells, tuples.data());
+    surround(piece.cellColumns[c].bytes, tuples, static_cast<std::ptrdiff_t>(reader.tupleBytes()));
+  }
+}
+
+void PieceReader::addVertices(std::span<const std::int64_t> vertices, MeshPiece& piece)
+{
+  this->Fetched.reset(this->VertexSpecs);
+  this->Anywhere.gather(vertices, this->Fetched);
+  VertexRows own;
+  own.ids = std::move(piece.ids);
+  own.positions = std::move(piece.positions);
+  own.lastCells.resize(own.ids.size());
+  own.columns = std::move(piece.vertexColumns);
+  const std::vector<std::uint8_t> ghost = std::move(piece.ghost),
+                                  finalized = std::move(piece.finalized);
+  piece.ghost.clear();
+  piece.finalized.clear();
+  this->Rows.reset(this->VertexSpecs);
+  for (std::int64_t a = 0, b = 0; a < own.size() || b < this->Fetched.size();)
+  {
+    const bool isOwn =
+      b == this->Fetched.size() || (a < own.size() && own.ids[a] < this->Fetched.ids[b]);
+    piece.ghost.push_back(isOwn ? ghost[static_cast<std::size_t>(a)] : 1);
+    piece.finalized.push_back(isOwn ? finalized[static_cast<std::size_t>(a)] : 0);
+    this->Rows.append(isOwn ? own : this->Fetched, isOwn ? a++ : b++);
+  }
   std::swap(piece.ids, this->Rows.ids);
   std::swap(piece.positions, this->Rows.positions);
   std::swap(piece.vertexColumns, this->Rows.columns);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/Vsm/GhostCells.h"
 #include "IO/Formats/Vsm/VsmFile.h"
 #include "smg/VsmReader.h"
 
@@ -133,6 +134,8 @@ public:
     const std::vector<std::string>& cellColumns);
 
   void read(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece);
+  /** Adds so many layers of neighbours to a piece that was read. */
+  void addGhosts(std::int64_t firstCell, std::int64_t endCell, int levels, MeshPiece& piece);
 
 private:
   /** Fills the corners, as stream indices, and the columns of the cells. */
@@ -142,6 +145,10 @@ private:
   const std::vector<std::int64_t>& cornersOfBlock(std::int64_t block);
   /** Fills Rows with the ghosts, which ascend, and the vertices [begin, end). */
   void collect(std::span<const std::int64_t> ghosts, std::int64_t begin, std::int64_t end);
+  /** Adds cells in ascending order before and behind those of the piece, and all their vertices. */
+  void addCells(const GhostCells& ghosts, MeshPiece& piece);
+  /** Adds vertices, in ascending order, between those of the piece. */
+  void addVertices(std::span<const std::int64_t> vertices, MeshPiece& piece);
   /** Keeps those of the old and the new vertices below `end` that outlive cell endCell - 1. */
   void remember(std::int64_t end, std::int64_t endCell);
 
@@ -151,6 +158,7 @@ private:
   VertexReader InOrder;  ///< for vertices that a piece introduces
   VertexReader Anywhere; ///< for older ones that are not stored
   std::vector<RowReader> CellColumns;
+  LastCellReader LastCells; ///< for neighbours
 
   std::int64_t Block = -1; ///< block of the cells that BlockCorners are of
   std::vector<std::int64_t> BlockCorners;

@@ -280,6 +280,11 @@ void VsmFile::checkColumns() const
   }
 }
 
+std::int64_t VsmFile::blockIntroducing(std::int64_t vertex) const
+{
+  return std::ranges::upper_bound(this->FirstVertex, vertex) - this->FirstVertex.begin() - 1;
+}
+
 void VsmFile::readBlockTable()
 {
   const std::int64_t count = this->cellBlocks();

@@ -56,6 +56,8 @@ public:
 
   /** Vertices introduced before a block of the cells; also for the block after the last one. */
   std::int64_t firstVertex(std::int64_t block) const { return this->FirstVertex[block]; }
+  /** The block of the cells that introduces a vertex. */
+  std::int64_t blockIntroducing(std::int64_t vertex) const;
   /** No cell after the block uses a vertex below this. */
   std::int64_t finalized(std::int64_t block) const { return this->Finalized[block]; }
   std::int64_t cellBlocks() const { return this->Blocks.blocks(VsmFormat::Cells); }

@@ -194,7 +194,8 @@ void VsmReader::selectColumns(
     this->Self->File, vertexColumns, withFlags(cellColumns, this->info().cellColumns));
 }
 
-void VsmReader::readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece)
+void VsmReader::readPiece(
+  std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece, int ghostLevels)
 {
   Implementation& self = *this->Self;
   if (!self.Pieces)
@@ -203,6 +204,10 @@ void VsmReader::readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiec
       columnNames(self.File.Info.vertexColumns), columnNames(self.File.Info.cellColumns));
   }
   self.Pieces->read(firstCell, endCell, piece);
+  if (ghostLevels > 0)
+  {
+    self.Pieces->addGhosts(firstCell, endCell, ghostLevels, piece);
+  }
 }
 
 void VsmReader::readVertexColumn(

@@ -24,11 +24,13 @@ struct MeshPiece
   std::vector<std::int64_t> ids;       ///< stream indices of the vertices, ascending
   std::vector<double> positions;       ///< x, y, z of each vertex
   std::vector<float> normals;          ///< x, y, z of each vertex; only of previews, else empty
-  std::vector<std::uint8_t> ghost;     ///< of each vertex, 1: introduced by an earlier cell
-  std::vector<std::uint8_t> finalized; ///< of each vertex, 1: no later cell uses it
+  std::vector<std::uint8_t> ghost;     ///< of each vertex, 1: introduced by a cell of another piece
+  std::vector<std::uint8_t> finalized; ///< of each vertex, 1: no cell of a later piece uses it
   std::vector<std::int64_t> corners;   ///< indices into `ids`, cornersOf(cellType) a cell
   std::vector<Column> vertexColumns;   ///< a tuple a vertex
   std::vector<Column> cellColumns;     ///< a tuple a cell
+  /** Of each cell, 1: it is of another piece, a neighbour of this one; empty: none is. */
+  std::vector<std::uint8_t> ghostCells;
 
   /** Number of vertices. */
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->ids.size()); }
@@ -119,8 +121,13 @@ public:
    * @param firstCell stream index of the first cell
    * @param endCell stream index after the last cell, at most the number of cells
    * @param piece replaced by the piece; the memory of its vectors is reused
+   * @param ghostLevels layers of cells around the piece to add, in the order of the stream: those
+   * that share a vertex with a cell of it, those that share one with these, ... Each layer costs
+   * reading the corners of the blocks of cells in which vertices at the border of the layer before
+   * are alive.
    */
-  void readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece);
+  void readPiece(
+    std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece, int ghostLevels = 0);
 
   /**
    * Reads a column of the vertices [first, first + count).
