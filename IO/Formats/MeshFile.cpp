@@ -75,6 +75,14 @@ MeshFileKind kindOfInput(const std::filesystem::path& path)
                                                                            : MeshFileKind::Unknown);
 }
 
+std::vector<double> timesOf(const std::filesystem::path& path)
+{
+  std::error_code absent;
+  const Format* const format =
+    std::filesystem::is_regular_file(path, absent) ? formatOfFile(path) : nullptr;
+  return format && format->times ? format->times(path) : std::vector<double>{};
+}
+
 MeshFileKind kindOfOutput(const std::filesystem::path& path)
 {
   return suffixFor(FormatUse::Write, path) ? formatOfName(path)->kind : MeshFileKind::Unknown;

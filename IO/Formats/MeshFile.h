@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -15,6 +16,9 @@ namespace smg
 /** The kind of an input file, by its content if possible, else by its suffix: Vsm, Stream, Indexed,
  * or Unknown. The file may still be damaged or not exist. */
 SMG_EXPORT MeshFileKind kindOfInput(const std::filesystem::path& path);
+
+/** The times of the time steps of a mesh file; empty: it has none. Throws Error. */
+SMG_EXPORT std::vector<double> timesOf(const std::filesystem::path& path);
 
 /** The kind of an output file, by suffix; Unknown if meshes cannot be written with it. */
 SMG_EXPORT MeshFileKind kindOfOutput(const std::filesystem::path& path);

@@ -152,6 +152,8 @@ struct Format
   std::optional<FileCounts> (*counts)(InputFile& file, const MeshPart& part) = nullptr;
   /** Whether its files have time steps and partitions. Otherwise `part` is the whole mesh. */
   bool hasParts = false;
+  /** The times of the time steps of a file; empty: it has none. Null: no file of the format has. */
+  std::vector<double> (*times)(const std::filesystem::path& path) = nullptr;
   /** Otherwise, the estimate from the size of the file. */
   VertexShare share = {};
 

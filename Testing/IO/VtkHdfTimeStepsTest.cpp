@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/MeshFile.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/ErrorMessage.h"
 
 #include <array>
 #include <functional>
+#include <limits>
 
 namespace smg::testing
 {
@@ -60,7 +63,7 @@ class PolyFile
 {
 public:
   PolyFile(const std::filesystem::path& path, const std::vector<PolyStep>& steps, bool cellsStay,
-    bool hasSteps = true)
+    bool hasSteps = true, const std::vector<double>& times = {})
     : Out(path)
   {
     this->Out.addGroup("/VTKHDF");
@@ -77,6 +80,10 @@ public:
     {
       this->Out.addIntegers("/VTKHDF/Steps", "NSteps",
         std::vector<std::int64_t>{ static_cast<std::int64_t>(steps.size()) });
+      if (!times.empty())
+      {
+        this->add("Steps/Values", ScalarType::Float64, 0, times);
+      }
       this->add("Steps/CellOffsets", ScalarType::Int64, 4, cellOffsets);
       this->add("Steps/ConnectivityIdOffsets", ScalarType::Int64, 4, idOffsets);
     }
@@ -225,6 +232,29 @@ TEST_F(VtkHdfTimeSteps, CellsChange)
   this->expectSteps(stepsOf(
                       5, [](std::size_t, int) { return 2; }, now),
     false);
+}
+
+TEST_F(VtkHdfTimeSteps, HaveTimes)
+{
+  const auto some = [](std::size_t, int) { return 1; };
+  const std::vector<PolyStep> steps = stepsOf(3, some, some);
+  const std::filesystem::path path = this->Folder / "steps.vtkhdf";
+  const auto timesWith = [&](bool hasSteps, const std::vector<double>& times)
+  {
+    PolyFile(path, steps, true, hasSteps, times);
+    return timesOf(path);
+  };
+  EXPECT_EQ(timesWith(true, { -1.5, 0.25, 4.0 }), (std::vector<double>{ -1.5, 0.25, 4.0 }));
+  // Without times, the numbers of the steps.
+  EXPECT_EQ(timesWith(true, {}), (std::vector<double>{ 0.0, 1.0, 2.0 }));
+  EXPECT_TRUE(timesWith(false, {}).empty());
+  EXPECT_TRUE(timesOf(this->Folder / "absent.vtkhdf").empty());
+  constexpr double NoNumber = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& wrong : std::vector<std::vector<double>>{
+         { 0.0, 1.0 }, { 0.0, 0.0, 1.0 }, { 2.0, 1.0, 3.0 }, { 0.0, NoNumber, 2.0 } })
+  {
+    testing::expectError([&] { timesWith(true, wrong); }, "should have 3 times, each later");
+  }
 }
 
 } // namespace smg::testing

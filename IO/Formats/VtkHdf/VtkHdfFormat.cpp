@@ -58,6 +58,11 @@ std::optional<FileCounts> counts(InputFile& file, const MeshPart& part)
   return library().counts(file, part);
 }
 
+std::vector<double> times(const std::filesystem::path& path)
+{
+  return library().times(path);
+}
+
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
   const WriteMeshOptions& options)
 {
@@ -89,6 +94,7 @@ const Format VtkHdfFormat{
   .parse = parse,
   .counts = counts,
   .hasParts = true,
+  .times = times,
   .bytes = bytesOfVtkHdf,
   .writeVsm = write,
 };

@@ -27,6 +27,7 @@ struct VtkHdfLibrary
   std::optional<FileCounts> (*counts)(InputFile& file, const MeshPart& part);
   WriteNotes (*write)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const ProgressFunction& progress);
+  std::vector<double> (*times)(const std::filesystem::path& path);
 };
 
 } // namespace smg

@@ -272,21 +272,33 @@ std::optional<std::int64_t> Hdf5File::integer(
   return value;
 }
 
-std::vector<std::int64_t> Hdf5File::integers(const std::string& dataset) const
+template <class T>
+std::vector<T> Hdf5File::shortList(
+  const std::string& dataset, ScalarType type, const char* what) const
 {
   const Hdf5Shape shape = this->shape(dataset);
   constexpr std::int64_t Most = std::int64_t(1) << 20;
   constexpr std::uint64_t MaxChunkBytes = std::uint64_t(16) << 20;
   const std::int64_t count = shape.rows() * shape.components();
-  if (!shape.type || *shape.type >= ScalarType::Float32 || count > Most ||
-      shape.chunkBytes > MaxChunkBytes)
+  if (!shape.type || (std::is_integral_v<T> && *shape.type >= ScalarType::Float32) ||
+      count > Most || shape.chunkBytes > MaxChunkBytes)
   {
-    this->fail("the dataset " + inQuotes(dataset) + " should be a short list of integers");
+    this->fail("the dataset " + inQuotes(dataset) + " should be a short list of " + what);
   }
-  std::vector<std::int64_t> values(static_cast<std::size_t>(count));
-  Hdf5Numbers(*this, dataset, ScalarType::Int64, 0)
-    .read(reinterpret_cast<std::byte*>(values.data()), values.size() * sizeof(values[0]));
+  std::vector<T> values(static_cast<std::size_t>(count));
+  Hdf5Numbers(*this, dataset, type, 0)
+    .read(reinterpret_cast<std::byte*>(values.data()), values.size() * sizeof(T));
   return values;
+}
+
+std::vector<std::int64_t> Hdf5File::integers(const std::string& dataset) const
+{
+  return this->shortList<std::int64_t>(dataset, ScalarType::Int64, "integers");
+}
+
+std::vector<double> Hdf5File::reals(const std::string& dataset) const
+{
+  return this->shortList<double>(dataset, ScalarType::Float64, "numbers");
 }
 
 Hdf5Numbers::Hdf5Numbers(

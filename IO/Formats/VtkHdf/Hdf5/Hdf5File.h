@@ -61,6 +61,8 @@ public:
   std::optional<std::int64_t> integer(const std::string& object, const char* attribute) const;
   /** All of a short dataset of integers, row after row. */
   std::vector<std::int64_t> integers(const std::string& dataset) const;
+  /** The same of numbers of any type. */
+  std::vector<double> reals(const std::string& dataset) const;
 
   /** Throws Error: "NAME: SENTENCE". */
   [[noreturn]] void fail(const std::string& sentence) const;
@@ -69,6 +71,9 @@ public:
   std::int64_t handle() const { return this->File; }
 
 private:
+  template <class T>
+  std::vector<T> shortList(const std::string& dataset, ScalarType type, const char* what) const;
+
   std::string Name;
   std::int64_t File = -1;
 };

@@ -10,6 +10,9 @@
 #include "IO/Import/RawMeshBuilder.h"
 #include "smg/Error.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <hdf5.h>
 #include <string>
 #include <vector>
@@ -102,6 +105,33 @@ std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
   }
 }
 
+std::vector<double> timesOfVtkHdf(const std::filesystem::path& path)
+{
+  const Hdf5File hdf(path, path.string());
+  const std::int64_t steps = VtkHdfStep(hdf, 0).steps();
+  const std::string dataset = VtkHdfRoot + "Steps/Values";
+  std::vector<double> times;
+  if (steps > 0 && hdf.exists(dataset))
+  {
+    times = hdf.reals(dataset);
+    const bool ascend = std::ranges::adjacent_find(times, std::not_fn(std::less())) == times.end();
+    if (static_cast<std::int64_t>(times.size()) != steps || !ascend ||
+        !std::ranges::all_of(times, [](double time) { return std::isfinite(time); }))
+    {
+      hdf.fail("the dataset '" + dataset + "' should have " + std::to_string(steps) +
+               " times, each later than the one before");
+    }
+  }
+  else
+  {
+    for (std::int64_t step = 0; step < steps; ++step)
+    {
+      times.push_back(static_cast<double>(step));
+    }
+  }
+  return times;
+}
+
 } // namespace smg
 
 extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary()
@@ -110,6 +140,7 @@ extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary()
   H5dont_atexit();
   static constexpr smg::VtkHdfLibrary library{ smg::importVtkHdf, smg::countsOfVtkHdf,
     [](const std::filesystem::path& vsm, const std::filesystem::path& path,
-      const smg::ProgressFunction& progress) { return smg::writeVtkHdf(vsm, path, progress); } };
+      const smg::ProgressFunction& progress) { return smg::writeVtkHdf(vsm, path, progress); },
+    smg::timesOfVtkHdf };
   return &library;
 }

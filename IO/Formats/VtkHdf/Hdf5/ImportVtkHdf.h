@@ -8,5 +8,7 @@ namespace smg
 
 void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part);
 std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part);
+/** The times of the time steps; empty: there are none. Throws Error. */
+std::vector<double> timesOfVtkHdf(const std::filesystem::path& path);
 
 } // namespace smg
