@@ -8,7 +8,7 @@ list(REMOVE_ITEM smg_iocore_sources ${smg_hdf5_sources})
 
 add_library(smgIOCoreObjects OBJECT ${smg_iocore_sources})
 set(smg_iocore_dependencies nlohmann_json::nlohmann_json
-  Eigen3::Eigen FastFloat::fast_float meshoptimizer::meshoptimizer PkgConfig::SMG_COMPRESSION ZLIB::ZLIB LibLZMA::LibLZMA Threads::Threads ${CMAKE_DL_LIBS})
+  Eigen3::Eigen FastFloat::fast_float PkgConfig::SMG_COMPRESSION ZLIB::ZLIB LibLZMA::LibLZMA Threads::Threads ${CMAKE_DL_LIBS})
 target_compile_definitions(smgIOCoreObjects PRIVATE
   SMG_VTKHDF_LIBRARY="libsmgVtkHdf.so.${PROJECT_VERSION_MAJOR}")
 target_include_directories(smgIOCoreObjects PUBLIC

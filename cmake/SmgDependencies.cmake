@@ -7,7 +7,6 @@ find_package(Eigen3 REQUIRED NO_MODULE) # 3.3 or newer; Eigen 5 rejects a reques
 find_package(CHOLMOD REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(FastFloat REQUIRED CONFIG)
-find_package(meshoptimizer REQUIRED CONFIG)
 find_package(ZLIB REQUIRED)
 find_package(LibLZMA REQUIRED)
 find_package(PkgConfig REQUIRED)

@@ -9,7 +9,7 @@ smg_build_packages=(
   build-essential cmake ninja-build pkg-config ccache
   libeigen3-dev libsuitesparse-dev libzstd-dev liblz4-dev libxxhash-dev zlib1g-dev
   liblzma-dev libhdf5-dev
-  nlohmann-json3-dev libcli11-dev libfast-float-dev libmeshoptimizer-dev)
+  nlohmann-json3-dev libcli11-dev libfast-float-dev)
 # paraview-dev needs python3-paraview, libopenmpi-dev and libpython3-dev without declaring it; see also
 # smg_install.
 smg_paraview_packages=(

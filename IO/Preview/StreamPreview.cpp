@@ -8,6 +8,7 @@
 #include "IO/Simplification/EdgeCollapse.h"
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
+#include "IO/Simplification/VertexClusters.h"
 #include "Solver/Core/Progress.h"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ CoarserSurface coarserSurface(std::span<const double> points, std::span<const st
 
   const auto wanted = static_cast<std::size_t>(
     most + std::ranges::count_if(locked, [](std::uint8_t is) { return is != 0; }));
-  const KeptBodies bodies = keepLargestBodies(surface, lockedOf(surface, locked), bodiesFor(most));
+  const KeptBodies bodies = keepLargestBodies(surface, lockedOf(surface, locked), most);
   if (!bodies.areFragments && surface.vertices() > wanted)
   {
     collapseEdges(surface, lockedOf(surface, locked), { .vertices = wanted, .mayPinch = true });

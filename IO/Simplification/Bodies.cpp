@@ -19,11 +19,12 @@ namespace
 {
 
 /** The bodies of a surface as sets of its vertices. */
-DisjointSets<std::uint32_t> bodySets(const SurfacePart& part)
+DisjointSets<std::uint32_t> bodySets(const SurfacePart& part, const Poll& poll)
 {
   DisjointSets<std::uint32_t> sets(part.vertices());
   for (std::size_t i = 0; i + 2 < part.corners.size(); i += 3)
   {
+    poll.at(i / 3);
     sets.join(part.corners[i], part.corners[i + 1]);
     sets.join(part.corners[i], part.corners[i + 2]);
   }
@@ -34,6 +35,7 @@ struct Body
 {
   std::array<double, 3> low, high;
   std::size_t triangles = 0;
+  std::int64_t vertices = 0;
   bool isComplete = true;
 
   double squaredDiagonal() const
@@ -49,14 +51,16 @@ struct Body
 };
 
 /** The bodies, each at the place of the first of its vertices. */
-std::vector<Body> bodiesOf(
-  const SurfacePart& part, std::span<const std::uint8_t> locked, DisjointSets<std::uint32_t>& sets)
+std::vector<Body> bodiesOf(const SurfacePart& part, std::span<const std::uint8_t> locked,
+  DisjointSets<std::uint32_t>& sets, const Poll& poll)
 {
   constexpr double Far = std::numeric_limits<double>::infinity();
   std::vector<Body> bodies(part.vertices(), { { Far, Far, Far }, { -Far, -Far, -Far } });
   for (std::uint32_t v = 0; v < part.vertices(); ++v)
   {
+    poll.at(v);
     Body& body = bodies[sets.first(v)];
+    ++body.vertices;
     // A body with a locked vertex may go on elsewhere.
     body.isComplete = body.isComplete && locked[v] == 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -75,17 +79,11 @@ std::vector<Body> bodiesOf(
 
 } // namespace
 
-std::size_t bodiesFor(std::int64_t vertices)
-{
-  constexpr std::int64_t VerticesOfBody = 20;
-  return static_cast<std::size_t>(std::max<std::int64_t>(1, vertices / VerticesOfBody));
-}
-
 KeptBodies keepLargestBodies(
-  SurfacePart& part, std::span<const std::uint8_t> locked, std::size_t most)
+  SurfacePart& part, std::span<const std::uint8_t> locked, std::int64_t vertices, const Poll& poll)
 {
-  DisjointSets<std::uint32_t> sets = bodySets(part);
-  const std::vector<Body> bodies = bodiesOf(part, locked, sets);
+  DisjointSets<std::uint32_t> sets = bodySets(part, poll);
+  const std::vector<Body> bodies = bodiesOf(part, locked, sets, poll);
   std::vector<std::pair<double, std::uint32_t>> complete;
   for (std::uint32_t v = 0; v < bodies.size(); ++v)
   {
@@ -95,11 +93,20 @@ KeptBodies keepLargestBodies(
       complete.emplace_back(-bodies[v].squaredDiagonal(), v);
     }
   }
-  if (complete.size() <= most)
+  std::ranges::sort(complete);
+  std::size_t most = 0;
+  for (std::int64_t needed = 0; most < complete.size(); ++most)
+  {
+    needed += std::min(bodies[complete[most].second].vertices, VerticesOfBody);
+    if (needed > vertices && most > 0)
+    {
+      break;
+    }
+  }
+  if (most == complete.size())
   {
     return {};
   }
-  std::ranges::sort(complete);
   std::vector<std::uint8_t> drops(part.vertices(), 0);
   for (std::size_t k = most; k < complete.size(); ++k)
   {
@@ -117,15 +124,7 @@ KeptBodies keepLargestBodies(
   {
     return { 0, true };
   }
-  std::vector<std::uint32_t> kept;
-  for (std::size_t i = 0; i < part.corners.size(); i += 3)
-  {
-    if (drops[sets.first(part.corners[i])] == 0)
-    {
-      kept.insert(kept.end(), { part.corners[i], part.corners[i + 1], part.corners[i + 2] });
-    }
-  }
-  part.corners = std::move(kept);
+  part.removeTriangles([&](std::size_t t) { return drops[sets.first(part.corners[3 * t])] != 0; });
   part.dropUnusedVertices();
   return { complete.size() - most, false };
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Simplification/Poll.h"
 #include "IO/Simplification/SurfaceParts.h"
 
 #include <cstddef>
@@ -9,9 +10,6 @@
 
 namespace smg
 {
-
-/** The number of bodies that a simplified surface with so many vertices may have. */
-std::size_t bodiesFor(std::int64_t vertices);
 
 /** What keepLargestBodies() did. */
 struct KeptBodies
@@ -22,10 +20,14 @@ struct KeptBodies
   bool areFragments = false;
 };
 
-/** Removes the smallest bodies of a surface, by the diagonals of their bounds, so that at most
- * `most` are left. Bodies with a locked vertex, which may be parts of larger ones, stay and do not
- * count. */
-KeptBodies keepLargestBodies(
-  SurfacePart& part, std::span<const std::uint8_t> locked, std::size_t most);
+/** A body of a simplified surface keeps at least so many vertices, or all that it has. */
+inline constexpr std::int64_t VerticesOfBody = 20;
+
+/** Removes the smallest bodies of a surface, by the diagonals of their bounds, so that `vertices`
+ * are enough for VerticesOfBody in each that is left, at least one; with fewer than VerticesOfBody
+ * to spare, if any are removed. Bodies with a locked vertex, which may be parts of larger ones,
+ * stay and do not count. */
+KeptBodies keepLargestBodies(SurfacePart& part, std::span<const std::uint8_t> locked,
+  std::int64_t vertices, const Poll& poll = Poll());
 
 } // namespace smg

@@ -55,9 +55,4 @@ inline constexpr std::int64_t CollapseBytes = 110;
 double collapseEdges(SurfacePart& part, std::span<const std::uint8_t> open,
   const CollapseGoal& goal, const Poll& poll = Poll());
 
-/** Merges vertices that are near one another, whatever surface they belong to, into at most
- * `vertices`: for surfaces whose edges cannot be collapsed since their triangles do not share
- * vertices. */
-void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll = Poll());
-
 } // namespace smg

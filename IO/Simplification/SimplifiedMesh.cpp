@@ -24,7 +24,7 @@ SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, const SimplifyTarget& target, s
   // Counted as the stream goes; what the mesh says of its order does not hold for the result.
   this->Info.vertices = this->Info.cells = 0;
   this->Info.width = this->Info.span = -1;
-  this->Info.cellColumns.clear();
+  this->Info.cellColumns = carriedColumns(this->Surface.info());
   this->AddsIds = std::ranges::none_of(
     this->Info.vertexColumns, [](const ColumnSpec& spec) { return spec.name == OriginalIdName; });
   if (this->AddsIds)
@@ -46,6 +46,7 @@ bool SimplifiedMesh::next(MeshBlock& block)
     }
   } while (this->Part.surface.triangles() == 0);
   made.vertexColumns = emptyColumns(this->Info.vertexColumns);
+  made.cellColumns = emptyColumns(this->Info.cellColumns);
   const SurfacePart& surface = this->Part.surface;
   std::vector<std::int64_t> numbers(surface.vertices(), -1);
   for (std::size_t v = 0; v < numbers.size(); ++v)
@@ -65,6 +66,10 @@ bool SimplifiedMesh::next(MeshBlock& block)
       this->addVertex(corner, made);
     }
     made.corners.push_back(numbers[corner]);
+  }
+  for (std::size_t t = 0; t < surface.triangles(); ++t)
+  {
+    surface.copyTriangle(t, made.cellColumns);
   }
   this->Info.cells += static_cast<std::int64_t>(surface.triangles());
   for (std::size_t v = 0; v < numbers.size(); ++v)

@@ -17,7 +17,8 @@ namespace smg
 {
 
 /** A simplified surface as a mesh stream, with the vertex columns of the mesh, and with OriginalId,
- * the stream index in the mesh, if the mesh has no such column. Its counts are known only at its
+ * the stream index in the mesh, if the mesh has no such column; with the cell columns of a mesh of
+ * triangles (carriedColumns()). Its counts are known only at its
  * end. */
 class SMG_EXPORT SimplifiedMesh : public MeshSource
 {

@@ -24,6 +24,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 // simplify(): a mesh file to a simplified surface, through a .vsm file. A .vsm result is written as
 // the parts come; any other format is written from a .vsm file in a scratch folder.
@@ -70,8 +71,27 @@ std::vector<Checkpoint::Item> subjectOf(
     { "memory limit", std::to_string(options.memoryLimit) } };
 }
 
-std::vector<std::string> notesOn(
-  const SimplifyTarget& target, const SimplifyReport& report, const SimplificationCounts& counts)
+/** Names the columns of the cells of a solid, which its surface does not have; "" if there are
+ * none. The numbers and flags that a conversion gives to cells are not missed. */
+std::string noteOnCellColumns(const StreamInfo& info)
+{
+  const std::vector<ColumnSpec> carried = carriedColumns(info);
+  if (info.cellType == CellType::Triangle || carried.empty())
+  {
+    return {};
+  }
+  std::string names;
+  for (const ColumnSpec& spec : carried)
+  {
+    names += (names.empty() ? "'" : ", '") + spec.name + '\'';
+  }
+  const bool isOne = carried.size() == 1;
+  return (isOne ? "The cell column " : "The cell columns ") + names + " of the solid " +
+         (isOne ? "is" : "are") + " not in the result.";
+}
+
+std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& target,
+  const SimplifyReport& report, const SimplificationCounts& counts)
 {
   std::vector<std::string> notes;
   if (counts.resumedAt > 0)
@@ -84,6 +104,10 @@ std::vector<std::string> notesOn(
     notes.push_back(std::to_string(counts.dropped) + (counts.dropped == 1 ? " body" : " bodies") +
                     " too small for so few vertices " + (counts.dropped == 1 ? "is" : "are") +
                     " left out.");
+  }
+  if (std::string note = noteOnCellColumns(info); !note.empty())
+  {
+    notes.push_back(std::move(note));
   }
   if (counts.isClustered)
   {
@@ -110,7 +134,8 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
 {
   Progress done(partOf(options.progress, 0.0, end));
   Workers workers(options.threads);
-  const auto source = mesh.source(columnNames(mesh.info().vertexColumns), {});
+  const auto source =
+    mesh.source(columnNames(mesh.info().vertexColumns), columnNames(carriedColumns(mesh.info())));
   SimplifiedMesh simplified(
     *source, target, options.memoryLimit, workers, [&done](double share) { done.update(share); });
   if (kept)
@@ -133,7 +158,7 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   report.dropped_bodies = counts.dropped;
   report.resumed_vertices = counts.resumedAt;
   report.pool_bytes_peak = simplified.simplifier().peakMemory();
-  report.notes = notesOn(target, report, counts);
+  report.notes = notesOn(mesh.info(), target, report, counts);
   done.update(1.0);
   return report;
 }
@@ -154,7 +179,8 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
   EstimatedInput result = mesh;
   result.parts.clear();
   result.info.cellType = CellType::Triangle;
-  result.info.cellColumns.clear();
+  result.info.cellColumns = mesh.info.cellType == CellType::Triangle ? carriedColumns(mesh.info)
+                                                                     : std::vector<ColumnSpec>();
   if (target.vertices > 0)
   {
     result.info.vertices = std::min(result.info.vertices, target.vertices);

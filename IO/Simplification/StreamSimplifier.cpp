@@ -3,6 +3,7 @@
 
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/Bodies.h"
+#include "IO/Simplification/VertexClusters.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ std::int64_t bytesOfTriangle(const StreamInfo& info)
   const std::int64_t row = rowBytes(info.vertexColumns);
   // Corners, and half a vertex: its number, position, row and its places in tables.
   constexpr auto OfVertex = static_cast<std::int64_t>(8 + 24 + 16 + sizeof(Quadric));
-  return CollapseBytes + 12 + (OfVertex + 2 * row) / 2;
+  return CollapseBytes + 12 + (OfVertex + 2 * row) / 2 + 2 * rowBytes(carriedColumns(info));
 }
 
 /** The triangles of a part. The window, which has those of PartsOfWindow parts, and as many parts
@@ -242,6 +243,7 @@ void StreamSimplifier::append(const StreamPart& part)
   {
     to.corners.push_back(places[corner]);
   }
+  to.cellRows.insert(to.cellRows.end(), from.cellRows.begin(), from.cellRows.end());
   this->End = part.end;
   this->TakenVertices = part.endVertex;
   ++this->TakenParts;
@@ -286,11 +288,6 @@ bool StreamSimplifier::grow()
   return true;
 }
 
-std::size_t StreamSimplifier::rowBytes() const
-{
-  return static_cast<std::size_t>(smg::rowBytes(this->Info.vertexColumns));
-}
-
 /** Simplifies the full window. Of a result that does not fit into it, a part then leaves it. */
 void StreamSimplifier::makeRoom()
 {
@@ -309,8 +306,7 @@ void StreamSimplifier::makeRoom()
   {
     // Each part of the stream gets its share of the vertices of the result.
     const double share = this->done() * Aim * static_cast<double>(this->Goal.vertices);
-    const auto left = static_cast<std::int64_t>(share) - this->DeliveredVertices;
-    this->collapse(left);
+    this->fit(static_cast<std::int64_t>(share) - this->DeliveredVertices);
     if (this->Goal.vertices == 0 || this->Window.triangles() > this->Capacity / 2)
     {
       this->deliverOlderHalf();
@@ -323,14 +319,36 @@ void StreamSimplifier::makeRoom()
 }
 
 /** Collapses edges of the window until it has `vertices` vertices that are not locked. */
-void StreamSimplifier::collapse(std::int64_t vertices, bool mayPinch)
+void StreamSimplifier::collapse(std::int64_t vertices)
 {
   const std::vector<std::uint8_t> locked = this->locked();
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
-    this->Goal.error, mayPinch && !this->limitsError() };
+    this->Goal.error, !this->limitsError() };
   goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
   this->Counts.error =
     std::max(this->Counts.error, collapseEdges(this->Window, locked, goal, this->Polled));
+}
+
+/** Removes the smallest bodies of the window, so that so many vertices are enough for the others:
+ * no collapse removes a body. Returns whether they are fragments, which stay. */
+bool StreamSimplifier::dropBodies(std::int64_t vertices)
+{
+  const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), vertices, this->Polled);
+  this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
+  return bodies.areFragments;
+}
+
+/** Collapses edges of the window until it has `vertices` vertices that are not locked. Where no
+ * more collapses are possible, a number alone comes before the bodies of a result in parts, too. */
+void StreamSimplifier::fit(std::int64_t vertices)
+{
+  this->collapse(vertices);
+  const std::vector<std::uint8_t> locked = this->locked();
+  if (this->Streams && this->Goal.vertices > 0 && !this->limitsError() &&
+      std::ranges::count(locked, 0) > vertices)
+  {
+    this->dropBodies(vertices);
+  }
 }
 
 /** Simplifies a window whose result stays in it, to about this number of vertices. If collapses
@@ -338,9 +356,7 @@ void StreamSimplifier::collapse(std::int64_t vertices, bool mayPinch)
 void StreamSimplifier::shrink(std::size_t vertices)
 {
   const auto wanted = static_cast<std::int64_t>(vertices);
-  const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), bodiesFor(wanted));
-  this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
-  if (!bodies.areFragments)
+  if (!this->dropBodies(wanted))
   {
     this->collapse(wanted);
   }
@@ -365,27 +381,32 @@ void StreamSimplifier::deliverOlderHalf()
   std::vector<std::int64_t> sorted = ages;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
-  std::vector<std::uint32_t> older, rest;
-  for (std::size_t t = 0; t < ages.size(); ++t)
-  {
-    std::vector<std::uint32_t>& to = ages[t] <= *middle ? older : rest;
-    const std::uint32_t* c = window.corners.data() + 3 * t;
-    to.insert(to.end(), c, c + 3);
-  }
-  this->deliver(older, std::move(rest));
+  std::vector<std::uint8_t> leaves(ages.size());
+  std::ranges::transform(
+    ages, leaves.begin(), [middle](std::int64_t age) { return age <= *middle ? 1 : 0; });
+  this->deliver(leaves);
 }
 
-/** Moves triangles of the window to the result; `rest` stays. Vertices of both are locked from here
- * on, and known to the result as shared until nothing in the window or the stream uses them. */
-void StreamSimplifier::deliver(
-  const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t> rest)
+/** Moves triangles of the window to the result; the others stay. Vertices of both are locked from
+ * here on, and known to the result as shared until nothing in the window or the stream uses them.
+ */
+void StreamSimplifier::deliver(const std::vector<std::uint8_t>& leaves)
 {
   std::vector<std::uint8_t> stays(this->Window.vertices(), 0);
-  for (const std::uint32_t corner : rest)
+  std::vector<std::uint32_t> leaving;
+  for (std::uint32_t t = 0; t < leaves.size(); ++t)
   {
-    stays[corner] = 1;
+    if (leaves[t] != 0)
+    {
+      leaving.push_back(t);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      stays[this->Window.corners[3 * std::size_t(t) + k]] = 1;
+    }
   }
-  Result result{ this->Window.extract(corners), {}, {} };
+  Result result{ this->Window.extract(leaving), {}, {} };
   this->DeliveredVertices += std::ranges::count_if(
     result.surface.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
   // What the window still uses, or later parts may.
@@ -416,7 +437,7 @@ void StreamSimplifier::deliver(
       }
       return hasEnded;
     });
-  this->Window.corners = std::move(rest);
+  this->Window.removeTriangles([&leaves](std::size_t t) { return leaves[t] != 0; });
   this->Window.dropUnusedVertices();
   // Saved before the state that counts it: a program that continues finds all parts of the result.
   if (this->Kept && !this->IsFinished)
@@ -436,26 +457,13 @@ void StreamSimplifier::finish()
     std::max<std::int64_t>(0, this->Goal.vertices - this->DeliveredVertices);
   const bool mayDrop = !this->Streams && !this->limitsError() && this->Goal.vertices > 0;
   bool areFragments = false;
-  // The smallest bodies are left out, where there are more than every twentieth vertex: no collapse
-  // removes a body.
   if (mayDrop && this->remaining() > most)
   {
-    const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), bodiesFor(most));
-    this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
-    areFragments = bodies.areFragments;
+    areFragments = this->dropBodies(most);
   }
   if (!areFragments && (this->Goal.vertices == 0 || this->remaining() > most))
   {
-    // A copy fits, since the parts in work, which had the same share of the memory, are gone.
-    SurfacePart before = this->Window;
-    this->collapse(most);
-    if (this->Window.triangles() == 0)
-    {
-      // Merged sheets were folded away and nothing is left: with so few vertices the topology has
-      // to stay.
-      this->Window = std::move(before);
-      this->collapse(most, false);
-    }
+    this->fit(most);
   }
   // Collapses alone leave too many vertices: they are merged by their positions.
   if (mayDrop && this->remaining() > most)
@@ -468,7 +476,7 @@ void StreamSimplifier::finish()
       this->Counts.isClustered = true;
     }
   }
-  this->deliver(this->Window.corners, {});
+  this->deliver(std::vector<std::uint8_t>(this->Window.triangles(), 1));
 }
 
 /** The vertices of the window that were not delivered yet. */
@@ -483,10 +491,14 @@ namespace
 
 /** Whether the lists of a surface from a file have the lengths that they say, with rows of so many
  * bytes, and the corners are vertices. */
-bool isConsistent(const SurfacePart& surface, std::size_t rowBytes)
+bool isConsistent(const SurfacePart& surface, const StreamInfo& info)
 {
+  const auto row = static_cast<std::size_t>(rowBytes(info.vertexColumns));
+  const auto cellRow = static_cast<std::size_t>(rowBytes(carriedColumns(info)));
   return surface.points.size() == 3 * surface.vertices() &&
-         surface.rows.size() == rowBytes * surface.vertices() && surface.corners.size() % 3 == 0 &&
+         surface.rows.size() == row * surface.vertices() &&
+         surface.cellRows.size() == cellRow * surface.triangles() &&
+         surface.corners.size() % 3 == 0 &&
          std::ranges::all_of(surface.corners,
            [&surface](std::uint32_t corner) { return corner < surface.vertices(); });
 }
@@ -526,7 +538,7 @@ void StreamSimplifier::loadResult(std::int64_t number, Result& result)
                 "to begin anew.");
   }
   (*state)(result);
-  state->require(isConsistent(result.surface, this->rowBytes()) &&
+  state->require(isConsistent(result.surface, this->Info) &&
                  result.isShared.size() == result.surface.vertices());
   state->finish();
 }
@@ -554,7 +566,7 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
   const std::size_t least = this->Capacity;
   this->exchange(*state);
   state->finish();
-  state->require(isConsistent(this->Window, this->rowBytes()) &&
+  state->require(isConsistent(this->Window, this->Info) &&
                  this->Window.quadrics.size() == this->Window.vertices() &&
                  this->Window.lacksBoundary.size() == this->Window.vertices() &&
                  this->Capacity >= least && this->TakenParts >= 0 && this->KeptResults >= 0);

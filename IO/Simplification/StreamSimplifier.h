@@ -44,8 +44,9 @@ struct SimplificationCounts
  * result that fits into the window stays there until the end, when all of it is simplified to the
  * goal; of a larger one, the older half leaves the window whenever that is full.
  *
- * Of a surface with very many bodies the smallest are left out, so that at most every twentieth
- * vertex of the result is a body of its own.
+ * Of a surface with very many bodies the smallest are left out, so that the vertices of the result
+ * are enough for 20 of each body, or all that it has; of a result that does not fit into the window
+ * only where collapses do not suffice.
  *
  * The result depends on the memory and on the blocks of the stream, but not on threads. Every
  * triangle is simplified once in a part, and about twice in the window.
@@ -100,8 +101,6 @@ private:
   /** The share of the vertices of the stream that is in the window or delivered; 0 if their number
    * is not known. */
   double done() const;
-  /** Of the columns of a vertex. */
-  std::size_t rowBytes() const;
   void ask() noexcept;
   void poll();
   bool limitsError() const { return std::isfinite(this->Goal.error); }
@@ -112,10 +111,12 @@ private:
   bool grow();
   void enlarge(std::size_t capacity);
   void makeRoom();
-  void collapse(std::int64_t vertices, bool mayPinch = true);
+  void collapse(std::int64_t vertices);
+  bool dropBodies(std::int64_t vertices);
+  void fit(std::int64_t vertices);
   void shrink(std::size_t vertices);
   void deliverOlderHalf();
-  void deliver(const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t> rest);
+  void deliver(const std::vector<std::uint8_t>& leaves);
   void finish();
   std::int64_t remaining() const;
   void renumber();

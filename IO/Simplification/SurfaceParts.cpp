@@ -57,10 +57,45 @@ void SurfacePart::copyVertex(
   }
 }
 
-SurfacePart SurfacePart::extract(const std::vector<std::uint32_t>& some) const
+void SurfacePart::copyTriangle(std::size_t triangle, std::span<Column> columns) const
 {
-  std::vector<std::uint32_t> place = usedBy(some, this->vertices());
+  const std::byte* from = this->cellRows.data() + triangle * this->cellRowBytes();
+  for (Column& column : columns)
+  {
+    const std::size_t bytes = column.spec.tupleBytes();
+    column.bytes.insert(column.bytes.end(), from, from + bytes);
+    from += bytes;
+  }
+}
+
+void SurfacePart::moveTriangle(std::size_t from, std::size_t to)
+{
+  const std::size_t stride = this->cellRowBytes();
+  std::copy_n(this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(from), 3,
+    this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(to));
+  std::copy_n(this->cellRows.begin() + static_cast<std::ptrdiff_t>(from * stride), stride,
+    this->cellRows.begin() + static_cast<std::ptrdiff_t>(to * stride));
+}
+
+void SurfacePart::keepTriangles(std::size_t number)
+{
+  this->cellRows.resize(number * this->cellRowBytes());
+  this->corners.resize(3 * number);
+}
+
+SurfacePart SurfacePart::extract(const std::vector<std::uint32_t>& triangles) const
+{
+  const std::size_t stride = this->cellRowBytes();
+  std::vector<std::uint32_t> some;
   SurfacePart part;
+  for (const std::uint32_t t : triangles)
+  {
+    const auto corner = this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(t);
+    some.insert(some.end(), corner, corner + 3);
+    const auto row = this->cellRows.begin() + static_cast<std::ptrdiff_t>(t * stride);
+    part.cellRows.insert(part.cellRows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
+  }
+  std::vector<std::uint32_t> place = usedBy(some, this->vertices());
   part.origin = this->origin;
   for (std::size_t v = 0; v < place.size(); ++v)
   {
@@ -115,6 +150,14 @@ void SurfacePart::dropUnusedVertices()
   }
 }
 
+std::vector<ColumnSpec> carriedColumns(const StreamInfo& info)
+{
+  std::vector<ColumnSpec> carried = info.cellColumns;
+  std::erase_if(carried, [](const ColumnSpec& spec)
+    { return spec.name == OriginalCellIdName || spec.name == CellFlagsName; });
+  return carried;
+}
+
 SurfaceParts::SurfaceParts(
   MeshSource& source, Pool& pool, std::size_t triangles, std::function<void(double)> progress)
   : Source(source)
@@ -129,6 +172,7 @@ SurfaceParts::SurfaceParts(
 bool SurfaceParts::next(StreamPart& part)
 {
   this->Corners.clear();
+  this->CellRows.clear();
   // What no later cell uses goes before the next blocks are read.
   this->Points.release(this->Final);
   if (this->RowBytes > 0)
@@ -189,6 +233,7 @@ void SurfaceParts::add(const MeshBlock& block)
     if (!isRepeated && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
     {
       this->Corners.insert(this->Corners.end(), c, c + 3);
+      this->addCellRow(block, i / 3);
     }
   }
   this->Vertices += block.vertices();
@@ -198,6 +243,19 @@ void SurfaceParts::add(const MeshBlock& block)
   {
     this->Progress(
       static_cast<double>(this->Vertices) / static_cast<double>(this->Source.info().vertices));
+  }
+}
+
+void SurfaceParts::addCellRow(const MeshBlock& block, std::size_t cell)
+{
+  for (const Column& column : block.cellColumns)
+  {
+    if (column.spec.name != OriginalCellIdName && column.spec.name != CellFlagsName)
+    {
+      const std::size_t bytes = column.spec.tupleBytes();
+      const std::byte* from = column.bytes.data() + cell * bytes;
+      this->CellRows.insert(this->CellRows.end(), from, from + bytes);
+    }
   }
 }
 
@@ -237,6 +295,7 @@ void SurfaceParts::localise(SurfacePart& surface)
       surface.rows.insert(surface.rows.end(), row, row + this->RowBytes);
     }
   }
+  surface.cellRows = this->CellRows;
   surface.corners.reserve(this->Corners.size());
   for (const std::int64_t corner : this->Corners)
   {

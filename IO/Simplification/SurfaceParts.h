@@ -73,6 +73,7 @@ struct SurfacePart
   std::vector<std::uint8_t> lacksBoundary;
   std::vector<std::byte> rows;        ///< for each vertex its tuples of all columns
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
+  std::vector<std::byte> cellRows;    ///< for each triangle its tuples of the carried columns
 
   std::size_t vertices() const { return this->ids.size(); }
   std::size_t triangles() const { return this->corners.size() / 3; }
@@ -82,13 +83,39 @@ struct SurfacePart
     return this->ids.empty() ? 0 : this->rows.size() / this->vertices();
   }
 
+  /** The bytes of the row of a triangle. */
+  std::size_t cellRowBytes() const
+  {
+    return this->cellRows.empty() ? 0 : this->cellRows.size() / this->triangles();
+  }
+
   /** Appends a vertex of another surface, without its quadric. */
   void addVertex(const SurfacePart& from, std::size_t vertex);
   /** Appends the position and the tuples of a vertex to these. */
   void copyVertex(
     std::size_t vertex, std::vector<double>& positions, std::span<Column> columns) const;
+  /** Appends the tuples of a triangle to these. */
+  void copyTriangle(std::size_t triangle, std::span<Column> columns) const;
   /** Some triangles of this surface with their vertices, without quadrics. */
-  SurfacePart extract(const std::vector<std::uint32_t>& some) const;
+  SurfacePart extract(const std::vector<std::uint32_t>& triangles) const;
+  /** Puts a triangle in the place of an earlier one. */
+  void moveTriangle(std::size_t from, std::size_t to);
+  /** Removes all but the first triangles. */
+  void keepTriangles(std::size_t number);
+  /** Removes the triangles for whose numbers this is true. */
+  template <class Predicate>
+  void removeTriangles(const Predicate& goes)
+  {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < this->triangles(); ++t)
+    {
+      if (!goes(t))
+      {
+        this->moveTriangle(t, kept++);
+      }
+    }
+    this->keepTriangles(kept);
+  }
   /** Removes the vertices that no triangle uses; the others keep their order. */
   void dropUnusedVertices();
 
@@ -96,9 +123,13 @@ struct SurfacePart
   void exchange(State& state)
   {
     state(this->ids, this->points, this->quadrics, this->origin, this->lacksBoundary, this->rows,
-      this->corners);
+      this->corners, this->cellRows);
   }
 };
+
+/** The columns of the cells that the triangles of a surface carry: all but the numbers and flags
+ * that a conversion gives to cells. */
+std::vector<ColumnSpec> carriedColumns(const StreamInfo& info);
 
 /** Consecutive triangles of a stream. */
 struct StreamPart
@@ -116,9 +147,9 @@ struct StreamPart
   }
 };
 
-/** Cuts a stream of triangles into parts, with the columns of their vertices. Cells that repeat a
- * corner, and duplicates (see CellFlag), are left out. A part and the open vertices of the stream
- * are in memory; `pool` accounts for the latter. */
+/** Cuts a stream of triangles into parts, with the columns of their vertices and cells
+ * (carriedColumns()). Cells that repeat a corner, and duplicates (see CellFlag), are left out. A
+ * part and the open vertices of the stream are in memory; `pool` accounts for the latter. */
 class SurfaceParts
 {
 public:
@@ -138,6 +169,7 @@ public:
 
 private:
   void add(const MeshBlock& block);
+  void addCellRow(const MeshBlock& block, std::size_t cell);
   void localise(SurfacePart& surface);
 
   MeshSource& Source;
@@ -149,8 +181,9 @@ private:
   MeshBlock Block;
   std::array<double, 3> Origin{}; ///< the first vertex
   std::vector<std::int64_t> Corners;
-  std::int64_t Released = 0; ///< the first open vertex
-  std::int64_t Final = 0;    ///< vertices below are not in later cells
+  std::vector<std::byte> CellRows; ///< of the triangles with these corners
+  std::int64_t Released = 0;       ///< the first open vertex
+  std::int64_t Final = 0;          ///< vertices below are not in later cells
   std::int64_t Vertices = 0, Cells = 0;
   bool IsAtEnd = false;
 };

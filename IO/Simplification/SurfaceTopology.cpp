@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SurfaceTopology.h"
 
+#include "Solver/Core/DisjointSets.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -27,9 +29,11 @@ constexpr std::size_t MaxTriangles = 512;
 } // namespace
 
 SurfaceTopology::SurfaceTopology(
-  std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open, const Poll& poll)
-  : Corners(corners)
+  SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll)
+  : Part(part)
+  , Corners(part.corners)
   , Open(open)
+  , Polled(poll)
   , IsFixed(open.size())
   , IsBoundary(open.size())
   , Target(open.size())
@@ -49,14 +53,16 @@ SurfaceTopology::SurfaceTopology(
 void SurfaceTopology::findStars()
 {
   this->Begin.assign(this->vertices() + 2, 0);
-  for (const std::uint32_t corner : this->Corners)
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
-    ++this->Begin[corner + 2];
+    this->Polled.at(i);
+    ++this->Begin[this->Corners[i] + 2];
   }
   std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
   this->Stars.resize(this->Corners.size());
   for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
+    this->Polled.at(i);
     // The begins are shifted by one place, so that counting them up makes each the beginning of the
     // next vertex.
     this->Stars[this->Begin[this->Corners[i] + 1]++] = static_cast<std::uint32_t>(i / 3);
@@ -147,12 +153,12 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     return Change::Impossible;
   }
   ++this->Mark;
+  std::size_t ofTo = 0, ofFrom = 0; // triangles that have not collapsed in this pass
   for (const std::uint32_t t : this->star(to))
   {
-    for (const std::uint32_t w : this->others(t, to))
-    {
-      this->Seen[w] = this->Mark;
-    }
+    const auto [a, b] = this->others(t, to);
+    ofTo += a != b ? 1 : 0;
+    this->Seen[a] = this->Seen[b] = this->Mark;
   }
   std::size_t shared = 0, common = 0;
   std::uint32_t opposite[2] = {};
@@ -170,6 +176,7 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
         ++common;
       }
     }
+    ofFrom += a != b ? 1 : 0;
     if (a != b && (a == to || b == to)) // a == b: collapsed in this pass
     {
       opposite[std::min<std::size_t>(shared++, 1)] = a == to ? b : a;
@@ -177,6 +184,11 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
   }
   // Their triangles have gone in this pass; or `from` is on the boundary and would leave it.
   if (shared == 0 || (this->IsBoundary[from] != 0 && shared != 1))
+  {
+    return Change::Impossible;
+  }
+  // All triangles of both are at the edge: they are all of their body.
+  if (shared == ofFrom && shared == ofTo && this->Open[to] == 0)
   {
     return Change::Impossible;
   }
@@ -237,18 +249,18 @@ void SurfaceTopology::endPass()
   std::size_t kept = 0;
   for (std::size_t i = 0; i < this->Corners.size(); i += 3)
   {
+    this->Polled.at(i / 3);
     const std::uint32_t a = this->Target[this->Corners[i]];
     const std::uint32_t b = this->Target[this->Corners[i + 1]];
     const std::uint32_t c = this->Target[this->Corners[i + 2]];
     if (a != b && b != c && c != a)
     {
-      this->Corners[kept] = a;
-      this->Corners[kept + 1] = b;
-      this->Corners[kept + 2] = c;
-      kept += 3;
+      this->Part.moveTriangle(i / 3, kept);
+      std::ranges::copy(std::array{ a, b, c },
+        this->Part.corners.begin() + 3 * static_cast<std::ptrdiff_t>(kept++));
     }
   }
-  this->Corners.resize(kept);
+  this->Part.keepTriangles(kept);
   this->findStars();
 }
 
@@ -286,6 +298,7 @@ std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
   std::vector<std::uint8_t> isFolded(this->Corners.size() / 3);
   for (std::uint32_t least = 0; least < this->vertices(); ++least)
   {
+    this->Polled.at(least);
     triangles.clear();
     for (const std::uint32_t t : this->star(least))
     {
@@ -309,20 +322,41 @@ void SurfaceTopology::allowPinching()
   this->KeepsFolded = std::ranges::count(this->foldedTriangles(), 1) > 0;
 }
 
+/** Keeps the folded triangles of bodies that have no others: of a thin plate both sides come to lie
+ * on each other. */
+void SurfaceTopology::keepFoldedBodies(std::vector<std::uint8_t>& isFolded) const
+{
+  DisjointSets<std::uint32_t> sets(this->vertices());
+  for (std::size_t i = 0; i < this->Corners.size(); i += 3)
+  {
+    this->Polled.at(i / 3);
+    sets.join(this->Corners[i], this->Corners[i + 1]);
+    sets.join(this->Corners[i], this->Corners[i + 2]);
+  }
+  std::vector<std::uint8_t> hasOthers(this->vertices(), 0);
+  for (std::size_t t = 0; t < isFolded.size(); ++t)
+  {
+    hasOthers[sets.first(this->Corners[3 * t])] |= isFolded[t] == 0 ? 1 : 0;
+  }
+  for (std::size_t t = 0; t < isFolded.size(); ++t)
+  {
+    isFolded[t] &= hasOthers[sets.first(this->Corners[3 * t])];
+  }
+}
+
 std::size_t SurfaceTopology::dropFolded()
 {
-  const std::vector<std::uint8_t> isFolded = this->foldedTriangles();
-  std::vector<std::uint8_t> isUsed(this->vertices(), 0);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  std::vector<std::uint8_t> isFolded = this->foldedTriangles();
+  this->keepFoldedBodies(isFolded);
+  if (!this->KeepsFolded)
   {
-    if (this->KeepsFolded || isFolded[i / 3] == 0)
-    {
-      isUsed[this->Corners[i]] = 1;
-      this->Corners[kept++] = this->Corners[i];
-    }
+    this->Part.removeTriangles([&isFolded](std::size_t t) { return isFolded[t] != 0; });
   }
-  this->Corners.resize(kept);
+  std::vector<std::uint8_t> isUsed(this->vertices(), 0);
+  for (const std::uint32_t corner : this->Corners)
+  {
+    isUsed[corner] = 1;
+  }
   this->findStars();
   return static_cast<std::size_t>(std::ranges::count(isUsed, 1));
 }

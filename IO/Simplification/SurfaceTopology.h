@@ -1,47 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Simplification/Poll.h"
+#include "IO/Simplification/SurfaceParts.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace smg
 {
-
-/** Whether long work on a part in memory is to go on: calls a function, which may throw Cancelled,
- * now and then. */
-class Poll
-{
-public:
-  explicit Poll(std::function<void()> function = {})
-    : Function(std::move(function))
-  {
-  }
-
-  void now() const
-  {
-    if (this->Function)
-    {
-      this->Function();
-    }
-  }
-  /** The same in step `i` of a loop, where it is the turn. */
-  void at(std::size_t i) const
-  {
-    constexpr std::size_t Steps = std::size_t(1) << 14; // a few milliseconds
-    if (i % Steps == 0)
-    {
-      this->now();
-    }
-  }
-
-private:
-  std::function<void()> Function;
-};
 
 /**
  * The triangles of a surface whose vertices move onto neighbours, in passes. Within a pass no
@@ -57,10 +28,9 @@ private:
 class SurfaceTopology
 {
 public:
-  /** `corners`: the triangles, which moves change. `open`: of each vertex, not 0 if it may have
-   * more triangles elsewhere: it does not go. Both must outlive this. */
-  SurfaceTopology(
-    std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open, const Poll& poll);
+  /** `part`: the triangles, which moves change. `open`: of each vertex, not 0 if it may have
+   * more triangles elsewhere: it does not go. All must outlive this. */
+  SurfaceTopology(SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll);
 
   std::size_t vertices() const { return this->Open.size(); }
   /** Whether a vertex may have more triangles elsewhere. */
@@ -107,7 +77,7 @@ public:
   {
     None,
     Pinch,     ///< it changes, so that edges may get more than two triangles
-    Impossible ///< the vertex may not go there
+    Impossible ///< the vertex may not go there, or nothing would be left of its body
   };
   Change changeBy(std::uint32_t from, std::uint32_t to);
   void move(std::uint32_t from, std::uint32_t to)
@@ -121,7 +91,8 @@ public:
   /** To be called before the first pinching move. */
   void allowPinching();
   /** Removes pairs of triangles that lie on each other, which pinching leaves behind, unless the
-   * surface had such pairs before. Returns the number of vertices that are left. */
+   * surface had such pairs before, or a body has nothing else. Returns the number of vertices that
+   * are left. */
   std::size_t dropFolded();
 
 private:
@@ -135,9 +106,12 @@ private:
   using Triangle = std::array<std::uint32_t, 3>;
   void pairTurned(std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const;
   std::vector<std::uint8_t> foldedTriangles() const;
+  void keepFoldedBodies(std::vector<std::uint8_t>& isFolded) const;
 
-  std::vector<std::uint32_t>& Corners;
+  SurfacePart& Part;
+  const std::vector<std::uint32_t>& Corners;
   std::span<const std::uint8_t> Open;
+  const Poll& Polled;
   std::vector<std::uint8_t> IsFixed, IsBoundary;
   bool IsTurned = false;
   bool KeepsFolded = false;

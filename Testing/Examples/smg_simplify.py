@@ -48,6 +48,26 @@ def test_a_simplified_mesh_goes_into_the_next_command():
         assert load("info.json")["cells"] == 1000, suffix
 
 
+def test_labels_are_those_of_triangles_that_were_there():
+    """In every format that has columns of cells; of others, and of solids, a note names those that are lost."""
+    points, cells, *_ = read_mesh("torus.obj")
+    with open("labels.vtk", "w") as file:
+        file.write(f"# vtk DataFile Version 3.0\nlabels\nASCII\nDATASET POLYDATA\nPOINTS {len(points)} double\n")
+        file.writelines("%r %r %r\n" % tuple(point) for point in points)
+        file.write(f"POLYGONS {len(cells)} {sum(1 + len(cell) for cell in cells)}\n")
+        file.writelines(" ".join(map(str, [len(cell), *cell])) + "\n" for cell in cells)
+        file.write(f"CELL_DATA {len(cells)}\nSCALARS Material int 1\nLOOKUP_TABLE default\n")
+        file.writelines("%d\n" % (1 if points[cell[0]][0] < 0 else 2) for cell in cells)
+    for suffix in (".vsm", ".ply", ".vtp", ".vtu"):
+        simplify("labels.vtk", "small" + suffix, "--vertices", 500)
+        assert load("report.json")["notes"] == [], suffix
+        run("info", "small" + suffix, "--report", "info.json")
+        columns = [column["name"] for column in load("info.json")["columns"]["cells"]]
+        assert "Material" in columns, (suffix, columns)
+    simplify("labels.vtk", "small.stl", "--vertices", 500)
+    assert "Material" in " ".join(load("report.json")["notes"])
+
+
 def test_an_error_is_kept():
     counts = []
     for error in (1e-3, 1e-2):
@@ -132,6 +152,7 @@ def test_a_killed_one_continues():
 
 
 test_every_format_has_the_same_surface()
+test_labels_are_those_of_triangles_that_were_there()
 test_an_error_is_kept()
 test_few_vertices_are_few()
 test_dry_run()

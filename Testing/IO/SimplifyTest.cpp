@@ -259,13 +259,40 @@ TEST_F(Simplify, CarriesTheColumnsOfVertices)
   }
   mesh.vertexColumns = { makeColumn<float>("Pairs", pairs, 2),
     makeColumn<std::int64_t>(OriginalIdName, numbers) };
-  mesh.cellColumns = { makeColumn<float>(
-    "OfCells", std::vector<float>(static_cast<std::size_t>(mesh.cells()))) };
+  // Of the cells: on which side of the torus they are, twice.
+  std::vector<std::int32_t> sides;
+  std::vector<float> both;
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    const double x = mesh.positions[3 * mesh.corners[3 * c]];
+    sides.push_back(x < 0.0 ? 7 : 9);
+    both.insert(both.end(), { static_cast<float>(sides.back()), 0.5F });
+  }
+  mesh.cellColumns = { makeColumn<std::int32_t>("Side", sides),
+    makeColumn<std::int64_t>(
+      OriginalCellIdName, std::vector<std::int64_t>(static_cast<std::size_t>(mesh.cells()))),
+    makeColumn<float>("Both", both, 2) };
   for (const std::int64_t vertices : { 500, 20000 })
   {
     const StreamMesh simple = this->simplified(mesh, toVertices(vertices, LittleMemory));
     ASSERT_EQ(simple.vertexColumns.size(), 2U);
-    EXPECT_TRUE(simple.cellColumns.empty());
+    EXPECT_TRUE(this->Report.notes.empty());
+    ASSERT_EQ(simple.cellColumns.size(), 2U);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(simple.cells()); ++c)
+    {
+      const double side = simple.cellColumns[0].value(c);
+      ASSERT_EQ(simple.cellColumns[1].value(c, 0), side);
+      ASSERT_EQ(simple.cellColumns[1].value(c, 1), 0.5);
+      double x[3];
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        x[k] = simple.positions[3 * static_cast<std::size_t>(simple.corners[3 * c + k])];
+      }
+      // A triangle away from the border has the label of those that were there.
+      const auto [low, high] = std::ranges::minmax(x);
+      ASSERT_TRUE(low < 0.5 || side == 9) << low;
+      ASSERT_TRUE(high > -0.5 || side == 7) << high;
+    }
     const Column& ids = columnOf(simple, OriginalIdName);
     for (std::size_t v = 0; v < static_cast<std::size_t>(simple.vertices()); ++v)
     {
@@ -285,6 +312,14 @@ TEST_F(Simplify, OfASolidIsItsBoundary)
   expectVerticesOf(solid, simple);
   EXPECT_EQ(edgesOf(simple).euler, 2);
   EXPECT_EQ(edgesOf(simple).boundary, 0);
+  EXPECT_TRUE(this->Report.notes.empty());
+  StreamMesh labelled = solid;
+  const std::vector<std::int32_t> tags(static_cast<std::size_t>(solid.cells()), 3);
+  labelled.cellColumns = { makeColumn<std::int32_t>("Material", tags),
+    makeColumn<std::int32_t>("Tag", tags) };
+  EXPECT_EQ(this->simplified(labelled, toVertices(200)).corners, simple.corners);
+  ASSERT_EQ(this->Report.notes.size(), 1U);
+  EXPECT_NE(this->Report.notes.front().find("'Material', 'Tag'"), std::string::npos);
 }
 
 TEST_F(Simplify, SmallBodiesGoFirstAndAreCounted)

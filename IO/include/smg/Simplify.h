@@ -75,13 +75,18 @@ struct SMG_EXPORT SimplifyReport
  * Simplifies a surface, or the outer surface of a solid, by collapsing edges, in a fixed amount of
  * memory whatever its size. Every vertex of the result is one of the mesh, where it was, with its
  * columns, and with its stream index in the column OriginalId if the mesh has no column of this
- * name. Cells have no columns. Boundary curves are kept as such, triangles are wound as they are.
+ * name. A triangle of the result is one of the mesh whose corners have moved, and has its columns
+ * of cells, so labels are those of triangles that were near; the cells of a solid do not give
+ * theirs to its surface, which a note says. Boundary curves are kept as such, triangles are wound
+ * as they are.
  *
  * The topology is that of the mesh: bodies, handles, boundary curves, no edge of more triangles. Of
  * a result that fits into the memory, edges of the smallest error collapse first, wherever they
  * are; of a larger one, in each part of the stream for itself. With `vertices` and without `error`,
- * the smallest bodies are left out where there are fewer than 20 vertices a body, and handles may
- * be closed where that changes the surface much less than other collapses.
+ * the smallest bodies are left out so that the vertices are enough for 20 of each other body, or
+ * all that it has, and handles may be closed where that changes the surface much less than other
+ * collapses. Then the result has at most 19 vertices fewer than asked for, if the mesh has so many;
+ * one that does not fit into the memory may have 2 % fewer.
  *
  * @param mesh the mesh, which is read once
  * @param target how far to simplify

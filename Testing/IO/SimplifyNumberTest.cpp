@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/Simplify.h"
+
+#include "Solver/Core/DisjointSets.h"
+#include "Testing/Support/MemoryMesh.h"
+#include "Testing/Support/StreamMesh.h"
+#include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestMeshes.h"
+#include "smg/VsmReader.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+// The law of the number of vertices: a mesh of whatever bodies is simplified to the number that is
+// asked for, at most VerticesOfBody - 1 fewer, and bodies that are not in the result are counted.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** So many bodies beside one another, the k-th `size(k)` times as large. */
+IndexedTestMesh bodiesOf(
+  const IndexedTestMesh& body, int number, const std::function<double(int)>& size)
+{
+  IndexedTestMesh mesh;
+  for (int k = 0; k < number; ++k)
+  {
+    const std::int64_t first = mesh.vertices();
+    for (std::size_t i = 0; i < body.positions.size(); ++i)
+    {
+      mesh.positions.push_back(size(k) * body.positions[i] + (i % 3 == 0 ? 3.0 * k : 0.0));
+    }
+    for (const std::int64_t corner : body.corners)
+    {
+      mesh.corners.push_back(first + corner);
+    }
+  }
+  return mesh;
+}
+
+IndexedTestMesh together(IndexedTestMesh one, const IndexedTestMesh& other)
+{
+  return disjointUnion(one, other, { -1000.0, 0.0, 0.0 });
+}
+
+/** For each vertex the first one of its body. */
+std::vector<std::int64_t> bodyOfVertices(const StreamMesh& mesh)
+{
+  DisjointSets<std::int64_t> sets(static_cast<std::size_t>(mesh.vertices()));
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+  {
+    sets.join(mesh.corners[i], mesh.corners[i + 1]);
+    sets.join(mesh.corners[i], mesh.corners[i + 2]);
+  }
+  std::vector<std::int64_t> bodies;
+  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  {
+    bodies.push_back(sets.first(v));
+  }
+  return bodies;
+}
+
+/** The number of bodies of which no vertex is in the simplified mesh. */
+std::int64_t missing(const std::vector<std::int64_t>& bodies, const StreamMesh& simple)
+{
+  std::set<std::int64_t> all(bodies.begin(), bodies.end());
+  for (std::size_t v = 0; v < static_cast<std::size_t>(simple.vertices()); ++v)
+  {
+    all.erase(bodies[static_cast<std::size_t>(simple.vertexColumns.back().value(v))]);
+  }
+  return static_cast<std::int64_t>(all.size());
+}
+
+struct Bodies
+{
+  const char* name;
+  IndexedTestMesh mesh;
+};
+
+std::vector<Bodies> kindsOfBodies()
+{
+  IndexedTestMesh tetrahedron;
+  tetrahedron.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  tetrahedron.corners = { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2 };
+  const auto equal = [](int) { return 1.0; };
+  const auto falling = [](int k) { return std::pow(0.995, k); };
+  return { { "one", sphere(5) }, { "one open", grid(120, 100, 0.1) },
+    { "tetrahedra", bodiesOf(tetrahedron, 2000, equal) },
+    { "balls of few vertices", bodiesOf(sphere(0), 2000, equal) },
+    { "balls", bodiesOf(sphere(1), 2000, equal) }, { "patches", bodiesOf(grid(3, 2), 2000, equal) },
+    { "balls of all sizes", bodiesOf(sphere(1), 1000, falling) },
+    { "few large, many small",
+      together(sphere(5), bodiesOf(sphere(0), 1500, [](int) { return 0.01; })) },
+    { "a large open one, many small patches",
+      together(grid(120, 100, 0.1), bodiesOf(grid(2, 2), 1500, [](int) { return 0.01; })) } };
+}
+
+} // namespace
+
+TEST(SimplifyLaw, TheNumberAskedForIsReached)
+{
+  const TemporaryFolder folder;
+  for (const auto& [name, indexed] : kindsOfBodies())
+  {
+    for (const unsigned seed : { 1U, 2U })
+    {
+      const StreamMesh mesh = toStream(shuffled(indexed, seed));
+      const std::vector<std::int64_t> bodies = bodyOfVertices(mesh);
+      for (const std::int64_t memory : { 256, 16 })
+      {
+        for (const std::int64_t vertices : { 100, 1234, 5000, 7500 })
+        {
+          SCOPED_TRACE(std::string(name) + " to " + std::to_string(vertices) + " in " +
+                       std::to_string(memory) + " MiB, seed " + std::to_string(seed));
+          SimplifyOptions options;
+          options.memoryLimit = memory << 20;
+          const SimplifyReport report = simplify(
+            MemoryMesh(mesh, 1000), { .vertices = vertices }, folder / "simple.vsm", options);
+          const StreamMesh simple = collect(*VsmReader(folder / "simple.vsm").source());
+          EXPECT_LE(report.vertices, vertices);
+          // A result in parts, with little memory, may have 2 % fewer.
+          const std::int64_t share = memory == 16 ? vertices * 98 / 100 : vertices;
+          EXPECT_GT(report.vertices, std::min(share, mesh.vertices()) - 20);
+          EXPECT_EQ(report.dropped_bodies, missing(bodies, simple));
+        }
+      }
+    }
+  }
+}
+
+} // namespace smg::testing
