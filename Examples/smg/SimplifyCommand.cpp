@@ -132,7 +132,7 @@ void SimplifyCommand::addOptions(CLI::App& command)
     .add_option("OUT", this->Out,
       "The simplified surface: " +
         smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
-        " with the columns of the vertices of IN, and with OriginalId, the number that each vertex "
+        " with the columns of IN, and with OriginalId, the number that each vertex "
         "has in IN; or any other format of surfaces that is written")
     ->required();
   command.add_option("--vertices", this->Target.vertices, "Maximum number of vertices")

@@ -422,7 +422,8 @@ class Mesh:
 
         Returns:
             The simplified surface, whose column OriginalId has the numbers of its vertices in this
-            mesh, and whose `report` says more.
+            mesh; each triangle has the columns of one of this mesh whose corners have moved. Its
+            `report` says more.
         """
         options = {"memory": memory, "threads": threads, "scratch": scratch, "checkpoint": checkpoint}
         simplified = self._simplified(vertices, path, progress, {"error": error, **options})
