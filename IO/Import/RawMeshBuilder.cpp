@@ -57,7 +57,8 @@ RawMeshBuilder::BuiltColumn* RawMeshBuilder::addColumn(ColumnOf of, const Column
   }
   // Many columns, which may be filled concurrently, share the memory of a few.
   const std::int64_t share = this->Space.available() / 16 / (std::ssize(columns) + 1);
-  return &columns.emplace_back(RawColumn{ spec, BucketFile(this->Space, 1, share) });
+  columns.push_back({ RawColumn{ spec, BucketFile(this->Space, 1, share) } });
+  return &columns.back();
 }
 
 std::vector<RawColumn> RawMeshBuilder::finishColumns(ColumnOf of, std::int64_t tuples)

@@ -132,7 +132,7 @@ public:
       this->takeListed(from, count, edges);
       return;
     }
-    const auto before = static_cast<std::ptrdiff_t>(edges.size());
+    const std::size_t before = edges.size();
     const int lanes = this->To.lanes();
     for (int e = 0; e < lanes; ++e)
     {
@@ -151,7 +151,7 @@ public:
       this->MoreEdges -= static_cast<std::int64_t>(more->second.size());
       this->More.erase(more);
     }
-    const auto taken = std::ranges::subrange(edges.begin() + before, edges.end());
+    const std::span<OpenEdge> taken = std::span(edges).subspan(before);
     std::ranges::sort(taken, {}, &OpenEdge::to);
     for (const OpenEdge& edge : taken)
     {

@@ -11,8 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <ranges>
+#include <span>
 
 namespace smg
 {
@@ -48,22 +49,77 @@ public:
   bool isStiff() const { return this->Data->fine.stiff(this->Row); }
   bool empty() const { return this->Data->fine.row(this->Row).empty(); }
 
-  auto neighbours() const
-  {
-    const auto seen = [row = *this](const RowEntry& entry)
-    {
-      const std::int64_t node = row.Row + entry.delta();
-      const CoarseIndex coarse =
-        node < row.Chosen ? row.Data->coarseIndex[node] : CoarseningData::FPoint;
-      return Neighbour{ entry.weight(), coarse != CoarseningData::FPoint, coarse };
-    };
-    return this->Data->fine.row(this->Row) | std::views::transform(seen);
-  }
+  class Neighbours;
+  /** Made as they are read. */
+  Neighbours neighbours() const;
 
 private:
+  Neighbour seen(const RowEntry& entry) const
+  {
+    const std::int64_t node = this->Row + entry.delta();
+    const CoarseIndex coarse =
+      node < this->Chosen ? this->Data->coarseIndex[node] : CoarseningData::FPoint;
+    return { entry.weight(), coarse != CoarseningData::FPoint, coarse };
+  }
+
   const CoarseningData* Data;
   std::int64_t Row, Chosen;
 };
+
+/** A range of the neighbours of a row. (The views of the standard library need a newer Clang than
+ * some systems have.) */
+class FineRow::Neighbours
+{
+public:
+  explicit Neighbours(const FineRow& row)
+    : Row(row)
+  {
+  }
+
+  class Iterator
+  {
+  public:
+    using value_type = Neighbour;
+    using difference_type = std::ptrdiff_t;
+
+    Iterator() = default;
+    Iterator(const FineRow& row, const RowEntry* entry)
+      : Row(&row)
+      , Entry(entry)
+    {
+    }
+    Neighbour operator*() const { return this->Row->seen(*this->Entry); }
+    Iterator& operator++()
+    {
+      ++this->Entry;
+      return *this;
+    }
+    Iterator operator++(int) { return { *this->Row, this->Entry++ }; }
+    bool operator==(const Iterator& other) const { return this->Entry == other.Entry; }
+
+  private:
+    const FineRow* Row = nullptr;
+    const RowEntry* Entry = nullptr;
+  };
+
+  /** Valid as long as this. */
+  Iterator begin() const { return { this->Row, this->entries().data() }; }
+  Iterator end() const
+  {
+    const std::span<const RowEntry> entries = this->entries();
+    return { this->Row, entries.data() + entries.size() };
+  }
+
+private:
+  std::span<const RowEntry> entries() const { return this->Row.Data->fine.row(this->Row.Row); }
+
+  FineRow Row;
+};
+
+inline FineRow::Neighbours FineRow::neighbours() const
+{
+  return Neighbours(*this);
+}
 
 /** A row of the interpolation P that is being made: append() adds what the node takes from a coarse
  * node. The RelaxedRow::Most entries of the largest magnitudes stay, scaled to the sum of all. */

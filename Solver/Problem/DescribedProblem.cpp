@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,7 +67,8 @@ StartValues::StartValues(const ProblemDescription& description)
   for (std::size_t k = 0; isKnown && !all.empty() && k < this->Start.size(); ++k)
   {
     const auto numberOf = [k](const DataValue* value) { return (*value->numbers())[k]; };
-    const auto [min, max] = std::ranges::minmax(all | std::views::transform(numberOf));
+    const auto [least, most] = std::ranges::minmax(all, {}, numberOf);
+    const double min = numberOf(least), max = numberOf(most);
     const double middle = min / 2 + max / 2;
     this->Start[k] = min < max && max - min < std::fabs(middle) ? middle : 0.0;
   }

@@ -52,8 +52,8 @@ public:
     double* most = this->Now.high.data() + first;
     const auto low = Vectors::load(least), high = Vectors::load(most);
     const auto isGiven = value != 0.0;
-    Vectors::store(least, isGiven & (value < low) ? value : low);
-    Vectors::store(most, isGiven & (value > high) ? value : high);
+    Vectors::store(least, (isGiven & (value < low)) ? value : low);
+    Vectors::store(most, (isGiven & (value > high)) ? value : high);
   }
 
   /** The range of the iterate over its largest distance from the initial values, of the column

@@ -30,6 +30,8 @@ struct StoredRow
   }
   std::int64_t delta(std::int64_t e) const { return this->arrays.delta[this->entries.begin + e]; }
 };
+template <class Arrays>
+StoredRow(const Arrays&, BlockRange, double) -> StoredRow<Arrays>;
 
 } // namespace
 
