@@ -111,7 +111,7 @@ void requireConditionsAfterJoins(vtkAlgorithm& filter)
     });
 }
 
-std::filesystem::path unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns)
+StreamFile unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns)
 {
   vtkAlgorithm* at = before(filter);
   while (!columns.all && at && vtkMeshCondition::SafeDownCast(at))
@@ -123,8 +123,14 @@ std::filesystem::path unchangedFile(vtkAlgorithm& filter, const PieceColumns& co
   {
     return {};
   }
-  const char* file = reader->GetOutputInformation(0)->Get(vtkStreamingMeshKeys::STREAM_FILE());
-  return file ? file : "";
+  vtkInformation* info = reader->GetOutputInformation(0);
+  const auto text = [info](vtkInformationStringKey* key)
+  {
+    const char* found = info->Get(key);
+    return std::string(found ? found : "");
+  };
+  return { text(vtkStreamingMeshKeys::STREAM_FILE()),
+    text(vtkStreamingMeshKeys::STREAM_FINGERPRINT()) };
 }
 
 } // namespace smg

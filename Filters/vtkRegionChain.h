@@ -4,6 +4,7 @@
 #include "IO/vtkPieceStream.h"
 
 #include <filesystem>
+#include <string>
 
 class vtkAlgorithm;
 class vtkRegionFilter;
@@ -20,12 +21,19 @@ vtkAlgorithm& firstOfChain(vtkRegionFilter& region);
  * another. */
 void requireConditionsAfterJoins(vtkAlgorithm& filter);
 
+/** A .vsm file and what it must have: StoredMesh::fileFingerprint(); empty: anything. */
+struct StreamFile
+{
+  std::filesystem::path path;
+  std::string fingerprint;
+};
+
 /**
  * The .vsm file of the reader before a filter, if its pieces reach the filter unchanged with these
  * columns: between the two there are only conditions, which then have no arrays of their own that
- * count, or none if all columns are wanted. Empty: there is none, or the file has been replaced
- * since it was opened.
+ * count, or none if all columns are wanted. An empty path: there is none, or the file has been
+ * replaced since it was opened.
  */
-std::filesystem::path unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns);
+StreamFile unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns);
 
 } // namespace smg

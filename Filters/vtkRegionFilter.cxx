@@ -96,8 +96,7 @@ struct vtkRegionFilter::Internals
     {
       return this->search(input, request, inputVector, held);
     }
-    auto* piece =
-      vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+    auto* piece = vtkPointSet::SafeDownCast(request.update(input));
     if (!isElsewhere)
     {
       held = this->Self.Region == EVERYWHERE

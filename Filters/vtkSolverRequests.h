@@ -158,8 +158,7 @@ struct vtkStreamingSolver::Internals
     {
       return true;
     }
-    present =
-      vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+    present = vtkPointSet::SafeDownCast(request.update(input));
     this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
     return false;
   }
@@ -257,10 +256,10 @@ struct vtkStreamingSolver::Internals
       reading.threads = this->Self.NumberOfThreads;
       smg::Progress progress(smg::progressOf(this->Self));
       const std::unique_ptr<smg::StreamedTask> task = this->Self.MakeTask(present);
-      const std::filesystem::path file = smg::unchangedFile(this->Self, task->columns());
-      if (!file.empty())
+      const smg::StreamFile file = smg::unchangedFile(this->Self, task->columns());
+      if (!file.path.empty())
       {
-        this->Streamed.solveFile(file, *task, reading, progress);
+        this->Streamed.solveFile(file.path, file.fingerprint, *task, reading, progress);
       }
       else
       {

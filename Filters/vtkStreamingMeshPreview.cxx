@@ -183,6 +183,7 @@ int vtkStreamingMeshPreview::RequestUpdateExtent(
   // Pieces are requested with the key later; this request only repeats what the input displays.
   smg::PieceRequest request(outputVector->GetInformationObject(0));
   request.IsStreamed = false;
+  request.GhostLevels = 0;
   request.forwardTo(inputVector[0]->GetInformationObject(0));
   return 1;
 }

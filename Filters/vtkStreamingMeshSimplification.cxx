@@ -91,7 +91,9 @@ struct vtkStreamingMeshSimplification::Internals
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
       vtkPointSet& present =
         *vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, false));
-      const smg::VsmReader mesh(this->fileOf(input, request, present));
+      const smg::StreamFile file = this->fileOf(input, request, present);
+      const smg::VsmReader mesh(file.path, nullptr, file.fingerprint);
+      mesh.requireBlocksWithin(this->memory());
       const bool isSurface = mesh.info().cellType == smg::CellType::Triangle;
       this->Report = smg::simplify(mesh, this->target(), result,
         { .memoryLimit = this->memory(),
@@ -124,7 +126,7 @@ struct vtkStreamingMeshSimplification::Internals
       {
         smg::JobEstimate estimate = smg::simplifyEstimate(
           mesh, this->target(), "simplified.vsm", { .memoryLimit = this->memory() }, places);
-        const bool isCopied = smg::unchangedFile(this->Self, AllColumns).empty();
+        const bool isCopied = smg::unchangedFile(this->Self, AllColumns).path.empty();
         estimate.cpu_seconds += isCopied ? smg::readingSeconds(mesh.info) : 0.0;
         // The copy and the result are compressed less than a file that is saved, see
         // solveEstimate().
@@ -150,11 +152,11 @@ struct vtkStreamingMeshSimplification::Internals
 
   /** The mesh as a .vsm file: that of the reader, or a copy in the scratch folder. `present` is
    * what was requested of the input last. */
-  std::filesystem::path fileOf(
+  smg::StreamFile fileOf(
     smg::PieceInput& input, const smg::PieceRequest& request, vtkPointSet& present) const
   {
-    const std::filesystem::path whole = smg::unchangedFile(this->Self, AllColumns);
-    if (!whole.empty())
+    smg::StreamFile whole = smg::unchangedFile(this->Self, AllColumns);
+    if (!whole.path.empty())
     {
       return whole;
     }
@@ -169,30 +171,31 @@ struct vtkStreamingMeshSimplification::Internals
       options.threads = this->Self.NumberOfThreads;
       options.progress = progress;
       smg::writeOrdinaryMesh(*vtkPointSet::SafeDownCast(mesh), copy, options);
-      return copy;
+      return { copy, {} };
     }
     const int given = this->Self.NumberOfPieces;
     const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
     smg::PieceStream stream(input, { .given = isWhole ? 1 : given }, AllColumns);
-    if (const std::string note = input.noteOnNeighbours(stream.pieces()); !note.empty())
+    smg::Progress done(progress);
+    smg::writeContainer(stream, copy, true, done);
+    if (const std::string note = input.noteOnBorders(); !note.empty())
     {
       vtkWarningWithObjectMacro(&this->Self, << note << '.');
     }
-    smg::Progress done(progress);
-    smg::writeContainer(stream, copy, true, done);
-    return copy;
+    return { copy, {} };
   }
 
   /** Piece `piece` of so many; one that does not exist is empty. */
-  void deliver(int piece, int pieces, vtkPointSet& output)
+  void deliver(const smg::PieceRequest& request, vtkPointSet& output)
   {
+    const int piece = request.Piece, pieces = request.Pieces;
     const std::int64_t cells = this->Result->info().cells;
     const int part = piece < 0 ? pieces : std::min(piece, pieces);
     const auto firstOf = [&](int p) {
       return static_cast<std::int64_t>(static_cast<__int128>(cells) * std::min(p, pieces) / pieces);
     };
     smg::MeshPiece found;
-    this->Result->readPiece(firstOf(part), firstOf(part + 1), found);
+    this->Result->readPiece(firstOf(part), firstOf(part + 1), found, request.GhostLevels);
     smg::setPiece(output, found, this->Result->info());
   }
 
@@ -263,6 +266,7 @@ int vtkStreamingMeshSimplification::RequestUpdateExtent(
   // Pieces are requested with the key later; this request only repeats what the input displays.
   smg::PieceRequest request(outputVector->GetInformationObject(0));
   request.IsStreamed = false;
+  request.GhostLevels = 0;
   request.forwardTo(inputVector[0]->GetInformationObject(0));
   return 1;
 }
@@ -283,8 +287,11 @@ int vtkStreamingMeshSimplification::RequestData(
       }
       smg::PieceInput input(*this, 0);
       this->Internal->make(input, request, inputVector[0]->GetInformationObject(0));
-      isParallel ? this->Internal->deliver(0, 1, output)
-                 : this->Internal->deliver(request.Piece, request.Pieces, output);
+      if (isParallel)
+      {
+        request.Pieces = 1;
+      }
+      this->Internal->deliver(request, output);
     });
 }
 

@@ -103,6 +103,14 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   {
     mesh.GetCellData()->AddArray(makeArray(column));
   }
+  if (!piece.ghostCells.empty())
+  {
+    const auto ghosts = arrayOf<vtkUnsignedCharArray>(GhostTypeName, 1, piece.ghostCells,
+      [](std::uint8_t isGhost) -> unsigned char
+      { return isGhost ? vtkDataSetAttributes::DUPLICATECELL : 0; });
+    hide(*ghosts);
+    mesh.GetCellData()->AddArray(ghosts);
+  }
   // Neither does it offer the flags of the conversion.
   if (vtkDataArray* flags = mesh.GetCellData()->GetArray(CellFlagsName))
   {

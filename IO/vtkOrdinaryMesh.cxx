@@ -38,8 +38,13 @@ bool areUsedInOrder(vtkPointSet& mesh, const std::vector<std::int64_t>& ids, std
 {
   std::int64_t used = first;
   vtkNew<vtkIdList> corners;
+  vtkUnsignedCharArray* ghosts = mesh.GetCellGhostArray();
   for (vtkIdType cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
   {
+    if (ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0)
+    {
+      continue;
+    }
     mesh.GetCellPoints(cell, corners);
     for (const vtkIdType corner : *corners)
     {

@@ -2,6 +2,8 @@
 #include "IO/vtkPieceFiles.h"
 
 #include "IO/Formats/Vtk/XmlTags.h"
+#include "IO/Mesh/Columns.h"
+#include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Files/DiskFull.h"
@@ -12,6 +14,8 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -20,6 +24,7 @@
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
+#include <algorithm>
 #include <bit>
 #include <cctype>
 #include <optional>
@@ -141,6 +146,53 @@ vtkSmartPointer<vtkPointSet> withNamesForXml(vtkPointSet& given)
   return piece;
 }
 
+/** The piece without the cells of other pieces around it, which filters before have needed, and
+ * their points. */
+vtkSmartPointer<vtkPointSet> withoutGhosts(vtkPointSet& piece, CellType type)
+{
+  if (!piece.GetCellGhostArray())
+  {
+    return &piece;
+  }
+  std::vector<std::int64_t> corners = cellCorners(piece, type, "The input");
+  vtkNew<vtkIdList> cells, points;
+  for (const std::int64_t cell : keepOwnCells(piece, cornersOf(type), corners))
+  {
+    cells->InsertNextId(cell);
+  }
+  std::vector<std::int64_t> used = corners;
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::int64_t point : used)
+  {
+    points->InsertNextId(point);
+  }
+  for (std::int64_t& corner : corners)
+  {
+    corner = std::ranges::lower_bound(used, corner) - used.begin();
+  }
+  auto own = vtkSmartPointer<vtkPointSet>::Take(piece.NewInstance());
+  vtkNew<vtkPoints> places;
+  places->SetDataType(piece.GetPoints()->GetDataType());
+  piece.GetPoints()->GetPoints(points, places);
+  own->SetPoints(places);
+  setCells(*own, corners, cornersOf(type));
+  const auto copy = [](vtkDataSetAttributes& from, vtkIdList& ids, vtkDataSetAttributes& to)
+  {
+    to.CopyAllOn();
+    to.CopyAllocate(&from, ids.GetNumberOfIds());
+    for (vtkIdType k = 0; k < ids.GetNumberOfIds(); ++k)
+    {
+      to.CopyData(&from, ids.GetId(k), k);
+    }
+  };
+  copy(*piece.GetPointData(), *points, *own->GetPointData());
+  copy(*piece.GetCellData(), *cells, *own->GetCellData());
+  own->GetCellData()->RemoveArray(GhostTypeName);
+  own->GetFieldData()->ShallowCopy(piece.GetFieldData());
+  return own;
+}
+
 void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem::path& path)
 {
   writer.SetInputData(&piece);
@@ -229,12 +281,14 @@ void writePieceFiles(
   const bool isSurface = isSurfaceIndex(index);
   std::string description;
   int files = 0;
-  // The stream checks the pieces; its blocks are not needed here.
-  PieceStream stream(input, { .given = pieces }, {});
+  // The stream checks the pieces; its blocks are not needed here but for that.
+  PieceStream stream(
+    input, { .given = pieces }, { .all = input.isFiltered(), .required = {}, .optional = {} });
   MeshBlock block;
   while (vtkPointSet* given = stream.nextPiece(block))
   {
-    const vtkSmartPointer<vtkPointSet> piece = withNamesForXml(*given);
+    const vtkSmartPointer<vtkPointSet> piece =
+      withNamesForXml(*withoutGhosts(*given, stream.info().cellType));
     if (!piece->IsA(isSurface ? "vtkPolyData" : "vtkUnstructuredGrid"))
     {
       throw Error(path.string() + " cannot hold a " + piece->GetClassName() +

@@ -20,24 +20,47 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
 namespace
 {
 
-/** Filters of VTK that keep points and cells, but compute from neighbours or from the whole. */
-constexpr const char* OfNeighbours[] = { "vtkBoundaryMeshQuality", "vtkCellDataToPointData",
-  "vtkConnectivityFilter", "vtkCurvatures", "vtkGradientFilter", "vtkPolyDataConnectivityFilter",
-  "vtkPolyDataNormals", "vtkSmoothPolyDataFilter", "vtkTriangleMeshPointNormals",
-  "vtkWindowedSincPolyDataFilter" };
-
-bool needsNeighbours(vtkAlgorithm& filter)
+/** ParaView adds filters of the first class after every one of the user, our writer of the second.
+ */
+bool isAdded(vtkAlgorithm& filter)
 {
-  return std::ranges::any_of(
-    OfNeighbours, [&filter](const char* known) { return filter.IsA(known) != 0; });
+  return filter.IsA("vtkPVPostFilter") || filter.IsA("vtkChosenArrays");
+}
+
+/** The longest chain of filters of others that ends at `last`. Those of this library look at each
+ * point and cell alone, or at the whole mesh, and pass on ghost cells; a simplified mesh has its
+ * own. */
+std::vector<vtkAlgorithm*> otherFilters(vtkAlgorithm& last)
+{
+  std::vector<vtkAlgorithm*> longest;
+  bool hasInput = false;
+  const bool isNewMesh = last.IsA("vtkStreamingMeshSimplification") != 0;
+  for (int port = 0; !isNewMesh && port < last.GetNumberOfInputPorts(); ++port)
+  {
+    for (int k = 0; k < last.GetNumberOfInputConnections(port); ++k)
+    {
+      std::vector<vtkAlgorithm*> before = otherFilters(*last.GetInputAlgorithm(port, k));
+      longest = before.size() > longest.size() ? std::move(before) : std::move(longest);
+      hasInput = true;
+    }
+  }
+  const bool isOfThisLibrary = last.IsA("vtkStreamingSolver") || last.IsA("vtkRegionFilter");
+  if (hasInput && !isOfThisLibrary && !isAdded(last))
+  {
+    longest.push_back(&last);
+  }
+  return longest;
 }
 
 } // namespace
@@ -104,7 +127,7 @@ PieceInput::~PieceInput()
   }
 }
 
-vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
+vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed, int ghostLevels)
 {
   if (this->Block)
   {
@@ -115,7 +138,7 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
   vtkInformation* request = requests->GetInformationObject(this->ProducerPort);
   request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
   request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghostLevels);
   request->Set(vtkStreamingMeshKeys::STREAMED(), streamed ? pieces : 0);
   this->IsStreaming = streamed;
   vtkDataObject* data = nullptr;
@@ -159,13 +182,19 @@ bool PieceInput::isData() const
 
 std::filesystem::path PieceInput::streamFile() const
 {
-  if (this->Block)
-  {
-    return {};
-  }
-  const char* name = this->Executive->GetOutputInformation(this->ProducerPort)
-                       ->Get(vtkStreamingMeshKeys::STREAM_FILE());
-  return name ? name : "";
+  return this->text(vtkStreamingMeshKeys::STREAM_FILE());
+}
+
+std::string PieceInput::streamFingerprint() const
+{
+  return this->text(vtkStreamingMeshKeys::STREAM_FINGERPRINT());
+}
+
+std::string PieceInput::text(vtkInformationStringKey* key) const
+{
+  const char* text =
+    this->Block ? nullptr : this->Executive->GetOutputInformation(this->ProducerPort)->Get(key);
+  return text ? text : "";
 }
 
 std::optional<StreamInfo> PieceInput::meshInfo()
@@ -177,14 +206,11 @@ std::optional<StreamInfo> PieceInput::meshInfo()
   {
     return {};
   }
-  return VsmReader(file).info();
+  return VsmReader(file, nullptr, this->streamFingerprint()).info();
 }
 
 std::string PieceInput::producerName() const
 {
-  // ParaView adds filters of the first class after every one of the user, our writer of the second.
-  const auto isAdded = [](vtkAlgorithm& filter)
-  { return filter.IsA("vtkPVPostFilter") || filter.IsA("vtkChosenArrays"); };
   vtkAlgorithm* named = this->Producer;
   while (isAdded(*named) && named->GetNumberOfInputConnections(0) > 0)
   {
@@ -193,24 +219,31 @@ std::string PieceInput::producerName() const
   return nameInPipeline(*named);
 }
 
-std::string PieceInput::noteOnNeighbours(int pieces) const
+bool PieceInput::isFiltered() const
 {
-  std::string between;
-  vtkAlgorithm* filter = this->Producer;
-  while (filter->GetNumberOfInputPorts() > 0 && filter->GetNumberOfInputConnections(0) > 0)
+  return !this->Block && !otherFilters(*this->Producer).empty();
+}
+
+int PieceInput::ghostLevels(int pieces) const
+{
+  return pieces > 1 && !this->Block ? static_cast<int>(otherFilters(*this->Producer).size()) : 0;
+}
+
+std::string PieceInput::noteOnBorders() const
+{
+  if (!this->Differs)
   {
-    if (needsNeighbours(*filter))
-    {
-      between = nameInPipeline(*filter) + (between.empty() ? "" : ", " + between);
-    }
-    filter = filter->GetInputAlgorithm(0, 0);
+    return {};
   }
-  const bool isInParts = pieces > 1 && filter->IsA("vtkStreamingMeshReader");
-  return between.empty() || !isInParts
-           ? std::string()
-           : "the mesh comes in pieces through " + between +
-               ": what that computes from neighbours, as curvature, normals or smoothed positions, "
-               "is wrong at the borders of pieces";
+  std::string between;
+  for (vtkAlgorithm* filter : otherFilters(*this->Producer))
+  {
+    between += (between.empty() ? "" : ", ") + nameInPipeline(*filter);
+  }
+  return "the mesh comes in pieces through " + between +
+         ", and two pieces differ at points that both have: what is computed of more than a piece "
+         "and its neighbours, as smoothed positions, is wrong at the borders of pieces; raise "
+         "Maximum Points In Memory of the reader, so that the mesh is one piece";
 }
 
 bool PieceInput::isInMemory() const

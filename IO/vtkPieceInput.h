@@ -13,6 +13,7 @@
 class vtkAlgorithm;
 class vtkAlgorithmOutput;
 class vtkDataObject;
+class vtkInformationStringKey;
 class vtkPointSet;
 class vtkStreamingDemandDrivenPipeline;
 
@@ -45,9 +46,14 @@ public:
   PieceInput& operator=(const PieceInput&) = delete;
 
   /** Updates the input to piece `piece` of `pieces`. `streamed` requests the real piece of any size
-   * (see vtkStreamingMeshKeys); otherwise it may be a preview. Throws InputFailed, and Error if one
-   * of several blocks cannot be chosen. */
-  vtkDataObject* update(int piece, int pieces, bool streamed);
+   * (see vtkStreamingMeshKeys); otherwise it may be a preview. `ghostLevels`: layers of ghost cells
+   * around the piece. Throws InputFailed, and Error if one of several blocks cannot be chosen. */
+  vtkDataObject* update(int piece, int pieces, bool streamed, int ghostLevels = 0);
+
+  /** The layers of ghost cells that the filters of others before the consumer may need for a piece:
+   * one for each, as it may compute from the neighbours of a cell or point, whether it asks for
+   * them itself or not. 0 if the input is one piece. */
+  int ghostLevels(int pieces) const;
 
   /** Frees the data of the last piece, unless the producer cannot regenerate it. */
   void release();
@@ -57,6 +63,9 @@ public:
 
   /** The value of vtkStreamingMeshKeys::STREAM_FILE(), after a piece was requested; else empty. */
   std::filesystem::path streamFile() const;
+
+  /** What that file must have: vtkStreamingMeshKeys::STREAM_FINGERPRINT(). Empty: any. */
+  std::string streamFingerprint() const;
 
   /** The information on the whole mesh, before a piece is requested, if its pieces are those of a
    * .vsm file; filters between may have changed them. Throws Error if that file is damaged. */
@@ -73,17 +82,25 @@ public:
   /** The name of the filter that delivers the pieces, for messages. */
   std::string producerName() const;
 
-  /** A note, if a filter of VTK between the reader of a stream and the consumer computes from
-   * neighbours, which it does not have at the borders of so many pieces; else empty. */
-  std::string noteOnNeighbours(int pieces) const;
+  /** Whether filters of others are before the consumer. */
+  bool isFiltered() const;
+
+  /** Says that two pieces have different values at a point of both. */
+  void noteDifference() { this->Differs = true; }
+  /** A note, if that was said, which names the filters of others before the consumer; else empty.
+   */
+  std::string noteOnBorders() const;
 
   /** Whether the input was set as a data object, or is a block, which is the same for every piece.
    */
   bool isData() const;
 
 private:
+  std::string text(vtkInformationStringKey* key) const;
+
   vtkAlgorithm* Producer;
   int ProducerPort;
+  bool Differs = false;               ///< whether two pieces do at a point of both
   bool IsStreaming = false;           ///< whether the last request was streamed
   vtkSmartPointer<vtkPointSet> Block; ///< of an input of several blocks, once it was requested
   vtkStreamingDemandDrivenPipeline* Executive;

@@ -40,18 +40,36 @@ std::int64_t tupleBytes(const std::vector<ColumnSpec>& columns)
   return bytes;
 }
 
-/** The number of pieces of at most so many bytes as VTK data objects, as setPiece() makes them. */
+/** Bytes of a point and of a cell in VTK data objects, as setPiece() makes them. */
+std::int64_t bytesOfPoint(const StreamInfo& info)
+{
+  constexpr std::int64_t IdBytes = 8, MarkBytes = 2;
+  return 3 * (info.doublePositions ? 8 : 4) + IdBytes + MarkBytes + tupleBytes(info.vertexColumns);
+}
+std::int64_t bytesOfCell(const StreamInfo& info)
+{
+  constexpr std::int64_t IdBytes = 8, OffsetBytes = 8, TypeBytes = 1;
+  return OffsetBytes + TypeBytes + IdBytes * cornersOf(info.cellType) +
+         tupleBytes(info.cellColumns);
+}
+
+/** The number of pieces of at most so many bytes. */
 std::int64_t piecesOf(const StreamInfo& info, std::int64_t pieceBytes)
 {
-  constexpr std::int64_t IdBytes = 8, MarkBytes = 2, OffsetBytes = 8, TypeBytes = 1;
-  const std::int64_t pointBytes =
-    3 * (info.doublePositions ? 8 : 4) + IdBytes + MarkBytes + tupleBytes(info.vertexColumns);
-  const std::int64_t cellBytes =
-    OffsetBytes + TypeBytes + IdBytes * cornersOf(info.cellType) + tupleBytes(info.cellColumns);
+  const std::int64_t pointBytes = bytesOfPoint(info), cellBytes = bytesOfCell(info);
   // Besides its own points a piece has those that are alive at its first cell.
   const std::int64_t ownBytes =
     std::max(pieceBytes - pointBytes * std::max<std::int64_t>(0, info.width), pieceBytes / 2 + 1);
   return (info.vertices * pointBytes + info.cells * cellBytes) / ownBytes + 1;
+}
+
+/** About the bytes of a layer of ghost cells: at both ends of a piece, a point for each that is
+ * alive there, with half of the cells around it. */
+std::int64_t layerBytes(const StreamInfo& info)
+{
+  const std::int64_t cellsOfPoint = info.cellType == CellType::Triangle ? 3 : 12;
+  return 2 * std::max<std::int64_t>(1, info.width) *
+         (bytesOfPoint(info) + cellsOfPoint * bytesOfCell(info));
 }
 
 } // namespace
@@ -76,6 +94,13 @@ int PieceCount::first(PieceInput& input) const
   }
   return static_cast<int>(
     std::clamp<std::int64_t>(piecesOf(*info, this->pieceBytes), this->least, Most));
+}
+
+int PieceCount::ghostLevels(PieceInput& input, int pieces) const
+{
+  const int wanted = input.ghostLevels(pieces);
+  const std::optional<StreamInfo> info = wanted > 0 ? input.meshInfo() : std::nullopt;
+  return info && layerBytes(*info) <= this->pieceBytes / 2 / wanted ? wanted : 0;
 }
 
 int PieceCount::enough(int pieces, vtkDataObject& piece) const
@@ -104,6 +129,8 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
   : Input(input)
   , Pieces(pieces.first(input))
   , Columns(std::move(columns))
+  , IsFiltered(input.isFiltered())
+  , GhostLevels(pieces.ghostLevels(input, this->Pieces))
 {
   this->First = this->pull();
   if (const int enough = this->First ? pieces.enough(this->Pieces, *this->First) : 0;
@@ -111,6 +138,7 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
   {
     this->Input.release();
     this->Pieces = enough;
+    this->GhostLevels = pieces.ghostLevels(input, enough);
     this->NextPiece = 0;
     this->First = this->pull();
   }
@@ -131,7 +159,8 @@ vtkPointSet* PieceStream::pull()
 {
   while (this->NextPiece < this->Pieces)
   {
-    vtkDataObject* data = this->Input.update(this->NextPiece++, this->Pieces, true);
+    vtkDataObject* data =
+      this->Input.update(this->NextPiece++, this->Pieces, true, this->GhostLevels);
     vtkPointSet* piece = vtkPointSet::SafeDownCast(data);
     if (!piece)
     {
@@ -216,6 +245,13 @@ void PieceStream::convert(vtkPointSet& piece, MeshBlock& block)
   this->useCorners(block.corners);
   this->Cells += static_cast<std::int64_t>(block.corners.size() / cornersOf(this->Info.cellType));
   this->noteFinalized(piece, ids);
+  const auto isFinal = [this](std::int64_t id)
+  { return id < this->Finalized || this->IsFinal[static_cast<std::size_t>(id - this->Finalized)]; };
+  if (this->Pieces > 1 && this->IsFiltered &&
+      this->Shared.add(piece, ids, block, isFinal, this->where()))
+  {
+    this->Input.noteDifference();
+  }
   block.finalized = this->NextPiece == this->Pieces ? this->Vertices : this->Finalized;
 }
 
@@ -253,16 +289,22 @@ std::vector<std::int64_t> PieceStream::ownPoints(
                   "of the reader, so that it shows the mesh as a whole.");
     }
   }
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  // Points of ghost cells alone may be those of a later piece.
+  const bool hasGhostCells = piece.GetCellGhostArray() != nullptr;
+  for (std::size_t i = 0; i < ids.size() && !hasGhostCells; ++i)
   {
-    const std::int64_t end = this->Vertices + static_cast<std::int64_t>(own.size());
-    if (ids[i] < 0 || ids[i] >= end)
-    {
-      throw Error(this->where() + " marks the point with GlobalId " + std::to_string(ids[i]) +
-                  " as a duplicate, but no earlier piece owns it.");
-    }
+    this->requireOwned(ids[i], this->Vertices + static_cast<std::int64_t>(own.size()));
   }
   return own;
+}
+
+void PieceStream::requireOwned(std::int64_t id, std::int64_t end) const
+{
+  if (id < 0 || id >= end)
+  {
+    throw Error(this->where() + " marks the point with GlobalId " + std::to_string(id) +
+                " as a duplicate, but no earlier piece owns it.");
+  }
 }
 
 void PieceStream::copyPoints(
@@ -301,6 +343,10 @@ void PieceStream::copyCells(
   }
   const std::vector<std::int64_t> kept =
     keepOwnCells(piece, cornersOf(this->Info.cellType), block.corners);
+  for (const std::int64_t corner : block.corners)
+  {
+    this->requireOwned(corner, this->Vertices);
+  }
   block.cellColumns = emptyColumns(this->Info.cellColumns);
   for (Column& column : block.cellColumns)
   {
@@ -349,7 +395,8 @@ void PieceStream::noteFinalized(vtkPointSet& piece, const std::vector<std::int64
   {
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
-      if (ids[i] >= this->Finalized && finalized->GetTuple1(static_cast<vtkIdType>(i)) != 0.0)
+      if (ids[i] >= this->Finalized && ids[i] < this->Vertices &&
+          finalized->GetTuple1(static_cast<vtkIdType>(i)) != 0.0)
       {
         this->IsFinal[ids[i] - this->Finalized] = 1;
       }
@@ -383,7 +430,7 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
 }
 
 StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path, bool forScratch,
-  Progress& progress, const std::filesystem::path& isolatedFrom)
+  Progress& progress, const std::filesystem::path& isolatedFrom, const std::string& fingerprint)
 {
   Workers workers; // not worth their memory for fast compression
   VsmWriter writer(path, stream.info(),
@@ -398,7 +445,7 @@ StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path
   }
   if (!isolatedFrom.empty())
   {
-    copyIsolated(isolatedFrom, stream.info(), writer);
+    copyIsolated(isolatedFrom, stream.info(), writer, {}, fingerprint);
   }
   return writer.finish();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/vtkPieceInput.h"
+#include "IO/vtkSharedPoints.h"
 #include "Solver/Core/Progress.h"
 #include "smg/MeshSource.h"
 
@@ -39,6 +40,10 @@ struct VTKSTREAMINGMULTIGRIDIO_EXPORT PieceCount
   /** The number for an input whose pieces have not been seen: from the size of its mesh, if it is
    * that of a .vsm file; else Usual. */
   int first(PieceInput& input) const;
+
+  /** The layers of ghost cells that pieces have for the filters before (PieceInput::ghostLevels()):
+   * none if they may take more than half of a piece. */
+  int ghostLevels(PieceInput& input, int pieces) const;
 
   /** The number for an input of which this is one of `pieces` pieces. */
   int enough(int pieces, vtkDataObject& piece) const;
@@ -91,6 +96,8 @@ private:
   void convert(vtkPointSet& piece, MeshBlock& block);
   std::vector<std::int64_t> ownPoints(
     vtkPointSet& piece, const std::vector<std::int64_t>& ids) const;
+  /** Throws Error unless this piece or an earlier one owns the point; all these are below `end`. */
+  void requireOwned(std::int64_t id, std::int64_t end) const;
   void copyPoints(vtkPointSet& piece, const std::vector<std::int64_t>& own, MeshBlock& block) const;
   void copyCells(vtkPointSet& piece, const std::vector<std::int64_t>& ids, MeshBlock& block) const;
   void useCorners(const std::vector<std::int64_t>& corners);
@@ -102,6 +109,8 @@ private:
   int Pieces;
   int NextPiece = 0;
   PieceColumns Columns;
+  bool IsFiltered; ///< by filters of others, which may compute from neighbours
+  int GhostLevels; ///< that pieces have for these
   StreamInfo Info;
   vtkPointSet* First = nullptr; ///< read by the constructor
   bool IsHeld = false;          ///< whether the input holds the data of the last piece
@@ -109,6 +118,7 @@ private:
   std::int64_t Used = 0;    ///< vertices that cells have used
   std::deque<char> IsFinal; ///< from the first vertex that is not final
   std::int64_t Finalized = 0;
+  SharedPoints Shared; ///< to find out whether they need more
 };
 
 /** The array of GlobalIds of the points: the attribute, or else the array of that name; or null. */
@@ -122,10 +132,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> globalIdsOf(
 /**
  * Writes the whole stream to the container `path` (see VsmWriter), with fast compression if
  * `forScratch`. `isolatedFrom` is a .vsm file whose vertices of no cell are copied (see
- * copyIsolated()); empty: none. Throws Error and Cancelled; no file is left then.
+ * copyIsolated()) with the fingerprint that it must have; empty: none. Throws Error and Cancelled;
+ * no file is left then.
  */
 VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo writeContainer(PieceStream& stream,
   const std::filesystem::path& path, bool forScratch, Progress& progress,
-  const std::filesystem::path& isolatedFrom = {});
+  const std::filesystem::path& isolatedFrom = {}, const std::string& fingerprint = {});
 
 } // namespace smg

@@ -57,12 +57,19 @@ vtkInformationIntegerRequestKey* vtkStreamingMeshKeys::STREAMED()
 
 static vtkInformationStringKey* vtkStreamingMeshKeys_STREAM_FILE =
   new PassedKey<vtkInformationStringKey>("STREAM_FILE", "vtkStreamingMeshKeys");
+static vtkInformationStringKey* vtkStreamingMeshKeys_STREAM_FINGERPRINT =
+  new PassedKey<vtkInformationStringKey>("STREAM_FINGERPRINT", "vtkStreamingMeshKeys");
 static vtkInformationIntegerKey* vtkStreamingMeshKeys_PREVIEWED =
   new PassedKey<vtkInformationIntegerKey>("PREVIEWED", "vtkStreamingMeshKeys");
 
 vtkInformationStringKey* vtkStreamingMeshKeys::STREAM_FILE()
 {
   return vtkStreamingMeshKeys_STREAM_FILE;
+}
+
+vtkInformationStringKey* vtkStreamingMeshKeys::STREAM_FINGERPRINT()
+{
+  return vtkStreamingMeshKeys_STREAM_FINGERPRINT;
 }
 
 vtkInformationIntegerKey* vtkStreamingMeshKeys::PREVIEWED()

@@ -47,6 +47,11 @@ public:
    * vtkStreamingMeshReader. */
   static vtkInformationStringKey* STREAM_FILE();
 
+  /** Pipeline information: what names the content of STREAM_FILE()
+   * (smg::StoredMesh::fingerprint()), which whoever opens that compares. Absent if it is another
+   * one at each time step. */
+  static vtkInformationStringKey* STREAM_FINGERPRINT();
+
   /** Pipeline information: 1 if a request for the whole that is not streamed returns a preview,
    * else 0. */
   static vtkInformationIntegerKey* PREVIEWED();

@@ -5,12 +5,14 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/UsedFiles.h"
 #include "IO/Preview/StreamPreview.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Files/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -28,7 +30,9 @@
 #include "vtkTimeStamp.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -44,16 +48,24 @@ struct vtkStreamingMeshReader::Internals
   struct Stamp
   {
     vtkMTimeType Properties = 0;
-    std::filesystem::file_time_type File, Container;
-    bool operator==(const Stamp&) const = default;
+    smg::InputState File, Container;
+
+    bool areFilesUnchanged() const
+    {
+      return this->File.isUnchanged() && this->Container.isUnchanged();
+    }
   };
 
   smg::Failures Failures;
   vtkNew<vtkDataArraySelection> PointArrays;
   vtkNew<vtkDataArraySelection> CellArrays;
   std::string Name, Scratch;
-  std::filesystem::file_time_type FileTime;
   std::unique_ptr<smg::OpenedMesh> Mesh;
+  std::vector<double> Times; ///< of the time steps; empty: the file has none
+  std::int64_t Step = 0;     ///< which is wanted
+  std::int64_t OpenedStep = 0;
+  /** Of a file with time steps: the folder of the one that is open, whose name does not change. */
+  std::optional<smg::ScratchFolder> OfSteps;
   Stamp Opened; ///< of the opened mesh
   /** Of the last failure to open the mesh: a repeated request neither retries nor reports again. */
   Stamp Failed;
@@ -64,36 +76,36 @@ struct vtkStreamingMeshReader::Internals
   smg::KeptPreview Preview;
   std::string Shown, Outcome; ///< storage of the sentence that is returned
 
-  static std::filesystem::file_time_type timeOf(const std::string& name)
-  {
-    std::error_code absent;
-    return std::filesystem::last_write_time(name, absent);
-  }
-
   static Stamp stampOf(vtkStreamingMeshReader& self)
   {
-    return { self.GetMTime(), timeOf(self.FileName ? self.FileName : ""),
-      timeOf(self.GetContainerName()) };
+    return { self.GetMTime(), smg::InputState(self.FileName ? self.FileName : ""),
+      smg::InputState(self.GetContainerName()) };
   }
 
-  /** Opens the container unless it is open and up to date. */
+  /** Opens the container unless it is open and up to date. Throws Error if it is another one than
+   * before although nothing has been modified: what was made of it does not go with its pieces. */
   smg::VsmReader& open(vtkStreamingMeshReader& self)
   {
-    if (this->Mesh && this->Opened == stampOf(self))
+    const bool isAsked = this->Mesh && this->Opened.Properties == self.GetMTime();
+    if (isAsked && !this->Opened.areFilesUnchanged())
+    {
+      this->requireSameMesh(self);
+      this->Opened = stampOf(self);
+    }
+    if (isAsked && this->OpenedStep == this->Step)
     {
       return this->Mesh->reader();
     }
     self.UpdateContainer();
     const std::string name = self.GetContainerName();
     const std::string folder = self.ScratchDirectory ? self.ScratchDirectory : "";
-    const auto time = timeOf(name);
-    if (!this->Mesh || this->Name != name || this->Scratch != folder || this->FileTime != time)
+    if (!this->Mesh || this->Name != name || this->Scratch != folder ||
+        !this->Opened.Container.isUnchanged())
     {
       this->close();
-      smg::ConversionOptions options;
-      options.scratch = folder;
-      options.progress = smg::progressOf(self);
-      this->Mesh = smg::openMesh(name, options);
+      this->Times = smg::timesOf(name);
+      this->Step = std::clamp<std::int64_t>(
+        this->Step, 0, std::max<std::int64_t>(0, std::ssize(this->Times) - 1));
       if (this->Name != name && !this->Name.empty())
       {
         this->PointArrays->RemoveAllArrays();
@@ -101,11 +113,78 @@ struct vtkStreamingMeshReader::Internals
       }
       this->Name = name;
       this->Scratch = folder;
-      this->FileTime = time;
+      this->openStep(smg::progressOf(self));
+    }
+    else if (this->OpenedStep != this->Step)
+    {
+      this->openStep(smg::progressOf(self));
     }
     this->Opened = stampOf(self);
     this->Reason.clear();
     return this->Mesh->reader();
+  }
+
+  /** Opens the file, of one with time steps the wanted one. */
+  void openStep(const smg::ProgressFunction& progress)
+  {
+    const std::int64_t step = this->Step;
+    this->closeMesh();
+    smg::ConversionOptions options;
+    options.scratch = this->Scratch;
+    options.progress = progress;
+    if (this->Times.size() < 2)
+    {
+      this->Mesh = smg::openMesh(this->Name, options);
+    }
+    else
+    {
+      if (!this->OfSteps)
+      {
+        this->OfSteps.emplace(this->Scratch);
+      }
+      options.scratch = this->OfSteps->path();
+      options.timeStep = step;
+      const std::filesystem::path mesh = *this->OfSteps / "mesh.vsm";
+      smg::convert(this->Name, mesh, options);
+      this->Mesh = smg::openMesh(mesh);
+    }
+    this->OpenedStep = step;
+  }
+
+  /** Throws Error unless the file, which has been written since it was opened, has the same mesh.
+   */
+  void requireSameMesh(vtkStreamingMeshReader& self) const
+  {
+    const std::filesystem::path name = self.GetContainerName();
+    if (this->Opened.Container.isUnchanged())
+    {
+      return; // of a converter, whose result is still there
+    }
+    try
+    {
+      if (smg::kindOfInput(name) == smg::MeshFileKind::Vsm)
+      {
+        smg::VsmReader(name, nullptr, this->Mesh->fileFingerprint());
+        return;
+      }
+    }
+    catch (const std::exception&)
+    {
+      // What it is now does not matter.
+    }
+    throw smg::Error(name.string() +
+                     ": was replaced or changed since it was opened: reload it (File > Reload "
+                     "Files, or Modified() of the reader), and leave it as it is meanwhile.");
+  }
+
+  /** Chooses the time step of a request: the last one that has begun, or else the first. */
+  void chooseStep(vtkInformation& request)
+  {
+    const double time = request.Get(vtkSDDP::UPDATE_TIME_STEP());
+    const auto later = std::ranges::upper_bound(this->Times, time);
+    this->Step = request.Has(vtkSDDP::UPDATE_TIME_STEP())
+                   ? std::max<std::int64_t>(0, later - this->Times.begin() - 1)
+                   : this->Step;
   }
 
   /** Shows why the mesh cannot be opened. */
@@ -119,7 +198,8 @@ struct vtkStreamingMeshReader::Internals
 
   bool hasFailed(vtkStreamingMeshReader& self) const
   {
-    return !this->Reason.empty() && this->Failed == stampOf(self);
+    return !this->Reason.empty() && this->Failed.Properties == self.GetMTime() &&
+           this->Failed.areFilesUnchanged();
   }
 
   /** After a failure, looks whether files have changed since. */
@@ -133,6 +213,13 @@ struct vtkStreamingMeshReader::Internals
   }
 
   void close()
+  {
+    this->closeMesh();
+    this->Times.clear();
+    this->OfSteps.reset();
+  }
+
+  void closeMesh()
   {
     this->Mesh.reset();
     this->Columns.reset();
@@ -152,8 +239,26 @@ struct vtkStreamingMeshReader::Internals
     }
   }
 
+  /** Says which time step the output shows. */
+  void setTime(vtkPointSet& output, const smg::StreamInfo& info) const
+  {
+    if (this->Times.empty())
+    {
+      return;
+    }
+    if (output.IsA("vtkPolyData") != (info.cellType == smg::CellType::Triangle))
+    {
+      throw smg::Error(this->Name + ": time step " + std::to_string(this->Step) + " is a " +
+                       (output.IsA("vtkPolyData") ? "solid" : "surface") +
+                       ", unlike others: convert the time steps one by one (smg convert "
+                       "--time-step).");
+    }
+    output.GetInformation()->Set(
+      vtkDataObject::DATA_TIME_STEP(), this->Times[static_cast<std::size_t>(this->Step)]);
+  }
+
   /** Reads the real piece with the selected arrays. */
-  void readPiece(vtkPointSet& output, int part, int parts)
+  void readPiece(vtkPointSet& output, int part, int parts, int ghostLevels)
   {
     smg::VsmReader& reader = this->Mesh->reader();
     const smg::StreamInfo& info = reader.info();
@@ -173,7 +278,8 @@ struct vtkStreamingMeshReader::Internals
       this->Columns = { ofPoints, ofCells };
     }
     smg::MeshPiece piece;
-    reader.readPiece(firstCell(part), firstCell(part + 1), piece);
+    reader.readPiece(
+      firstCell(part), firstCell(part + 1), piece, parts > 1 ? std::max(0, ghostLevels) : 0);
     smg::setPiece(output, piece, info);
   }
 
@@ -300,8 +406,7 @@ int vtkStreamingMeshReader::ComputePipelineMTime(vtkInformation* request,
 
 bool vtkStreamingMeshReader::IsFileUnchanged()
 {
-  return this->Internal->Mesh &&
-         Internals::timeOf(this->GetContainerName()) == this->Internal->FileTime;
+  return this->Internal->Mesh && this->Internal->Opened.Container.isUnchanged();
 }
 
 int vtkStreamingMeshReader::CanReadFile(const char* name)
@@ -368,6 +473,24 @@ int vtkStreamingMeshReader::RequestDataObject(
   return 1;
 }
 
+namespace
+{
+
+void offerTimes(const std::vector<double>& times, vtkInformation& output)
+{
+  if (times.empty())
+  {
+    output.Remove(vtkSDDP::TIME_STEPS());
+    output.Remove(vtkSDDP::TIME_RANGE());
+    return;
+  }
+  const double range[] = { times.front(), times.back() };
+  output.Set(vtkSDDP::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+  output.Set(vtkSDDP::TIME_RANGE(), range, 2);
+}
+
+} // namespace
+
 int vtkStreamingMeshReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -375,12 +498,19 @@ int vtkStreamingMeshReader::RequestInformation(
   if (!this->Internal->Mesh)
   {
     output->Remove(vtkStreamingMeshKeys::STREAM_FILE());
+    output->Remove(vtkStreamingMeshKeys::STREAM_FINGERPRINT());
     output->Remove(vtkStreamingMeshKeys::PREVIEWED());
+    offerTimes({}, *output);
     return smg::offerPieces(*outputVector);
   }
   const smg::VsmReader& reader = this->Internal->Mesh->reader();
   const smg::StreamInfo& info = reader.info();
   output->Set(vtkStreamingMeshKeys::STREAM_FILE(), reader.path().c_str());
+  // The same file has another content at each time step.
+  this->Internal->OfSteps
+    ? output->Remove(vtkStreamingMeshKeys::STREAM_FINGERPRINT())
+    : output->Set(vtkStreamingMeshKeys::STREAM_FINGERPRINT(), reader.fingerprint().c_str());
+  offerTimes(this->Internal->Times, *output);
   output->Set(
     vtkStreamingMeshKeys::PREVIEWED(), info.vertices > this->MaximumPointsInMemory ? 1 : 0);
   smg::offerColumns(*this->Internal->PointArrays, info.vertexColumns);
@@ -404,7 +534,10 @@ int vtkStreamingMeshReader::RequestData(
       const int piece = request->Get(vtkSDDP::UPDATE_PIECE_NUMBER());
       const int part = piece < 0 ? parts : std::min(piece, parts);
       vtkPointSet* output = vtkPointSet::GetData(request);
+      this->Internal->open(*this); // so that the time steps are known
+      this->Internal->chooseStep(*request);
       const smg::StreamInfo& info = this->Internal->open(*this).info();
+      this->Internal->setTime(*output, info);
       if (!vtkStreamingMeshKeys::IsStreamed(request) &&
           info.vertices / parts > this->MaximumPointsInMemory)
       {
@@ -414,7 +547,8 @@ int vtkStreamingMeshReader::RequestData(
       }
       else
       {
-        this->Internal->readPiece(*output, part, parts);
+        this->Internal->readPiece(
+          *output, part, parts, request->Get(vtkSDDP::UPDATE_NUMBER_OF_GHOST_LEVELS()));
         if (!vtkStreamingMeshKeys::IsStreamed(request))
         {
           this->Internal->Shown = "All " + smg::groupedDigits(info.vertices) + " points.";

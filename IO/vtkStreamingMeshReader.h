@@ -17,8 +17,19 @@
  *   `CellFlags`, which marks duplicate and degenerate cells; never columns with the names above.
  *
  * The union of the non-ghost parts is exactly the mesh, for every N. Requesting pieces in order
- * reads each piece alone, any other order the blocks of the file that contain it. Ghost levels are
- * ignored.
+ * reads each piece alone, any other order the blocks of the file that contain it.
+ *
+ * With UPDATE_NUMBER_OF_GHOST_LEVELS, a piece also has so many layers of the cells around it, which
+ * share points with the layer before, and their points: all in the order of the stream, and marked
+ * in `vtkGhostType` of cells (DUPLICATECELL) and points. See smg::VsmReader::readPiece() for what
+ * that costs.
+ *
+ * A file with time steps (VTKHDF) offers TIME_STEPS and TIME_RANGE. The step that was the last to
+ * begin at UPDATE_TIME_STEP is converted when it is requested, and only that one is kept.
+ *
+ * A file that is replaced or changed while it is in use is an error of the next piece, until the
+ * reader is modified: its pieces would not go with those before, nor with what filters made of
+ * them.
  *
  * A request for a piece of more than MaximumPointsInMemory points returns a preview, unless it
  * comes from a streaming filter (see vtkStreamingMeshKeys): the surface simplified to at most

@@ -6,6 +6,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Formats/UsedFiles.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/WriteFiles.h"
 #include "IO/vtkAbort.h"
@@ -15,6 +16,8 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkStreamingMeshKeys.h"
+#include "IO/vtkStreamingMeshReader.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/DiskFull.h"
 #include "Solver/Files/ScratchFolder.h"
@@ -28,6 +31,7 @@
 #include "vtkDataSet.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -63,7 +67,8 @@ Trial tryPiece(smg::PieceInput& input, int given)
   trial.pieces = input.isData() ? std::max(1, given) : count.first(input);
   if (!input.isData())
   {
-    vtkDataObject* piece = input.update(0, trial.pieces, true);
+    vtkDataObject* piece =
+      input.update(0, trial.pieces, true, smg::PieceCount().ghostLevels(input, trial.pieces));
     if (cellsOf(piece) > 0)
     {
       const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
@@ -102,6 +107,12 @@ struct Job
     return this->streamFile.empty() ? this->input.streamFile() : this->streamFile;
   }
 
+  /** What that file must have; empty: any, as it was named by the user. */
+  std::string isolatedFingerprint() const
+  {
+    return this->streamFile.empty() ? this->input.streamFingerprint() : std::string();
+  }
+
   /** The progress function of a part of the work. */
   smg::ProgressFunction part(double from, double to) const
   {
@@ -119,7 +130,8 @@ struct Job
 void noteIsolated(const Job& job, Notes& notes)
 {
   const std::filesystem::path from = job.isolatedFrom();
-  const std::int64_t count = from.empty() ? 0 : smg::VsmReader(from).isolatedVertices();
+  const std::int64_t count =
+    from.empty() ? 0 : smg::VsmReader(from, nullptr, job.isolatedFingerprint()).isolatedVertices();
   if (count > 0)
   {
     notes.push_back("The " + std::to_string(count) +
@@ -131,7 +143,8 @@ void noteIsolated(const Job& job, Notes& notes)
 Notes writeContainerFile(const Job& job)
 {
   smg::PieceStream stream = job.stream();
-  smg::writeContainer(stream, job.path, false, job.progress, job.isolatedFrom());
+  smg::writeContainer(
+    stream, job.path, false, job.progress, job.isolatedFrom(), job.isolatedFingerprint());
   return {};
 }
 
@@ -174,7 +187,8 @@ Notes writeInOriginalOrder(const Job& job)
     [&](const std::filesystem::path& container)
     {
       smg::Progress half(job.part(0.0, 0.5));
-      smg::writeContainer(stream, container, true, half, job.isolatedFrom());
+      smg::writeContainer(
+        stream, container, true, half, job.isolatedFrom(), job.isolatedFingerprint());
       return Notes();
     });
 }
@@ -222,6 +236,26 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
   return restoreOrderOf(job, cells,
     [&](const std::filesystem::path& container)
     { return sortTo(*smg::withoutOriginalNumbers(*mesh), container, 0.5); });
+}
+
+/** Adds the files of all readers of this library before a filter. */
+void addInputs(vtkAlgorithm& filter, smg::UsedFiles& files)
+{
+  if (auto* reader = vtkStreamingMeshReader::SafeDownCast(&filter))
+  {
+    const char* stream = reader->GetOutputInformation(0)->Get(vtkStreamingMeshKeys::STREAM_FILE());
+    for (const char* name : { static_cast<const char*>(reader->GetFileName()), stream })
+    {
+      files.readMesh(name ? name : "", "what the " + smg::nameInPipeline(filter) + " reads");
+    }
+  }
+  for (int port = 0; port < filter.GetNumberOfInputPorts(); ++port)
+  {
+    for (int k = 0; k < filter.GetNumberOfInputConnections(port); ++k)
+    {
+      addInputs(*filter.GetInputAlgorithm(port, k), files);
+    }
+  }
 }
 
 using WriteFunction = Notes (*)(const Job& job);
@@ -283,6 +317,12 @@ struct vtkStreamingMeshWriter::Internals
     const std::filesystem::path path = this->Self.FileName;
     code = vtkErrorCode::CannotOpenFileError;
     smg::checkOutputPlace(path);
+    smg::UsedFiles files;
+    addInputs(this->Self, files);
+    files.readMesh(
+      this->Self.StreamFileName ? this->Self.StreamFileName : "", "that of Stream File Name");
+    files.writeMesh(path);
+    files.check();
     code = vtkErrorCode::UnknownError;
     if (smg::isFailed(this->Self.GetInputDataObject(0, 0)))
     {
@@ -315,8 +355,7 @@ struct vtkStreamingMeshWriter::Internals
     Notes notes = trial.isOrdinary && write != writeIndexedPieces
                     ? writeOrdinary(job, this->Self.RestoreOrder)
                     : write(job);
-    if (const std::string note = input.noteOnNeighbours(trial.isOrdinary ? 1 : trial.pieces);
-        !note.empty())
+    if (const std::string note = input.noteOnBorders(); !note.empty())
     {
       notes.push_back(note);
     }

@@ -39,7 +39,7 @@ endif ()
 
 set(smg_vtk_components
   CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonSystem CommonTransforms
-  FiltersCore FiltersExtraction FiltersGeneral FiltersSources IOCore IOLegacy IOXML ParallelCore)
+  FiltersCore FiltersExtraction FiltersGeneral FiltersGeometry FiltersSources IOCore IOLegacy IOXML ParallelCore)
 if (SMG_BUILD_PYTHON)
   list(APPEND smg_vtk_components Python WrappingPythonCore)
 endif ()

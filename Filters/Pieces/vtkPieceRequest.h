@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkStreamingMeshKeys.h"
 
@@ -22,6 +23,14 @@ struct PieceRequest
     , Pieces(std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES())))
     , IsStreamed(vtkStreamingMeshKeys::IsStreamed(info))
   {
+    const int levels = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+    this->GhostLevels = this->Pieces > 1 && !hasSeveralProcesses() ? std::max(0, levels) : 0;
+  }
+
+  /** Updates the input to the same piece. Throws InputFailed. */
+  vtkDataObject* update(PieceInput& input) const
+  {
+    return input.update(this->Piece, this->Pieces, this->IsStreamed, this->GhostLevels);
   }
 
   /** Requests an empty piece from the input: the one after the last. */
@@ -30,6 +39,7 @@ struct PieceRequest
     PieceRequest empty = *this;
     empty.Piece = this->Pieces;
     empty.IsStreamed = false;
+    empty.GhostLevels = 0;
     empty.forwardTo(input);
   }
 
@@ -39,13 +49,15 @@ struct PieceRequest
     using vtkSDDP = vtkStreamingDemandDrivenPipeline;
     input->Set(vtkSDDP::UPDATE_PIECE_NUMBER(), this->Piece);
     input->Set(vtkSDDP::UPDATE_NUMBER_OF_PIECES(), this->Pieces);
-    input->Set(vtkSDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    input->Set(vtkSDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), this->GhostLevels);
     input->Set(vtkStreamingMeshKeys::STREAMED(), this->IsStreamed ? this->Pieces : 0);
   }
 
   int Piece;
   int Pieces;
   bool IsStreamed; ///< whether the real piece is requested, not a preview
+  /** Layers of ghost cells around the piece; with several processes there are none. */
+  int GhostLevels = 0;
 };
 
 /**

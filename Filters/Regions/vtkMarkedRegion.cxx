@@ -64,10 +64,7 @@ vtkPointSet& MarkedRegion::fetchPiece(
   const PieceRequest& request, const RegionContext& context, HeldPoints& held)
 {
   const auto update = [&context, &request]
-  {
-    return vtkPointSet::SafeDownCast(
-      context.input.update(request.Piece, request.Pieces, request.IsStreamed));
-  };
+  { return vtkPointSet::SafeDownCast(request.update(context.input)); };
   vtkPointSet* piece = update();
   vtkDataArray* ofPoints =
     this->Asked.isBoundary() ? nullptr : piece->GetPointData()->GetArray(this->Asked.array.c_str());

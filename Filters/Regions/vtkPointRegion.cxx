@@ -236,10 +236,7 @@ vtkPointSet& PointRegion::fetchPiece(
 {
   this->Asked.check(context.selection != nullptr);
   const auto update = [&context, &request]
-  {
-    return vtkPointSet::SafeDownCast(
-      context.input.update(request.Piece, request.Pieces, request.IsStreamed));
-  };
+  { return vtkPointSet::SafeDownCast(request.update(context.input)); };
   vtkPointSet* piece = update();
   const bool isPreview = smg::isPreview(*piece);
   if (piece->GetNumberOfPoints() == 0)

@@ -96,8 +96,7 @@ private:
 inline vtkSmartPointer<vtkPointSet> fetchPiece(
   PieceInput& input, const PieceRequest& request, const SolutionExchange& exchange)
 {
-  vtkSmartPointer<vtkPointSet> piece =
-    vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+  vtkSmartPointer<vtkPointSet> piece = vtkPointSet::SafeDownCast(request.update(input));
   if (!exchange.isParallel())
   {
     return piece;

@@ -24,7 +24,7 @@ namespace
 
 /** The share of reading the input in the progress; the solve takes the rest. */
 constexpr double ReadShare = 0.25;
-/** A conversion needs so much memory. */
+/** Conversions, and the blocks of a file as they are written, need so much memory. */
 constexpr std::int64_t MinConversionMemory = std::int64_t(16) << 20;
 
 /** A folder whose files are in memory, as Linux has it. */
@@ -75,7 +75,7 @@ void StreamedSolve::solve(
   {
     PieceStream stream(input, reading.pieces, task.columns());
     writeContainer(stream, container, true, pulled);
-    if (const std::string lacking = input.noteOnNeighbours(stream.pieces()); !lacking.empty())
+    if (const std::string lacking = input.noteOnBorders(); !lacking.empty())
     {
       notes.warn(lacking);
     }
@@ -148,15 +148,17 @@ void StreamedSolve::fail(const std::string& sentence)
   this->Summary = SolveSummary::failed(sentence);
 }
 
-void StreamedSolve::solveFile(const std::filesystem::path& file, const StreamedTask& task,
-  const PieceReading& reading, Progress& progress)
+void StreamedSolve::solveFile(const std::filesystem::path& file, const std::string& fingerprint,
+  const StreamedTask& task, const PieceReading& reading, Progress& progress)
 {
   try
   {
     this->discard();
     task.check();
     this->Scratch = std::make_unique<ScratchFolder>(reading.scratch, reading.scratchLimit);
-    const Report report = this->solveOnFile(file, task, functionOf(progress));
+    const VsmReader mesh(file, nullptr, fingerprint);
+    mesh.requireBlocksWithin(std::max(reading.memory, MinConversionMemory));
+    const Report report = this->solveOnFile(mesh, task, functionOf(progress));
     this->Summary = SolveSummary::of(report, this->Result->columns());
   }
   catch (const std::exception& error)
@@ -166,10 +168,10 @@ void StreamedSolve::solveFile(const std::filesystem::path& file, const StreamedT
 }
 
 Report StreamedSolve::solveOnFile(
-  const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress)
+  const VsmReader& mesh, const StreamedTask& task, const ProgressFunction& progress)
 {
   Report report;
-  this->Result = task.solve(VsmReader(file), this->Scratch->path(), progress, report);
+  this->Result = task.solve(mesh, this->Scratch->path(), progress, report);
   return report;
 }
 
@@ -189,7 +191,7 @@ void StreamedSolve::solveOn(
     make(container, made, ofMesh);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
-    Report report = this->solveOnFile(container, task, partOf(whole, ReadShare, 1.0));
+    Report report = this->solveOnFile(VsmReader(container), task, partOf(whole, ReadShare, 1.0));
     FileDescriptor::removeClosed(container);
     if (const auto loose = std::ranges::count(this->VertexOfPoint, -1); loose > 0)
     {

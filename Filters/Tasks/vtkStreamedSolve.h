@@ -66,9 +66,10 @@ public:
   void solve(
     PieceInput& input, const StreamedTask& task, const PieceReading& reading, Progress& progress);
 
-  /** The same on a .vsm file, which is only read. */
-  void solveFile(const std::filesystem::path& file, const StreamedTask& task,
-    const PieceReading& reading, Progress& progress);
+  /** The same on a .vsm file, which is only read. `fingerprint`: unless empty, that which it must
+   * have. */
+  void solveFile(const std::filesystem::path& file, const std::string& fingerprint,
+    const StreamedTask& task, const PieceReading& reading, Progress& progress);
 
   /**
    * The same on a whole ordinary mesh (see isOrdinaryMesh()): it is converted as a file is, so that
@@ -100,7 +101,7 @@ private:
   void solveOn(
     const MakeFolder& folder, const MakeMesh& make, const StreamedTask& task, Progress& progress);
   Report solveOnFile(
-    const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress);
+    const VsmReader& mesh, const StreamedTask& task, const ProgressFunction& progress);
   ConversionReport writeWhole(vtkPointSet& mesh, const PieceReading& reading,
     const std::filesystem::path& container, Progress& progress);
 

@@ -59,6 +59,8 @@ public:
 
   /** Throws Error that names the file if one has been replaced or changed since. */
   void check() const;
+  /** Whether none has. No file is read for that. */
+  bool isUnchanged() const;
 
 private:
   struct File

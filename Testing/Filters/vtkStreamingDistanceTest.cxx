@@ -20,6 +20,7 @@
 #include "vtkFieldData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmoothPolyDataFilter.h"
 #include "vtkTable.h"
 
 #include <cmath>
@@ -238,13 +239,14 @@ TEST_F(VtkStreamingDistance, ThePassesAreATable)
     table->GetValueByName(table->GetNumberOfRows() - 1, "Residual").ToDouble(), 0.0); // settled
 }
 
-/** A filter between that computes from neighbours does not have them at the borders of pieces. */
-TEST_F(VtkStreamingDistance, SaysThatAFilterBetweenLacksNeighbours)
+/** A filter between has the neighbours of its pieces, but not more of the mesh. */
+TEST_F(VtkStreamingDistance, SaysThatAFilterBetweenLacksMoreThanNeighbours)
 {
   this->Reader->SetMaximumPointsInMemory(100);
   this->Distance->SetSolve(vtkStreamingSolver::ON_FULL_MESH);
   const vtkNew<vtkElevationFilter> byPoint;
   const vtkNew<vtkCurvatures> byNeighbours;
+  const vtkNew<vtkSmoothPolyDataFilter> byMore;
   Errors warnings(this->Distance);
   const auto notes = [&](vtkAlgorithm* between)
   {
@@ -254,9 +256,11 @@ TEST_F(VtkStreamingDistance, SaysThatAFilterBetweenLacksNeighbours)
     return std::string(this->Distance->GetNotes());
   };
   EXPECT_EQ(notes(byPoint).find("Elevation"), std::string::npos);
+  EXPECT_EQ(notes(byNeighbours).find("Curvatures"), std::string::npos);
   EXPECT_EQ(warnings.text(), "");
-  EXPECT_NE(notes(byNeighbours).find("in pieces through Curvatures: "), std::string::npos);
-  EXPECT_NE(warnings.text().find("in pieces through Curvatures: "), std::string::npos);
+  const char* const sentence = "in pieces through Smooth Poly Data Filter, and two pieces differ";
+  EXPECT_NE(notes(byMore).find(sentence), std::string::npos);
+  EXPECT_NE(warnings.text().find(sentence), std::string::npos);
 }
 
 TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)

@@ -45,17 +45,23 @@ private:
   std::string Text;
 };
 
-/** Requests a piece; returns 0 if it could not be made. */
-inline int updatePiece(vtkAlgorithm* algorithm, int piece, int pieces)
+/** Requests a piece with layers of ghost cells; returns 0 if it could not be made. */
+inline int updateWithGhosts(vtkAlgorithm* algorithm, int piece, int pieces, int ghostLevels)
 {
   auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(algorithm->GetExecutive());
   vtkNew<vtkInformation> request;
   request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
   request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghostLevels);
   vtkNew<vtkInformationVector> requests;
   requests->Append(request);
   return executive->Update(0, requests) && !isFailed(algorithm->GetOutputDataObject(0));
+}
+
+/** Requests a piece without them. */
+inline int updatePiece(vtkAlgorithm* algorithm, int piece, int pieces)
+{
+  return updateWithGhosts(algorithm, piece, pieces, 0);
 }
 
 } // namespace smg::testing
