@@ -126,7 +126,7 @@ std::int64_t parseBlocks(
 {
   const std::size_t columns = table.columns.size();
   // Rows, offset, and an entry for each column.
-  const std::size_t blocks = from.getCount(16 + columns * sizeof(ColumnEntry));
+  const std::size_t blocks = from.getCount(static_cast<std::size_t>(indexBytesOfBlock(columns)));
   index.firstRow.reserve(blocks + 1);
   index.offset.reserve(blocks);
   index.entries.reserve(blocks * columns);

@@ -58,7 +58,8 @@ public:
   BlockFileWriter(const BlockFileWriter&) = delete;
   BlockFileWriter& operator=(const BlockFileWriter&) = delete;
 
-  /** Appends `rows` rows to table `table`; one span of bytes per column, which is copied. */
+  /** Appends `rows` rows to table `table`; one span of bytes per column, which is copied. Throws
+   * Error if there are more blocks than a reader accepts. */
   void append(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns);
 
   /** Writes index and header (the text of a JSON value, at most about 16,000 bytes), closes,
@@ -91,6 +92,9 @@ public:
   std::uint64_t contentChecksum() const;
   const std::vector<TableSpec>& tables() const;
   Codec codec() const;
+
+  /** Bytes of the index, which is in memory. */
+  std::int64_t indexBytes() const;
 
   std::int64_t rows(int table) const;
   std::int64_t blocks(int table) const;
@@ -133,6 +137,15 @@ constexpr std::string_view BlockFileMagic = "SMGBLOCK";
 
 /** The maximum number of bytes of a column of a block. */
 constexpr std::int64_t MaxColumnBytes = std::int64_t(1) << 30;
+
+/** The maximum number of bytes of the tail, which a reader holds in memory. */
+constexpr std::int64_t MaxIndexBytes = std::int64_t(256) << 20;
+
+/** Bytes of a block of so many columns in the index. */
+constexpr std::int64_t indexBytesOfBlock(std::size_t columns)
+{
+  return 16 * (1 + static_cast<std::int64_t>(columns));
+}
 
 /** The first bytes of the file. */
 struct BlockFileFront

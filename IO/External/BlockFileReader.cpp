@@ -70,15 +70,15 @@ struct BlockFileReader::Implementation
     return front;
   }
 
-  /** Refuses an index of more blocks than any mesh has, before it is read: 2^33 cells in blocks of
-   * thousands take about a hundred MiB. */
+  /** Refuses an index that no writer makes before it is read. */
   void checkIndexBytes(const BlockFileFront& front) const
   {
-    constexpr std::int64_t Most = std::int64_t(256) << 20;
-    if (front.tailBytes > Most)
+    if (front.tailBytes > MaxIndexBytes)
     {
-      this->fail("has an index of " + std::to_string(front.tailBytes) +
-                 " bytes, more than any mesh needs: the file is damaged; create it again.");
+      this->fail("has an index of " + mebibytes(front.tailBytes) + ", but at most " +
+                 mebibytes(MaxIndexBytes) +
+                 " are read: it has too many blocks or columns; create it again, without columns "
+                 "that are not needed.");
     }
   }
 
@@ -130,6 +130,7 @@ struct BlockFileReader::Implementation
     {
       this->fail("the checksum of the index is wrong: the file is damaged; create it again.");
     }
+    this->IndexBytes = front.tailBytes;
     this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
     this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
     // The front has the checksums of header and index, and the index those of all columns: one
@@ -185,6 +186,7 @@ struct BlockFileReader::Implementation
   FileDescriptor File;
   std::string Header;
   BlockFileIndex Index;
+  std::int64_t IndexBytes = 0;
   std::uint64_t ContentChecksum = 0;
   std::unique_ptr<ColumnCodec> Coder;
   std::vector<std::byte> Stored;
@@ -216,6 +218,11 @@ const std::vector<TableSpec>& BlockFileReader::tables() const
 Codec BlockFileReader::codec() const
 {
   return this->Self->Index.codec;
+}
+
+std::int64_t BlockFileReader::indexBytes() const
+{
+  return this->Self->IndexBytes;
 }
 
 std::int64_t BlockFileReader::rows(int table) const

@@ -3,6 +3,7 @@
 
 #include "IO/External/Codec.h"
 #include "IO/External/WriteBehind.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/FileDescriptor.h"
@@ -64,6 +65,7 @@ struct BlockFileWriter::Implementation
     this->Index.codec = codec;
     this->Index.blocks.resize(tables.size());
     this->Index.tables = std::move(tables);
+    this->IndexBytes = static_cast<std::int64_t>(this->Index.serialize().size());
   }
 
   /** Submits a block: copies its columns, since the caller may reuse them, and waits for earlier
@@ -91,6 +93,7 @@ struct BlockFileWriter::Implementation
       block.entries.push_back({ 0, static_cast<std::uint32_t>(column.size()), 0 });
     }
     this->PendingBytes += bytes;
+    this->IndexBytes += indexBytesOfBlock(columns.size());
     ++this->Appended[static_cast<std::size_t>(table)];
     this->Blocks.submit();
   }
@@ -194,6 +197,16 @@ struct BlockFileWriter::Implementation
     }
   }
 
+  /** Refuses another block where its index would be too large to be read. */
+  void checkIndex(std::size_t columns) const
+  {
+    if (this->IndexBytes + indexBytesOfBlock(columns) > MaxIndexBytes)
+    {
+      throw Error(this->Path.string() + ": the index of its blocks would have more than " +
+                  mebibytes(MaxIndexBytes) + ", which are not read: leave columns out.");
+    }
+  }
+
   void writeFront(const std::string& header, std::span<const std::byte> tail, std::int64_t offset)
   {
     BlockFileFront front{};
@@ -224,6 +237,7 @@ struct BlockFileWriter::Implementation
   FileDescriptor File;
   std::unique_ptr<WriteBehind> Behind;
   std::vector<std::int64_t> Appended; ///< blocks of each table
+  std::int64_t IndexBytes = 0;        ///< so far
   std::size_t PendingBytes = 0;       ///< of the blocks that are being compressed
   Workers Alone{ 1 };
   OrderedJobs<PendingBlock> Blocks;
@@ -252,6 +266,7 @@ void BlockFileWriter::append(
 {
   Implementation& self = *this->Self;
   self.checkColumns(table, rows, columns);
+  self.checkIndex(columns.size());
   // A failure is reported before more work is done for the file.
   self.checkWritten();
   self.submit(table, rows, columns);

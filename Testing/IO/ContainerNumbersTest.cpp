@@ -2,6 +2,8 @@
 // Files with right checksums whose numbers do not agree: each is refused when it is opened or read,
 // by an error that names it in one line.
 #include "IO/External/BlockFile.h"
+#include "IO/External/Workspace.h"
+#include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/Support/ErrorMessage.h"
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -203,6 +206,98 @@ TEST_F(ContainerNumbers, WideColumnsHaveSmallBlocks)
     reader.readPiece(100, 900, piece);
     EXPECT_EQ(piece.cellColumns[0].tuples(), 800U);
   }
+}
+
+// Cells that share no vertex: each block of cells introduces as many vertices as it has corners.
+TEST_F(ContainerNumbers, LooseCellsHaveBlocksForTheLeastMemory)
+{
+  for (const CellType type : { CellType::Triangle, CellType::Tetrahedron })
+  {
+    for (const int ofVertices : { 0, 1, 8, 16, 24, 31, 33, 100 })
+    {
+      for (const int ofCells : { 0, 32 })
+      {
+        StreamMesh stream;
+        stream.cellType = type;
+        const std::int64_t corners = cornersOf(type) * 9000;
+        stream.corners.resize(static_cast<std::size_t>(corners));
+        std::iota(stream.corners.begin(), stream.corners.end(), std::int64_t(0));
+        stream.positions.resize(static_cast<std::size_t>(3 * corners));
+        const auto add = [](std::vector<Column>& columns, int components, std::int64_t tuples)
+        {
+          if (components > 0)
+          {
+            columns.push_back({ { "v", ScalarType::Float64, components }, {} });
+            columns.back().resize(static_cast<std::size_t>(tuples));
+          }
+        };
+        add(stream.vertexColumns, ofVertices, corners);
+        add(stream.cellColumns, ofCells, 9000);
+        write(this->Path, stream);
+        const VsmReader reader(this->Path);
+        EXPECT_NO_THROW(reader.requireBlocksWithin(Workspace::MinMemory))
+          << ofVertices << " and " << ofCells;
+        EXPECT_TRUE(reader.cellBlocks() == 2 || ofVertices > 8 || ofCells > 0) << ofVertices;
+      }
+    }
+  }
+}
+
+// What is written can be opened: blocks grow with the number of columns and rows, or it is refused
+// before anything is written.
+TEST_F(ContainerNumbers, IndexesAreOfBlocksThatCanBeRead)
+{
+  constexpr std::int64_t Million = 1000000;
+  for (const ScalarType type : { ScalarType::UInt8, ScalarType::Float64 })
+  {
+    for (const std::int64_t columns : { 1, 100, 1000, 4096 })
+    {
+      for (const std::int64_t vertices : { std::int64_t(0), Million / 50, 2 * Million, 20 * Million,
+             1000 * Million, 4000 * Million })
+      {
+        StreamInfo info;
+        info.vertices = vertices;
+        info.cells = 2 * vertices;
+        for (std::int64_t c = 0; c < columns; ++c)
+        {
+          info.vertexColumns.push_back({ "v" + std::to_string(c), type, 1 });
+        }
+        const auto index = [columns, vertices](std::int64_t rows)
+        { return 16 * (vertices / rows * (columns + 2) + vertices / 2000); };
+        const std::string what = std::to_string(columns) + " of " + std::to_string(vertices);
+        const std::string error = messageOf(
+          [&]
+          {
+            const VsmBlockRows rows(info, "a.vsm");
+            EXPECT_LE(index(rows.vertices), MaxIndexBytes) << what;
+          });
+        // Not even the largest blocks.
+        const bool isTooLarge = index(VsmFormat::BlockRows) > MaxIndexBytes;
+        EXPECT_EQ(error.find("leave columns out") != std::string::npos, isTooLarge)
+          << what << ' ' << error;
+      }
+    }
+  }
+}
+
+TEST_F(ContainerNumbers, TheIndexCountsAsMemory)
+{
+  {
+    BlockFileWriter writer(this->Path, { { "t", { { "a", ScalarType::UInt8, 1 } } } }, Codec::None);
+    const std::byte row{};
+    const std::span<const std::byte> column(&row, 1);
+    for (int i = 0; i < 1000; ++i)
+    {
+      writer.append(0, 1, { &column, 1 });
+    }
+    writer.finish("{}");
+  }
+  const std::int64_t bytes = BlockFileReader(this->Path).indexBytes();
+  EXPECT_GE(bytes, 1000 * indexBytesOfBlock(1));
+  EXPECT_LE(bytes, 1000 * indexBytesOfBlock(1) + 100);
+  const VsmReader reader(this->Sound);
+  const std::int64_t index = BlockFileReader(this->Sound).indexBytes();
+  expectError([&] { reader.requireBlocksWithin(index); }, "so many that reading it takes");
 }
 
 TEST_F(ContainerNumbers, LargeBlocksCountAsMemory)

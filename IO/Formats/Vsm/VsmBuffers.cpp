@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/VsmBuffers.h"
 
+#include "IO/External/Workspace.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -11,10 +13,78 @@
 namespace smg
 {
 
-IsolatedWriter::IsolatedWriter(std::string name, const StreamInfo& info)
+namespace
+{
+
+/** The rows of a table, and what they take. */
+struct TableRows
+{
+  std::int64_t count; ///< 0 or less: not known
+  std::size_t columns;
+  std::int64_t bytes; ///< of a row
+
+  std::int64_t indexBytes(std::int64_t blockRows) const
+  {
+    return (std::max<std::int64_t>(this->count, 0) + blockRows - 1) / blockRows *
+           indexBytesOfBlock(this->columns);
+  }
+  /** The fewest rows of a block with which the index of the table has at most `bytes`. */
+  std::int64_t rowsForIndex(std::int64_t bytes) const
+  {
+    const std::int64_t blocks = std::max<std::int64_t>(bytes / indexBytesOfBlock(this->columns), 1);
+    return (std::max<std::int64_t>(this->count, 0) + blocks - 1) / blocks;
+  }
+};
+
+/** The rows of a block: `rows`, up to `most` for a small index, and any number for one that can be
+ * read. */
+std::int64_t withSmallIndex(std::int64_t rows, std::int64_t most, const TableRows& table)
+{
+  constexpr std::int64_t Small = std::int64_t(1) << 20, Large = MaxIndexBytes / 4;
+  rows = std::max(rows, std::min(table.rowsForIndex(Small), most));
+  const std::int64_t largest =
+    std::clamp<std::int64_t>(MaxColumnBytes / table.bytes, rows, VsmFormat::BlockRows);
+  return std::clamp(table.rowsForIndex(Large), rows, largest);
+}
+
+} // namespace
+
+VsmBlockRows::VsmBlockRows(const StreamInfo& info, const std::string& file)
+{
+  const std::int64_t attributes = rowBytes(info.vertexColumns);
+  const TableRows ofVertices{ info.vertices, 1 + info.vertexColumns.size(),
+    attributes + positionBytes(info) };
+  const std::int64_t few = VsmFormat::blockRows(attributes);
+  const std::int64_t vertexRows = std::min(2 * few, VsmFormat::BlockRows);
+  this->vertices = withSmallIndex(few, vertexRows, ofVertices);
+
+  // A block of cells is in use as it is in the file and as it is delivered, with the vertices that
+  // it introduces, at most its corners. The rest of the memory is for an index.
+  constexpr std::int64_t Budget = (Workspace::MinMemory - (1 << 20)) / VsmFormat::BlocksInUse;
+  constexpr std::int64_t CornerBytes = 5; // packed, of a distance in 2^40 vertices
+  const std::int64_t corners = cornersOf(info.cellType);
+  const std::int64_t stored = rowBytes(info.cellColumns, corners * CornerBytes);
+  const std::int64_t left = Budget - std::min(Budget, vertexRows * ofVertices.bytes);
+  const std::int64_t cellRows =
+    std::clamp<std::int64_t>(left / (2 * stored + corners * attributes), 1, VsmFormat::BlockRows);
+  const TableRows ofCells{ info.cells, 1 + info.cellColumns.size(), stored };
+  const std::int64_t fewCells = VsmFormat::blockRows(rowBytes(info.cellColumns, attributes));
+  this->cells = withSmallIndex(std::min(fewCells, cellRows), cellRows, ofCells);
+
+  const std::int64_t index =
+    ofVertices.indexBytes(this->vertices) + ofCells.indexBytes(this->cells);
+  if (index > MaxIndexBytes)
+  {
+    throw Error(file + ": the index of the blocks of so many columns would have " +
+                mebibytes(index) + ", but at most " + mebibytes(MaxIndexBytes) +
+                " are read: leave columns out.");
+  }
+}
+
+IsolatedWriter::IsolatedWriter(std::string name, const StreamInfo& info, std::int64_t blockRows)
   : Name(std::move(name))
   , Specs(info.vertexColumns)
-  , BlockRows(VsmFormat::blockRows(rowBytes(info.vertexColumns)))
+  , BlockRows(blockRows)
   , Positions(info.doublePositions)
   , Rows(info.vertexColumns)
 {

@@ -18,6 +18,19 @@
 namespace smg
 {
 
+/**
+ * The rows of the blocks of a .vsm file, except for the last ones. They are as many as the least
+ * memory of an operation can read (see VsmReader::requireBlocksWithin()), and only more where the
+ * index of all blocks would be too large otherwise.
+ */
+struct VsmBlockRows
+{
+  /** Throws Error, which begins with `file`, if the index would be too large in any case. */
+  VsmBlockRows(const StreamInfo& info, const std::string& file);
+
+  std::int64_t vertices, cells;
+};
+
 /** Collects rows of some columns until they fill a block. */
 class RowBuffer
 {
@@ -114,8 +127,9 @@ private:
 class IsolatedWriter
 {
 public:
-  /** The vertices have the vertex columns of `info`. `name` is the name of the file in errors. */
-  IsolatedWriter(std::string name, const StreamInfo& info);
+  /** The vertices have the vertex columns of `info`, and blocks have so many rows. `name` is the
+   * name of the file in errors. */
+  IsolatedWriter(std::string name, const StreamInfo& info, std::int64_t blockRows);
 
   /** The specification of the table; see VsmFormat.h. */
   static TableSpec table(const StreamInfo& info);

@@ -126,15 +126,15 @@ std::string VsmReader::fingerprint() const
 
 void VsmReader::requireBlocksWithin(std::int64_t memory) const
 {
-  // The block that is used, the one after it, and what is made of them.
-  constexpr std::int64_t InUse = 4;
-  const std::int64_t bytes = this->Self->File.blockBytes();
-  if (bytes > memory / InUse)
+  const std::int64_t index = this->Self->File.Blocks.indexBytes();
+  const std::int64_t blocks = this->Self->File.blockBytes();
+  constexpr std::int64_t Most = INT64_MAX - MaxIndexBytes;
+  const std::int64_t needed =
+    index + (blocks > Most / VsmFormat::BlocksInUse ? Most : VsmFormat::BlocksInUse * blocks);
+  if (needed > memory)
   {
-    const bool isKnown = bytes <= INT64_MAX / InUse;
-    this->Self->File.fail("its columns are so wide that reading it takes " +
-                          mebibytes(isKnown ? InUse * bytes : bytes) +
-                          ", but the memory limit is " + mebibytes(memory) +
+    this->Self->File.fail("its columns are so wide or so many that reading it takes " +
+                          mebibytes(needed) + ", but the memory limit is " + mebibytes(memory) +
                           ": raise it, or convert the original mesh anew, without columns that "
                           "are not needed.");
   }

@@ -82,14 +82,13 @@ struct VsmWriter::Implementation
     : Name(path.string())
     , Info(info)
     , Corners(cornersOf(info.cellType))
-    , VertexBlock(VsmFormat::blockRows(rowBytes(info.vertexColumns)))
-    , CellBlock(VsmFormat::blockRows(rowBytes(info.cellColumns, rowBytes(info.vertexColumns))))
+    , Rows(info, this->Name)
     , Positions(info.doublePositions)
     , VertexRows(info.vertexColumns)
     , CellRows(info.cellColumns)
     , LastCell(options.scratch, LastCellBytes)
     , Statistics(options.scratch)
-    , Isolated(this->Name, info)
+    , Isolated(this->Name, info, this->Rows.vertices)
     , File(path, tablesOf(info, this->Name), options.codec, options.statistics, options.workers)
   {
     this->Info.vertices = this->Info.cells = this->Info.width = this->Info.span = 0;
@@ -117,9 +116,9 @@ struct VsmWriter::Implementation
   std::string Name;
   StreamInfo Info; ///< what has been appended so far
   int Corners;
-  std::int64_t VertexBlock, CellBlock; ///< rows of a block
-  std::int64_t Introduced = 0;         ///< vertices used so far
-  std::int64_t Settled = 0;            ///< vertices whose last cell is known
+  VsmBlockRows Rows;
+  std::int64_t Introduced = 0; ///< vertices used so far
+  std::int64_t Settled = 0;    ///< vertices whose last cell is known
   double MeanWidth = 0;
 
   PositionBuffer Positions; ///< of the current block
@@ -197,12 +196,12 @@ void VsmWriter::Implementation::addVertices(const MeshBlock& block)
   for (std::int64_t done = 0; done < block.vertices();)
   {
     const std::int64_t count = std::min(
-      block.vertices() - done, this->VertexBlock - this->Info.vertices % this->VertexBlock);
+      block.vertices() - done, this->Rows.vertices - this->Info.vertices % this->Rows.vertices);
     this->addPositions(block, done, count);
     this->VertexRows.append(block.vertexColumns, done, count);
     this->Info.vertices += count;
     done += count;
-    if (this->Info.vertices % this->VertexBlock == 0)
+    if (this->Info.vertices % this->Rows.vertices == 0)
     {
       this->flushVertices();
     }
@@ -234,8 +233,8 @@ void VsmWriter::Implementation::addCells(const MeshBlock& block)
   for (std::int64_t done = 0; done < cells;)
   {
     const std::int64_t count =
-      std::min(cells - done, this->CellBlock - this->Info.cells % this->CellBlock);
-    if (this->Info.cells % this->CellBlock == 0)
+      std::min(cells - done, this->Rows.cells - this->Info.cells % this->Rows.cells);
+    if (this->Info.cells % this->Rows.cells == 0)
     {
       this->FirstVertex.push_back(this->Introduced);
     }
@@ -246,7 +245,7 @@ void VsmWriter::Implementation::addCells(const MeshBlock& block)
     }
     this->CellRows.append(block.cellColumns, done, count);
     done += count;
-    if (this->Info.cells % this->CellBlock == 0)
+    if (this->Info.cells % this->Rows.cells == 0)
     {
       this->flushCells();
     }
@@ -297,7 +296,7 @@ void VsmWriter::Implementation::settle(std::int64_t end)
       this->flushLast();
     }
     // The blocks that end before the vertex does: this is the first vertex that outlives them.
-    while ((static_cast<std::int64_t>(this->Finalized.size()) + 1) * this->CellBlock <= last)
+    while ((static_cast<std::int64_t>(this->Finalized.size()) + 1) * this->Rows.cells <= last)
     {
       this->Finalized.push_back(this->Settled);
     }
@@ -360,7 +359,7 @@ StreamInfo VsmWriter::finish(const std::string& origin)
               " belongs to no cell: leave out such vertices.");
   }
   self.settle(info.vertices);
-  if (info.vertices % self.VertexBlock != 0)
+  if (info.vertices % self.Rows.vertices != 0)
   {
     self.flushVertices();
   }
@@ -368,7 +367,7 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   {
     self.flushLast();
   }
-  if (info.cells % self.CellBlock != 0)
+  if (info.cells % self.Rows.cells != 0)
   {
     self.flushCells();
   }
