@@ -72,12 +72,14 @@ void restoreMesh(Conversion& conversion)
   report.seconds.write = conversion.lap();
 }
 
-/** Converts a stream compressed by gzip via an uncompressed file in the scratch folder. Throws like
+/** Converts a compressed stream via an uncompressed file in the scratch folder. Throws like
  * convert(), and Error if the compressed data are damaged. */
 ConversionReport convertCompressedStream(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options)
 {
-  Workspace space(options.scratch, Workspace::MinMemory, {}, options.scratchLimit);
+  const std::int64_t memory =
+    options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
+  Workspace space(options.scratch, memory, {}, options.scratchLimit);
   ConversionOptions inner = options;
   inner.scratch = space.folder();
   inner.checkpoint.clear(); // the inflated file has another name in each program

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace smg
@@ -21,7 +23,10 @@ enum class Compression
   Zstd
 };
 
-/** By the first bytes of a file, at least 6. */
+/** The number of bytes at the beginning of a member from which a decompressor is made. */
+inline constexpr std::size_t MemberStartBytes = 18;
+
+/** By the first bytes of a file or of a member, at least 6. */
 Compression compressionOf(std::string_view bytes);
 
 /** The suffixes that are added to the names of compressed files. */
@@ -48,21 +53,34 @@ public:
   virtual std::size_t step(std::span<std::byte> room) = 0;
   bool memberEnded() const { return this->MemberEnded; }
   /** A sentence, if the input cannot be decompressed; else empty. */
-  std::string_view problem() const { return this->Problem; }
-  /** To be called after the end of a member. */
-  virtual void startMember() = 0;
+  const std::string& problem() const { return this->Problem; }
+  /** To be called after the end of a member, with the first MemberStartBytes of the next one. */
+  virtual void startMember(std::string_view start) = 0;
+  /** The bytes of memory that the current member takes, as far as it has been read. */
+  virtual std::int64_t memory() const { return 0; }
 
 protected:
+  /** `memory`: the most bytes that a member may take. */
+  explicit Decompressor(std::int64_t memory)
+    : Limit(memory)
+  {
+  }
+
+  void setDamaged() { this->Problem = "the compressed data are damaged"; }
+  /** A member takes `bytes`, which is more than the limit. */
+  void setTooLarge(std::uint64_t bytes);
+
   std::string_view Input;
+  std::int64_t Limit;
   bool MemberEnded = false;
-  std::string_view Problem;
-  static constexpr std::string_view IsDamaged = "the compressed data are damaged",
-                                    NeedsMemory =
-                                      "decompressing needs too much memory: compress the file "
-                                      "anew without options for extreme compression";
+  std::string Problem;
 };
 
-/** A decompressor, not for Compression::None. */
-std::unique_ptr<Decompressor> makeDecompressor(Compression compression);
+/**
+ * A decompressor, not for Compression::None.
+ * @param start the first MemberStartBytes of the file, or all
+ * @param memory the most bytes that it may take
+ */
+std::unique_ptr<Decompressor> makeDecompressor(std::string_view start, std::int64_t memory);
 
 } // namespace smg

@@ -3,6 +3,7 @@
 
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Memory/Buffer.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -15,8 +16,6 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t SignBytes = 6; // for compressionOf()
-
 /** Inflates a file from begin to end. */
 class FileInflater
 {
@@ -26,8 +25,9 @@ public:
     , Space(workspace)
     , Chunk(workspace.pool(), std::size_t(256) << 10)
     , Out(FileDescriptor::createBeside(to))
-    , Kind(compressionOf(file.at(0, SignBytes)))
-    , Members(makeDecompressor(this->Kind))
+    , Kind(compressionOf(file.at(0, MemberStartBytes)))
+    , Members(makeDecompressor(file.at(0, MemberStartBytes), workspace.available()))
+    , OfMembers(workspace.pool())
   {
   }
   FileInflater(const FileInflater&) = delete;
@@ -41,7 +41,7 @@ public:
       const std::size_t bytes = this->Members->input().size();
       this->inflateInput(offset + bytes);
       offset += bytes - this->Members->input().size();
-      if (this->Members->memberEnded() && offset < this->File.size() && !this->startMember(offset))
+      if (this->Members->memberEnded() && !this->startMember(offset))
       {
         break;
       }
@@ -65,8 +65,10 @@ private:
       written = this->Members->step(this->Chunk.bytes());
       if (!this->Members->problem().empty())
       {
-        this->File.fail(end - this->Members->input().size(), std::string(this->Members->problem()));
+        this->File.fail(end - this->Members->input().size(), this->Members->problem());
       }
+      // What a member takes is known with its first bytes, and within the limit.
+      this->OfMembers.resize(this->Members->memory());
       this->Out.write(this->Written, this->Chunk.bytes().first(written));
       this->Written += static_cast<std::int64_t>(written);
       this->Space.traffic().bytesWritten += static_cast<std::int64_t>(written);
@@ -75,24 +77,41 @@ private:
     } while (!this->Members->memberEnded() && written == this->Chunk.size());
   }
 
-  /** Starts the member at `offset`; returns false if only padding follows. */
-  bool startMember(std::size_t offset)
+  /** Starts the member at `offset` or, of xz, behind padding, and moves there; returns false if
+   * only padding follows. */
+  bool startMember(std::size_t& offset)
   {
-    if (compressionOf(this->File.at(offset, SignBytes)) == this->Kind)
+    const std::size_t begin = this->endOfZeros(offset);
+    if (begin == this->File.size())
     {
-      this->Members->startMember();
-      return true;
+      return false;
     }
-    for (std::size_t at = offset; at < this->File.size();)
+    constexpr std::size_t Padding = 4; // zeros come in such groups between streams of xz
+    const bool isPadded = this->Kind == Compression::Xz && (begin - offset) % Padding == 0;
+    const std::string_view start = this->File.at(begin, MemberStartBytes);
+    if ((begin > offset && !isPadded) || compressionOf(start) != this->Kind)
     {
-      const std::string_view bytes = this->File.at(at);
-      if (bytes.find_first_not_of('\0') != std::string_view::npos)
+      this->File.fail(offset, "something comes after the compressed data");
+    }
+    this->Members->startMember(start);
+    offset = begin;
+    return true;
+  }
+
+  /** The offset of the first byte from `offset` on that is not zero, or of the end of the file. */
+  std::size_t endOfZeros(std::size_t offset)
+  {
+    while (offset < this->File.size())
+    {
+      const std::string_view bytes = this->File.at(offset);
+      const std::size_t zeros = std::min(bytes.find_first_not_of('\0'), bytes.size());
+      offset += zeros;
+      if (zeros < bytes.size())
       {
-        this->File.fail(offset, "something comes after the compressed data");
+        break;
       }
-      at += bytes.size();
     }
-    return false;
+    return offset;
   }
 
   InputFile& File;
@@ -102,6 +121,7 @@ private:
   std::int64_t Written = 0;
   const Compression Kind;
   const std::unique_ptr<Decompressor> Members;
+  Reservation OfMembers; ///< the memory of the current one
 };
 
 } // namespace
@@ -126,16 +146,24 @@ InflatedFile::~InflatedFile()
 
 std::string inflateStart(std::string_view bytes, std::size_t most)
 {
-  const std::unique_ptr<Decompressor> members = makeDecompressor(compressionOf(bytes));
+  // The strongest usual settings of xz and zstd. It is hardly touched, for the few bytes here.
+  constexpr std::int64_t Memory = std::int64_t(129) << 20;
+  const Compression kind = compressionOf(bytes);
+  const std::unique_ptr<Decompressor> members = makeDecompressor(bytes, Memory);
   members->setInput(bytes);
   std::string start(most, '\0');
   std::size_t used = 0;
-  // A decompressor may deliver less at once than there is.
-  for (std::size_t written = 1;
-       written > 0 && !members->memberEnded() && members->problem().empty();)
+  // A decompressor may deliver less at once than there is, and a member may be empty.
+  for (bool goesOn = true; goesOn && used < most && members->problem().empty();)
   {
-    written = members->step(std::as_writable_bytes(std::span(start)).subspan(used));
+    const std::size_t written =
+      members->step(std::as_writable_bytes(std::span(start)).subspan(used));
     used += written;
+    goesOn = members->memberEnded() ? compressionOf(members->input()) == kind : written > 0;
+    if (goesOn && members->memberEnded())
+    {
+      members->startMember(members->input());
+    }
   }
   start.resize(used);
   return start;

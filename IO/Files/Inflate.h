@@ -16,8 +16,7 @@ namespace smg
 /** Whether this file is compressed as a whole: by gzip, xz or zstd. */
 inline bool isCompressed(InputFile& file)
 {
-  constexpr std::size_t SignBytes = 6;
-  return compressionOf(file.at(0, SignBytes)) != Compression::None;
+  return compressionOf(file.at(0, MemberStartBytes)) != Compression::None;
 }
 
 /**

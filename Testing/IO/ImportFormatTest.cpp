@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <bit>
 #include <filesystem>
 #include <iterator>
 
@@ -79,18 +80,34 @@ std::string xz(std::string_view bytes)
   return xzWith(bytes, std::uint32_t(1) << 20);
 }
 
-std::string zstd(std::string_view bytes)
+/** The bytes as a file of zstd, whose frame does not tell their number but a window; 0: it tells
+ * the number. */
+std::string zstdWith(std::string_view bytes, int windowLog)
 {
   std::string compressed(ZSTD_compressBound(bytes.size()), '\0');
   ZSTD_CCtx* const context = ZSTD_createCCtx();
   ZSTD_CCtx_setParameter(context, ZSTD_c_checksumFlag, 1);
-  compressed.resize(
-    ZSTD_compress2(context, compressed.data(), compressed.size(), bytes.data(), bytes.size()));
+  ZSTD_CCtx_setParameter(context, ZSTD_c_windowLog, windowLog);
+  ZSTD_inBuffer in{ bytes.data(), bytes.size(), 0 };
+  ZSTD_outBuffer out{ compressed.data(), compressed.size(), 0 };
+  if (windowLog > 0)
+  {
+    // In two calls, so that the number is not known at the beginning.
+    ZSTD_compressStream2(context, &out, &in, ZSTD_e_continue);
+    ZSTD_compressStream2(context, &out, &in, ZSTD_e_flush);
+  }
+  EXPECT_EQ(ZSTD_compressStream2(context, &out, &in, ZSTD_e_end), 0U);
+  compressed.resize(out.pos);
   ZSTD_freeCCtx(context);
   return compressed;
 }
 
 } // namespace
+
+std::string zstd(std::string_view bytes)
+{
+  return zstdWith(bytes, 0);
+}
 
 TEST_F(ImportFormat, IsKnownByContentWhateverTheSuffix)
 {
@@ -333,8 +350,73 @@ TEST_F(ImportFormat, XzAndZstdAreRead)
     this->expectError(name, bytes + "more", "something comes after the compressed data");
     this->expectDamageIsFound(name, bytes, 100);
   }
-  // A setting that takes more memory than is allowed for a file.
-  this->expectError("large.off.xz", xzWith(Off, std::uint32_t(96) << 20), "too much memory");
+}
+
+TEST_F(ImportFormat, DecompressionTakesMemoryFromTheLimit)
+{
+  constexpr std::int64_t Mebibyte = std::int64_t(1) << 20;
+  struct Case
+  {
+    std::string name, bytes;
+    std::int64_t window; ///< MiB
+  };
+  std::vector<Case> cases;
+  for (const std::int64_t window : { 8, 64, 256 })
+  {
+    cases.push_back({ "a.off.xz", xzWith(Off, static_cast<std::uint32_t>(window << 20)), window });
+    cases.push_back(
+      { "a.off.zst", zstdWith(Off, 20 + std::countr_zero(std::uint64_t(window))), window });
+  }
+  for (const auto& [name, bytes, window] : cases)
+  {
+    for (const std::int64_t memory : { 16, 80, 320 })
+    {
+      const std::string what =
+        name + ' ' + std::to_string(window) + " in " + std::to_string(memory);
+      writeBytes(this->Folder / name, bytes);
+      Workspace workspace(this->Folder.path(), memory * Mebibyte);
+      const std::string error = messageOf([&] { importMesh(this->Folder / name, workspace); });
+      if (window < memory)
+      {
+        EXPECT_EQ(error, "") << what;
+        EXPECT_GE(workspace.pool().peak(), window * Mebibyte) << what;
+        EXPECT_LE(workspace.pool().peak(), memory * Mebibyte) << what;
+        continue;
+      }
+      EXPECT_NE(
+        error.find("decompressing needs " + std::to_string(window + 1) + " MiB"), std::string::npos)
+        << what << ": " << error;
+      EXPECT_NE(
+        error.find("the limit leaves " + std::to_string(memory) + " MiB"), std::string::npos)
+        << what << ": " << error;
+    }
+  }
+}
+
+TEST_F(ImportFormat, PaddingAndSkippableFramesAreRead)
+{
+  using namespace std::string_view_literals;
+  const std::string half = Off.substr(0, 9), rest = Off.substr(9);
+  // As pzstd and the seekable format write them; each of the 16 numbers, also without content.
+  const std::string skipped("\x50\x2a\x4d\x18\x04\0\0\0abcd"sv),
+    empty("\x5f\x2a\x4d\x18\0\0\0\0"sv);
+  for (const std::string& bytes : { skipped + zstd(Off), zstd(Off) + empty,
+         skipped + zstd(half) + skipped + empty + zstd(rest) + skipped })
+  {
+    EXPECT_EQ(this->read("a.off.zst", bytes).cells(), 1);
+    EXPECT_EQ(this->read("b", bytes).cells(), 1);
+  }
+  this->expectError("a.off.zst", zstd(Off) + skipped.substr(0, 10), "truncated");
+  for (const std::size_t zeros : { 0, 4, 8, 1 << 20 })
+  {
+    const std::string padding(zeros, '\0');
+    EXPECT_EQ(this->read("a.off.xz", xz(half) + padding + xz(rest) + padding).cells(), 1) << zeros;
+  }
+  for (const std::string& between : { std::string(3, '\0'), std::string(5, '\0') })
+  {
+    this->expectError("a.off.xz", xz(half) + between + xz(rest), "something comes after");
+  }
+  this->expectError("a.off.gz", gzip(half) + std::string(4, '\0') + gzip(rest), "something comes");
 }
 
 TEST_F(ImportFormat, NothingOfACompressedFileStays)
