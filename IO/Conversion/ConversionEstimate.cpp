@@ -80,6 +80,12 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
   const Format* const format = kind == MeshFileKind::Stream ? &StreamsFormat : formatOfFile(path);
   InputFile file(path);
   const bool compressed = isCompressed(file);
+  if (kind == MeshFileKind::Indexed)
+  {
+    const std::string_view start = file.at(0, FormatBytes).substr(0, FormatBytes);
+    compressed ? refuseForeignMesh(file.name(), inflateStart(start, FormatBytes), {}, format)
+               : refuseForeignMesh(file.name(), start, file.size(), format);
+  }
   if (!format || !format->hasParts)
   {
     checkIsWhole(part, path.string());

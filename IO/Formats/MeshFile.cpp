@@ -166,10 +166,7 @@ RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOption
   const std::string start(file.at(0, FormatBytes).substr(0, FormatBytes));
   // The name of the file before decompression, with its suffix.
   const Format* const format = formatOfStart(start, file.size(), file.name());
-  if (!isKnownByContent(start, file.size()))
-  {
-    refuseForeign(file.name(), start, format);
-  }
+  refuseForeignMesh(file.name(), start, file.size(), format);
   try
   {
     RawMeshBuilder builder(workspace, options.cells);
@@ -183,6 +180,15 @@ RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOption
 }
 
 } // namespace
+
+void refuseForeignMesh(const std::string& name, std::string_view start,
+  std::optional<std::uint64_t> size, const Format* format)
+{
+  if (!isKnownByContent(start, size))
+  {
+    refuseForeign(name, start, format);
+  }
+}
 
 RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)

@@ -6,8 +6,11 @@
 #include "Solver/Core/Progress.h"
 #include "smg/Export.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
@@ -41,6 +44,16 @@ SMG_EXPORT void checkOutputPlace(const std::filesystem::path& path);
  * describes the input, for example "the mesh itself". */
 SMG_EXPORT void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
   const std::string& what = "the mesh itself");
+
+/**
+ * Refuses a file that its first bytes show to be something else than a mesh of `format`; see
+ * refuseForeign(). To be called before the file is parsed, also for its counts.
+ * @param name the name of the file, for the error
+ * @param start its first FormatBytes, uncompressed
+ * @param size of the file; none if it is not known
+ */
+void refuseForeignMesh(const std::string& name, std::string_view start,
+  std::optional<std::uint64_t> size, const Format* format);
 
 /** Options of importMesh(). */
 struct ImportOptions

@@ -136,6 +136,9 @@ struct Format
   bool (*hasSign)(std::string_view start) = nullptr;
   /** Whether all of its files have that signature. */
   bool alwaysSigned = false;
+  /** The first character of all of its files, of a format whose signature may come after a long
+   * comment; 0: none. */
+  char firstCharacter = '\0';
   /**
    * Whether the first bytes look like it, for a format without a sign.
    * @param size of the file, if it is known

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Files/FileNames.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/FormatTable.h"
@@ -11,6 +12,7 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "Testing/IO/ImportFixture.h"
+#include "smg/Convert.h"
 
 #include <lzma.h>
 #include <zlib.h>
@@ -252,7 +254,7 @@ TEST_F(ImportFormat, OtherFilesAreRefusedByName)
     }
     this->expectError("a.xyz", bytes, "is not a mesh that is read: it begins with");
   }
-  for (const char* name : { "a.ply", "a.vtk", "a.vtu", "a.pvtp" })
+  for (const char* name : { "a.ply", "a.vtk", "a.vtu" })
   {
     this->expectError(name, "hello\nworld\n", "file: it begins with 'hello'.");
   }
@@ -260,6 +262,9 @@ TEST_F(ImportFormat, OtherFilesAreRefusedByName)
 
 TEST_F(ImportFormat, NumbersOfMicrosoftThatAreNotFiniteAreAttributes)
 {
+          // Counts of a header, which an estimate needs, come after that.
+          smg::testing::expectError(
+            [&] { estimateConversion(this->Folder / name, ConversionOptions()); }, part);
   const auto ply = [](const std::string& z, const std::string& q)
   {
     return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -269,6 +274,53 @@ TEST_F(ImportFormat, NumbersOfMicrosoftThatAreNotFiniteAreAttributes)
   };
   const auto vtk = [](const std::string& z, const std::string& q)
   {
+  this->expectError(
+    "a.pvtp", "hello\nworld\n", "a.pvtp: is not a VTK XML file in pieces: it begins with 'hello'.");
+  this->expectError("a.ply", "; FBX 7.3.0 project file\n", "as an FBX scene does");
+}
+
+TEST_F(ImportFormat, AForeignFileBesideTheNamedOneIsRefusedByName)
+{
+  const std::string page = "<html>\n", nodes = "1 3 0 0\n1 0 0 0\n",
+                    elements = "1 4 0\n1 1 1 1 1\n";
+  const std::string part = "is not a TetGen file: it begins with '<html>', as a web page does";
+  for (const std::string& other : { page, gzip(page) })
+  {
+    const std::string suffix = other == page ? "" : ".gz";
+    writeBytes(this->Folder / ("a.node" + suffix), other);
+    EXPECT_NE(
+      this->errorOf("a.ele", elements).find("a.node" + suffix + ": " + part), std::string::npos);
+    std::filesystem::remove(this->Folder / ("a.node" + suffix));
+    writeBytes(this->Folder / ("b.ele" + suffix), other);
+    EXPECT_NE(
+      this->errorOf("b.node", nodes).find("b.ele" + suffix + ": " + part), std::string::npos);
+    std::filesystem::remove(this->Folder / ("b.ele" + suffix));
+  }
+}
+
+// The signature of XML may come after what is read to know a format.
+TEST_F(ImportFormat, LongCommentsBeforeXmlAreRead)
+{
+  const std::string tail =
+    "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points>"
+    "<DataArray type=\"Float32\">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>"
+    "<DataArray type=\"Int32\" Name=\"connectivity\">0 1 2</DataArray>"
+    "<DataArray type=\"Int32\" "
+    "Name=\"offsets\">3</DataArray></Polys></Piece></PolyData></VTKFile>";
+  writeBytes(this->Folder / "piece.vtp", tail);
+  const std::string parallel =
+    "<VTKFile type=\"PPolyData\"><PPolyData><Piece Source=\"piece.vtp\"/></PPolyData></VTKFile>";
+  const auto commented = [](std::size_t bytes, const std::string& rest)
+  { return "<?xml version=\"1.0\"?>\n<!--" + std::string(bytes, 'c') + "-->\n" + rest; };
+  // Also where the first bytes end within the tag.
+  for (std::size_t bytes = 4000; bytes < 4120; bytes += 3)
+  {
+    EXPECT_EQ(this->read("a.vtp", commented(bytes, tail)).cells(), 1) << bytes;
+    EXPECT_EQ(this->read("a.pvtp", commented(bytes, parallel)).cells(), 1) << bytes;
+  }
+  EXPECT_EQ(this->read("a.vtp", commented(20000, tail)).cells(), 1);
+  EXPECT_EQ(this->read("a.vtp.gz", gzip(commented(20000, tail))).cells(), 1);
+  this->expectError("a.vtp", commented(5000, "<other/>"), "a.vtp");
     return "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 " + z +
            "\n1 0 0\n0 1 0\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nSCALARS q float\n"
            "LOOKUP_TABLE default\n1 " +

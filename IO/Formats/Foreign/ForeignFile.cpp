@@ -35,8 +35,8 @@ constexpr ForeignSign ForeignTexts[] = {
   { "iso-10303-21", "a STEP file", "mesh it first, for instance with Gmsh" },
   { "{\\rtf", "a text document", "save it as plain text" },
   { "%pdf", "a PDF document" },
-  { "; fbx", "a FBX scene", "export it as PLY or OBJ" },
-  { "kaydara fbx", "a FBX scene", "export it as PLY or OBJ" },
+  { "; fbx", "an FBX scene", "export it as PLY or OBJ" },
+  { "kaydara fbx", "an FBX scene", "export it as PLY or OBJ" },
   { "#vrml", "a VRML scene", "export it as PLY or OBJ" },
   { "<x3d", "an X3D scene", "export it as PLY or OBJ" },
   { "<collada", "a COLLADA scene", "export it as PLY or OBJ" },
@@ -100,7 +100,10 @@ std::string kindOf(const Format& format)
 {
   // Names that are spelt: ess-tee-ell.
   const bool isSpelt = format.name == "STL" || format.name == "OBJ" || format.name == "OFF";
-  return (isSpelt ? "an " : "a ") + std::string(format.name) + " file";
+  // "VTK XML in pieces": what a file is comes before how it is divided.
+  const std::size_t end = std::min(format.name.find(" in "), format.name.size());
+  return (isSpelt ? "an " : "a ") + std::string(format.name.substr(0, end)) + " file" +
+         std::string(format.name.substr(end));
 }
 
 } // namespace
@@ -118,7 +121,8 @@ void refuseForeign(const std::string& name, std::string_view start, const std::s
 void refuseForeign(const std::string& name, std::string_view start, const Format* wanted)
 {
   refuseForeign(name, start, wanted ? kindOf(*wanted) : std::string("a mesh that is read"));
-  if (wanted && wanted->alwaysSigned)
+  const char first = wanted ? wanted->firstCharacter : '\0';
+  if (wanted && (wanted->alwaysSigned || (first != '\0' && !textStart(start).starts_with(first))))
   {
     throw Error(
       name + ": is not " + kindOf(*wanted) + ": it begins with " + beginningOf(start) + '.');

@@ -8,6 +8,7 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
+#include "IO/Formats/Foreign/ForeignFile.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
@@ -261,6 +262,8 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
     }
   }
   InputFile other(inflated ? inflated->path() : otherPath, {}, otherPath.string());
+  // Its beginning says nothing of a mesh.
+  refuseForeign(other.name(), other.at(0, FormatBytes).substr(0, FormatBytes), &TetGenFormat);
   TetGenReader reader(builder);
   reader.readNodes(isElements ? other : file);
   reader.readElements(isElements ? file : other);

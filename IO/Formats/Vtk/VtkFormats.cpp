@@ -30,7 +30,7 @@ bool isLegacyVtk(std::string_view start)
   return textStart(start).starts_with("# vtk DataFile");
 }
 
-/** The type in the element VTKFile; empty if it is not such a file. */
+/** The type in the element VTKFile; none if its tag does not end in these bytes. */
 std::optional<std::string_view> typeOfXml(std::string_view start)
 {
   const std::string_view text = textStart(start);
@@ -39,7 +39,12 @@ std::optional<std::string_view> typeOfXml(std::string_view start)
   {
     return {};
   }
-  const std::string_view tag = text.substr(at, text.find('>', at) - at);
+  const std::size_t end = text.find('>', at);
+  if (end == std::string_view::npos)
+  {
+    return {}; // it goes on behind these bytes
+  }
+  const std::string_view tag = text.substr(at, end - at);
   const std::size_t type = tag.find(" type=");
   constexpr std::size_t beforeValue = 7; // blank, name, equals sign and quotation mark
   return tag.substr(
@@ -99,7 +104,7 @@ const Format VtkXmlFormat{
   .suffixes = XmlSuffixes,
   .attributes = AllColumns,
   .hasSign = isVtkXml,
-  .alwaysSigned = true,
+  .firstCharacter = '<',
   .parse = parseWith<importVtkXml>,
   .bytes = bytesOfVtkXml,
   .writer = makeVtkXmlWriter,
@@ -116,7 +121,7 @@ const Format ParallelVtkXmlFormat{
   .suffixes = ParallelSuffixes,
   .attributes = AllColumns,
   .hasSign = isParallelVtkXml,
-  .alwaysSigned = true,
+  .firstCharacter = '<',
   .parse = parseParallel,
   .furtherInputs = namedPieces,
 };
