@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/UsedFiles.h"
 
+#include "IO/Files/FileNames.h"
 #include "IO/Formats/FormatTable.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
@@ -37,11 +38,37 @@ Paths furtherOutputs(const std::filesystem::path& path)
 /** Whether both name the same file, which need not exist. */
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b)
 {
-  // A file that does not exist can only be compared by name.
+  // A file that does not exist can only be compared by name, in a folder that may be a link.
   std::error_code absent;
   const auto named = [](const std::filesystem::path& file)
-  { return std::filesystem::absolute(FileDescriptor::targetOf(file)).lexically_normal(); };
+  {
+    std::error_code unknown;
+    const std::filesystem::path target = std::filesystem::absolute(FileDescriptor::targetOf(file));
+    const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(target.parent_path(), unknown);
+    return unknown ? target.lexically_normal() : folder / target.filename();
+  };
   return std::filesystem::equivalent(a, b, absent) || named(a) == named(b);
+}
+
+/** Whether a file is a piece of a mesh in pieces that is written, NAME/NAME_0.vtu of NAME.pvtu: as
+ * many as there are processes, which nobody knows before. */
+bool isPieceOf(const std::filesystem::path& file, const std::filesystem::path& mesh)
+{
+  const std::string suffix = lowerSuffix(mesh);
+  if (suffix != ".pvtu" && suffix != ".pvtp")
+  {
+    return false;
+  }
+  const std::string stem = mesh.stem().string(), name = file.filename().string();
+  const std::string begin = stem + '_', end = '.' + suffix.substr(2);
+  if (!name.starts_with(begin) || !name.ends_with(end))
+  {
+    return false;
+  }
+  const std::string number = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos &&
+         isSameFile(file, mesh.parent_path() / stem / name);
 }
 
 } // namespace
@@ -82,27 +109,33 @@ void UsedFiles::writeMesh(const std::filesystem::path& path, const std::string& 
 
 void UsedFiles::check() const
 {
-  const auto require = [](const Used& written, const Used& other, const std::string& what)
+  const auto refuse =
+    [](const Used& written, const Used& other, const std::string& what, const std::string& which)
   {
-    if (!isSameFile(written.path, other.path))
-    {
-      return;
-    }
     const std::string named = written.of.empty() ? "" : ' ' + written.of.string();
     const std::string part = other.of.empty() ? "" : "a file of " + other.of.string() + ", ";
-    throw Error(other.path.string() + ": the " + written.what + named + " would overwrite it, " +
-                part + "which is " + what + ": choose another name for the " + written.what + '.');
+    throw Error(other.path.string() + ": the " + written.what + named + " would overwrite " +
+                which + ", " + part + "which is " + what + ": choose another name for the " +
+                written.what + '.');
   };
   for (std::size_t k = 0; k < this->Written.size(); ++k)
   {
     const Used& written = this->Written[k];
     for (const Used& other : this->Read)
     {
-      require(written, other, other.what);
+      if (isSameFile(written.path, other.path) || isPieceOf(other.path, written.path))
+      {
+        refuse(written, other, other.what, "it");
+      }
     }
     for (std::size_t other = 0; other < k; ++other)
     {
-      require(written, this->Written[other], "the " + this->Written[other].what);
+      const Used& earlier = this->Written[other];
+      const bool isSame = isSameFile(written.path, earlier.path);
+      if (isSame || isPieceOf(written.path, earlier.path))
+      {
+        refuse(written, earlier, "the " + earlier.what, isSame ? "it" : "a piece of it");
+      }
     }
   }
 }

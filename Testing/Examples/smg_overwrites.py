@@ -162,6 +162,19 @@ def test_compressed_pieces():
     assert "broken.vtu.gz" in error and "piece0" not in error, error
 
 
+def test_linked_folders():
+    """Files that do not exist yet are one also through a link to their folder, or a link in its path."""
+    os.makedirs("real/inner", exist_ok=True)
+    os.symlink("real", "lnk")
+    os.symlink("real/inner", "deep")
+    before = contents()
+    for first, second in (("real/a", "lnk/a"), ("lnk/a", "real/a"), ("real/a", "lnk/inner/../a"),
+                          ("real/a", "deep/../a"), ("real/inner/a", "deep/a"), ("lnk/inner/a", "./deep/a")):
+        refused(("convert", "s.mesh", first + ".node", "--report", second + ".ele"), "would overwrite it", before)
+        refused(("convert", "s.mesh", first + ".vsm", "--report", second + ".vsm"), "would overwrite it", before)
+    run("convert", "s.mesh", "real/a.node", "--report", "deep/a.ele", "--quiet")
+
+
 def test_folders():
     """A folder that is removed at the end is no place for scratch files."""
     os.makedirs("folder", exist_ok=True)
@@ -178,7 +191,7 @@ def test_folders():
 
 
 for entry in os.listdir("."):  # remains of an earlier run
-    shutil.rmtree(entry) if os.path.isdir(entry) else os.remove(entry)
-for each in (test_table, test_compressed_pieces, test_folders):
+    shutil.rmtree(entry) if os.path.isdir(entry) and not os.path.islink(entry) else os.remove(entry)
+for each in (test_table, test_compressed_pieces, test_linked_folders, test_folders):
     each()
     print("passed", each.__name__)
