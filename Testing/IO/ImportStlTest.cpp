@@ -154,6 +154,24 @@ TEST_F(ImportStl, ErrorsNameFileAndPlace)
   this->expectError("a.stl", "solid\nendsolid\n", "no triangles");
 }
 
+TEST_F(ImportStl, LinesAfterTheLastSolidAreRead)
+{
+  for (const char* tail : { "", "\n", " \n\n", "# a comment\n", "\x1a", "\x1a\x1a\n", "--\n" })
+  {
+    EXPECT_EQ(this->read("a.stl", Stl + tail).cells(), this->read("b.stl", Stl).cells()) << tail;
+  }
+  EXPECT_EQ(this->read("a.stl", Stl + std::string(3, '\0')).cells(), 2);
+  const std::pair<const char*, const char*> others[] = { { "garbage here\n",
+                                                           "'garbage' is not a keyword" },
+    { "sol", "'sol' is not a keyword" }, { "solid b\nfac", "'fac' is not a keyword" },
+    { "facet wrong\n", "must end with 'endsolid'" }, { "solid b\n", "must end with 'endsolid'" },
+    { "facet\nouter loop\n", "must end with" }, { "1 2 3\n", "'1' is not a keyword" } };
+  for (const auto& [tail, part] : others)
+  {
+    this->expectError("a.stl", Stl + tail, part);
+  }
+}
+
 TEST_F(ImportStl, BytesAfterTheLastTriangleAreNoted)
 {
   EXPECT_TRUE(this->read("a.stl", twoTriangles("binary")).counts.notes.empty());

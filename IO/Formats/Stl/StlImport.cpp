@@ -192,6 +192,14 @@ bool beginsStlComment(std::string_view word)
   return word.starts_with('#') || word.starts_with(';') || word.starts_with("//");
 }
 
+/** Whether these bytes have neither a letter nor a digit, like those that some programs leave after
+ * the last line. */
+bool isNoWord(std::string_view bytes)
+{
+  return std::ranges::none_of(
+    bytes, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
+}
+
 /** The column `Solid`: the number of the solid of each facet, in the order of their first facets.
  * Solids of the same name are one. A single one has no column. */
 class SolidNumbers
@@ -275,30 +283,10 @@ public:
     while (!this->Scanner.atEnd())
     {
       const std::string_view keyword = this->Scanner.tokenInLine();
-      if (isStlWord(keyword, "vertex"))
+      if (!beginsStlComment(keyword) && !(ended && isNoWord(keyword)))
       {
-        this->readVertex();
-      }
-      else if (isStlWord(keyword, "outer") || isStlWord(keyword, "endloop"))
-      {
-        this->readLoop(isStlWord(keyword, "outer"));
-      }
-      else if (isStlWord(keyword, "endsolid"))
-      {
-        ended = true;
-      }
-      else if (isStlWord(keyword, "solid"))
-      {
-        ended = false;
-        this->readName();
-      }
-      else if (!beginsStlComment(keyword) && !isStlWord(keyword, "facet") &&
-               !isStlWord(keyword, "endfacet"))
-      {
-        if (!ended)
-        {
-          this->Scanner.fail(inQuotes(keyword) + " is not a keyword of an STL file");
-        }
+        ended = isStlWord(keyword, "endsolid");
+        this->readLine(keyword);
       }
       this->Scanner.skipLine();
     }
@@ -311,6 +299,27 @@ public:
   }
 
 private:
+  void readLine(std::string_view keyword)
+  {
+    if (isStlWord(keyword, "vertex"))
+    {
+      this->readVertex();
+    }
+    else if (isStlWord(keyword, "outer") || isStlWord(keyword, "endloop"))
+    {
+      this->readLoop(isStlWord(keyword, "outer"));
+    }
+    else if (isStlWord(keyword, "solid"))
+    {
+      this->readName();
+    }
+    else if (!isStlWord(keyword, "endsolid") && !isStlWord(keyword, "facet") &&
+             !isStlWord(keyword, "endfacet"))
+    {
+      this->Scanner.fail(inQuotes(keyword) + " is not a keyword of an STL file");
+    }
+  }
+
   void readName()
   {
     constexpr std::size_t Most = 200;
