@@ -228,9 +228,10 @@ private:
   void addColumns(const AttributeArrays& attributes, ColumnOf of)
   {
     std::vector<NamedArray> named;
+    VtkArrayNames names;
     for (NamedArray array : attributes.arrays)
     {
-      nameApart(array, named, this->Repeated);
+      names.nameApart(array, this->Repeated);
       named.push_back(std::move(array));
     }
     for (const NamedArray& array : named)

@@ -8,6 +8,7 @@
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/VtkXmlWriter.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -337,6 +339,24 @@ TEST_F(ImportVtkXml, ArraysOfOneNameAreAllKept)
   }
   EXPECT_TRUE(std::ranges::any_of(mesh.counts.notes,
     [](const std::string& note) { return note.find("NAME_1: 'a'.") != std::string::npos; }));
+}
+
+TEST_F(ImportVtkXml, ManyArraysOfOneNameAreNamedInTime)
+{
+  VtkArrayNames names;
+  std::set<std::string> repeated, all;
+  VtkArray array;
+  constexpr int Count = 50000; // with time in the square of it: minutes
+  for (int i = 0; i < Count; ++i)
+  {
+    // Also the names of some that are to come.
+    array.name = i % 1000 == 0 ? "a_" + std::to_string(2 * i) : "a";
+    names.nameApart(array, repeated);
+    all.insert(array.name);
+    EXPECT_TRUE(names.contains(array.name));
+  }
+  EXPECT_EQ(std::ssize(all), Count);
+  EXPECT_LE(repeated.size(), MaxOtherArrays);
 }
 
 TEST_F(ImportVtkXml, AMissingPieceIsNamed)

@@ -241,7 +241,7 @@ private:
       this->Scanner.fail("there are more than " + std::to_string(MaxArrays) +
                          " arrays of points or of cells, which are too many");
     }
-    nameApart(array, arrays, this->RepeatedArrays);
+    (this->OfPoints ? this->PointNames : this->CellNames).nameApart(array, this->RepeatedArrays);
     arrays.push_back(std::move(array));
   }
 
@@ -382,6 +382,7 @@ private:
   LegacyVtkScanner Scanner;
   VtkPiece Piece;
   std::set<std::string> OtherArrays, RepeatedArrays; ///< see VtkLayout
+  VtkArrayNames PointNames, CellNames;
   bool IsGrid = false;
   bool OfPoints = false;
   std::vector<VtkArray>* Arrays = nullptr; ///< of the points or cells, for the current attributes

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,27 +20,37 @@ namespace smg
 /** The maximum number of stored names of arrays for notes. */
 inline constexpr std::size_t MaxOtherArrays = 20;
 
-/** Gives an array that is to come after `arrays` a name of its own, NAME_1 or more, if one of these
- * has its name, which is then added to `repeated`. */
-template <class Array>
-void nameApart(Array& array, const std::vector<Array>& arrays, std::set<std::string>& repeated)
+/** The names of the arrays of the points, or of the cells. */
+class VtkArrayNames
 {
-  const auto isTaken = [&arrays](const std::string& name)
-  { return std::ranges::find(arrays, name, &Array::name) != arrays.end(); };
-  if (!isTaken(array.name))
+public:
+  bool contains(const std::string& name) const { return this->Taken.contains(name); }
+
+  /** Gives the next array a name of its own, NAME_1 or more, if another one has its name, which is
+   * then added to `repeated`. */
+  template <class Array>
+  void nameApart(Array& array, std::set<std::string>& repeated)
   {
-    return;
+    if (this->Taken.insert(array.name).second)
+    {
+      return;
+    }
+    if (repeated.size() < MaxOtherArrays)
+    {
+      repeated.insert(array.name);
+    }
+    int& number = this->Numbers[array.name];
+    const std::string name = array.name + '_';
+    do
+    {
+      array.name = name + std::to_string(++number);
+    } while (!this->Taken.insert(array.name).second);
   }
-  if (repeated.size() < MaxOtherArrays)
-  {
-    repeated.insert(array.name);
-  }
-  const std::string name = array.name + '_';
-  for (int number = 1; isTaken(array.name); ++number)
-  {
-    array.name = name + std::to_string(number);
-  }
-}
+
+private:
+  std::set<std::string> Taken;
+  std::map<std::string, int> Numbers; ///< the last one given for a name
+};
 
 /** The name of the column of one of `arrays`: the usual one for the array `normals`, unless another
  * array has it. */

@@ -121,6 +121,8 @@ private:
     }
     this->account(tag, sizeof(piece) + piece.lists.size() * sizeof(VtkCellList));
     this->Layout.pieces.push_back(std::move(piece));
+    this->PointNames = {};
+    this->CellNames = {};
     this->Section.clear();
   }
 
@@ -182,11 +184,11 @@ private:
       array.values = this->product(tag, ofPoints ? piece.points : piece.cells, array.components);
       auto& arrays = ofPoints ? piece.pointArrays : piece.cellArrays;
       // Of the same array at several time steps the first one is taken.
-      const bool isLater = tag.attribute("TimeStep") &&
-                           std::ranges::find(arrays, array.name, &VtkArray::name) != arrays.end();
+      VtkArrayNames& names = ofPoints ? this->PointNames : this->CellNames;
+      const bool isLater = tag.attribute("TimeStep") && names.contains(array.name);
       if (!array.name.empty() && !isLater)
       {
-        nameApart(array, arrays, this->Layout.repeatedArrays);
+        names.nameApart(array, this->Layout.repeatedArrays);
         this->account(tag, sizeof(array) + array.name.size());
         arrays.push_back(std::move(array));
       }
@@ -333,7 +335,8 @@ private:
   const std::size_t FirstPiece;
   bool IsGrid = false, HasAppended = false;
   VtkXmlEncoding Encoding;
-  std::string Section; ///< where arrays belong to now
+  std::string Section;                 ///< where arrays belong to now
+  VtkArrayNames PointNames, CellNames; ///< of the current piece
 };
 
 } // namespace
