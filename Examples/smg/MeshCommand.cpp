@@ -224,7 +224,7 @@ void MeshCommand::compute()
     }
     const double convertSeconds = this->Conversion ? secondsSince(this->Start) : 0.0;
     const double begin = this->Conversion ? 0.2 : 0.0;
-    out.chooseOrder(*mesh, mesh->conversion());
+    out.chooseOrder(*mesh, mesh->conversion(), smg::partOf(bar.function(), begin, begin));
     const double end = this->reportsPage() ? 0.95 : 1.0;
     report = this->solveAndWrite(*mesh, out, smg::partOf(bar.function(), begin, end));
     if (this->reportsPage())

@@ -6,9 +6,9 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Formats/WriteFiles.h"
 #include "IO/Jobs/MeshJob.h"
-#include "Solver/Mesh/VisitBlocks.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
@@ -96,57 +96,92 @@ bool ResultFile::mayRewrite() const
          !this->Files.in.empty() && canRewrite(this->Files.in, this->Files.out);
 }
 
-WrittenOrder ResultFile::expectedOrder(const StreamInfo& mesh) const
-{
-  const bool isNumbered = findColumn(mesh.vertexColumns, OriginalIdSpec) >= 0;
-  return this->mayRewrite()                 ? WrittenOrder::Rewritten
-         : this->mayRestore() && isNumbered ? WrittenOrder::Restored
-                                            : WrittenOrder::Stream;
-}
-
 namespace
 {
 
-/** Whether the original numbers of the vertices are places in a file of as many points. Those of a
- * simplified mesh, or of a part, are places in a larger one, which cannot be restored. */
-bool numbersArePlaces(const StoredMesh& mesh)
+/** The blocks that are looked at. */
+enum class Looks
 {
-  std::int64_t count = mesh.info().vertices;
-  if (!mesh.file().empty())
+  Few, ///< spread evenly over the file
+  All
+};
+
+/** Whether vertices have original numbers that are places in a file of as many points. Those of a
+ * simplified mesh, or of a part, are places in a larger one, which cannot be restored. Throws
+ * Cancelled. */
+bool numbersArePlaces(VsmReader& reader, Looks looks, const ProgressFunction& progress)
+{
+  if (findColumn(reader.info().vertexColumns, OriginalIdSpec) < 0)
   {
-    count += VsmReader(mesh.file(), nullptr, mesh.fileFingerprint()).isolatedVertices();
+    return false;
   }
-  bool arePlaces = true;
-  visitBlocks(*mesh.source({ OriginalIdName }, {}), {}, 0.0, 1.0,
-    [&](const MeshBlock& block)
+  const std::int64_t vertices = reader.info().vertices;
+  const std::int64_t count = vertices + reader.isolatedVertices();
+  constexpr std::int64_t Rows = VsmFormat::BlockRows, FewBlocks = 8;
+  const std::int64_t blocks = (vertices + Rows - 1) / Rows;
+  const std::int64_t step = looks == Looks::All ? 1 : std::max<std::int64_t>(blocks / FewBlocks, 1);
+  Column numbers;
+  // From the last one on, where a number that is no place is likelier.
+  for (std::int64_t block = blocks - 1; block >= 0; block -= step)
+  {
+    const std::int64_t first = block * Rows;
+    reader.readVertexColumn(OriginalIdName, first, std::min(Rows, vertices - first), numbers);
+    if (std::ranges::any_of(
+          numbers.as<std::int64_t>(), [count](std::int64_t number) { return number >= count; }))
     {
-      const auto numbers = block.vertexColumns[0].as<std::int64_t>();
-      arePlaces = arePlaces && std::ranges::all_of(
-                                 numbers, [count](std::int64_t number) { return number < count; });
-    });
-  return arePlaces;
+      return false;
+    }
+    if (progress && !progress(1.0 - static_cast<double>(block) / static_cast<double>(blocks)))
+    {
+      throw Cancelled();
+    }
+  }
+  return true;
 }
 
 } // namespace
 
-void ResultFile::chooseOrder(const StoredMesh& mesh, const ConversionReport* conversion)
+WrittenOrder ResultFile::orderIf(const std::function<bool()>& arePlaces) const
 {
+  return this->mayRewrite()                  ? WrittenOrder::Rewritten
+         : this->mayRestore() && arePlaces() ? WrittenOrder::Restored
+                                             : WrittenOrder::Stream;
+}
+
+WrittenOrder ResultFile::expectedOrder(const StreamInfo& mesh) const
+{
+  return this->orderIf(
+    [&]
+    {
+      if (this->kindOfMesh() != MeshFileKind::Vsm)
+      {
+        return findColumn(mesh.vertexColumns, OriginalIdSpec) >= 0;
+      }
+      VsmReader reader(this->Files.in);
+      return numbersArePlaces(reader, Looks::Few, {});
+    });
+}
+
+void ResultFile::chooseOrder(
+  const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
+{
+  this->Order = this->orderIf(
+    [&]
+    {
+      if (conversion)
+      {
+        return !conversion->keeps_numbers;
+      }
+      VsmReader reader(mesh.file(), nullptr, mesh.fingerprint());
+      return numbersArePlaces(reader, Looks::All, progress);
+    });
+  const std::filesystem::path& out = this->Files.out;
   const CellType cells = mesh.info().cellType;
-  if (this->mayRewrite())
+  if (this->Order == WrittenOrder::Rewritten)
   {
-    this->Order = WrittenOrder::Rewritten;
-    checkOutput(this->Files.out, cells);
+    checkOutput(out, cells);
     return;
   }
-  if (this->mayRestore())
-  {
-    const bool isNumbered =
-      conversion
-        ? !conversion->keeps_numbers
-        : findColumn(mesh.info().vertexColumns, OriginalIdSpec) >= 0 && numbersArePlaces(mesh);
-    this->Order = isNumbered ? WrittenOrder::Restored : WrittenOrder::Stream;
-  }
-  const std::filesystem::path& out = this->Files.out;
   checkHolds(out, *suffixFor(FormatUse::Write, out), cells, this->choices(cells));
   checkOutputPlace(out);
 }

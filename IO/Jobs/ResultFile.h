@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,9 +61,10 @@ public:
    * Chooses the order of the result. To be called before the work.
    * @param mesh the mesh, whose original numbers are read if no conversion tells them
    * @param conversion of the file of the mesh; null if that is a .vsm file
-   * @throws Error if the format cannot hold such a mesh, or the mesh cannot be read
+   * @throws Error if the format cannot hold such a mesh, or the mesh cannot be read; Cancelled
    */
-  void chooseOrder(const StoredMesh& mesh, const ConversionReport* conversion);
+  void chooseOrder(const StoredMesh& mesh, const ConversionReport* conversion,
+    const ProgressFunction& progress = {});
 
   const std::filesystem::path& path() const { return this->Files.out; }
   /** Whether write() writes the file of the mesh again, with other positions. */
@@ -75,7 +77,8 @@ public:
   std::vector<std::string> write(const StoredMesh& mesh, MeshSource& result, std::int64_t memory,
     const ProgressFunction& progress) const;
 
-  /** The order that chooseOrder() is expected to choose, for a mesh like `mesh`. */
+  /** The order that chooseOrder() is expected to choose, for a mesh like `mesh`. Of the original
+   * numbers in a .vsm file it reads a few blocks only. */
   WrittenOrder expectedOrder(const StreamInfo& mesh) const;
 
   /** Notes for the user on the conversion of the file of the mesh, for the result of a job. */
@@ -92,6 +95,9 @@ private:
   bool mayRewrite() const;
   /** Whether the format of the result and the kind of the mesh allow to restore the order. */
   bool mayRestore() const;
+  /** The order, if `arePlaces` says whether the mesh has original numbers that are places in a
+   * file. */
+  WrittenOrder orderIf(const std::function<bool()>& arePlaces) const;
   std::vector<std::string> writeRestored(const StoredMesh& mesh, MeshSource& result,
     std::int64_t memory, const ProgressFunction& progress) const;
   /** The threads that write in at most `memory` bytes: one if that is little. */

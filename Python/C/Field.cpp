@@ -138,7 +138,7 @@ std::string save(
   const WritingOptions options = writingOptions(text, limitsOf(field.shared->options()));
   ResultFile out = resultFile(*field.shared, field.added, field.job.get(), path, options);
   const ConversionReport* const conversion = field.shared->mesh().conversion();
-  out.chooseOrder(field.stored(), conversion);
+  out.chooseOrder(field.stored(), conversion, partOf(progress, 0.0, 0.0));
   std::vector<std::string> notes;
   const std::int64_t memory = MeshJob::writerMemory(
     options.limits.memory > 0 ? options.limits.memory : field.job->memoryLimit());

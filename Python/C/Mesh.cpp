@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/OpenArrays.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Mesh/Columns.h"
 #include "Python/C/Call.h"
 #include "Python/C/Field.h"
@@ -67,7 +68,7 @@ std::string saveMesh(
   ResultFile out = resultFile(*own.shared, own.added, nullptr, path, options);
   const StoredMesh& stored = own.stored();
   const StreamInfo& info = stored.info();
-  out.chooseOrder(stored, own.shared->mesh().conversion());
+  out.chooseOrder(stored, own.shared->mesh().conversion(), partOf(progress, 0.0, 0.0));
   const auto source = stored.source(columnNames(info.vertexColumns), columnNames(info.cellColumns));
   const std::int64_t memory =
     options.limits.memory > 0 ? options.limits.memory : ConversionOptions::DefaultMemory;
