@@ -330,9 +330,10 @@ inline std::string_view textStart(std::string_view bytes)
 inline std::string_view textAfterComments(std::string_view bytes)
 {
   std::string_view text = textStart(bytes);
+  const char lineEnd = lineEndOf(text);
   while (text.starts_with('#'))
   {
-    text = trimmed(text.substr(std::min(text.find_first_of(LineEnds), text.size())));
+    text = trimmed(afterLine(text, lineEnd));
   }
   return text;
 }

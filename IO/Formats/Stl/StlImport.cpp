@@ -382,9 +382,10 @@ bool isPlainText(std::string_view start)
 std::string_view afterStlComments(std::string_view start)
 {
   std::string_view text = textStart(start);
+  const char lineEnd = lineEndOf(text);
   while (beginsStlComment(text))
   {
-    text = trimmed(text.substr(std::min(text.find_first_of(LineEnds), text.size())));
+    text = trimmed(afterLine(text, lineEnd));
   }
   return text;
 }
@@ -401,7 +402,7 @@ bool beginsSolid(std::string_view text, std::string_view& after)
   {
     return false;
   }
-  after = afterStlComments(text.substr(std::min(text.find_first_of(LineEnds), text.size())));
+  after = afterStlComments(afterLine(text, lineEndOf(text)));
   return true;
 }
 
