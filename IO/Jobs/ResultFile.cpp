@@ -172,7 +172,7 @@ void ResultFile::chooseOrder(
       {
         return !conversion->keeps_numbers;
       }
-      VsmReader reader(mesh.file(), nullptr, mesh.fingerprint());
+      VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
       return numbersArePlaces(reader, Looks::All, progress);
     });
   const std::filesystem::path& out = this->Files.out;
