@@ -14,7 +14,8 @@
 // first; only if that is nearer than the nearest vertex so far, a k-d tree of the batch is built
 // (once) and searched. Of equally near vertices the first in the stream counts: within a batch the
 // tree finds the lowest index, and a later batch must be strictly nearer. So the result does not
-// depend on where batches end, which does depend on the blocks.
+// depend on where batches end, which does depend on the blocks. A batch has at least as many
+// vertices as there are points, so that the comparisons with its box take no longer than the tree.
 
 namespace smg
 {
@@ -22,7 +23,8 @@ namespace smg
 namespace
 {
 
-/** The least number of vertices that are searched at once, however small the blocks are. */
+/** The least number of vertices that are searched at once, however small the blocks are; for more
+ * points than this, as many vertices as points. */
 constexpr std::size_t BatchVertices = 8192;
 
 } // namespace
@@ -56,7 +58,7 @@ void NearestSelection::add(const MeshBlock& block, const std::filesystem::path& 
 {
   // Whole blocks, in order: a vertex has the index BatchBegin plus its place in the batch.
   this->Batch.insert(this->Batch.end(), block.positions.begin(), block.positions.end());
-  if (this->Batch.size() >= 3 * BatchVertices)
+  if (this->Batch.size() >= 3 * std::max(BatchVertices, this->Points.size()))
   {
     this->searchBatch();
   }

@@ -11,8 +11,8 @@ namespace smg
 /**
  * The vertices nearest to given points, found by a reading of the stream beforehand; of equally
  * near ones, the first in the stream. They are searched in batches by a k-d tree, which is only
- * built if the bounding box of the batch is nearer to some point than all vertices before. For m
- * points and n vertices this takes about n log(batch) + m n / batch steps.
+ * built if the bounding box of the batch is nearer to some point than all vertices before. A batch
+ * has at least m vertices: so this takes about (n + m) log(n) steps for m points and n vertices.
  */
 class NearestSelection : public Selection
 {
