@@ -217,6 +217,10 @@ void Assembly::collectVertex(std::int64_t i)
   const double weight = isLoose ? -rowSum : mass;
   const std::int32_t root =
     isUndetermined ? this->Cells.parts.closeUndetermined(i) : this->Cells.parts.close(i, weight);
+  if (root >= 0)
+  {
+    this->Coincident.add(open.points.at(i), this->Cells.parts.label(i));
+  }
   // A vertex of flat cells only has no component (-1), but its boundary facets may give it a
   // rowSum.
   if (root >= 0 && isLoose)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Assembly/CellAssembly.h"
+#include "Solver/Assembly/CoincidentPoints.h"
 #include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/NeighbourReach.h"
 #include "Solver/Assembly/RowAssembly.h"
@@ -69,6 +70,7 @@ public:
   std::int64_t vertices() const { return this->Cells.vertices.end(); }
   std::int64_t openVertices() const { return this->vertices() - this->Closed; }
   std::int64_t cells() const { return this->Check.cells(); }
+  const CoincidentPoints& coincident() const { return this->Coincident; }
   CellType cellType() const { return this->Info.cellType; }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
@@ -91,6 +93,7 @@ private:
 
   StreamInfo Info;
   StreamCheck Check;
+  CoincidentPoints Coincident;
   Components& Parts;
   RowListener* Listener;
   AssembledRows& Out;

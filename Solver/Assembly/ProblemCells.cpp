@@ -214,6 +214,47 @@ void addFieldLoads(const ProblemCells& own, CellType type, const double* const* 
   }
 }
 
+namespace
+{
+
+/** Products of four lengths must be numbers, and for tetrahedra, whose weights have the unit of
+ * length, products and inverses in single precision. */
+constexpr double LargestLength = 1e70, LargestWeight = 1e25;
+
+bool isWithin(double size, double largest)
+{
+  return size >= 1.0 / largest && size <= largest;
+}
+
+} // namespace
+
+void MeasureRange::addLost(const double* const* corners, int count)
+{
+  double length = 0.0;
+  for (int k = 1; k < count; ++k)
+  {
+    for (int d = 0; d < 3; ++d)
+    {
+      length = std::max(length, std::fabs(corners[k][d] - corners[0][d]));
+    }
+  }
+  this->lost += length > 0.0 && !isWithin(length, LargestLength) ? 1 : 0;
+}
+
+void MeasureRange::check(CellType type) const
+{
+  const bool isSurface = type == CellType::Triangle;
+  const double length = isSurface ? std::sqrt(this->largest) : std::cbrt(this->largest);
+  const double most = this->areWeights && !isSurface ? LargestWeight : LargestLength;
+  if (this->largest > 0.0 ? !isWithin(length, most) : this->lost > 0)
+  {
+    throw Error(
+      std::string("the cells of the mesh are too small or too large for numbers of double "
+                  "precision: scale the mesh, so that their edges are within ") +
+      (isSurface ? "1e-70 to 1e70" : "1e-25 to 1e25"));
+  }
+}
+
 StiffnessRules::StiffnessRules(CellType type, Problem& problem, double& scale)
   : Type(type)
   , Kind(problem.weights())
@@ -224,6 +265,7 @@ StiffnessRules::StiffnessRules(CellType type, Problem& problem, double& scale)
   {
     this->Own.emplace(problem, type);
   }
+  this->Measures.areWeights = !this->Own && this->Kind != Weights::Uniform;
 }
 
 /** The weights of the prepared cell, and the counts of cells without weight. Flagged cells and
@@ -244,8 +286,10 @@ CellWeights StiffnessRules::weigh(
     // warns of.
     const bool joins = isDistinctCell(corners, count, flags) && hasCoincidentCorners(points, count);
     this->Coincident += joins ? 1 : 0;
+    this->Measures.addLost(points, count);
     return cell;
   }
+  this->Measures.largest = std::max(this->Measures.largest, cell.measure);
   // The other kinds of weights are positive after EdgeStiffness, so nothing cancels in their rows.
   if (this->Kind != Weights::Cotangent)
   {

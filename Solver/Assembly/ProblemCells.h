@@ -92,6 +92,20 @@ double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType
 void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
   double* const* load);
 
+/** The sizes of the cells of a mesh, for the question whether squares and inverses of them are
+ * numbers. A few cells may be of any size, as cells that have collapsed are. */
+struct MeasureRange
+{
+  double largest = 0.0;    ///< area or volume; 0: no cell has one
+  std::int64_t lost = 0;   ///< cells whose measure is not a number or 0, since their edges are
+                           ///< beyond the range of lengths
+  bool areWeights = false; ///< the weights are those of finite elements, with no other factor
+
+  void addLost(const double* const* corners, int count);
+  /** Throws Error if all cells are too small or too large. */
+  void check(CellType type) const;
+};
+
 /**
  * The weights that a cell contributes to its edges: those of finite elements or of the problem,
  * with Weights::Cotangent scaled down if the cell is too flat. EdgeStiffness sums them over the
@@ -130,6 +144,7 @@ public:
    * factor. */
   std::int64_t limitedCells() const { return this->Limited; }
   double minFlatness() const { return this->MinFlatness; }
+  const MeasureRange& measures() const { return this->Measures; }
 
 private:
   CellWeights limited(CellWeights cell, double flatness);
@@ -142,6 +157,7 @@ private:
   bool Scaled = false; // Scale is known
   std::int64_t Degenerate = 0, Coincident = 0, Limited = 0;
   double MinFlatness = 1.0;
+  MeasureRange Measures;
 };
 
 } // namespace smg

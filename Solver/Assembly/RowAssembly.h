@@ -7,6 +7,7 @@
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
+#include "Solver/Multigrid/Cycle/RowShare.h"
 #include "Solver/Multigrid/Setup/LevelRows.h"
 #include "Solver/Multigrid/Setup/RowBatch.h"
 #include "Solver/Multigrid/Setup/SliverRows.h"
@@ -139,13 +140,18 @@ public:
   double squares() const { return this->Squares; }
   /** The sum of the squares of its terms b_i and A_ii x_i. */
   double termSquares() const { return this->TermSquares; }
+  /** The same with the shares by which rows count in later residuals: see residualShare(). */
+  double roundingSquares() const { return this->RoundingSquares; }
+  /** Whether any of the terms is not 0, though its square may be. */
+  bool anyTerm() const { return this->AnyTerm; }
   /** The least and the largest initial value of each column. */
   std::span<const double> least() const { return this->Least; }
   std::span<const double> most() const { return this->Most; }
 
 private:
   std::vector<double> OfRow, Least, Most;
-  double Squares = 0.0, TermSquares = 0.0;
+  double Squares = 0.0, TermSquares = 0.0, RoundingSquares = 0.0;
+  bool AnyTerm = false;
 };
 
 template <class Row>
@@ -175,6 +181,7 @@ std::span<const double> InitialResidual::add(
       {
         squares += sum[k] * sum[k];
         termSquares += b[k] * b[k] + row.diagonal * row.diagonal * x[k] * x[k];
+        this->AnyTerm = this->AnyTerm || b[k] != 0.0 || x[k] != 0.0;
         const auto column = static_cast<std::size_t>(k);
         this->Least[column] = std::min(this->Least[column], x[k]);
         this->Most[column] = std::max(this->Most[column], x[k]);
@@ -182,6 +189,8 @@ std::span<const double> InitialResidual::add(
     });
   this->Squares += share * share * squares;
   this->TermSquares += termSquares;
+  const double rounding = residualShare(share);
+  this->RoundingSquares += rounding * rounding * termSquares;
   return this->OfRow;
 }
 

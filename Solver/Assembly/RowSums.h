@@ -58,17 +58,4 @@ inline double squaredRegularWeight(CellType type, const double* from, const doub
   return OfTetrahedra * OfTetrahedra * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-/**
- * The factor of a row in the norm of the initial residual, relative to which convergence is
- * measured. `own` is what screening, Robin and soft conditions contribute to the diagonal, and what
- * weights of slivers have beyond those of regular cells; `edges` is the sum of the magnitudes of
- * the ordinary weights. Where `own` is larger, the initial residual of the row is as large as
- * `own`, and would hide all other rows: it is scaled down to what ordinary edges alone would give.
- * In [0, 1]; 0 if there are no edges.
- */
-inline double commonShare(double own, double edges)
-{
-  return own > edges ? edges / own : 1.0;
-}
-
 } // namespace smg

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/ConjugateGradients.h"
 
+#include "Solver/Multigrid/Cycle/RowShare.h"
+
 #include <HYPRE_parcsr_mv.h>
 
 #include <cmath>
@@ -73,13 +75,26 @@ double ConjugateGradients::dot(const Numbers& a, const Numbers& b) const
   return product;
 }
 
+/** The norm of the residual, in which rows count as in the streaming engine. */
+double ConjugateGradients::norm(std::span<const double> share) const
+{
+  double squares = 0.0;
+  for (std::size_t k = 0; k < this->R.size(); ++k)
+  {
+    const double counted = residualShare(share[k]) * this->R[k];
+    squares += counted * counted;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &squares, 1, MPI_DOUBLE, MPI_SUM, this->Processes.communicator());
+  return std::sqrt(squares);
+}
+
 void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
-  Convergence& convergence, const std::function<void()>& iterated)
+  std::span<const double> share, Convergence& convergence, const std::function<void()>& iterated)
 {
   this->Processes.agree();
   // The convergence criterion compares with the residual of the values to begin with.
   this->setResidual(b, x);
-  convergence.begin(std::sqrt(this->dot(this->R, this->R)));
+  convergence.begin(this->norm(share));
   double before = 0.0;
   while (!convergence.done())
   {
@@ -87,10 +102,10 @@ void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
     const double product = this->dot(this->R, this->Z);
     // The first direction is the preconditioned residual itself; later ones are conjugate to the
     // one before.
-    const double share = before > 0.0 ? product / before : 0.0;
+    const double beta = before > 0.0 ? product / before : 0.0;
     for (std::size_t k = 0; k < this->P.size(); ++k)
     {
-      this->P[k] = this->Z[k] + share * this->P[k];
+      this->P[k] = this->Z[k] + beta * this->P[k];
     }
     this->multiply(this->P, this->Q);
     const double step = product / this->dot(this->P, this->Q);
@@ -101,14 +116,14 @@ void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
     }
     before = product;
     // All processes have the same norm, so they stop after the same iteration.
-    double norm = std::sqrt(this->dot(this->R, this->R));
+    double norm = this->norm(share);
     if (convergence.meets(norm))
     {
       // R is updated, not computed, and drifts from b - A x by rounding. Before it counts as
       // converged, the true residual is computed; if that is still too large, the iteration goes on
       // from it.
       this->setResidual(b, x);
-      norm = std::sqrt(this->dot(this->R, this->R));
+      norm = this->norm(share);
     }
     convergence.add(norm);
     iterated();

@@ -22,9 +22,9 @@ public:
   std::span<const double> residual(std::span<const double> b, std::span<const double> x);
 
   /** Iterates from x until `convergence` ends it, which gets the residual after each iteration.
-   * `iterated` is called after each iteration and may throw. */
-  void solve(std::span<const double> b, std::span<double> x, Convergence& convergence,
-    const std::function<void()>& iterated);
+   * `share`: see commonShare(). `iterated` is called after each iteration and may throw. */
+  void solve(std::span<const double> b, std::span<double> x, std::span<const double> share,
+    Convergence& convergence, const std::function<void()>& iterated);
 
 private:
   using Numbers = std::vector<double>;
@@ -33,6 +33,7 @@ private:
   void multiply(std::span<const double> x, std::span<double> product); ///< A x
   void precondition();                                                 ///< Z = M R
   double dot(const Numbers& a, const Numbers& b) const;
+  double norm(std::span<const double> share) const; ///< of R
 
   Team& Processes;
   const HypreMatrix& A;

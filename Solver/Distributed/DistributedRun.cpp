@@ -162,7 +162,7 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
   this->Processes.sum({ &squares, 1 });
   const double tolerance = this->Options.tolerance;
   Convergence convergence({ tolerance, this->Options.maxIterations },
-    { std::sqrt(squares), roundingOf(system.termSquares[column]) });
+    { std::sqrt(squares), roundingOf(system.roundingSquares[column]) });
   // The residual decreases about geometrically, so its logarithm says how much is done.
   const auto iterated = [&]
   {
@@ -170,7 +170,7 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
       convergence.done() ? 1.0 : std::log(convergence.residuals().back()) / std::log(tolerance);
     this->Done.update(begin + std::clamp(done, 0.0, 1.0) * (end - begin));
   };
-  method.solve(system.b[column], system.x[column], convergence, iterated);
+  method.solve(system.b[column], system.x[column], system.share, convergence, iterated);
   return convergence;
 }
 

@@ -197,6 +197,7 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
   system.share.assign(own, 0.0);
   system.mass.assign(own, 0.0);
   system.termSquares.assign(columns, 0.0);
+  system.roundingSquares.assign(columns, 0.0);
   // Rows that are not unknowns are x = value: 1 on the diagonal.
   this->Diagonals.assign(own, 1.0);
   this->IsUnknown.assign(own, 0);
@@ -285,8 +286,13 @@ void PartAssembly::finish(PartSystem& system)
       // The rounding of the residual grows with the terms of b - A x, not with their difference.
       const double terms[2] = { system.b[column][row],
         this->Diagonals[row] * system.x[column][row] };
-      system.termSquares[column] +=
-        this->IsUnknown[row] ? terms[0] * terms[0] + terms[1] * terms[1] : 0.0;
+      const double squares = this->IsUnknown[row] ? terms[0] * terms[0] + terms[1] * terms[1] : 0.0;
+      const double counted = residualShare(system.share[row]);
+      system.termSquares[column] += squares;
+      system.roundingSquares[column] += counted * counted * squares;
+      this->AnyTerm =
+        this->AnyTerm ||
+        (this->IsUnknown[row] && (system.b[column][row] != 0.0 || system.x[column][row] != 0.0));
     }
   }
   // A free component has a singular matrix: constants are in its kernel. With the diagonal of one
@@ -332,11 +338,14 @@ void PartAssembly::count(PartSystem& system) const
   std::int64_t counts[] = { cells, this->Prescribed,
     static_cast<std::int64_t>(system.undetermined.size()), this->Raised, policy.degenerateCells(),
     this->Cells.edges.clamped(), policy.limitedCells(), unknowns, this->Entries + unknowns,
-    policy.coincidentCells() };
+    policy.coincidentCells(), policy.measures().lost, this->AnyTerm ? 1 : 0 };
   team.sum(counts);
   double flatness = policy.minFlatness();
   team.least({ &flatness, 1 });
+  double measure = policy.measures().largest;
+  team.largest({ &measure, 1 });
   team.sum(system.termSquares);
+  team.sum(system.roundingSquares);
   AssemblyCounts& all = system.counts;
   all.type = this->Part.info.cellType;
   all.vertices = this->Part.info.vertices;
@@ -349,6 +358,8 @@ void PartAssembly::count(PartSystem& system) const
   all.clampedWeights = counts[5];
   all.limitedCells = counts[6];
   all.minFlatness = flatness;
+  all.measures = { measure, counts[10], policy.measures().areWeights };
+  all.anyTerm = counts[11] > 0;
   system.unknowns = counts[7];
   system.nonzeros = counts[8];
   all.components = system.components->components();

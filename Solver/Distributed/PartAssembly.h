@@ -26,7 +26,8 @@ struct PartSystem
   std::vector<double> share;             ///< see commonShare()
   std::vector<double> mass;
   std::vector<std::int64_t> undetermined; ///< own vertices, from 0, that nothing determines
-  std::vector<double> termSquares;        ///< by column, of all processes: see InitialResidual
+  // By column, of all processes: see InitialResidual.
+  std::vector<double> termSquares, roundingSquares;
   std::unique_ptr<SharedComponents> components;
   AssemblyCounts counts;     ///< of all processes
   std::int64_t unknowns = 0; ///< of all processes
@@ -86,6 +87,7 @@ private:
   std::vector<double> Diagonals;     ///< of own vertices
   std::vector<char> IsUnknown;       ///< of own vertices
   std::int64_t Prescribed = 0, Raised = 0, Entries = 0;
+  bool AnyTerm = false;
   // A row.
   std::vector<RowNeighbour> Neighbours;
   std::vector<HYPRE_BigInt> Places;

@@ -195,7 +195,7 @@ TEST(EllipticFamily, ConditionsOfAllSizesHoldABody)
   {
     for (const Hold& hold : holds())
     {
-      for (int exponent = -15; exponent <= 8; ++exponent)
+      for (int exponent = -15; exponent <= 16; ++exponent)
       {
         ElementProblem problem(mesh);
         problem.Columns = Columns;

@@ -2,7 +2,7 @@
 #include "Solver/Jobs/Results/ResultSums.h"
 
 #include "Solver/Assembly/Elements.h"
-#include "Solver/Assembly/RowSums.h"
+#include "Solver/Multigrid/Cycle/RowShare.h"
 
 #include <algorithm>
 #include <cmath>

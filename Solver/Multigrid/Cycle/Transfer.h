@@ -5,8 +5,10 @@
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/Residual.h"
+#include "Solver/Multigrid/Cycle/RowShare.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
 
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -49,14 +51,34 @@ struct Prolongation
   }
 };
 
+/** residualShare() of row k of a block on the finest level. */
+template <class Arrays>
+double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
+{
+  const double own = RowBlock::alphaOf(h, a, k);
+  // Nearly all rows return here: the rest of the diagonal is the sum of their weights, of which
+  // the magnitudes sum to at least as much.
+  if (own == 0.0 || residualShare(commonShare(own, a.diagonal[k] - own)) == 1.0)
+  {
+    return 1.0;
+  }
+  const BlockRange row = entriesOf(h, a, k);
+  double edges = 0.0;
+  for (std::int64_t e = row.begin; e < row.end; ++e)
+  {
+    edges += std::fabs(static_cast<double>(a.weight[e]));
+  }
+  return residualShare(commonShare(own, edges));
+}
+
 /**
  * Residual and restriction: r = b - A x, and b_coarse += scale P^T r.
  *
  * Adds the squares of r to `squares` (a value per column) and, on the finest level, the squares of
- * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed. Both
- * are summed in node order, so the norm of the residual does not depend on windows or threads. The
- * history and the energy of the iterates, if there are some, get each residual, too, and their
- * range each unknown.
+ * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed; on
+ * the finest level both with the share of the row, see residualShare(). Both are summed in node
+ * order, so the norm of the residual does not depend on windows or threads. The history and the
+ * energy of the iterates, if there are some, get each residual, too, and their range each unknown.
  */
 template <class Real>
 struct Restriction
@@ -91,16 +113,17 @@ private:
     for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
     {
       const auto residual = Residual::template of<Vectors>(h, a, k, stride, part.x, part.b);
-      total += residual * residual;
       keeper(k, residual);
       if constexpr (std::is_same_v<Real, double>)
       {
         const BlockRange row = entriesOf(h, a, k);
+        const double share = residualShareOf(h, a, k);
+        total += share == 1.0 ? residual * residual : share * residual * (share * residual);
         if (row.begin < row.end)
         {
           const Real* x = part.x + k * stride;
           const auto term = static_cast<Real>(a.diagonal[k]) * Vectors::load(x);
-          termTotal += term * term;
+          termTotal += share == 1.0 ? term * term : share * term * (share * term);
           if (this->energy)
           {
             this->energy->template add<Vectors>(
@@ -111,6 +134,10 @@ private:
             this->range->template add<Vectors>(x, part.lane);
           }
         }
+      }
+      else
+      {
+        total += residual * residual;
       }
       // Scaled before it is rounded to single precision: the scale keeps it near 1.
       const auto coarse =

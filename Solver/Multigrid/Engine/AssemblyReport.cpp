@@ -16,6 +16,29 @@
 namespace smg
 {
 
+namespace
+{
+
+/** Bodies that only look connected. Where most cells are bodies, noteUnwelded() has said so. */
+void warnOfCoincidentPoints(const AssemblyCounts& counts, Report& report)
+{
+  if (counts.coincident.places == 0 ||
+      !unweldedNote(counts.type, counts.vertices, counts.cells).empty())
+  {
+    return;
+  }
+  const std::string number = std::to_string(counts.coincident.places);
+  report.warn("points of different bodies coincide at " +
+              (counts.coincident.isExact ? number : "about " + number) +
+              (counts.coincident.places == 1 ? " place" : " places") + " (the mesh has " +
+              std::to_string(counts.components) +
+              " bodies): the bodies are not connected there, and nothing flows from one to the "
+              "other, unless these points are merged (smg convert --weld 0; in ParaView the filter "
+              "Clean; in C++ ConversionOptions::weld)");
+}
+
+} // namespace
+
 void reportAssembly(const AssemblyCounts& counts, Report& report)
 {
   report.vertices = counts.vertices;
@@ -43,12 +66,23 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   }
   report.components = counts.components;
   report.free_components = counts.freeComponents;
-  checkSquares(counts.termSquares);
+  warnOfCoincidentPoints(counts, report);
+  counts.measures.check(counts.type);
+  checkSquares(counts.termSquares, counts.anyTerm);
 }
 
-/** Before any V-cycle: the norm of the residual would be infinite and no tolerance could be met. */
-void checkSquares(double termSquares)
+/** Before any V-cycle. The norm of the residual would be infinite, and no tolerance could be met;
+ * or 0, and any values would meet it. */
+void checkSquares(double termSquares, bool anyTerm)
 {
+  // Of values of 1e-142: the squares of residuals down to their rounding are normal numbers, or
+  // nearly.
+  constexpr double Least = 1e-284;
+  if (anyTerm && termSquares < Least)
+  {
+    throw Error("the values are so small, below about 1e-142, that their squares vanish: scale the "
+                "prescribed values, the sources, the fluxes or the mesh");
+  }
   if (!std::isfinite(termSquares))
   {
     throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
@@ -73,6 +107,11 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   counts.components = components.components();
   counts.freeComponents = components.freeComponents();
   counts.termSquares = assembly.residual().termSquares();
+  counts.anyTerm = assembly.residual().anyTerm();
+  counts.measures = assembly.weights().measures();
+  // A single body needs no search.
+  counts.coincident =
+    counts.components > 1 ? assembly.coincident().count(components) : CoincidentPoints::Count();
   reportAssembly(counts, report);
 }
 

@@ -57,15 +57,19 @@ Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
 }
 
 /** A share near 1 does not count: the goal is then that of the residual alone. Below the least goal
- * rounding begins. A goal that is the rounding stays. */
-void Convergence::setGoal(double share)
+ * rounding begins: that of the iterate, if it is known, which may be far below that of the initial
+ * values. A goal
+ * that is the rounding stays. */
+void Convergence::setGoal(double share, double rounding)
 {
   constexpr double Near = 0.1, Least = 1e-12;
   if (this->Goal < this->Reference)
   {
+    const double least =
+      rounding > 0.0 ? std::min(Least, NearRounding * rounding / this->Reference) : Least;
     this->Goal = this->Reference *
                  std::min(this->Tolerance,
-                   share < Near ? std::max(this->Tolerance * share, Least) : this->Tolerance);
+                   share < Near ? std::max(this->Tolerance * share, least) : this->Tolerance);
   }
 }
 
@@ -73,7 +77,7 @@ void Convergence::begin(double norm, bool mayEnd, double share)
 {
   if (norm <= this->Goal)
   {
-    this->setGoal(share);
+    this->setGoal(share, 0.0);
   }
   this->Norm = norm;
   // The first sweeps may increase the residual; divergence is measured from the larger of both.
@@ -86,7 +90,7 @@ void Convergence::begin(double norm, bool mayEnd, double share)
 void Convergence::add(double norm, double rounding, double share)
 {
   this->Rounding = std::max(this->Rounding, rounding);
-  this->setGoal(share);
+  this->setGoal(share, rounding);
   const double relative = this->Reference > 0.0 ? norm / this->Reference : 0.0;
   this->NormBefore = this->Norm;
   this->Norm = norm;

@@ -90,7 +90,7 @@ public:
   void addStep(Report& report, const std::string& name, const std::string& what) const;
 
 private:
-  void setGoal(double share);
+  void setGoal(double share, double rounding);
   void watch(double relative);
 
   bool Fixed;

@@ -233,7 +233,7 @@ FirstResidual FirstPass::residualOf(const InitialResidual& residual, const Compo
   // does not measure the residual: then the sources themselves do.
   const double minShare = components.anyHeldLoosely() ? 1e-12 : 1e-14;
   return { std::sqrt(shifted < minShare * whole ? whole : shifted),
-    roundingOf(residual.termSquares()) };
+    roundingOf(residual.roundingSquares()) };
 }
 
 } // namespace smg

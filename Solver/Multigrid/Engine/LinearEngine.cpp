@@ -187,7 +187,7 @@ FirstResidual LinearEngine::begin()
   components.restartCounts();
   const InitialResidual residual = this->Given.residual(window, components, this->Run.labels);
   components.settle();
-  checkSquares(residual.termSquares());
+  checkSquares(residual.termSquares(), residual.anyTerm());
   FirstPass::beginRange(this->Run, residual);
   Pass(this->Run, this->Levels).begin();
   FirstPass::projectRightSide(this->Run, this->Levels);
