@@ -8,6 +8,7 @@
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "Testing/IO/MeshText.h"
