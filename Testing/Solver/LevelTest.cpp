@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Cycle/Level.h"
+
+#include "Solver/Multigrid/Cycle/RowShare.h"
 #include "Testing/Solver/CycleTesting.h"
 #include "Testing/Support/Combinations.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace smg::testing
@@ -30,6 +33,22 @@ std::vector<TestLevel> levels()
   levels.push_back(surfaceLevel());
   levels.push_back(solidLevel());
   return levels;
+}
+
+/** The share of each row of a finest level in the norm of the residual. */
+Eigen::VectorXd sharesOf(const TestLevel& level)
+{
+  Eigen::VectorXd shares(level.nodes());
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    double edges = 0.0;
+    for (const RowEntry& entry : level.rows[i])
+    {
+      edges += std::fabs(static_cast<double>(entry.weight()));
+    }
+    shares[i] = residualShare(commonShare(level.rowSum[i], edges));
+  }
+  return shares;
 }
 
 template <class Real>
@@ -125,12 +144,13 @@ TEST(Level, RestrictsTheResidualAndMeasuresIt)
       setState(h.finest().window().b(), b);
       h.finest().restrictAll();
       const Eigen::MatrixXd residual = b - h.matrix(0) * x;
+      const Eigen::VectorXd shares = sharesOf(level);
       const Eigen::MatrixXd expected = h.interpolation(0).transpose() * residual;
       EXPECT_LT((stateOf(h.coarse(1).window().b(), columns) - expected).cwiseAbs().maxCoeff(),
         1e-5 * expected.cwiseAbs().maxCoeff());
       for (int k = 0; k < columns; ++k)
       {
-        const double squares = residual.col(k).squaredNorm();
+        const double squares = shares.cwiseProduct(residual.col(k)).squaredNorm();
         EXPECT_NEAR(h.finest().squares()[k], squares, 1e-12 * squares);
       }
     }
@@ -366,6 +386,7 @@ TEST(Level, SweepsAndResidualsUsePreciseWeights)
 {
   TestLevel level = surfaceLevel();
   const Eigen::MatrixXd rough = level.dense();
+  const Eigen::VectorXd shares = sharesOf(level);
   // Some rows are precise; of a patch, all or none.
   const PatchList patches = patchesOf(level);
   level.precise.resize(level.nodes());
@@ -393,9 +414,11 @@ TEST(Level, SweepsAndResidualsUsePreciseWeights)
       h.finest().restrictAll();
       for (int k = 0; k < columns; ++k)
       {
-        const double squares = (b - h.matrix(0) * x).col(k).squaredNorm();
+        const auto squaresBy = [&](const Eigen::MatrixXd& matrix)
+        { return shares.cwiseProduct((b - matrix * x).col(k)).squaredNorm(); };
+        const double squares = squaresBy(h.matrix(0));
         EXPECT_NEAR(h.finest().squares()[k], squares, 1e-13 * squares);
-        EXPECT_GT(std::fabs((b - rough * x).col(k).squaredNorm() - squares), 1e-11 * squares);
+        EXPECT_GT(std::fabs(squaresBy(rough) - squares), 1e-11 * squares);
       }
       h.finest().relaxUp();
       Eigen::MatrixXd other = x;

@@ -58,8 +58,7 @@ Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
 
 /** A share near 1 does not count: the goal is then that of the residual alone. Below the least goal
  * rounding begins: that of the iterate, if it is known, which may be far below that of the initial
- * values. A goal
- * that is the rounding stays. */
+ * values. A goal that is the rounding stays. */
 void Convergence::setGoal(double share, double rounding)
 {
   constexpr double Near = 0.1, Least = 1e-12;
