@@ -12,6 +12,7 @@
 #include "vtkPolyDataNormals.h"
 #include "vtkSmoothPolyDataFilter.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 
 #include <algorithm>
 #include <iterator>
@@ -147,9 +148,11 @@ TEST_F(VtkGhostLevels, FiltersOfVtkAreRightInPieces)
   const vtkNew<vtkCurvatures> curvatures;
   curvatures->SetCurvatureTypeToGaussian();
   this->expectWhole(*curvatures, 1, "Gauss_Curvature");
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0) // that of VTK 9.1 does not look at ghost cells
   this->open(grid(17, 13, 0.1));
   const vtkNew<vtkFeatureEdges> edges; // asks for a level by itself
   this->expectWhole(*edges, 0);
+#endif
   this->open(tetBox(6, 6, 5, 0.1));
   const vtkNew<vtkDataSetSurfaceFilter> surface;
   this->expectWhole(*surface, 1);

@@ -28,6 +28,7 @@
 #include "vtkUnsignedLongLongArray.h"
 #include "vtkUnsignedShortArray.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
@@ -84,9 +85,14 @@ VtkMesh surfaceOfLists(int pointType = VTK_FLOAT, bool is64Bit = true)
   mesh->SetPoints(pointsOfType(pointType, 32));
   mesh->SetVerts(cellsOfPoints({ { 0 }, { 1, 2 } }, is64Bit));
   mesh->SetLines(cellsOfPoints({ { 0, 1, 2 } }, is64Bit));
-  mesh->SetPolys(cellsOfPoints(
-    { { 0, 1, 4 }, { 1, 2, 6, 5 }, { 8, 9, 10, 14, 12 }, { 3, 7 }, { 16, 17, 20 } }, is64Bit));
-  mesh->SetStrips(cellsOfPoints({ { 20, 21, 24, 25, 28, 29 }, { 17, 18 } }, is64Bit));
+  CellPoints polygons{ { 0, 1, 4 }, { 1, 2, 6, 5 }, { 8, 9, 10, 14, 12 }, { 16, 17, 20 } };
+  CellPoints strips{ { 20, 21, 24, 25, 28, 29 } };
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0) // the writer of VTK 9.1 crashes
+  polygons.insert(polygons.begin() + 3, { 3, 7 });
+  strips.push_back({ 17, 18 });
+#endif
+  mesh->SetPolys(cellsOfPoints(polygons, is64Bit));
+  mesh->SetStrips(cellsOfPoints(strips, is64Bit));
   return mesh;
 }
 
@@ -347,15 +353,17 @@ TEST(VtkMeshArrays, NameTheirPointsAndCellsInErrors)
     vtkPolyData::SafeDownCast(&mesh)->SetPolys(nullptr);
     vtkPolyData::SafeDownCast(&mesh)->SetStrips(nullptr);
   };
-  const std::pair<VtkMesh, const char*> cases[] = {
+  const auto corners = std::to_string(
+    vtkPolyData::SafeDownCast(surfaceOfLists())->GetPolys()->GetNumberOfConnectivityIds());
+  const std::pair<VtkMesh, std::string> cases[] = {
     { bad([](vtkPointSet& mesh) { mesh.GetPoints()->SetPoint(5, 0.0, std::nan(""), 0.0); }),
       "The input, point 5: a coordinate is not finite." },
     { bad(withCorner(77.0)),
       "The input, cell 4: the corner 77 is not a vertex: they are 0 to 31." },
     { bad(withCorner(-1.0)),
       "The input, cell 4: the corner -1 is not a vertex: they are 0 to 31." },
-    { bad(withOffset), "The input, cell 4: its points should be the numbers from 3 up to 1 of 17, "
-                       "which cannot be." },
+    { bad(withOffset), "The input, cell 4: its points should be the numbers from 3 up to 1 of " +
+                         corners + ", which cannot be." },
     { bad(onlyLines), "The input has no triangles." },
     { gridOfCells(
         { { VTK_TETRA, { 0, 1, 4, 16 } }, { VTK_CONVEX_POINT_SET, { 0, 1, 4, 16, 17 } } }),
@@ -374,7 +382,7 @@ TEST(VtkMeshArrays, NameTheirPointsAndCellsInErrors)
     }
     catch (const Error& error)
     {
-      EXPECT_STREQ(error.what(), sentence);
+      EXPECT_EQ(error.what(), sentence);
     }
   }
 }
