@@ -197,7 +197,7 @@ class NativeHandle:
         """Reserves the handle for this thread."""
         process.require_no_call()
         self.lock.__enter__()
-        if self.lock.is_lost or not self._finalizer.alive:
+        if self.lock.is_lost or self.is_closed:
             self.lock.__exit__()
             raise Error(
                 "The process was forked in the middle of a call: in the child, open what it needs again."

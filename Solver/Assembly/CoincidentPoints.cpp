@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/CoincidentPoints.h"
 
+#include "Solver/Files/Checksum.h"
+
 #include <algorithm>
-#include <bit>
+#include <array>
+#include <span>
 #include <tuple>
 
 // Whether the points of two vertices are equal is judged by 64 bits of a hash: with 65,536
@@ -13,24 +16,11 @@ namespace smg
 namespace
 {
 
-/** The last step of SplitMix64 (Steele, Lea and Flood 2014): each bit depends on all bits. */
-std::uint64_t mixed(std::uint64_t bits)
-{
-  bits = (bits ^ bits >> 30) * 0xBF58476D1CE4E5B9U;
-  bits = (bits ^ bits >> 27) * 0x94D049BB133111EBU;
-  return bits ^ bits >> 31;
-}
-
 std::uint64_t hashOf(const double* point)
 {
-  constexpr std::uint64_t Increment = 0x9E3779B97F4A7C15U;
-  std::uint64_t hash = 0;
-  for (int d = 0; d < 3; ++d)
-  {
-    // + 0.0 makes -0.0 the same place as 0.0.
-    hash = mixed(hash + Increment + std::bit_cast<std::uint64_t>(point[d] + 0.0));
-  }
-  return hash;
+  // + 0.0 makes -0.0 the same place as 0.0.
+  const std::array<double, 3> place{ point[0] + 0.0, point[1] + 0.0, point[2] + 0.0 };
+  return checksum(std::as_bytes(std::span(place)));
 }
 
 /** Whether a place is in the sample that has one of 2^shift. */

@@ -219,8 +219,6 @@ void Selections::prepare(const MeshBlock& block, const std::filesystem::path& sc
   }
 }
 
-/** All processes have the same selections and come here in the same order, as MeshParts requires.
- */
 void Selections::acceptEmpty()
 {
   for (const auto& selection : this->All)
@@ -229,6 +227,8 @@ void Selections::acceptEmpty()
   }
 }
 
+/** All processes have the same selections and come here in the same order, as MeshParts requires.
+ */
 void Selections::endPreparing(MeshParts* parts)
 {
   for (const auto& selection : this->All)
