@@ -30,15 +30,13 @@ namespace
               "; lower the memory limit or raise that of the system (ulimit -v)");
 }
 
-/** Maps three images of a file side by side; returns the middle one. `place`: where that must be;
- * null: anywhere. Throws Error. */
-std::byte* mapImages(int file, std::size_t bytes, std::byte* place)
+/** Maps three images of a file side by side; returns the middle one. Throws Error. */
+std::byte* mapImages(int file, std::size_t bytes)
 {
   // First one reservation of address space for all three images, which ensures that they are
   // adjacent; the images then replace it part by part (MAP_FIXED).
-  const int fixed = place ? MAP_FIXED_NOREPLACE : 0;
-  void* all = systemCalls().mmap(place ? place - bytes : nullptr, 3 * bytes, PROT_NONE,
-    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | fixed, -1, 0);
+  void* all = systemCalls().mmap(
+    nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (all == MAP_FAILED)
   {
     fail("reserving address space");
@@ -102,18 +100,19 @@ void MirroredMemory::grow(std::size_t bytes)
     }
     // The images lie side by side, so they cannot grow in place: all are mapped again, usually
     // elsewhere. Not before the old ones are gone: a limit of the address space counts both.
-    std::byte* const place = this->Data;
     this->unmap();
     try
     {
-      this->map(bytes);
+      this->Data = mapImages(this->Descriptor, bytes);
+      this->Size = bytes;
     }
     catch (const Error&)
     {
-      // Whoever catches the error goes on with the items that there were, where they were.
-      if (place)
+      // Whoever catches the error goes on with the content that there was. Another thread may have
+      // taken its old place by now.
+      if (before > 0)
       {
-        this->Data = mapImages(this->Descriptor, before, place);
+        this->Data = mapImages(this->Descriptor, before);
       }
       throw;
     }
@@ -123,12 +122,6 @@ void MirroredMemory::grow(std::size_t bytes)
     this->Owner->release(static_cast<std::int64_t>(bytes - before));
     throw;
   }
-}
-
-void MirroredMemory::map(std::size_t bytes)
-{
-  this->Data = mapImages(this->Descriptor, bytes, nullptr);
-  this->Size = bytes;
 }
 
 void MirroredMemory::unmap()

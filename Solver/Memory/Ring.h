@@ -39,12 +39,11 @@ public:
   std::size_t size() const { return this->Size; }
 
   /** Grows to `bytes`, a multiple of PageBytes. The content keeps its offsets; the address may
-   * change. Throws Error. */
+   * change, also where there is no memory for more. Throws Error. */
   void grow(std::size_t bytes);
   void clear();
 
 private:
-  void map(std::size_t bytes);
   void unmap();
 
   Pool* Owner;
@@ -166,7 +165,15 @@ private:
     const std::int64_t capacity = (items + granule - 1) / granule * granule;
     const std::int64_t added = capacity - this->Capacity;
     const std::int64_t wrapped = this->End - this->Lap - this->Capacity;
-    this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
+    try
+    {
+      this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
+    }
+    catch (...)
+    {
+      this->Slots = reinterpret_cast<T*>(this->Memory.data());
+      throw;
+    }
     if (wrapped > 0)
     {
       // The items that had wrapped around are at the beginning of the memory. They follow the
