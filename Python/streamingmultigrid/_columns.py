@@ -38,12 +38,18 @@ class Columns:
         return float(np.linalg.norm(bounds[:, 1] - bounds[:, 0]))
 
     def rows(self, values: np.ndarray, cells: Optional[bool]) -> Optional[bool]:
-        """Whether an array has a row for each cell (True) or vertex (False), or neither (None)."""
+        """Whether an array has a row for each cell or element (True) or vertex (False), or none (None)."""
         count = values.shape[0] if values.ndim else -1
         for of_cells, wanted in ((False, self.mesh.n_vertices), (True, self.mesh.n_cells)):
             if count == wanted and cells in (None, of_cells):
                 return of_cells
+        if cells is not False and 0 < count < self.mesh.n_cells and count == self._n_elements():
+            return True
         return None
+
+    def _n_elements(self) -> int:
+        elements = self.mesh.elements
+        return int(elements.max()) + 1 if elements.size else 0
 
     def add(
         self,
@@ -56,7 +62,7 @@ class Columns:
         """Adds an array as a column.
 
         Args:
-            values: (n,) or (n, k), a row for each vertex or cell.
+            values: (n,) or (n, k), a row for each vertex, cell or element (`Mesh.elements`).
             what: the argument, for messages.
             cells: True, False, or by the number of rows; vertices if both have as many.
             components: those that are allowed; empty: any.
@@ -83,6 +89,8 @@ class Columns:
                 "%s: an array of %d components; it must have %s."
                 % (what, width, " or ".join(map(str, components)))
             )
+        if of_cells and len(array) != self.mesh.n_cells:
+            array = array[self.mesh.elements]
         column = Column(name or self._free_name(what), of_cells, array, name is None)
         self.added.append(column)
         return column

@@ -83,7 +83,8 @@ def solve(
     A value is a number (for all right-hand sides); a list of k numbers, one for each right-hand side (an array of these with `columns`);
     an array with a row for each vertex, (n,) or (n, k); the name of a column of the mesh; or
     "position". With a region it is written ``region >> value``; of several, in a list, later ones take
-    precedence. Without any flux or Robin condition, the boundary is insulated.
+    precedence. Without any flux or Robin condition, the boundary is insulated. Arrays of the cells may
+    have a row for each of the `Mesh.elements` instead, as of the hexahedra of a file.
 
     Args:
         dirichlet: u at vertices: ``[smg.plane(z=0) >> 0, smg.tag("part", 3) >> 1]``, or a dict

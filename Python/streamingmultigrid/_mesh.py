@@ -71,6 +71,7 @@ class Mesh:
         self._source: Optional[str] = None  # the file whose conversion this is
         self._reopening: Optional[Dict[str, Any]] = None  # the arguments of `open`, if it is all of it
         self._facts: Dict[bool, Dict[str, Any]] = {}
+        self._elements: Optional[np.ndarray] = None
         self.report = None
 
     # Opening, which is done at the first use.
@@ -202,6 +203,21 @@ class Mesh:
         """All cells, (m, 3) or (m, 4) int64: rows of `points`."""
         return self.read("Corners", cells=True)
 
+    @property
+    def elements(self) -> np.ndarray:
+        """Of each cell the number of the cell of the file that it is a part of, (m,) int64, from 0.
+
+        Polygons are read as triangles; hexahedra, prisms and pyramids as tetrahedra. Arrays that are
+        given for the cells may have a row for each of these elements instead. Means of a result by
+        element: ``np.bincount(mesh.elements, values) / np.bincount(mesh.elements)``.
+        """
+        if self._elements is None:
+            has_numbers = "OriginalCellId" in self.columns["cells"]
+            self._elements = (
+                self.read("OriginalCellId", cells=True) if has_numbers else np.arange(self.n_cells)
+            )
+        return self._elements
+
     def read(
         self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
     ) -> np.ndarray:
@@ -234,7 +250,7 @@ class Mesh:
 
         Args:
             name: any but those with a meaning of their own, as Position and OriginalId.
-            values: (n,) or (n, k), a row for each vertex or each cell.
+            values: (n,) or (n, k), a row for each vertex, each cell or each of the `elements`.
             cells: True, False, or by the number of rows; vertices if there are as many of both.
             copy: False: the array is used where it is. Do not change it while the mesh or a field of it
                 is used.

@@ -302,7 +302,7 @@ def tag(column: str, value: float) -> Region:
 
 
 def mask(column_or_values: Union[str, npt.ArrayLike]) -> Region:
-    """Where a column is not 0, or an array with a row for each vertex, or each cell, is not 0."""
+    """Where a column is not 0, or an array with a row for each vertex, cell or element (`Mesh.elements`)."""
     if isinstance(column_or_values, str):
         return _Mask(column_or_values)
     values = numbers(column_or_values, "mask")

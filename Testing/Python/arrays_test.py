@@ -354,4 +354,57 @@ class LifetimesTest(unittest.TestCase):
             self.assertEqual(file.read(), before)
 
 
+class ElementsTest(unittest.TestCase):
+    """Of cells that are read in parts, an array has a row for each part, or for each cell."""
+
+    def files(self):
+        """Hexahedra, and quadrilaterals: (name, number of elements)."""
+        n = 3
+        grid = np.stack(np.meshgrid(*[np.arange(n + 1.0)] * 3, indexing="ij"), -1).reshape(-1, 3)
+        number = np.arange(len(grid)).reshape((n + 1,) * 3)
+        corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+        hexahedra = np.stack([number[i:n + i, j:n + j, k:n + k].ravel() for i, j, k in corners], 1)
+        for name, cells, kind in (("hexahedra.vtk", hexahedra, 12), ("quads.vtk", hexahedra[:9, :4], 9)):
+            with open(name, "w", encoding="utf-8") as file:
+                file.write("# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\n")
+                file.write("POINTS %d double\n" % len(grid))
+                np.savetxt(file, grid)
+                file.write("CELLS %d %d\n" % (len(cells), cells.size + len(cells)))
+                np.savetxt(file, np.insert(cells, 0, cells.shape[1], axis=1), fmt="%d")
+                file.write("CELL_TYPES %d\n" % len(cells) + "%d\n" % kind * len(cells))
+            yield name, len(cells)
+
+    def test_arrays_by_element(self):
+        for name, count in self.files():
+            with self.subTest(name):
+                mesh = smg.open(name)
+                self.assertGreater(mesh.n_cells, count)
+                np.testing.assert_array_equal(np.unique(mesh.elements), np.arange(count))
+                values = np.linspace(1, 2, count)
+                parts = values[mesh.elements]
+                held = smg.below(x=0) >> 0.0
+                for argument in ("conductivity", "source", "screening"):
+                    given = {"source": 1.0, argument: values, "dirichlet": held}
+                    one = mesh.solve(**given).to_numpy()
+                    two = mesh.solve(**{**given, argument: parts}).to_numpy()
+                    self.assertEqual(bits(one), bits(two), argument)
+                mesh["k"] = values
+                self.assertEqual(bits(mesh["k"]), bits(parts))
+                one, two = (
+                    mesh.solve(source=1.0, dirichlet=smg.mask(mask) >> 0).to_numpy()
+                    for mask in (values > 1.5, parts > 1.5)
+                )
+                self.assertEqual(bits(one), bits(two))
+                with self.assertRaisesRegex(smg.InputError, "row for each"):
+                    mesh["k"] = values[1:]
+
+    def test_means_by_element(self):
+        name, count = next(self.files())
+        mesh = smg.open(name)
+        u = mesh.solve(dirichlet=[smg.below(x=0) >> 0, smg.above(x=3) >> 3], outputs="gradient")
+        gradient = u.read("Gradient", cells=True)[:, 0]
+        means = np.bincount(mesh.elements, gradient) / np.bincount(mesh.elements)
+        np.testing.assert_allclose(means, np.ones(count), rtol=1e-6)
+
+
 unittest.main(verbosity=2)
