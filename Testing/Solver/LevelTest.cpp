@@ -206,6 +206,29 @@ TEST(RowBlockPacker, TurnsWideWhereADistanceOrACountDoesNotFit)
   EXPECT_TRUE(isWide(70000, 70000));
 }
 
+/** The diagonal is that of an isolated node then, which makes every correction zero. */
+TEST(LevelRows, CountRowsWhoseWeightsCancel)
+{
+  Pool pool(1 << 28);
+  LevelRows rows(pool);
+  const auto append = [&rows](double rowSum, const std::vector<RowEntry>& row)
+  {
+    std::ranges::copy(row, rows.open(static_cast<std::int64_t>(row.size())));
+    rows.close(static_cast<std::int64_t>(row.size()), rowSum, -1);
+  };
+  append(0.0, {});
+  append(0.0, { { -1, 2.0F }, { 1, -1.0F } });
+  append(2.0, { { -1, -1.0F } });
+  EXPECT_EQ(rows.frozen(), 0);
+  append(0.0, { { -1, 1.0F }, { 1, -1.0F } });
+  append(0.5, { { -1, -1.0F } });
+  EXPECT_EQ(rows.frozen(), 2);
+  for (std::int64_t i = 0; i < 5; ++i)
+  {
+    EXPECT_EQ(rows.diagonal(i) == nonZeroDiagonal(0.0), i == 0 || i > 2) << i;
+  }
+}
+
 TEST(RowBlockPacker, WideBlocksKeepTheLargestDistances)
 {
   constexpr auto Most = static_cast<std::int32_t>(RowEntry::MaxDistance);

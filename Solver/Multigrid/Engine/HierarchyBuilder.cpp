@@ -183,6 +183,7 @@ void HierarchyBuilder::close(int l)
 {
   const auto k = static_cast<std::size_t>(l);
   this->Built.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
+  this->Built.frozen += l > 0 ? this->Rows[k]->frozen() : 0;
   if (k < this->Steps.size())
   {
     this->Steps[k].reset();

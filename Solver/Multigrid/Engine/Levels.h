@@ -21,6 +21,7 @@ struct Levels
   std::unique_ptr<Level<double>> finest;
   std::vector<std::unique_ptr<Level<float>>> coarse; ///< level 1, 2, ...
   std::vector<Report::Level> sizes;
+  std::int64_t frozen = 0; ///< LevelRows::frozen() of the coarse levels
 };
 
 } // namespace smg

@@ -77,7 +77,8 @@ private:
 inline double nonZeroDiagonal(double sum)
 {
   // A sum of 0 belongs to the only node of a component without constraint. Any correction of it is
-  // right, and this diagonal makes it zero.
+  // right, and this diagonal makes it zero. So it does where weights of both signs cancel, which is
+  // no diagonal to divide by either: LevelRows::frozen() counts these rows.
   constexpr double Isolated = 1e20;
   return sum > 0.0 ? sum : Isolated;
 }
@@ -176,6 +177,10 @@ public:
   std::int64_t childReach(std::int64_t i) const { return this->ChildReach[i]; }
   /** The number of entries of all rows so far, with the diagonals. */
   std::int64_t nonzeros() const { return this->Nonzeros; }
+  /** The number of rows so far whose node gets no correction though it has neighbours: weights of
+   * both signs cancel, so that there is no positive diagonal to divide by. See nonZeroDiagonal().
+   */
+  std::int64_t frozen() const { return this->Frozen; }
 
   /** Returns room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
@@ -245,10 +250,13 @@ private:
     for (const ClosedRow& row : rows)
     {
       float largest = 0.0F;
+      double sum = row.rowSum;
       for (std::int64_t e = 0; e < row.size; ++e)
       {
         largest = std::max(largest, entry[e].weight());
+        sum += entry[e].weight();
       }
+      this->Frozen += row.size > 0 && row.precise == 0 && sum <= 0.0 ? 1 : 0;
       const std::int64_t last = row.size > 0 ? i + std::max(0, entry[row.size - 1].delta()) : i;
       this->Entries.close(row.size);
       *rowSum++ = row.rowSum;
@@ -285,7 +293,7 @@ private:
   Ring<double> RowSum;
   Ring<StrongestWeight> Strongest;
   MonotoneRing Reach, ChildReach;
-  std::int64_t Nonzeros = 0;
+  std::int64_t Nonzeros = 0, Frozen = 0;
 };
 
 /** The entries of consecutive rows, in memory that stays allocated when they are cleared. */
