@@ -8,6 +8,7 @@
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Error.h"
 
@@ -152,6 +153,7 @@ std::unique_ptr<Solution> blend(
     ownBytes(mesh.info(), problem.columns(), description.seam, options.inCore);
   // What the problem keeps while it is prepared has the same limit as the solve later.
   problem.memory().setLimit(std::max<std::int64_t>(options.memoryLimit - own, 1));
+  requireMemory(mesh.info(), problem.columns(), Weights::Cotangent, options);
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   visitBlocks(*source(), options.progress, 0.0, Prepared,
     [&](const MeshBlock& block) { problem.prepare(block, options.scratch); });

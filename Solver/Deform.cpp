@@ -4,6 +4,7 @@
 #include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 #include "Solver/Jobs/Deformation/InteractiveEngine.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Multigrid/Extended.h"
 #include "smg/DeformationDescription.h"
 #include "smg/DescribedHandles.h"
@@ -59,6 +60,8 @@ std::unique_ptr<Solution> deform(const StoredMesh& mesh, const DeformationDescri
   description.applyTo(completed);
   DescribedHandles handles(description, mesh.info(), name);
   const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
+  constexpr int RotationColumns = 4; // the step that needs more
+  requireMemory(mesh.info(), RotationColumns, completed.weights, completed);
   handles.prepare(*source(), completed.scratch, completed.memoryLimit);
   identify(completed, mesh, "");
   return deform(*source(), handles, completed);

@@ -2,6 +2,7 @@
 #include "smg/Solve.h"
 
 #include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Problem/ComposeDescriptions.h"
@@ -128,6 +129,7 @@ std::unique_ptr<Solution> solve(const StoredMesh& mesh, const ProblemDescription
                                        "flux, robin, soft, field or initial");
   DescribedProblem problem(description, mesh.info(), name);
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
+  requireMemory(mesh.info(), problem.columns(), problem.weights(), options);
   problem.prepare(*source(), options.scratch, options.memoryLimit);
   SolveOptions completed = options;
   completed.again = source;

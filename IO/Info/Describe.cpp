@@ -30,7 +30,7 @@ namespace
 {
 
 constexpr PoolUse DescriptionMemory{ "the description of the mesh",
-  "raise the memory limit, or convert the mesh with the order bfs" };
+  "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
 /** Lengths, areas, volumes and quality of cells, and what is wrong with some. */
 class ShapeSums

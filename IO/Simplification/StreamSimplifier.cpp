@@ -27,7 +27,7 @@ namespace
 {
 
 constexpr PoolUse SimplificationMemory{ "the simplification",
-  "raise the memory limit, or convert the mesh with the order bfs" };
+  "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
 /** The least number of triangles of a window. */
 constexpr std::int64_t MinWindow = 20000;

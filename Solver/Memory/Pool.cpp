@@ -17,12 +17,13 @@ namespace smg
 std::string memoryLimitSentence(
   std::int64_t needed, std::int64_t allowed, const PoolUse& use, std::int64_t usual)
 {
-  // The first figure is what is missing at this moment; an operation may need more later on, for
-  // which the estimate stands.
-  const std::string usually =
-    usual > 0 ? " (about " + mebibytes(usual) + " usually suffice)" : std::string();
-  return std::string(use.operation) + " needs at least " + exactMebibytes(needed) + " of memory" +
-         usually + " but the limit is " + exactMebibytes(allowed) + ": " + use.advice;
+  // What is missing at this moment does not suffice as a limit where the operation needs more later
+  // on: the figure in MiB, which users follow, is that of all of it, if it is known.
+  const std::string need = usual > 0 ? "about " + mebibytes(usual) + " of memory (at least " +
+                                         std::to_string(needed) + " bytes)"
+                                     : "at least " + exactMebibytes(needed) + " of memory";
+  return std::string(use.operation) + " needs " + need + " but the limit is " +
+         exactMebibytes(allowed) + ": " + use.advice;
 }
 
 void Pool::acquire(std::int64_t bytes)

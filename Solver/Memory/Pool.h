@@ -21,7 +21,8 @@ struct PoolUse
 };
 
 inline constexpr PoolUse SolveMemory{ "the solve",
-  "raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps" };
+  "raise the memory limit, use fewer sweeps, or convert the mesh with the order bfs if it has "
+  "another" };
 
 /**
  * Accounts for the large memory of an operation and enforces its limit: a request above it throws
@@ -65,7 +66,7 @@ private:
 };
 
 /** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..."; with `usual` bytes,
- * 0 if unknown, also "about ... MiB usually suffice". */
+ * 0 if unknown, "the solve needs about ... MiB of memory (at least ... bytes) but ...". */
 SMG_EXPORT std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed,
   const PoolUse& use = SolveMemory, std::int64_t usual = 0);
 
@@ -93,8 +94,10 @@ public:
       return *this;
     }
     const std::int64_t sufficient = plus(bytes, bytes / 2); // measured: up to 1.3 times as many
+    // Of small meshes buffers are the larger part, of which the expectation knows nothing.
+    constexpr std::int64_t Smallest = std::int64_t(16) << 20;
     return { this->Needed, this->Allowed, this->Use,
-      std::max(sufficient, plus(this->Needed, this->Needed / 4)) };
+      std::max({ sufficient, plus(this->Needed, this->Needed / 4), Smallest }) };
   }
 
   /** The same error for an operation that has `own` bytes beside the part that failed and whose

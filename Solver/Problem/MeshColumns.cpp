@@ -24,7 +24,7 @@ namespace
 {
 
 constexpr PoolUse SelectionMemory{ "finding the selected parts of the mesh",
-  "raise the memory limit, or convert the mesh with the order bfs" };
+  "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
 const ColumnSpec* find(const std::vector<ColumnSpec>& specs, const std::string& name)
 {

@@ -466,7 +466,7 @@ TEST_F(Simplify, AWideStreamNeedsMoreMemory)
   StreamMesh mesh = toStream(shuffled(torus(300, 200, 0.2)), TestOrder::Keep);
   EXPECT_LE(this->simplified(mesh, toVertices(1000, std::int64_t(64) << 20)).vertices(), 1000);
   expectError([&] { this->simplified(mesh, toVertices(1000, LittleMemory)); },
-    "raise the memory limit, or convert the mesh with the order bfs");
+    "raise the memory limit, or convert the mesh with the order bfs if it has another");
 }
 
 TEST_F(Simplify, RefusesOptionsOutOfRangeAndCanBeCancelled)

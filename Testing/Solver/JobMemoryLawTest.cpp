@@ -33,6 +33,19 @@ protected:
   }
 };
 
+/** The first number of MiB in an error of a limit, as bytes. */
+std::int64_t namedLimit(const std::string& sentence)
+{
+  for (const char* before : { "needs about ", "needs at least " })
+  {
+    if (const std::size_t place = sentence.find(before); place != std::string::npos)
+    {
+      return std::stoll(sentence.substr(place + std::string(before).size())) << 20;
+    }
+  }
+  return 0;
+}
+
 /** What the growth holds for: jobs that keep a window of the stream. */
 class JobMemoryLaw : public JobLimitLaw
 {
@@ -78,6 +91,32 @@ TEST_P(JobLimitLaw, StaysWithinTheLimit)
     else
     {
       EXPECT_EQ(done, 0) << "more memory is enough, too";
+    }
+  }
+}
+
+/** The figure in MiB, as users follow it: rounded up, for all of the job. */
+TEST_P(JobLimitLaw, TheLimitThatAnErrorNamesSuffices)
+{
+  const JobOnMesh run(this->job(), this->someMesh());
+  for (const bool inCore : { false, true })
+  {
+    Way way = this->someWay();
+    way.inCore = inCore && this->job().inCore;
+    bool isEnough = false;
+    std::int64_t sufficient = 0;
+    for (std::int64_t limit = 1 << 18; !isEnough; limit *= 2)
+    {
+      ASSERT_LE(limit, 1 << 28) << "no limit is enough";
+      way.memoryLimit = limit;
+      const std::string sentence = messageOf([&] { run(way); });
+      isEnough = sentence.empty();
+      if (!isEnough && namedLimit(sentence) != sufficient)
+      {
+        way.memoryLimit = sufficient = namedLimit(sentence);
+        EXPECT_GT(sufficient, limit) << sentence;
+        EXPECT_EQ(messageOf([&] { run(way); }), "") << sentence;
+      }
     }
   }
 }

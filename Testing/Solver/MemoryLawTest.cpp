@@ -48,7 +48,7 @@ TEST(MemoryLaw, TheErrorOfALowLimitNamesOneThatSuffices)
       {
         options.memoryLimit = need * percent / 100;
         const std::string sentence = messageOf([&] { solveMesh(mesh, problem, options); });
-        const std::string before = "(about ";
+        const std::string before = " needs about ";
         const std::size_t place = sentence.find(before);
         ASSERT_NE(place, std::string::npos) << percent << " %: " << sentence;
         options.memoryLimit = std::stoll(sentence.substr(place + before.size())) << 20;

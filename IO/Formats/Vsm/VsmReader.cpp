@@ -131,7 +131,9 @@ void VsmReader::requireBlocksWithin(std::int64_t memory) const
   constexpr std::int64_t Most = INT64_MAX - MaxIndexBytes;
   const std::int64_t needed =
     index + (blocks > Most / VsmFormat::BlocksInUse ? Most : VsmFormat::BlocksInUse * blocks);
-  if (needed > memory)
+  // As much is not accounted for; what computes with a limit below it says what it needs.
+  constexpr std::int64_t Usual = std::int64_t(4) << 20;
+  if (needed > std::max(memory, Usual))
   {
     this->Self->File.fail("its columns are so wide or so many that reading it takes " +
                           mebibytes(needed) + ", but the memory limit is " + mebibytes(memory) +

@@ -21,7 +21,7 @@ namespace smg
 
 /** The use of memory of a distance. */
 inline constexpr PoolUse DistanceMemory{ "a distance",
-  "raise the memory limit, or convert the mesh with the order bfs" };
+  "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
 /** What all parts of a distance and its solution share. */
 struct DistanceRun

@@ -76,7 +76,7 @@ void checkMemory(std::int64_t needed, const Pool& pool)
 {
   if (needed > pool.limit())
   {
-    throw Error(memoryLimitSentence(needed, pool.limit(), DistanceMemory) + '.');
+    throw MemoryLimitError(needed, pool.limit(), DistanceMemory).expecting(needed);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
@@ -106,6 +107,7 @@ std::unique_ptr<Solution> MeshFairing::run()
 {
   // Shares of the progress: the survey reads the mesh once, a step about ten times.
   const double surveyed = 1.0 / (1.0 + 10.0 * this->Options.steps);
+  requireMemory(this->Mesh.info(), this->Result->columns(), Weights::Cotangent, this->Options);
   this->survey({ 0.0, surveyed });
   const int steps = this->Result->vertices() > 0 ? this->Options.steps : 0;
   for (int k = 0; k < steps; ++k)

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr PoolUse ResultMemory{ "reading the results",
-  "raise the memory limit, or convert the mesh with the order bfs" };
+  "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
 } // namespace
 

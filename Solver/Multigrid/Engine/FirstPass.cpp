@@ -46,12 +46,7 @@ FirstResidual FirstPass::run(
 {
   const Timer building;
   const SolveOptions& options = this->Run.options;
-  // Before the mesh is read: a limit that is certainly too low fails at once.
-  const std::int64_t need = estimateMemory(mesh.info(), problem, options, furtherCoreBytes);
-  if (need > options.memoryLimit)
-  {
-    throw MemoryLimitError(need, options.memoryLimit);
-  }
+  requireMemory(mesh.info(), problem.columns(), problem.weights(), options, furtherCoreBytes);
   if (this->Run.scratch)
   {
     this->Run.labels.useScratch(*this->Run.scratch, this->Run.traffic.add("labels"));
@@ -207,6 +202,12 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   this->Run.components.anchorHeld();
   reportAssembly(assembly, this->Run.components, r);
   r.levels = this->Built.levels().sizes;
+  if (const std::int64_t frozen = this->Built.levels().frozen; frozen > 0)
+  {
+    r.notes.push_back(std::to_string(frozen) +
+                      " nodes of coarse levels have weights that cancel and get no correction "
+                      "there: more V-cycles may be needed");
+  }
   // Vertices with given values have an empty row, but are not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;

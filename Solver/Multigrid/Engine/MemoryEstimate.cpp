@@ -3,6 +3,7 @@
 
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Core/Workers.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 
 #include <algorithm>
@@ -54,9 +55,11 @@ std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t leas
 /** Bytes per vertex in core. */
 constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
 
+} // namespace
+
 /** The larger one of the first pass, which builds the hierarchy, and of a later one, which has
  * the windows of two V-cycles: with many sweeps the later ones need more. */
-std::int64_t minMemory(const StreamInfo& info, int columns, Weights weights,
+std::int64_t leastMemory(const StreamInfo& info, int columns, Weights weights,
   const SolveOptions& options, std::int64_t furtherCoreBytes)
 {
   const bool surface = info.cellType == CellType::Triangle;
@@ -79,20 +82,12 @@ std::int64_t minMemory(const StreamInfo& info, int columns, Weights weights,
   return nodes * std::max(first, later) * percent / 100;
 }
 
-} // namespace
-
-std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
-  const SolveOptions& options, std::int64_t furtherCoreBytes)
-{
-  return minMemory(info, problem.columns(), problem.weights(), options, furtherCoreBytes);
-}
-
 std::int64_t expectedMemory(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options)
 {
   // Besides the windows there are the core levels, and buffers. AboveMinimum is in percent.
   constexpr std::int64_t AboveMinimum = 130, CoreBytes = 70;
-  const std::int64_t least = minMemory(info, columns, weights, options, 0);
+  const std::int64_t least = leastMemory(info, columns, weights, options, 0);
   const std::int64_t windows = least * AboveMinimum / 100;
   if (options.inCore)
   {
@@ -100,6 +95,21 @@ std::int64_t expectedMemory(
   }
   return windows + betweenTasks(info, options.threads, least) +
          std::min(info.vertices, options.coreNodes) * CoreBytes;
+}
+
+void requireMemory(const StreamInfo& info, int columns, Weights weights,
+  const SolveOptions& options, std::int64_t furtherCoreBytes)
+{
+  const std::int64_t need = leastMemory(info, columns, weights, options, furtherCoreBytes);
+  if (need > options.memoryLimit)
+  {
+    // More threads take more memory only where the limit leaves room.
+    SolveOptions alone = options;
+    alone.threads = 1;
+    const std::int64_t expected = expectedMemory(info, columns, weights, alone) +
+                                  (options.inCore ? furtherCoreBytes * info.vertices : 0);
+    throw MemoryLimitError(need, options.memoryLimit).expecting(expected);
+  }
 }
 
 bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOptions& options)
