@@ -31,9 +31,12 @@ DisjointSets<std::uint32_t> bodySets(const SurfacePart& part, const Poll& poll)
   return sets;
 }
 
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
 struct Body
 {
-  std::array<double, 3> low, high;
+  std::array<double, 3> low{ Infinite, Infinite, Infinite },
+    high{ -Infinite, -Infinite, -Infinite };
   std::size_t triangles = 0;
   std::int64_t vertices = 0;
   bool isComplete = true;
@@ -54,8 +57,8 @@ struct Body
 std::vector<Body> bodiesOf(const SurfacePart& part, std::span<const std::uint8_t> locked,
   DisjointSets<std::uint32_t>& sets, const Poll& poll)
 {
-  constexpr double Far = std::numeric_limits<double>::infinity();
-  std::vector<Body> bodies(part.vertices(), { { Far, Far, Far }, { -Far, -Far, -Far } });
+  std::vector<Body> bodies;
+  poll.resize(bodies, part.vertices());
   for (std::uint32_t v = 0; v < part.vertices(); ++v)
   {
     poll.at(v);
@@ -72,6 +75,7 @@ std::vector<Body> bodiesOf(const SurfacePart& part, std::span<const std::uint8_t
   }
   for (std::size_t i = 0; i < part.corners.size(); i += 3)
   {
+    poll.at(i / 3);
     ++bodies[sets.first(part.corners[i])].triangles;
   }
   return bodies;
@@ -87,6 +91,7 @@ KeptBodies keepLargestBodies(
   std::vector<std::pair<double, std::uint32_t>> complete;
   for (std::uint32_t v = 0; v < bodies.size(); ++v)
   {
+    poll.at(v);
     if (sets.first(v) == v && bodies[v].isComplete)
     {
       // Negative, so that the largest come first; ties go to the first vertex.
@@ -124,8 +129,9 @@ KeptBodies keepLargestBodies(
   {
     return { 0, true };
   }
-  part.removeTriangles([&](std::size_t t) { return drops[sets.first(part.corners[3 * t])] != 0; });
-  part.dropUnusedVertices();
+  part.removeTriangles(
+    [&](std::size_t t) { return drops[sets.first(part.corners[3 * t])] != 0; }, poll);
+  part.dropUnusedVertices(poll);
   return { complete.size() - most, false };
 }
 

@@ -68,7 +68,8 @@ public:
   void addPlanes()
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
-    this->Part.quadrics.assign(this->Part.vertices(), {});
+    this->Part.quadrics.clear();
+    this->Polled.resize(this->Part.quadrics, this->Part.vertices());
     this->Part.lacksBoundary.assign(this->Part.vertices(), 1);
     for (std::size_t i = 0; i < corners.size(); i += 3)
     {
@@ -103,6 +104,7 @@ public:
     }
     for (std::uint32_t v = 0; v < lacks.size(); ++v)
     {
+      this->Polled.at(v);
       // Open vertices may have further boundary edges in later parts.
       lacks[v] = lacks[v] != 0 && this->Surface.isOpen(v) ? 1 : 0;
     }
@@ -141,7 +143,7 @@ public:
         worth = 0.0F; // no other collapse is possible
       }
     }
-    this->Part.dropUnusedVertices();
+    this->Part.dropUnusedVertices(this->Polled);
     return std::sqrt(this->Error);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -28,14 +29,28 @@ public:
   /** The same in step `i` of a loop, where it is the turn. */
   void at(std::size_t i) const
   {
-    constexpr std::size_t Steps = std::size_t(1) << 14; // a few milliseconds
     if (i % Steps == 0)
     {
       this->now();
     }
   }
 
+  /** The same while a list gets longer: to clear new memory takes time. */
+  template <class List>
+  void resize(List& list, std::size_t size) const
+  {
+    list.reserve(size);
+    while (list.size() < size)
+    {
+      list.resize(std::min(size, list.size() + Steps));
+      this->now();
+    }
+    list.resize(size);
+  }
+
 private:
+  static constexpr std::size_t Steps = std::size_t(1) << 14; // a few milliseconds
+
   std::function<void()> Function;
 };
 

@@ -49,16 +49,20 @@ bool SimplifiedMesh::next(MeshBlock& block)
   made.cellColumns = emptyColumns(this->Info.cellColumns);
   const SurfacePart& surface = this->Part.surface;
   std::vector<std::int64_t> numbers(surface.vertices(), -1);
+  const Poll& poll = this->Simplifier.polled();
   for (std::size_t v = 0; v < numbers.size(); ++v)
   {
+    poll.at(v);
     // Vertices of earlier parts have their numbers already.
     if (const auto known = this->Numbers.find(surface.ids[v]); known != this->Numbers.end())
     {
       numbers[v] = known->second;
     }
   }
-  for (const std::uint32_t corner : surface.corners)
+  for (std::size_t i = 0; i < surface.corners.size(); ++i)
   {
+    poll.at(i);
+    const std::uint32_t corner = surface.corners[i];
     // Numbered by first use, as a stream requires.
     if (numbers[corner] < 0)
     {
@@ -69,11 +73,13 @@ bool SimplifiedMesh::next(MeshBlock& block)
   }
   for (std::size_t t = 0; t < surface.triangles(); ++t)
   {
+    poll.at(t);
     surface.copyTriangle(t, made.cellColumns);
   }
   this->Info.cells += static_cast<std::int64_t>(surface.triangles());
   for (std::size_t v = 0; v < numbers.size(); ++v)
   {
+    poll.at(v);
     if (this->Part.isShared[v] != 0)
     {
       this->Numbers.emplace(surface.ids[v], numbers[v]);

@@ -70,7 +70,8 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
   : Memory(memory, SimplificationMemory)
   , Told(progress)
   , Polled([this] { this->poll(); })
-  , Parts(triangles, this->Memory, partOf(memory, triangles.info()), std::move(progress))
+  , Parts(
+      triangles, this->Memory, partOf(memory, triangles.info()), std::move(progress), this->Polled)
   , Info(triangles.info())
   , Goal{ target.vertices,
     target.error > 0.0 ? target.error : std::numeric_limits<double>::infinity() }
@@ -219,8 +220,15 @@ void StreamSimplifier::append(const StreamPart& part)
   SurfacePart& to = this->Window;
   std::vector<std::uint32_t> places(from.vertices());
   to.origin = from.origin;
+  if (to.triangles() == 0)
+  {
+    // At once: moving a full window to a larger place takes long.
+    const auto expected = static_cast<std::size_t>(std::max<std::int64_t>(0, this->Info.cells));
+    to.reserve(std::min(this->Capacity, std::max(expected, from.triangles())), from);
+  }
   for (std::size_t v = 0; v < from.vertices(); ++v)
   {
+    this->Polled.at(v);
     const auto place = static_cast<std::uint32_t>(to.vertices());
     if (!part.isInside(v))
     {
@@ -239,9 +247,10 @@ void StreamSimplifier::append(const StreamPart& part)
     to.quadrics.push_back(from.quadrics[v]);
     to.lacksBoundary.push_back(from.lacksBoundary[v]);
   }
-  for (const std::uint32_t corner : from.corners)
+  for (std::size_t i = 0; i < from.corners.size(); ++i)
   {
-    to.corners.push_back(places[corner]);
+    this->Polled.at(i);
+    to.corners.push_back(places[from.corners[i]]);
   }
   to.cellRows.insert(to.cellRows.end(), from.cellRows.begin(), from.cellRows.end());
   this->End = part.end;
@@ -260,6 +269,7 @@ std::vector<std::uint8_t> StreamSimplifier::locked() const
   std::vector<std::uint8_t> locked(this->Window.vertices());
   for (std::size_t v = 0; v < locked.size(); ++v)
   {
+    this->Polled.at(v);
     const std::int64_t id = this->Window.ids[v];
     locked[v] = id >= this->End || this->Delivered.contains(id) ? 1 : 0;
   }
@@ -375,6 +385,7 @@ void StreamSimplifier::deliverOlderHalf()
   std::vector<std::int64_t> ages(window.triangles());
   for (std::size_t t = 0; t < ages.size(); ++t)
   {
+    this->Polled.at(t);
     const std::uint32_t* c = window.corners.data() + 3 * t;
     ages[t] = std::max({ window.ids[c[0]], window.ids[c[1]], window.ids[c[2]] });
   }
@@ -396,6 +407,7 @@ void StreamSimplifier::deliver(const std::vector<std::uint8_t>& leaves)
   std::vector<std::uint32_t> leaving;
   for (std::uint32_t t = 0; t < leaves.size(); ++t)
   {
+    this->Polled.at(t);
     if (leaves[t] != 0)
     {
       leaving.push_back(t);
@@ -406,20 +418,23 @@ void StreamSimplifier::deliver(const std::vector<std::uint8_t>& leaves)
       stays[this->Window.corners[3 * std::size_t(t) + k]] = 1;
     }
   }
-  Result result{ this->Window.extract(leaving), {}, {} };
+  Result result{ this->Window.extract(leaving, this->Polled), {}, {} };
   this->DeliveredVertices += std::ranges::count_if(
     result.surface.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
   // What the window still uses, or later parts may.
   std::unordered_set<std::int64_t> staying;
   for (std::size_t v = 0; v < stays.size(); ++v)
   {
+    this->Polled.at(v);
     if (stays[v] != 0 || this->Window.ids[v] >= this->End)
     {
       staying.insert(this->Window.ids[v]);
     }
   }
-  for (const std::int64_t id : result.surface.ids)
+  for (std::size_t v = 0; v < result.surface.ids.size(); ++v)
   {
+    this->Polled.at(v);
+    const std::int64_t id = result.surface.ids[v];
     const bool isShared = staying.contains(id);
     result.isShared.push_back(isShared ? 1 : 0);
     if (isShared)
@@ -437,8 +452,8 @@ void StreamSimplifier::deliver(const std::vector<std::uint8_t>& leaves)
       }
       return hasEnded;
     });
-  this->Window.removeTriangles([&leaves](std::size_t t) { return leaves[t] != 0; });
-  this->Window.dropUnusedVertices();
+  this->Window.removeTriangles([&leaves](std::size_t t) { return leaves[t] != 0; }, this->Polled);
+  this->Window.dropUnusedVertices(this->Polled);
   // Saved before the state that counts it: a program that continues finds all parts of the result.
   if (this->Kept && !this->IsFinished)
   {
@@ -486,108 +501,13 @@ std::int64_t StreamSimplifier::remaining() const
     this->Window.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
 }
 
-namespace
-{
-
-/** Whether the lists of a surface from a file have the lengths that they say, with rows of so many
- * bytes, and the corners are vertices. */
-bool isConsistent(const SurfacePart& surface, const StreamInfo& info)
-{
-  const auto row = static_cast<std::size_t>(rowBytes(info.vertexColumns));
-  const auto cellRow = static_cast<std::size_t>(rowBytes(carriedColumns(info)));
-  return surface.points.size() == 3 * surface.vertices() &&
-         surface.rows.size() == row * surface.vertices() &&
-         surface.cellRows.size() == cellRow * surface.triangles() &&
-         surface.corners.size() % 3 == 0 &&
-         std::ranges::all_of(surface.corners,
-           [&surface](std::uint32_t corner) { return corner < surface.vertices(); });
-}
-
-} // namespace
-
-// The checkpoint of a StreamSimplifier: its state whenever the window was simplified, and each part
-// of the result.
-
-/** What is saved when the window has been simplified. Everything else follows from reading the
- * stream to the same place. */
-template <class State>
-void StreamSimplifier::exchange(State& state)
-{
-  std::vector<std::int64_t> delivered(this->Delivered.begin(), this->Delivered.end());
-  auto capacity = static_cast<std::uint64_t>(this->Capacity);
-  state(this->Window, delivered, capacity, this->End, this->DeliveredVertices, this->TakenVertices,
-    this->TakenParts, this->FullWindows, this->Counts, this->KeptResults);
-  this->Delivered = { delivered.begin(), delivered.end() };
-  this->Capacity = static_cast<std::size_t>(capacity);
-}
-
-/** A part of the result is a state of its own, with a name of its own. */
-Checkpoint StreamSimplifier::keptResult(std::int64_t number) const
-{
-  return { *this->Folder, this->Subject,
-    std::string(Checkpoint::StateName) + "-result-" + std::to_string(number) };
-}
-
-void StreamSimplifier::loadResult(std::int64_t number, Result& result)
-{
-  std::optional<StateReader> state = this->keptResult(number).open(this->Memory);
-  if (!state)
-  {
-    throw Error(this->Folder->path().string() +
-                ": the checkpoint is damaged: a part of the result is missing. Remove its folder "
-                "to begin anew.");
-  }
-  (*state)(result);
-  state->require(isConsistent(result.surface, this->Info) &&
-                 result.isShared.size() == result.surface.vertices());
-  state->finish();
-}
-
-void StreamSimplifier::save()
-{
-  if (this->Kept)
-  {
-    this->Kept->save(this->FullWindows, [this](StateWriter& state) { this->exchange(state); });
-  }
-}
-
-void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Item> subject)
-{
-  this->Folder = &folder;
-  this->Subject = std::move(subject);
-  this->Kept.emplace(folder, this->Subject);
-  std::optional<StateReader> state = this->Kept->open(this->Memory);
-  if (!state)
-  {
-    return;
-  }
-  // The constructor has acquired the memory for its own capacity: only what the window has grown by
-  // is added.
-  const std::size_t least = this->Capacity;
-  this->exchange(*state);
-  state->finish();
-  state->require(isConsistent(this->Window, this->Info) &&
-                 this->Window.quadrics.size() == this->Window.vertices() &&
-                 this->Window.lacksBoundary.size() == this->Window.vertices() &&
-                 this->Capacity >= least && this->TakenParts >= 0 && this->KeptResults >= 0);
-  this->enlarge(std::exchange(this->Capacity, least));
-  this->renumber();
-  this->Counts.resumedAt = this->TakenVertices;
-  this->ResumedResults = this->KeptResults;
-  // The same parts are read again, but not simplified.
-  StreamPart taken;
-  for (std::int64_t k = 0; k < this->TakenParts; ++k)
-  {
-    this->Parts.next(taken);
-  }
-}
-
 /** Lists the places of those vertices of the window that later parts may have. */
 void StreamSimplifier::renumber()
 {
   this->Open.clear();
   for (std::size_t v = 0; v < this->Window.vertices(); ++v)
   {
+    this->Polled.at(v);
     if (this->Window.ids[v] >= this->End)
     {
       this->Open.emplace(this->Window.ids[v], static_cast<std::uint32_t>(v));

@@ -89,6 +89,8 @@ public:
 
   const SimplificationCounts& counts() const { return this->Counts; }
   std::int64_t peakMemory() const { return this->Memory.peak(); }
+  /** Asks whether to go on, for work on a part of the result. */
+  const Poll& polled() const { return this->Polled; }
 
 private:
   struct Item

@@ -21,17 +21,33 @@ namespace
 constexpr std::uint32_t Unused = std::numeric_limits<std::uint32_t>::max();
 
 /** For each vertex 0 if a triangle uses it, else Unused. */
-std::vector<std::uint32_t> usedBy(const std::vector<std::uint32_t>& corners, std::size_t vertices)
+std::vector<std::uint32_t> usedBy(
+  const std::vector<std::uint32_t>& corners, std::size_t vertices, const Poll& poll)
 {
   std::vector<std::uint32_t> used(vertices, Unused);
-  for (const std::uint32_t corner : corners)
+  for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    used[corner] = 0;
+    poll.at(i);
+    used[corners[i]] = 0;
   }
   return used;
 }
 
 } // namespace
+
+void SurfacePart::reserve(std::size_t triangles, const SurfacePart& like)
+{
+  const double share = static_cast<double>(like.vertices()) /
+                       static_cast<double>(std::max<std::size_t>(1, like.triangles()));
+  const auto vertices = static_cast<std::size_t>(share * static_cast<double>(triangles));
+  this->ids.reserve(vertices);
+  this->points.reserve(3 * vertices);
+  this->quadrics.reserve(vertices);
+  this->lacksBoundary.reserve(vertices);
+  this->rows.reserve(vertices * like.rowBytes());
+  this->corners.reserve(3 * triangles);
+  this->cellRows.reserve(triangles * like.cellRowBytes());
+}
 
 void SurfacePart::addVertex(const SurfacePart& from, std::size_t vertex)
 {
@@ -83,22 +99,26 @@ void SurfacePart::keepTriangles(std::size_t number)
   this->corners.resize(3 * number);
 }
 
-SurfacePart SurfacePart::extract(const std::vector<std::uint32_t>& triangles) const
+SurfacePart SurfacePart::extract(
+  const std::vector<std::uint32_t>& triangles, const Poll& poll) const
 {
   const std::size_t stride = this->cellRowBytes();
   std::vector<std::uint32_t> some;
   SurfacePart part;
-  for (const std::uint32_t t : triangles)
+  for (std::size_t k = 0; k < triangles.size(); ++k)
   {
+    poll.at(k);
+    const std::uint32_t t = triangles[k];
     const auto corner = this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(t);
     some.insert(some.end(), corner, corner + 3);
     const auto row = this->cellRows.begin() + static_cast<std::ptrdiff_t>(t * stride);
     part.cellRows.insert(part.cellRows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
   }
-  std::vector<std::uint32_t> place = usedBy(some, this->vertices());
+  std::vector<std::uint32_t> place = usedBy(some, this->vertices(), poll);
   part.origin = this->origin;
   for (std::size_t v = 0; v < place.size(); ++v)
   {
+    poll.at(v);
     if (place[v] != Unused)
     {
       place[v] = static_cast<std::uint32_t>(part.vertices());
@@ -113,15 +133,16 @@ SurfacePart SurfacePart::extract(const std::vector<std::uint32_t>& triangles) co
   return part;
 }
 
-void SurfacePart::dropUnusedVertices()
+void SurfacePart::dropUnusedVertices(const Poll& poll)
 {
-  std::vector<std::uint32_t> place = usedBy(this->corners, this->vertices());
+  std::vector<std::uint32_t> place = usedBy(this->corners, this->vertices(), poll);
   const std::size_t stride = this->rowBytes();
   // In place: a vertex never moves up.
   const bool hasQuadrics = !this->quadrics.empty();
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < place.size(); ++v)
   {
+    poll.at(v);
     if (place[v] == Unused)
     {
       continue;
@@ -158,11 +179,12 @@ std::vector<ColumnSpec> carriedColumns(const StreamInfo& info)
   return carried;
 }
 
-SurfaceParts::SurfaceParts(
-  MeshSource& source, Pool& pool, std::size_t triangles, std::function<void(double)> progress)
+SurfaceParts::SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles,
+  std::function<void(double)> progress, const Poll& poll)
   : Source(source)
   , Least(triangles)
   , Progress(std::move(progress))
+  , Polled(poll)
   , RowBytes(static_cast<std::size_t>(rowBytes(source.info().vertexColumns)))
   , Points(pool, 3)
   , Rows(pool, static_cast<int>(this->RowBytes))
@@ -181,6 +203,11 @@ bool SurfaceParts::next(StreamPart& part)
   }
   this->Released = this->Final;
   part.begin = this->Vertices;
+  if (this->Source.info().cells > 0)
+  {
+    this->Corners.reserve(
+      3 * std::min(this->Least, static_cast<std::size_t>(this->Source.info().cells)));
+  }
   while (this->Corners.size() < 3 * this->Least && !this->IsAtEnd)
   {
     if (this->Source.next(this->Block))
@@ -263,16 +290,17 @@ void SurfaceParts::addCellRow(const MeshBlock& block, std::size_t cell)
  * stream. */
 void SurfaceParts::localise(SurfacePart& surface)
 {
-  constexpr std::uint32_t Unused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> place(
     static_cast<std::size_t>(this->Vertices - this->Released), Unused);
   const auto placeOf = [&](std::int64_t id) -> std::uint32_t&
   { return place[static_cast<std::size_t>(id - this->Released)]; };
   std::size_t used = 0;
-  for (const std::int64_t corner : this->Corners)
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
-    used += placeOf(corner) == Unused ? 1 : 0;
-    placeOf(corner) = 0;
+    this->Polled.at(i);
+    std::uint32_t& mark = placeOf(this->Corners[i]);
+    used += mark == Unused ? 1 : 0;
+    mark = 0;
   }
   surface = {};
   surface.ids.reserve(used);
@@ -281,6 +309,7 @@ void SurfaceParts::localise(SurfacePart& surface)
   surface.origin = this->Origin;
   for (std::int64_t id = this->Released; id < this->Vertices; ++id)
   {
+    this->Polled.at(static_cast<std::size_t>(id));
     if (placeOf(id) == Unused)
     {
       continue;
@@ -297,9 +326,10 @@ void SurfaceParts::localise(SurfacePart& surface)
   }
   surface.cellRows = this->CellRows;
   surface.corners.reserve(this->Corners.size());
-  for (const std::int64_t corner : this->Corners)
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
-    surface.corners.push_back(placeOf(corner));
+    this->Polled.at(i);
+    surface.corners.push_back(placeOf(this->Corners[i]));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Simplification/Poll.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Column.h"
 #include "smg/MeshSource.h"
@@ -89,6 +90,8 @@ struct SurfacePart
     return this->cellRows.empty() ? 0 : this->cellRows.size() / this->triangles();
   }
 
+  /** Makes room for so many triangles, with rows and vertices as those of another surface. */
+  void reserve(std::size_t triangles, const SurfacePart& like);
   /** Appends a vertex of another surface, without its quadric. */
   void addVertex(const SurfacePart& from, std::size_t vertex);
   /** Appends the position and the tuples of a vertex to these. */
@@ -97,18 +100,19 @@ struct SurfacePart
   /** Appends the tuples of a triangle to these. */
   void copyTriangle(std::size_t triangle, std::span<Column> columns) const;
   /** Some triangles of this surface with their vertices, without quadrics. */
-  SurfacePart extract(const std::vector<std::uint32_t>& triangles) const;
+  SurfacePart extract(const std::vector<std::uint32_t>& triangles, const Poll& poll = Poll()) const;
   /** Puts a triangle in the place of an earlier one. */
   void moveTriangle(std::size_t from, std::size_t to);
   /** Removes all but the first triangles. */
   void keepTriangles(std::size_t number);
   /** Removes the triangles for whose numbers this is true. */
   template <class Predicate>
-  void removeTriangles(const Predicate& goes)
+  void removeTriangles(const Predicate& goes, const Poll& poll = Poll())
   {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < this->triangles(); ++t)
     {
+      poll.at(t);
       if (!goes(t))
       {
         this->moveTriangle(t, kept++);
@@ -117,7 +121,7 @@ struct SurfacePart
     this->keepTriangles(kept);
   }
   /** Removes the vertices that no triangle uses; the others keep their order. */
-  void dropUnusedVertices();
+  void dropUnusedVertices(const Poll& poll = Poll());
 
   template <class State>
   void exchange(State& state)
@@ -155,9 +159,9 @@ class SurfaceParts
 public:
   /** Each part has at least `triangles` triangles, in whole blocks; the last one may have fewer.
    * `progress` receives the share of the vertices that was read, if their number is known, and may
-   * throw. */
-  SurfaceParts(
-    MeshSource& source, Pool& pool, std::size_t triangles, std::function<void(double)> progress);
+   * throw, as may `poll`, which must outlive this. */
+  SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles,
+    std::function<void(double)> progress, const Poll& poll);
 
   /** Replaces `part` by the next one; returns whether there is one. */
   bool next(StreamPart& part);
@@ -175,6 +179,7 @@ private:
   MeshSource& Source;
   std::size_t Least;
   std::function<void(double)> Progress;
+  const Poll& Polled;
   std::size_t RowBytes = 0;
   OpenValues<double> Points;
   OpenValues<std::byte> Rows;

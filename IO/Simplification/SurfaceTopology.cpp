@@ -59,7 +59,7 @@ void SurfaceTopology::findStars()
     ++this->Begin[this->Corners[i] + 2];
   }
   std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
-  this->Stars.resize(this->Corners.size());
+  this->Polled.resize(this->Stars, this->Corners.size());
   for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
     this->Polled.at(i);
@@ -336,10 +336,12 @@ void SurfaceTopology::keepFoldedBodies(std::vector<std::uint8_t>& isFolded) cons
   std::vector<std::uint8_t> hasOthers(this->vertices(), 0);
   for (std::size_t t = 0; t < isFolded.size(); ++t)
   {
+    this->Polled.at(t);
     hasOthers[sets.first(this->Corners[3 * t])] |= isFolded[t] == 0 ? 1 : 0;
   }
   for (std::size_t t = 0; t < isFolded.size(); ++t)
   {
+    this->Polled.at(t);
     isFolded[t] &= hasOthers[sets.first(this->Corners[3 * t])];
   }
 }
@@ -350,12 +352,14 @@ std::size_t SurfaceTopology::dropFolded()
   this->keepFoldedBodies(isFolded);
   if (!this->KeepsFolded)
   {
-    this->Part.removeTriangles([&isFolded](std::size_t t) { return isFolded[t] != 0; });
+    this->Part.removeTriangles(
+      [&isFolded](std::size_t t) { return isFolded[t] != 0; }, this->Polled);
   }
   std::vector<std::uint8_t> isUsed(this->vertices(), 0);
-  for (const std::uint32_t corner : this->Corners)
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {
-    isUsed[corner] = 1;
+    this->Polled.at(i);
+    isUsed[this->Corners[i]] = 1;
   }
   this->findStars();
   return static_cast<std::size_t>(std::ranges::count(isUsed, 1));

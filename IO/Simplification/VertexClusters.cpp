@@ -218,6 +218,7 @@ void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll)
   const std::vector<std::uint32_t> places = clusters.places();
   for (std::size_t v = 0; v < places.size() && !part.quadrics.empty(); ++v)
   {
+    poll.at(v);
     // A vertex that is left stands for all of its cluster.
     if (places[v] != v)
     {
@@ -226,7 +227,7 @@ void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll)
     }
   }
   moveCorners(part, places, poll);
-  part.dropUnusedVertices();
+  part.dropUnusedVertices(poll);
 }
 
 } // namespace smg

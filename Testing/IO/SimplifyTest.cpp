@@ -2,6 +2,7 @@
 #include "smg/Simplify.h"
 
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "Solver/Core/Timer.h"
 #include "Solver/Core/Workers.h"
 
 #include "Testing/Support/ErrorMessage.h"
@@ -484,6 +485,25 @@ TEST_F(Simplify, RefusesOptionsOutOfRangeAndCanBeCancelled)
     EXPECT_THROW(this->simplified(mesh, options), Cancelled);
     EXPECT_FALSE(std::filesystem::exists(this->Folder / "simple.vsm"));
   }
+}
+
+TEST_F(Simplify, AsksAtShortIntervalsWhetherToGoOn)
+{
+  // In shares of the processor time: a loop that does not ask takes a tenth of it.
+  const StreamMesh mesh = toStream(torus(700, 400, 0.2));
+  Asked options = toVertices(1000, std::int64_t(1) << 30);
+  options.threads = 1;
+  double begin = -1.0, last = 0.0, longest = 0.0;
+  options.progress = [&](double)
+  {
+    const double now = processSeconds();
+    begin = begin < 0.0 ? now : begin;
+    longest = std::max(longest, now - std::max(last, begin));
+    last = now;
+    return true;
+  };
+  this->simplified(mesh, options, 20000);
+  EXPECT_LT(longest, 0.06 * (last - begin)) << longest;
 }
 
 } // namespace smg::testing
