@@ -7,8 +7,9 @@
  * the surface least first, until NumberOfVertices or MaximumError is reached; of a tetrahedral
  * mesh, its outer surface (see smg::simplify()). Every point of the result is a point of the mesh,
  * with its point arrays and with `OriginalId`. Bodies, holes and winding stay. A triangle of
- * the result has the cell arrays of one of the mesh, whose corners have moved; those of tetrahedra
- * are not in the result, which Outcome says. It is kept in a scratch file until the filter or its
+ * the result has the cell arrays of one of the mesh, whose corners have moved, and the borders
+ * between labels, arrays of few integers, are held; those of tetrahedra are not in the result,
+ * which Outcome says. It is kept in a scratch file until the filter or its
  * input is modified, and delivered as the pieces of a mesh stream, as those of
  * vtkStreamingMeshReader.
  *

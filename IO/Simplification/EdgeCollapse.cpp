@@ -81,9 +81,9 @@ public:
     }
   }
 
-  /** Adds for each boundary edge the plane through it that is perpendicular to its triangle, which
-   * holds the boundary where it is. Each edge gets it once: as soon as all triangles of one of its
-   * ends are in the part. */
+  /** Adds for each boundary edge, and for each edge between labels, the plane through it that is
+   * perpendicular to its triangle, which holds the curve where it is. Each edge gets it once: as
+   * soon as all triangles of one of its ends are in the part. */
   void addBoundary()
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
@@ -94,7 +94,8 @@ public:
       const std::size_t next = i % 3 == 2 ? i - 2 : i + 1, last = i % 3 == 0 ? i + 2 : i - 1;
       const std::uint32_t ends[2] = { corners[i], corners[next] };
       // If either end has had its boundary edges before, this edge was among them.
-      if (lacks[ends[0]] && lacks[ends[1]] && this->Surface.isBoundary(ends[0], ends[1]))
+      if (lacks[ends[0]] && lacks[ends[1]] &&
+          (this->Surface.isBoundary(ends[0], ends[1]) || this->Surface.isBorder(ends[0], ends[1])))
       {
         const Vector edge = difference(this->point(ends[1]), this->point(ends[0]));
         const Vector area =
@@ -111,8 +112,9 @@ public:
   }
 
   /** Passes until the goal is reached or nothing can collapse. Where the topology may change and
-   * nothing else is possible, collapses that change it compete with any error from then on. */
-  double run(const CollapseGoal& goal)
+   * nothing else is possible, borders between labels are given up, and then collapses that change
+   * the topology compete with any error. */
+  Collapsed run(const CollapseGoal& goal)
   {
     this->MayPinch = goal.mayPinch && goal.vertices < this->Part.vertices();
     if (this->MayPinch)
@@ -120,6 +122,7 @@ public:
       this->Surface.allowPinching();
     }
     float worth = PinchWorth;
+    bool crossesBorders = false;
     for (std::size_t left = this->Part.vertices(); left > goal.vertices;)
     {
       this->Polled.now();
@@ -140,11 +143,20 @@ public:
         {
           break;
         }
-        worth = 0.0F; // no other collapse is possible
+        // No other collapse is possible.
+        if (this->Surface.keepsBorders())
+        {
+          this->Surface.releaseBorders();
+          crossesBorders = true;
+        }
+        else
+        {
+          worth = 0.0F;
+        }
       }
     }
     this->Part.dropUnusedVertices(this->Polled);
-    return std::sqrt(this->Error);
+    return { std::sqrt(this->Error), crossesBorders };
   }
 
 private:
@@ -319,13 +331,13 @@ private:
 
 } // namespace
 
-double collapseEdges(
+Collapsed collapseEdges(
   SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal, const Poll& poll)
 {
   const bool needsPlanes = part.quadrics.empty();
   if (part.triangles() == 0)
   {
-    return 0.0;
+    return {};
   }
   Collapser collapser(part, open, poll);
   if (needsPlanes)

@@ -20,8 +20,17 @@ struct CollapseGoal
   double error = std::numeric_limits<double>::infinity();
   /** Whether collapses may close handles and merge sheets, where their error is four times smaller
    * than that of others or no other is possible. Edges may then get more than two triangles;
-   * triangles that come to lie on each other are removed. */
+   * triangles that come to lie on each other are removed. Where nothing else is possible, borders
+   * between labels are given up, too. */
   bool mayPinch = false;
+};
+
+/** What collapseEdges() did. */
+struct Collapsed
+{
+  double error = 0.0; ///< the largest of a collapse
+  /** Whether borders between labels were given up, since nothing else could collapse. */
+  bool crossesBorders = false;
 };
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */
@@ -35,7 +44,8 @@ inline constexpr std::int64_t CollapseBytes = 110;
  * smallest error go first, of equal ones the shortest.
  *
  * The topology stays (see SurfaceTopology): bodies, handles and boundary curves stay, and no edge
- * gets more than two triangles. No triangle turns over. Vertices where the surface is not manifold
+ * gets more than two triangles. So do the borders between the labels of the part, which are held as
+ * boundaries are. No triangle turns over. Vertices where the surface is not manifold
  * do not go; how triangles are wound does not matter.
  *
  * Each of several passes over the edges collapses edges that have no end in common, in the order of
@@ -44,15 +54,14 @@ inline constexpr std::int64_t CollapseBytes = 110;
  *
  * @param part the triangles; has only vertices that they use. If it has no quadrics it gets those
  * of its triangles, and for each edge of one triangle that of the plane perpendicular to it, which
- * holds the boundary; not for an edge between two open vertices, which may have other triangles
- * elsewhere.
+ * holds the boundary, and so for both triangles at an edge between labels; not for an edge between
+ * two open vertices, which may have other triangles elsewhere.
  * @param open for each vertex: not 0 if it may have more triangles elsewhere, so that it must not
  * go
  * @param goal where to end
  * @param poll called now and then; ends the work by an exception
- * @return the largest error of a collapse
  */
-double collapseEdges(SurfacePart& part, std::span<const std::uint8_t> open,
+Collapsed collapseEdges(SurfacePart& part, std::span<const std::uint8_t> open,
   const CollapseGoal& goal, const Poll& poll = Poll());
 
 } // namespace smg

@@ -103,6 +103,7 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
   {
     this->Parts.next(taken);
   }
+  this->Window.labels = taken.surface.labels;
 }
 
 } // namespace smg

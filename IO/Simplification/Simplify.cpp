@@ -71,28 +71,52 @@ std::vector<Checkpoint::Item> subjectOf(
     { "memory limit", std::to_string(options.memoryLimit) } };
 }
 
-/** Names the columns of the cells of a solid, which its surface does not have; "" if there are
- * none. The numbers and flags that a conversion gives to cells are not missed. */
-std::string noteOnCellColumns(const StreamInfo& info)
+std::string cellColumnsOf(const std::vector<std::string>& names)
 {
-  const std::vector<ColumnSpec> carried = carriedColumns(info);
-  if (info.cellType == CellType::Triangle || carried.empty())
+  std::string text = names.size() == 1 ? "cell column '" : "cell columns '";
+  for (std::size_t k = 0; k < names.size(); ++k)
   {
-    return {};
+    text += (k == 0 ? "" : "', '") + names[k];
   }
-  std::string names;
-  for (const ColumnSpec& spec : carried)
+  return text + '\'';
+}
+
+/** Names the columns of the cells of a solid, which its surface does not have. The numbers and
+ * flags that a conversion gives to cells are not missed. */
+void noteCellColumns(const StreamInfo& info, std::vector<std::string>& notes)
+{
+  const std::vector<std::string> names = columnNames(carriedColumns(info));
+  if (info.cellType == CellType::Tetrahedron && !names.empty())
   {
-    names += (names.empty() ? "'" : ", '") + spec.name + '\'';
+    notes.push_back("The " + cellColumnsOf(names) + " of the solid " +
+                    (names.size() == 1 ? "is" : "are") + " not in the result.");
   }
-  const bool isOne = carried.size() == 1;
-  return (isOne ? "The cell column " : "The cell columns ") + names + " of the solid " +
-         (isOne ? "is" : "are") + " not in the result.";
+}
+
+/** Says where borders between labels are not held. */
+void noteBorders(
+  const StreamSimplifier& simplifier, const StreamInfo& info, std::vector<std::string>& notes)
+{
+  if (const std::vector<std::string> names = simplifier.labels().others();
+      !names.empty() && info.cellType == CellType::Triangle)
+  {
+    notes.push_back("The " + cellColumnsOf(names) + (names.size() == 1 ? " has" : " have") +
+                    " too many values for labels (at most " +
+                    std::to_string(CellLabels::MostLabels) + ", each of at least " +
+                    std::to_string(CellLabels::CellsOfLabel) +
+                    " cells on average): borders between them are not held.");
+  }
+  if (simplifier.counts().crossesBorders)
+  {
+    notes.emplace_back("So few vertices are not enough for the borders between the labels of the "
+                       "cells: some are not held.");
+  }
 }
 
 std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& target,
-  const SimplifyReport& report, const SimplificationCounts& counts)
+  const SimplifyReport& report, const StreamSimplifier& simplifier)
 {
+  const SimplificationCounts& counts = simplifier.counts();
   std::vector<std::string> notes;
   if (counts.resumedAt > 0)
   {
@@ -105,10 +129,8 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
                     " too small for so few vertices " + (counts.dropped == 1 ? "is" : "are") +
                     " left out.");
   }
-  if (std::string note = noteOnCellColumns(info); !note.empty())
-  {
-    notes.push_back(std::move(note));
-  }
+  noteCellColumns(info, notes);
+  noteBorders(simplifier, info, notes);
   if (counts.isClustered)
   {
     notes.emplace_back(
@@ -158,7 +180,7 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   report.dropped_bodies = counts.dropped;
   report.resumed_vertices = counts.resumedAt;
   report.pool_bytes_peak = simplified.simplifier().peakMemory();
-  report.notes = notesOn(mesh.info(), target, report, counts);
+  report.notes = notesOn(mesh.info(), target, report, simplified.simplifier());
   done.update(1.0);
   return report;
 }

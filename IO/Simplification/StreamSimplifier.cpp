@@ -90,7 +90,7 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
         const auto inside = static_cast<std::size_t>(std::ranges::count(locked, 0));
         CollapseGoal goal{ locked.size() - inside, item.error };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
-        item.error = collapseEdges(item.part.surface, locked, goal, this->Polled);
+        item.error = collapseEdges(item.part.surface, locked, goal, this->Polled).error;
       },
       [this](Item& item)
       {
@@ -220,6 +220,7 @@ void StreamSimplifier::append(const StreamPart& part)
   SurfacePart& to = this->Window;
   std::vector<std::uint32_t> places(from.vertices());
   to.origin = from.origin;
+  to.labels = from.labels;
   if (to.triangles() == 0)
   {
     // At once: moving a full window to a larger place takes long.
@@ -335,8 +336,9 @@ void StreamSimplifier::collapse(std::int64_t vertices)
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
     this->Goal.error, !this->limitsError() };
   goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
-  this->Counts.error =
-    std::max(this->Counts.error, collapseEdges(this->Window, locked, goal, this->Polled));
+  const Collapsed done = collapseEdges(this->Window, locked, goal, this->Polled);
+  this->Counts.error = std::max(this->Counts.error, done.error);
+  this->Counts.crossesBorders = this->Counts.crossesBorders || done.crossesBorders;
 }
 
 /** Removes the smallest bodies of the window, so that so many vertices are enough for the others:
@@ -372,6 +374,7 @@ void StreamSimplifier::shrink(std::size_t vertices)
   }
   if (4 * this->Window.triangles() > 3 * this->Capacity)
   {
+    this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
     clusterVertices(this->Window, this->Capacity / 8, this->Polled);
     this->Counts.isClustered = true;
   }
@@ -487,6 +490,7 @@ void StreamSimplifier::finish()
     clusterVertices(merged, static_cast<std::size_t>(most), this->Polled);
     if (merged.triangles() > 0)
     {
+      this->Counts.crossesBorders = this->Counts.crossesBorders || !merged.labels.empty();
       this->Window = std::move(merged);
       this->Counts.isClustered = true;
     }

@@ -28,11 +28,12 @@ namespace smg
 /** What a simplification did. */
 struct SimplificationCounts
 {
-  std::int64_t vertices = 0;  ///< that were read
-  double error = 0.0;         ///< the largest of a collapse, see collapseEdges()
-  std::int64_t dropped = 0;   ///< small bodies
-  bool isClustered = false;   ///< whether edges of some parts could not be collapsed
-  std::int64_t resumedAt = 0; ///< vertices simplified by an earlier program, see keepIn()
+  std::int64_t vertices = 0;   ///< that were read
+  double error = 0.0;          ///< the largest of a collapse, see collapseEdges()
+  std::int64_t dropped = 0;    ///< small bodies
+  bool isClustered = false;    ///< whether edges of some parts could not be collapsed
+  bool crossesBorders = false; ///< whether borders between labels were given up
+  std::int64_t resumedAt = 0;  ///< vertices simplified by an earlier program, see keepIn()
 };
 
 /**
@@ -89,6 +90,8 @@ public:
 
   const SimplificationCounts& counts() const { return this->Counts; }
   std::int64_t peakMemory() const { return this->Memory.peak(); }
+  /** The labels of the cells that were read. */
+  const CellLabels& labels() const { return this->Parts.labels(); }
   /** Asks whether to go on, for work on a part of the result. */
   const Poll& polled() const { return this->Polled; }
 

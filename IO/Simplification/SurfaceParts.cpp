@@ -188,6 +188,7 @@ SurfaceParts::SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles
   , RowBytes(static_cast<std::size_t>(rowBytes(source.info().vertexColumns)))
   , Points(pool, 3)
   , Rows(pool, static_cast<int>(this->RowBytes))
+  , Labels(carriedColumns(source.info()), pool)
 {
 }
 
@@ -251,6 +252,7 @@ void SurfaceParts::add(const MeshBlock& block)
       rows += bytes;
     }
   }
+  this->Labels.add(block);
   const Column* flags = block.flags();
   for (std::size_t i = 0; i + 2 < block.corners.size(); i += 3)
   {
@@ -325,6 +327,7 @@ void SurfaceParts::localise(SurfacePart& surface)
     }
   }
   surface.cellRows = this->CellRows;
+  surface.labels = this->Labels.places();
   surface.corners.reserve(this->Corners.size());
   for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {

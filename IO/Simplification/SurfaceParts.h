@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Simplification/CellLabels.h"
 #include "IO/Simplification/Poll.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Column.h"
 #include "smg/MeshSource.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -75,6 +79,7 @@ struct SurfacePart
   std::vector<std::byte> rows;        ///< for each vertex its tuples of all columns
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
   std::vector<std::byte> cellRows;    ///< for each triangle its tuples of the carried columns
+  std::vector<LabelPlace> labels;     ///< in these tuples; collapses keep their borders
 
   std::size_t vertices() const { return this->ids.size(); }
   std::size_t triangles() const { return this->corners.size() / 3; }
@@ -92,6 +97,18 @@ struct SurfacePart
 
   /** Makes room for so many triangles, with rows and vertices as those of another surface. */
   void reserve(std::size_t triangles, const SurfacePart& like);
+  /** Whether two triangles have the same labels. */
+  bool haveSameLabels(std::size_t one, std::size_t other) const
+  {
+    const std::size_t stride = this->cellRowBytes();
+    return std::ranges::all_of(this->labels,
+      [&](const LabelPlace& label)
+      {
+        return std::memcmp(this->cellRows.data() + one * stride + label.begin,
+                 this->cellRows.data() + other * stride + label.begin, label.bytes) == 0;
+      });
+  }
+
   /** Appends a vertex of another surface, without its quadric. */
   void addVertex(const SurfacePart& from, std::size_t vertex);
   /** Appends the position and the tuples of a vertex to these. */
@@ -170,6 +187,8 @@ public:
   std::int64_t cells() const { return this->Cells; }
   /** The number of vertices that were read. */
   std::int64_t vertices() const { return this->Vertices; }
+  /** The labels of the cells that were read. */
+  const CellLabels& labels() const { return this->Labels; }
 
 private:
   void add(const MeshBlock& block);
@@ -187,8 +206,9 @@ private:
   std::array<double, 3> Origin{}; ///< the first vertex
   std::vector<std::int64_t> Corners;
   std::vector<std::byte> CellRows; ///< of the triangles with these corners
-  std::int64_t Released = 0;       ///< the first open vertex
-  std::int64_t Final = 0;          ///< vertices below are not in later cells
+  CellLabels Labels;
+  std::int64_t Released = 0; ///< the first open vertex
+  std::int64_t Final = 0;    ///< vertices below are not in later cells
   std::int64_t Vertices = 0, Cells = 0;
   bool IsAtEnd = false;
 };

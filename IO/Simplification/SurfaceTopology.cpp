@@ -35,7 +35,8 @@ SurfaceTopology::SurfaceTopology(
   , Open(open)
   , Polled(poll)
   , IsFixed(open.size())
-  , IsBoundary(open.size())
+  , Curves(open.size())
+  , KeepsBorders(!part.labels.empty())
   , Target(open.size())
   , Touched(open.size())
   , Seen(open.size(), 0)
@@ -97,12 +98,110 @@ void SurfaceTopology::classify(std::uint32_t v)
   }
   const std::size_t triangles = this->Pairs.size();
   // A closed fan has as many neighbours as triangles.
-  this->IsBoundary[v] = neighbours != triangles ? 1 : 0;
+  this->Curves[v] = neighbours != triangles ? OnBoundary : 0;
   // To look at all triangles of such a vertex for each of its edges would take the square of their
   // number.
   const bool isHub = triangles > MaxTriangles;
   this->IsFixed[v] =
-    isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? 1 : 0;
+    isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? ByTopology : 0;
+  if (this->KeepsBorders)
+  {
+    const std::size_t curves = this->curvesAt(v);
+    this->Curves[v] |= curves > 0 ? OnBorder : 0;
+    this->IsFixed[v] |= curves > 0 && curves != 2 ? ByBorders : 0;
+  }
+}
+
+/** The edges at v of the boundary and between labels; 0 if its triangles have one label. */
+std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
+{
+  const std::span<const std::uint32_t> star = this->star(v);
+  if (std::ranges::all_of(
+        star, [&](std::uint32_t t) { return this->Part.haveSameLabels(star[0], t); }))
+  {
+    return 0;
+  }
+  this->Pairs.clear();
+  for (const std::uint32_t t : star)
+  {
+    for (const std::uint32_t w : this->others(t, v))
+    {
+      this->Pairs.push_back({ w, t });
+    }
+  }
+  std::ranges::sort(this->Pairs);
+  std::size_t curves = 0;
+  for (std::size_t begin = 0, end = 0; begin < this->Pairs.size(); begin = end)
+  {
+    bool isAlike = true;
+    for (; end < this->Pairs.size() && this->Pairs[end][0] == this->Pairs[begin][0]; ++end)
+    {
+      isAlike = isAlike && this->Part.haveSameLabels(this->Pairs[begin][1], this->Pairs[end][1]);
+    }
+    curves += end - begin == 1 || !isAlike ? 1 : 0;
+  }
+  return curves;
+}
+
+/** Whether an edge of a vertex that was not touched has one triangle, or triangles of different
+ * labels; true if both ends may have further triangles elsewhere. */
+bool SurfaceTopology::isCurve(std::uint32_t v, std::uint32_t w) const
+{
+  if (this->Open[v] != 0 && this->Open[w] != 0)
+  {
+    return true;
+  }
+  std::size_t triangles = 0;
+  std::uint32_t first = 0;
+  for (const std::uint32_t t : this->star(v))
+  {
+    const auto [a, b] = this->others(t, v);
+    if (a != b && (a == w || b == w))
+    {
+      if (triangles++ > 0 && !this->Part.haveSameLabels(first, t))
+      {
+        return true;
+      }
+      first = t;
+    }
+  }
+  return triangles == 1;
+}
+
+/** Whether a move would take a vertex off the border between labels that it is on, or a triangle
+ * away that is all that its label has there. */
+bool SurfaceTopology::crossesBorders(std::uint32_t from, std::uint32_t to) const
+{
+  if (!this->KeepsBorders || this->Curves[from] == 0)
+  {
+    return false;
+  }
+  if (!this->isCurve(from, to))
+  {
+    return true;
+  }
+  return std::ranges::any_of(this->star(from),
+    [&](std::uint32_t t)
+    {
+      const auto [a, b] = this->others(t, from);
+      if (a == b || (a != to && b != to))
+      {
+        return false;
+      }
+      const std::uint32_t opposite = a == to ? b : a;
+      return this->isCurve(from, opposite) && this->isCurve(to, opposite);
+    });
+}
+
+/** From here on, borders between labels are kept no more. */
+void SurfaceTopology::releaseBorders()
+{
+  this->KeepsBorders = false;
+  for (std::size_t v = 0; v < this->Curves.size(); ++v)
+  {
+    this->Curves[v] &= OnBoundary;
+    this->IsFixed[v] &= ByTopology;
+  }
 }
 
 /** Whether the triangles whose other corners are Pairs form one fan, with at most two triangles at
@@ -183,7 +282,8 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     }
   }
   // Their triangles have gone in this pass; or `from` is on the boundary and would leave it.
-  if (shared == 0 || (this->IsBoundary[from] != 0 && shared != 1))
+  if (shared == 0 || ((this->Curves[from] & OnBoundary) != 0 && shared != 1) ||
+      this->crossesBorders(from, to))
   {
     return Change::Impossible;
   }

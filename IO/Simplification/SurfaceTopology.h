@@ -24,6 +24,9 @@ namespace smg
  * move along it (the link condition of Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving
  * edge contraction, 1999). Vertices whose triangles are not one fan, and those of very many
  * triangles, may not go.
+ *
+ * Borders between labels are kept as boundaries are, until releaseBorders(): a vertex on one moves
+ * along it, and one where several meet does not go. So no label vanishes, and none comes apart.
  */
 class SurfaceTopology
 {
@@ -37,10 +40,21 @@ public:
   bool isOpen(std::uint32_t v) const { return this->Open[v] != 0; }
   /** Whether a vertex may go somewhere. */
   bool mayGo(std::uint32_t v) const { return this->IsFixed[v] == 0; }
+  /** Whether the triangles at an edge have different labels; false if both ends are open. To be
+   * called at the beginning of a pass. */
+  bool isBorder(std::uint32_t a, std::uint32_t b) const
+  {
+    return (this->Curves[a] & this->Curves[b] & OnBorder) != 0 &&
+           !(this->Open[a] != 0 && this->Open[b] != 0) &&
+           (this->isLarger(a, b) ? this->isCurve(b, a) : this->isCurve(a, b));
+  }
+  /** Whether borders between labels are kept. */
+  bool keepsBorders() const { return this->KeepsBorders; }
+  void releaseBorders();
   /** Whether an edge may have a single triangle; false if it certainly has two. */
   bool mayBeBoundary(std::uint32_t a, std::uint32_t b) const
   {
-    return this->IsBoundary[a] != 0 && this->IsBoundary[b] != 0;
+    return (this->Curves[a] & this->Curves[b] & OnBoundary) != 0;
   }
   /** Whether two triangles run along some edge in the same direction. */
   bool isTurned() const { return this->IsTurned; }
@@ -48,10 +62,8 @@ public:
    * beginning of a pass. */
   bool isBoundary(std::uint32_t a, std::uint32_t b) const
   {
-    // Of an edge to a vertex of very many triangles, the other end has few.
-    const bool swaps = this->star(a).size() > this->star(b).size();
     return this->mayBeBoundary(a, b) && !(this->Open[a] != 0 && this->Open[b] != 0) &&
-           this->hasOneTriangle(swaps ? b : a, swaps ? a : b);
+           (this->isLarger(a, b) ? this->hasOneTriangle(b, a) : this->hasOneTriangle(a, b));
   }
 
   /** The triangles of a vertex in this pass. */
@@ -96,8 +108,16 @@ public:
   std::size_t dropFolded();
 
 private:
+  /** Of an edge to a vertex of very many triangles, the other end has few. */
+  bool isLarger(std::uint32_t a, std::uint32_t b) const
+  {
+    return this->star(a).size() > this->star(b).size();
+  }
   void findStars();
   void classify(std::uint32_t v);
+  std::size_t curvesAt(std::uint32_t v);
+  bool isCurve(std::uint32_t v, std::uint32_t w) const;
+  bool crossesBorders(std::uint32_t from, std::uint32_t to) const;
   bool isFan();
   bool hasOneTriangle(std::uint32_t v, std::uint32_t w) const;
   bool isTetrahedron(std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const;
@@ -112,7 +132,20 @@ private:
   const std::vector<std::uint32_t>& Corners;
   std::span<const std::uint8_t> Open;
   const Poll& Polled;
-  std::vector<std::uint8_t> IsFixed, IsBoundary;
+  /** For each vertex whether it may not go: bits. */
+  enum : std::uint8_t
+  {
+    ByTopology = 1,
+    ByBorders = 2
+  };
+  /** The curves that a vertex is on: bits. */
+  enum : std::uint8_t
+  {
+    OnBoundary = 1,
+    OnBorder = 2 ///< between labels
+  };
+  std::vector<std::uint8_t> IsFixed, Curves;
+  bool KeepsBorders = false;
   bool IsTurned = false;
   bool KeepsFolded = false;
   // Of a pass.
@@ -122,7 +155,8 @@ private:
   // Marks of vertices, valid where they are the last one.
   std::uint32_t Mark = 0;
   std::vector<std::uint32_t> Seen, Common;
-  std::vector<std::array<std::uint32_t, 2>> Pairs; ///< the other corners of the triangles of a star
+  /** The other corners of the triangles of a star; or each with one of its triangles. */
+  std::vector<std::array<std::uint32_t, 2>> Pairs;
 };
 
 } // namespace smg

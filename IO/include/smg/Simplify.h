@@ -76,8 +76,10 @@ struct SMG_EXPORT SimplifyReport
  * memory whatever its size. Every vertex of the result is one of the mesh, where it was, with its
  * columns, and with its stream index in the column OriginalId if the mesh has no column of this
  * name. A triangle of the result is one of the mesh whose corners have moved, and has its columns
- * of cells, so labels are those of triangles that were near; the cells of a solid do not give
- * theirs to its surface, which a note says. Boundary curves are kept as such, triangles are wound
+ * of cells; those of a solid do not give theirs to its surface, which a note says. Columns of one
+ * integer that have at most 1,024 values, each of at least 4 cells on average, are labels: borders
+ * between them are held as boundary curves are, unless `vertices` without `error` needs them, which
+ * a note says. Boundary curves are kept as such, triangles are wound
  * as they are.
  *
  * The topology is that of the mesh: bodies, handles, boundary curves, no edge of more triangles. Of

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Memory/Pool.h"
+#include "smg/MeshSource.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** A label in the row of a triangle. */
+struct LabelPlace
+{
+  std::size_t begin, bytes;
+};
+
+/** Finds the columns of the cells that are labels, whose borders a simplification holds: those of
+ * one integer that have at least two values, at most MostLabels, and on average one for at least
+ * CellsOfLabel cells; so the numbers of cells are none. */
+class CellLabels
+{
+public:
+  static constexpr std::size_t MostLabels = 1024;
+  static constexpr std::int64_t CellsOfLabel = 4;
+
+  /** `columns`: those whose tuples follow one another in the row of a triangle. `pool` accounts for
+   * the values. */
+  CellLabels(const std::vector<ColumnSpec>& columns, Pool& pool);
+
+  /** Adds the cells of the next block. */
+  void add(const MeshBlock& block);
+  /** The labels, as far as the cells that were added tell. */
+  std::vector<LabelPlace> places() const;
+  /** The columns of integers that have too many values. */
+  std::vector<std::string> others() const;
+
+private:
+  struct Integers
+  {
+    std::string name;
+    LabelPlace place;
+    std::vector<std::uint64_t> values; ///< the bytes of each, ascending
+    bool hasMore = false;              ///< than MostLabels values
+  };
+
+  bool areLabels(const Integers& column) const
+  {
+    return !column.hasMore &&
+           CellsOfLabel * static_cast<std::int64_t>(column.values.size()) <= this->Cells;
+  }
+
+  std::vector<Integers> Columns;
+  std::int64_t Cells = 0;
+};
+
+} // namespace smg
