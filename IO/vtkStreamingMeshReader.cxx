@@ -5,317 +5,31 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Formats/UsedFiles.h"
-#include "IO/Preview/StreamPreview.h"
 #include "IO/vtkFailures.h"
-#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
+#include "IO/vtkReaderInternals.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Text.h"
-#include "Solver/Files/ScratchFolder.h"
-#include "smg/Convert.h"
 #include "smg/Error.h"
-#include "smg/VsmReader.h"
 
 #include "vtkDataArraySelection.h"
-#include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTimeStamp.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
-#include <iterator>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 using vtkSDDP = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkStreamingMeshReader);
-
-struct vtkStreamingMeshReader::Internals
-{
-  /** The state that the output depends on. */
-  struct Stamp
-  {
-    vtkMTimeType Properties = 0;
-    smg::InputState File, Container;
-
-    bool areFilesUnchanged() const
-    {
-      return this->File.isUnchanged() && this->Container.isUnchanged();
-    }
-  };
-
-  smg::Failures Failures;
-  vtkNew<vtkDataArraySelection> PointArrays;
-  vtkNew<vtkDataArraySelection> CellArrays;
-  std::string Name, Scratch;
-  std::unique_ptr<smg::OpenedMesh> Mesh;
-  std::vector<double> Times; ///< of the time steps; empty: the file has none
-  std::int64_t Step = 0;     ///< which is wanted
-  std::int64_t OpenedStep = 0;
-  /** Of a file with time steps: the folder of the one that is open, whose name does not change. */
-  std::optional<smg::ScratchFolder> OfSteps;
-  Stamp Opened; ///< of the opened mesh
-  /** Of the last failure to open the mesh: a repeated request neither retries nor reports again. */
-  Stamp Failed;
-  std::string Reason;    ///< of that failure; empty: none
-  vtkTimeStamp Outdated; ///< when a failure was found to be out of date
-  /** The columns read with the pieces of the file; none before the first piece. */
-  std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
-  smg::KeptPreview Preview;
-  std::string Shown, Outcome; ///< storage of the sentence that is returned
-
-  static Stamp stampOf(vtkStreamingMeshReader& self)
-  {
-    return { self.GetMTime(), smg::InputState(self.FileName ? self.FileName : ""),
-      smg::InputState(self.GetContainerName()) };
-  }
-
-  /** Opens the container unless it is open and up to date. Throws Error if it is another one than
-   * before although nothing has been modified: what was made of it does not go with its pieces. */
-  smg::VsmReader& open(vtkStreamingMeshReader& self)
-  {
-    const bool isAsked = this->Mesh && this->Opened.Properties == self.GetMTime();
-    if (isAsked && !this->Opened.areFilesUnchanged())
-    {
-      this->requireSameMesh(self);
-      this->Opened = stampOf(self);
-    }
-    if (isAsked && this->OpenedStep == this->Step)
-    {
-      return this->Mesh->reader();
-    }
-    self.UpdateContainer();
-    const std::string name = self.GetContainerName();
-    const std::string folder = self.ScratchDirectory ? self.ScratchDirectory : "";
-    if (!this->Mesh || this->Name != name || this->Scratch != folder ||
-        !this->Opened.Container.isUnchanged())
-    {
-      this->close();
-      this->Times = smg::timesOf(name);
-      this->Step = std::clamp<std::int64_t>(
-        this->Step, 0, std::max<std::int64_t>(0, std::ssize(this->Times) - 1));
-      if (this->Name != name && !this->Name.empty())
-      {
-        this->PointArrays->RemoveAllArrays();
-        this->CellArrays->RemoveAllArrays();
-      }
-      this->Name = name;
-      this->Scratch = folder;
-      this->openStep(smg::progressOf(self));
-    }
-    else if (this->OpenedStep != this->Step)
-    {
-      this->openStep(smg::progressOf(self));
-    }
-    this->Opened = stampOf(self);
-    this->Reason.clear();
-    return this->Mesh->reader();
-  }
-
-  /** Opens the file, of one with time steps the wanted one. */
-  void openStep(const smg::ProgressFunction& progress)
-  {
-    const std::int64_t step = this->Step;
-    this->closeMesh();
-    smg::ConversionOptions options;
-    options.scratch = this->Scratch;
-    options.progress = progress;
-    if (this->Times.size() < 2)
-    {
-      this->Mesh = smg::openMesh(this->Name, options);
-    }
-    else
-    {
-      if (!this->OfSteps)
-      {
-        this->OfSteps.emplace(this->Scratch);
-      }
-      options.scratch = this->OfSteps->path();
-      options.timeStep = step;
-      const std::filesystem::path mesh = *this->OfSteps / "mesh.vsm";
-      smg::convert(this->Name, mesh, options);
-      this->Mesh = smg::openMesh(mesh);
-    }
-    this->OpenedStep = step;
-  }
-
-  /** Throws Error unless the file, which has been written since it was opened, has the same mesh.
-   */
-  void requireSameMesh(vtkStreamingMeshReader& self) const
-  {
-    const std::filesystem::path name = self.GetContainerName();
-    if (this->Opened.Container.isUnchanged())
-    {
-      return; // of a converter, whose result is still there
-    }
-    try
-    {
-      if (smg::kindOfInput(name) == smg::MeshFileKind::Vsm)
-      {
-        smg::VsmReader(name, nullptr, this->Mesh->fileFingerprint());
-        return;
-      }
-    }
-    catch (const std::exception&)
-    {
-      // What it is now does not matter.
-    }
-    throw smg::Error(name.string() +
-                     ": was replaced or changed since it was opened: reload it (File > Reload "
-                     "Files, or Modified() of the reader), and leave it as it is meanwhile.");
-  }
-
-  /** Chooses the time step of a request: the last one that has begun, or else the first. */
-  void chooseStep(vtkInformation& request)
-  {
-    const double time = request.Get(vtkSDDP::UPDATE_TIME_STEP());
-    const auto later = std::ranges::upper_bound(this->Times, time);
-    this->Step = request.Has(vtkSDDP::UPDATE_TIME_STEP())
-                   ? std::max<std::int64_t>(0, later - this->Times.begin() - 1)
-                   : this->Step;
-  }
-
-  /** Shows why the mesh cannot be opened. */
-  void fail(vtkStreamingMeshReader& self, const std::string& reason)
-  {
-    this->close();
-    this->Failed = stampOf(self);
-    this->Reason = reason;
-    this->Failures.show(self, reason);
-  }
-
-  bool hasFailed(vtkStreamingMeshReader& self) const
-  {
-    return !this->Reason.empty() && this->Failed.Properties == self.GetMTime() &&
-           this->Failed.areFilesUnchanged();
-  }
-
-  /** After a failure, looks whether files have changed since. */
-  void lookAtFiles(vtkStreamingMeshReader& self)
-  {
-    if (!this->Reason.empty() && !this->hasFailed(self))
-    {
-      this->Reason.clear();
-      this->Outdated.Modified();
-    }
-  }
-
-  void close()
-  {
-    this->closeMesh();
-    this->Times.clear();
-    this->OfSteps.reset();
-  }
-
-  void closeMesh()
-  {
-    this->Mesh.reset();
-    this->Columns.reset();
-    this->Preview.clear();
-    this->Shown.clear();
-  }
-
-  /** Sets the type of the output according to the cells. */
-  static void setOutput(vtkInformation& info, bool isSurface)
-  {
-    const char* type = isSurface ? "vtkPolyData" : "vtkUnstructuredGrid";
-    vtkDataObject* present = vtkDataObject::GetData(&info);
-    if (!present || !present->IsA(type))
-    {
-      info.Set(vtkDataObject::DATA_OBJECT(),
-        vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
-    }
-  }
-
-  /** Says which time step the output shows. */
-  void setTime(vtkPointSet& output, const smg::StreamInfo& info) const
-  {
-    if (this->Times.empty())
-    {
-      return;
-    }
-    if (output.IsA("vtkPolyData") != (info.cellType == smg::CellType::Triangle))
-    {
-      throw smg::Error(this->Name + ": time step " + std::to_string(this->Step) + " is a " +
-                       (output.IsA("vtkPolyData") ? "solid" : "surface") +
-                       ", unlike others: convert the time steps one by one (smg convert "
-                       "--time-step).");
-    }
-    output.GetInformation()->Set(
-      vtkDataObject::DATA_TIME_STEP(), this->Times[static_cast<std::size_t>(this->Step)]);
-  }
-
-  /** Reads the real piece with the selected arrays. */
-  void readPiece(vtkPointSet& output, int part, int parts, int ghostLevels)
-  {
-    smg::VsmReader& reader = this->Mesh->reader();
-    const smg::StreamInfo& info = reader.info();
-    const auto firstCell = [&info, parts](int p)
-    {
-      return static_cast<std::int64_t>(
-        static_cast<__int128>(info.cells) * std::min(p, parts) / parts);
-    };
-    const std::vector<std::string> ofPoints =
-      smg::chosenColumns(*this->PointArrays, info.vertexColumns);
-    const std::vector<std::string> ofCells =
-      smg::chosenColumns(*this->CellArrays, info.cellColumns);
-    // Selecting columns makes the file reader discard the active vertices.
-    if (this->Columns != std::pair(ofPoints, ofCells))
-    {
-      reader.selectColumns(ofPoints, ofCells);
-      this->Columns = { ofPoints, ofCells };
-    }
-    smg::MeshPiece piece;
-    reader.readPiece(
-      firstCell(part), firstCell(part + 1), piece, parts > 1 ? std::max(0, ghostLevels) : 0);
-    smg::setPiece(output, piece, info);
-  }
-
-  /** Reads the preview, all of it in the first piece. */
-  void readPreview(vtkPointSet& output, int part, const vtkStreamingMeshReader& self,
-    const smg::ProgressFunction& progress)
-  {
-    const auto cells = self.PreviewCells == TETRAHEDRA ? smg::SolidPreviewCells::Tetrahedra
-                                                       : smg::SolidPreviewCells::Triangles;
-    const smg::StreamInfo& full = this->Mesh->reader().info();
-    smg::MeshPiece piece;
-    if (part == 0)
-    {
-      piece = this->Preview.of(this->Mesh->reader(), self.PreviewPoints, cells, progress);
-    }
-    else
-    {
-      for (const smg::ColumnSpec& spec : full.vertexColumns)
-      {
-        piece.vertexColumns.push_back({ spec, {} });
-      }
-    }
-    const std::vector<std::string> names =
-      smg::chosenColumns(*this->PointArrays, full.vertexColumns);
-    std::erase_if(piece.vertexColumns, [&names](const smg::Column& column)
-      { return std::find(names.begin(), names.end(), column.spec.name) == names.end(); });
-    smg::StreamInfo info = full;
-    if (cells == smg::SolidPreviewCells::Triangles)
-    {
-      info.cellType = smg::CellType::Triangle;
-    }
-    smg::setPiece(output, piece, info);
-    smg::markAsPreview(output, full);
-    smg::markAsReaders(output);
-  }
-};
 
 vtkStreamingMeshReader::vtkStreamingMeshReader()
   : Internal(new Internals)
@@ -534,9 +248,7 @@ int vtkStreamingMeshReader::RequestData(
       const int piece = request->Get(vtkSDDP::UPDATE_PIECE_NUMBER());
       const int part = piece < 0 ? parts : std::min(piece, parts);
       vtkPointSet* output = vtkPointSet::GetData(request);
-      this->Internal->open(*this); // so that the time steps are known
-      this->Internal->chooseStep(*request);
-      const smg::StreamInfo& info = this->Internal->open(*this).info();
+      const smg::StreamInfo& info = this->Internal->open(*this, request).info();
       this->Internal->setTime(*output, info);
       if (!vtkStreamingMeshKeys::IsStreamed(request) &&
           info.vertices / parts > this->MaximumPointsInMemory)

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkReaderInternals.h"
+
+#include "IO/Formats/MeshFile.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceColumns.h"
+#include "smg/Error.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataObjectTypes.h"
+#include "vtkInformation.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <iterator>
+
+vtkStreamingMeshReader::Internals::Stamp vtkStreamingMeshReader::Internals::stampOf(
+  vtkStreamingMeshReader& self)
+{
+  return { self.GetMTime(), smg::InputState(self.FileName ? self.FileName : ""),
+    smg::InputState(self.GetContainerName()) };
+}
+
+smg::VsmReader& vtkStreamingMeshReader::Internals::open(
+  vtkStreamingMeshReader& self, vtkInformation* request)
+{
+  const bool isAsked = this->Mesh && this->Opened.Properties == self.GetMTime();
+  if (isAsked && !this->Opened.areFilesUnchanged())
+  {
+    this->requireSameMesh(self);
+    this->Opened = stampOf(self);
+  }
+  if (!isAsked)
+  {
+    self.UpdateContainer();
+    const std::string name = self.GetContainerName();
+    const std::string folder = self.ScratchDirectory ? self.ScratchDirectory : "";
+    if (!this->Mesh || this->Name != name || this->Scratch != folder ||
+        !this->Opened.Container.isUnchanged())
+    {
+      this->close();
+      this->Times = smg::timesOf(name);
+      if (this->Name != name && !this->Name.empty())
+      {
+        this->PointArrays->RemoveAllArrays();
+        this->CellArrays->RemoveAllArrays();
+      }
+      this->Name = name;
+      this->Scratch = folder;
+    }
+  }
+  const std::int64_t step = this->stepOf(request);
+  if (!this->Mesh || this->Step != step)
+  {
+    this->openStep(step, smg::progressOf(self));
+  }
+  else if (isAsked)
+  {
+    return this->Mesh->reader();
+  }
+  this->Opened = stampOf(self);
+  this->Reason.clear();
+  return this->Mesh->reader();
+}
+
+/** The time step of a request: the last one that has begun, or else the first. */
+std::int64_t vtkStreamingMeshReader::Internals::stepOf(vtkInformation* request) const
+{
+  if (!request || !request->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    const std::int64_t last = std::ssize(this->Times) - 1;
+    return std::clamp<std::int64_t>(this->Step, 0, std::max<std::int64_t>(0, last));
+  }
+  const double time = request->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+  const auto later = std::ranges::upper_bound(this->Times, time);
+  return std::max<std::int64_t>(0, later - this->Times.begin() - 1);
+}
+
+/** Opens the file, of one with time steps the wanted one. */
+void vtkStreamingMeshReader::Internals::openStep(
+  std::int64_t step, const smg::ProgressFunction& progress)
+{
+  this->closeMesh();
+  smg::ConversionOptions options;
+  options.scratch = this->Scratch;
+  options.progress = progress;
+  if (this->Times.size() < 2)
+  {
+    this->Mesh = smg::openMesh(this->Name, options);
+  }
+  else
+  {
+    if (!this->OfSteps)
+    {
+      this->OfSteps.emplace(this->Scratch);
+    }
+    options.scratch = this->OfSteps->path();
+    options.timeStep = step;
+    const std::filesystem::path mesh = *this->OfSteps / "mesh.vsm";
+    smg::convert(this->Name, mesh, options);
+    this->Mesh = smg::openMesh(mesh);
+  }
+  this->Step = step;
+}
+
+/** Throws Error unless the file, which has been written since it was opened, has the same mesh. */
+void vtkStreamingMeshReader::Internals::requireSameMesh(vtkStreamingMeshReader& self) const
+{
+  const std::filesystem::path name = self.GetContainerName();
+  if (this->Opened.Container.isUnchanged())
+  {
+    return; // of a converter, whose result is still there
+  }
+  try
+  {
+    if (smg::kindOfInput(name) == smg::MeshFileKind::Vsm)
+    {
+      smg::VsmReader(name, nullptr, this->Mesh->fileFingerprint());
+      return;
+    }
+  }
+  catch (const std::exception&)
+  {
+    // What it is now does not matter.
+  }
+  throw smg::Error(name.string() +
+                   ": was replaced or changed since it was opened: reload it (File > Reload "
+                   "Files, or Modified() of the reader), and leave it as it is meanwhile.");
+}
+
+void vtkStreamingMeshReader::Internals::fail(
+  vtkStreamingMeshReader& self, const std::string& reason)
+{
+  this->close();
+  this->Failed = stampOf(self);
+  this->Reason = reason;
+  this->Failures.show(self, reason);
+}
+
+bool vtkStreamingMeshReader::Internals::hasFailed(vtkStreamingMeshReader& self) const
+{
+  return !this->Reason.empty() && this->Failed.Properties == self.GetMTime() &&
+         this->Failed.areFilesUnchanged();
+}
+
+void vtkStreamingMeshReader::Internals::lookAtFiles(vtkStreamingMeshReader& self)
+{
+  if (!this->Reason.empty() && !this->hasFailed(self))
+  {
+    this->Reason.clear();
+    this->Outdated.Modified();
+  }
+}
+
+void vtkStreamingMeshReader::Internals::close()
+{
+  this->closeMesh();
+  this->Times.clear();
+  this->OfSteps.reset();
+}
+
+void vtkStreamingMeshReader::Internals::closeMesh()
+{
+  this->Mesh.reset();
+  this->Columns.reset();
+  this->Preview.clear();
+  this->Shown.clear();
+}
+
+void vtkStreamingMeshReader::Internals::setOutput(vtkInformation& info, bool isSurface)
+{
+  const char* type = isSurface ? "vtkPolyData" : "vtkUnstructuredGrid";
+  vtkDataObject* present = vtkDataObject::GetData(&info);
+  if (!present || !present->IsA(type))
+  {
+    info.Set(vtkDataObject::DATA_OBJECT(),
+      vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
+  }
+}
+
+void vtkStreamingMeshReader::Internals::setTime(
+  vtkPointSet& output, const smg::StreamInfo& info) const
+{
+  if (this->Times.empty())
+  {
+    return;
+  }
+  if (output.IsA("vtkPolyData") != (info.cellType == smg::CellType::Triangle))
+  {
+    throw smg::Error(this->Name + ": time step " + std::to_string(this->Step) + " is a " +
+                     (output.IsA("vtkPolyData") ? "solid" : "surface") +
+                     ", unlike others: convert the time steps one by one (smg convert "
+                     "--time-step).");
+  }
+  output.GetInformation()->Set(
+    vtkDataObject::DATA_TIME_STEP(), this->Times[static_cast<std::size_t>(this->Step)]);
+}
+
+void vtkStreamingMeshReader::Internals::readPiece(
+  vtkPointSet& output, int part, int parts, int ghostLevels)
+{
+  smg::VsmReader& reader = this->Mesh->reader();
+  const smg::StreamInfo& info = reader.info();
+  const auto firstCell = [&info, parts](int p)
+  {
+    return static_cast<std::int64_t>(
+      static_cast<__int128>(info.cells) * std::min(p, parts) / parts);
+  };
+  const std::vector<std::string> ofPoints =
+    smg::chosenColumns(*this->PointArrays, info.vertexColumns);
+  const std::vector<std::string> ofCells = smg::chosenColumns(*this->CellArrays, info.cellColumns);
+  // Selecting columns makes the file reader discard the active vertices.
+  if (this->Columns != std::pair(ofPoints, ofCells))
+  {
+    reader.selectColumns(ofPoints, ofCells);
+    this->Columns = { ofPoints, ofCells };
+  }
+  smg::MeshPiece piece;
+  reader.readPiece(
+    firstCell(part), firstCell(part + 1), piece, parts > 1 ? std::max(0, ghostLevels) : 0);
+  smg::setPiece(output, piece, info);
+}
+
+void vtkStreamingMeshReader::Internals::readPreview(vtkPointSet& output, int part,
+  const vtkStreamingMeshReader& self, const smg::ProgressFunction& progress)
+{
+  const auto cells = self.PreviewCells == TETRAHEDRA ? smg::SolidPreviewCells::Tetrahedra
+                                                     : smg::SolidPreviewCells::Triangles;
+  const smg::StreamInfo& full = this->Mesh->reader().info();
+  smg::MeshPiece piece;
+  if (part == 0)
+  {
+    piece = this->Preview.of(this->Mesh->reader(), self.PreviewPoints, cells, progress);
+  }
+  else
+  {
+    for (const smg::ColumnSpec& spec : full.vertexColumns)
+    {
+      piece.vertexColumns.push_back({ spec, {} });
+    }
+  }
+  const std::vector<std::string> names = smg::chosenColumns(*this->PointArrays, full.vertexColumns);
+  std::erase_if(piece.vertexColumns, [&names](const smg::Column& column)
+    { return std::find(names.begin(), names.end(), column.spec.name) == names.end(); });
+  smg::StreamInfo info = full;
+  if (cells == smg::SolidPreviewCells::Triangles)
+  {
+    info.cellType = smg::CellType::Triangle;
+  }
+  smg::setPiece(output, piece, info);
+  smg::markAsPreview(output, full);
+  smg::markAsReaders(output);
+}
