@@ -4,6 +4,7 @@
 #include "Filters/Regions/ConditionText.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkRegionArrays.h"
+#include "IO/vtkPropertyRange.h"
 
 #include "vtkDataArray.h"
 #include "vtkObjectFactory.h"
@@ -81,6 +82,7 @@ bool vtkMeshCondition::IsElsewhere()
 
 void vtkMeshCondition::Check()
 {
+  smg::requireInRange({ { "Condition", this->Condition, DIRICHLET, SOFT } });
   if (this->Region == MASK || this->Region == TAG)
   {
     this->RegionArray();

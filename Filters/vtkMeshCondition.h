@@ -50,7 +50,7 @@ public:
 
   ///@{
   /** The type of the condition. Default: DIRICHLET. */
-  vtkSetClampMacro(Condition, int, DIRICHLET, SOFT);
+  vtkSetMacro(Condition, int);
   vtkGetMacro(Condition, int);
   ///@}
 

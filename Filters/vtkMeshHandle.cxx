@@ -2,6 +2,7 @@
 #include "Filters/vtkMeshHandle.h"
 
 #include "Filters/Regions/vtkHandleArrays.h"
+#include "IO/vtkPropertyRange.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Error.h"
 
@@ -101,6 +102,7 @@ vtkMTimeType vtkMeshHandle::GetMTime()
 
 void vtkMeshHandle::Check()
 {
+  smg::requireInRange({ { "Motion", this->Motion, FIXED, TRANSFORM } });
   this->Internal->targets();
 }
 

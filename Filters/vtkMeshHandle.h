@@ -56,7 +56,7 @@ public:
 
   ///@{
   /** The motion of the held points. Default: FIXED. */
-  vtkSetClampMacro(Motion, int, FIXED, TRANSFORM);
+  vtkSetMacro(Motion, int);
   vtkGetMacro(Motion, int);
   ///@}
 

@@ -2,8 +2,15 @@
 #include "Filters/vtkMultiEngineSolver.h"
 
 #include "Filters/Processes/vtkMemoryFit.h"
+#include "IO/vtkPropertyRange.h"
 
 #include "vtkMultiProcessController.h"
+
+void vtkMultiEngineSolver::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange({ { "Engine", this->Engine, STREAMING, AUTOMATIC_ENGINE } });
+}
 
 bool vtkMultiEngineSolver::IsForProcesses(vtkPointSet& piece, bool isAlone)
 {
@@ -46,5 +53,5 @@ void vtkMultiEngineSolver::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   constexpr const char* names[] = { "streaming", "distributed", "automatic" };
-  os << indent << "Engine: " << names[this->Engine] << "\n";
+  os << indent << "Engine: " << smg::printedChoice(names, this->Engine) << "\n";
 }

@@ -45,7 +45,7 @@ public:
    * - AUTOMATIC_ENGINE: DISTRIBUTED where there is more than one process and their memory holds an
    *   estimate of what it needs, else STREAMING; a note says why.
    */
-  vtkSetClampMacro(Engine, int, STREAMING, AUTOMATIC_ENGINE);
+  vtkSetMacro(Engine, int);
   vtkGetMacro(Engine, int);
   ///@}
 
@@ -53,6 +53,7 @@ protected:
   vtkMultiEngineSolver() = default;
   ~vtkMultiEngineSolver() override = default;
 
+  void CheckRanges() const override;
   bool IsForProcesses(vtkPointSet& piece, bool isAlone) override;
 
   /** Why AUTOMATIC_ENGINE is STREAMING, whatever the memory: because of checkpoints. Empty: nothing

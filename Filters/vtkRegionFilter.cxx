@@ -12,7 +12,10 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Jobs/Projection/PointProjection.h"
 #include "smg/Error.h"
 
 #include "vtkImplicitFunction.h"
@@ -351,6 +354,10 @@ int vtkRegionFilter::RequestData(
     [&]
     {
       const smg::PieceRequest request(outputVector->GetInformationObject(0));
+      smg::requireInRange({ { "Region", this->Region, FUNCTION, MASK },
+        { "IdType", this->IdType, GLOBAL_IDS, ORIGINAL_IDS },
+        { "Rings", this->Rings, 0, smg::PointProjection::MaximumRings },
+        { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
       this->Check();
       smg::PieceInput input(*this, 0);
       smg::HeldPoints held;

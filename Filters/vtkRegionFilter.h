@@ -32,9 +32,9 @@
  * of the surface preview of a solid all points. An array of the cells that a preview does not have
  * is evaluated on the mesh, whose points those of the preview are.
  *
- * An empty region is an error, reported when the whole mesh is requested, or at the last piece when
- * streamed pieces are requested in order. A preview without a point in the region causes a warning,
- * since the mesh may have some.
+ * A property out of its range is an error of the update. An empty region is an error, reported when
+ * the whole mesh is requested, or at the last piece when streamed pieces are requested in order. A
+ * preview without a point in the region causes a warning, since the mesh may have some.
  *
  * With several processes, selections by point index refer to the points of the named process as
  * long as each process requests its own piece; streamed requests need GlobalIds, unless a preview
@@ -87,7 +87,7 @@ public:
 
   ///@{
   /** The type of the region. Default: FUNCTION. */
-  vtkSetClampMacro(Region, int, FUNCTION, MASK);
+  vtkSetMacro(Region, int);
   vtkGetMacro(Region, int);
   ///@}
 
@@ -118,7 +118,7 @@ public:
 
   ///@{
   /** The meaning of the ids. Default: GLOBAL_IDS. */
-  vtkSetClampMacro(IdType, int, GLOBAL_IDS, ORIGINAL_IDS);
+  vtkSetMacro(IdType, int);
   vtkGetMacro(IdType, int);
   ///@}
 
@@ -143,7 +143,7 @@ public:
   ///@{
   /** The distance in edges of the mesh, 0 to 100; points within the radius or the rings are held.
    * Default: 0. */
-  vtkSetClampMacro(Rings, int, 0, 100);
+  vtkSetMacro(Rings, int);
   vtkGetMacro(Rings, int);
   ///@}
 
@@ -165,7 +165,7 @@ public:
   ///@{
   /** The number of pieces in which the input is requested to search it, 0 to 1,000,000. Default: 0
    * (at least 64, and pieces of at most 64 MiB). The held points do not depend on it. */
-  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
+  vtkSetMacro(NumberOfPieces, int);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 

@@ -53,6 +53,7 @@ struct vtkStreamingSolver::Internals
   {
     smg::PieceInput input(this->Self, 0);
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
+    this->checkRanges(exchange.isServer());
     vtkSmartPointer<vtkPointSet> present;
     exchange.together([&] { present = smg::fetchPiece(input, request, exchange); });
     const bool isOrdinary =
@@ -109,6 +110,20 @@ struct vtkStreamingSolver::Internals
         this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
       });
     this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
+  }
+
+  /** Throws Error, in all processes alike, if a property is out of its range. */
+  void checkRanges(bool isServer)
+  {
+    try
+    {
+      this->Self.CheckRanges();
+    }
+    catch (const smg::Error& error)
+    {
+      this->Summary = smg::SolveSummary::failed(error.what());
+      this->check(isServer);
+    }
   }
 
   /** Whether to solve on the preview that is shown. */

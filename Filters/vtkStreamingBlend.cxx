@@ -4,6 +4,7 @@
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
+#include "IO/vtkPropertyRange.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Blend.h"
 #include "smg/Error.h"
@@ -145,6 +146,12 @@ const char* vtkStreamingBlend::GetColumn(int number) const
   return number >= 0 && number < this->GetNumberOfColumns()
            ? this->Internal->Columns[static_cast<std::size_t>(number)].c_str()
            : nullptr;
+}
+
+void vtkStreamingBlend::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange({ { "SeamGradient", this->SeamGradient, ZERO, AVERAGE } });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)

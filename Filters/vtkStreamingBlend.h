@@ -77,7 +77,7 @@ public:
   };
   ///@{
   /** The gradients between patches. Default: ZERO. */
-  vtkSetClampMacro(SeamGradient, int, ZERO, AVERAGE);
+  vtkSetMacro(SeamGradient, int);
   vtkGetMacro(SeamGradient, int);
   ///@}
 
@@ -85,6 +85,7 @@ protected:
   vtkStreamingBlend();
   ~vtkStreamingBlend() override;
 
+  void CheckRanges() const override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
 

@@ -4,6 +4,7 @@
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
 #include "IO/vtkPieceColumns.h"
+#include "IO/vtkPropertyRange.h"
 #include "smg/Deform.h"
 #include "smg/Distance.h"
 #include "smg/Error.h"
@@ -125,6 +126,12 @@ smg::DistanceDescription vtkStreamingDistance::Description() const
   description.source = this->Source;
   description.direction = this->Direction;
   return description;
+}
+
+void vtkStreamingDistance::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange({ { "MaximumPasses", this->MaximumPasses, 1 } });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)

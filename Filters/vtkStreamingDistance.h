@@ -71,7 +71,7 @@ public:
 
   ///@{
   /** The maximum number of passes over the mesh, at least 1. Default: 200. */
-  vtkSetClampMacro(MaximumPasses, int, 1, VTK_INT_MAX);
+  vtkSetMacro(MaximumPasses, int);
   vtkGetMacro(MaximumPasses, int);
   ///@}
 
@@ -79,6 +79,7 @@ protected:
   vtkStreamingDistance();
   ~vtkStreamingDistance() override;
 
+  void CheckRanges() const override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int /*columns*/) override { return 1; } // the distance

@@ -10,6 +10,7 @@
 #include "Filters/Tasks/vtkMovedPiece.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPropertyRange.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -59,6 +60,14 @@ vtkStreamingMeshDeformation::~vtkStreamingMeshDeformation() = default;
 int vtkStreamingMeshDeformation::GetNumberOfBuilds()
 {
   return this->Internal->Interactive.builds();
+}
+
+void vtkStreamingMeshDeformation::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange(
+    { { "Cycles", this->Cycles, 0 }, { "Normals", this->Normals, RECOMPUTE, DROP },
+      { "InteractivePoints", this->InteractivePoints, 0 }, { "DragPoints", this->DragPoints, 8 } });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPointSet& input)

@@ -51,7 +51,7 @@ public:
   ///@{
   /** V-cycles of each of the two steps. Default: 0 (as many as Tolerance needs, at most
    * MaximumCycles). */
-  vtkSetClampMacro(Cycles, int, 0, VTK_INT_MAX);
+  vtkSetMacro(Cycles, int);
   vtkGetMacro(Cycles, int);
   ///@}
 
@@ -62,7 +62,7 @@ public:
    * whole mesh, weighted by angles, in single precision; they do not depend on pieces. Active
    * tangents are always dropped.
    */
-  vtkSetClampMacro(Normals, int, RECOMPUTE, DROP);
+  vtkSetMacro(Normals, int);
   vtkGetMacro(Normals, int);
   ///@}
 
@@ -80,14 +80,14 @@ public:
    * and their hierarchy is kept. Default: 200,000. 0: only previews. The result does not depend on
    * it. A larger mesh that is displayed without a preview is deformed out of core at each change.
    */
-  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkSetMacro(InteractivePoints, vtkIdType);
   vtkGetMacro(InteractivePoints, vtkIdType);
   ///@}
 
   ///@{
   /** A preview of more points is made coarser before it is deformed, so that it follows a dragged
    * handle; at least 8. Default: 10,000, which answer in about 40 ms. */
-  vtkSetClampMacro(DragPoints, vtkIdType, 8, VTK_ID_MAX);
+  vtkSetMacro(DragPoints, vtkIdType);
   vtkGetMacro(DragPoints, vtkIdType);
   ///@}
 
@@ -99,6 +99,7 @@ protected:
   vtkStreamingMeshDeformation();
   ~vtkStreamingMeshDeformation() override;
 
+  void CheckRanges() const override;
   std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
   std::unique_ptr<smg::StreamedTask> MakeCoarserTask(vtkPointSet& coarser) override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;

@@ -9,6 +9,7 @@
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyRange.h"
 #include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
@@ -21,7 +22,6 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <optional>
 
 vtkStandardNewMacro(vtkStreamingMeshPreview);
@@ -136,17 +136,6 @@ vtkStreamingMeshPreview::vtkStreamingMeshPreview()
 
 vtkStreamingMeshPreview::~vtkStreamingMeshPreview() = default;
 
-void vtkStreamingMeshPreview::SetPreviewPoints(int points)
-{
-  const int possible = static_cast<int>(
-    std::clamp<std::int64_t>(points, smg::MinPreviewPoints, smg::MaxPreviewPoints));
-  if (possible != this->PreviewPoints)
-  {
-    this->PreviewPoints = possible;
-    this->Modified();
-  }
-}
-
 const char* vtkStreamingMeshPreview::GetError()
 {
   return this->Internal->Failures.error().c_str();
@@ -196,6 +185,9 @@ int vtkStreamingMeshPreview::RequestData(
     {
       vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
       const smg::PieceRequest request(outputVector->GetInformationObject(0));
+      smg::requireInRange(
+        { { "PreviewPoints", this->PreviewPoints, smg::MinPreviewPoints, smg::MaxPreviewPoints },
+          { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
       smg::PieceInput input(*this, 0);
       const vtkSmartPointer<vtkPointSet> shown = smg::meshOf(vtkDataObject::GetData(inputInfo));
       if (shown && smg::isOrdinaryMesh(*shown) && !smg::isPreview(*shown))

@@ -37,7 +37,7 @@ public:
   ///@{
   /** The maximum number of points of the preview, 8 to 1,000,000; it usually has as many. Default:
    * 100,000. */
-  void SetPreviewPoints(int points);
+  vtkSetMacro(PreviewPoints, int);
   vtkGetMacro(PreviewPoints, int);
   ///@}
 
@@ -46,7 +46,7 @@ public:
    * The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
    * and pieces of at most 64 MiB). More pieces need less memory.
    */
-  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
+  vtkSetMacro(NumberOfPieces, int);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 

@@ -12,6 +12,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchFolder.h"
@@ -86,6 +87,7 @@ struct vtkStreamingMeshSimplification::Internals
     this->release();
     try
     {
+      this->checkRanges();
       const char* folder = this->Self.ScratchDirectory;
       this->Scratch.emplace(folder ? folder : "");
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
@@ -116,6 +118,15 @@ struct vtkStreamingMeshSimplification::Internals
     this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
   }
 
+  void checkRanges() const
+  {
+    constexpr int LeastMemory = 16, MaxThreads = 4096;
+    smg::requireInRange({ { "NumberOfVertices", this->Self.NumberOfVertices, 0 },
+      { "MemoryLimit", this->Self.MemoryLimit, LeastMemory },
+      { "NumberOfPieces", this->Self.NumberOfPieces, 0, smg::PieceCount::Most },
+      { "NumberOfThreads", this->Self.NumberOfThreads, 0, MaxThreads } });
+  }
+
   std::string estimate() const
   {
     smg::ConversionOptions places;
@@ -124,6 +135,7 @@ struct vtkStreamingMeshSimplification::Internals
     return smg::estimateText(this->Self, places,
       [&](const smg::EstimatedInput& mesh, vtkPointSet&)
       {
+        this->checkRanges();
         smg::JobEstimate estimate = smg::simplifyEstimate(
           mesh, this->target(), "simplified.vsm", { .memoryLimit = this->memory() }, places);
         const bool isCopied = smg::unchangedFile(this->Self, AllColumns).path.empty();

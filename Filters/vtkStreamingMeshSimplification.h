@@ -37,7 +37,7 @@ public:
   ///@{
   /** The most points of the result, at least 4; 0: as many as MaximumError needs. Default: 100,000.
    */
-  vtkSetClampMacro(NumberOfVertices, vtkIdType, 0, VTK_ID_MAX);
+  vtkSetMacro(NumberOfVertices, vtkIdType);
   vtkGetMacro(NumberOfVertices, vtkIdType);
   ///@}
 
@@ -50,7 +50,7 @@ public:
 
   ///@{
   /** The memory limit in MiB, at least 16. Default: 256. The result depends on it. */
-  vtkSetClampMacro(MemoryLimit, int, 16, VTK_INT_MAX);
+  vtkSetMacro(MemoryLimit, int);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
@@ -63,13 +63,13 @@ public:
   ///@{
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
    * and pieces of at most 64 MiB). */
-  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
+  vtkSetMacro(NumberOfPieces, int);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
   ///@{
   /** Compute threads; 0 (default): one per core. The result does not depend on it. */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkSetMacro(NumberOfThreads, int);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 

@@ -8,6 +8,7 @@
 #include "Filters/Tasks/vtkMovedPiece.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPropertyRange.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Smooth.h"
 
@@ -110,6 +111,14 @@ std::string vtkStreamingMeshSmoothing::SmoothedArray() const
   return array.empty() ? named(this->Column) : array;
 }
 
+void vtkStreamingMeshSmoothing::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange({ { "SizeUnit", this->SizeUnit, MEAN_EDGES, DIAGONAL },
+    { "Boundary", this->Boundary, AUTOMATIC, FREE },
+    { "Normals", this->Normals, RECOMPUTE, DROP } });
+}
+
 std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<SmoothingTask>();
@@ -166,12 +175,12 @@ void vtkStreamingMeshSmoothing::PrintSelf(ostream& os, vtkIndent indent)
   constexpr const char* units[] = { "mean edges", "mesh unit", "diagonal" };
   constexpr const char* boundaries[] = { "automatic", "smooth", "fixed", "free" };
   os << indent << "Size: " << this->Size << "\n";
-  os << indent << "SizeUnit: " << units[this->SizeUnit] << "\n";
+  os << indent << "SizeUnit: " << smg::printedChoice(units, this->SizeUnit) << "\n";
   os << indent << "Steps: " << this->Steps << "\n";
   os << indent << "KeepVolume: " << this->KeepVolume << "\n";
   os << indent << "KeepEdges: " << this->KeepEdges << "\n";
   os << indent << "EdgeAngle: " << this->EdgeAngle << "\n";
-  os << indent << "Boundary: " << boundaries[this->Boundary] << "\n";
+  os << indent << "Boundary: " << smg::printedChoice(boundaries, this->Boundary) << "\n";
   os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
   os << indent << "Array: " << (this->Array ? this->Array : "(none)") << "\n";
   os << indent << "Column: " << (this->Column ? this->Column : "(none)") << "\n";

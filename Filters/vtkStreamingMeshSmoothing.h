@@ -65,7 +65,7 @@ public:
 
   ///@{
   /** The unit of Size. Default: MEAN_EDGES. */
-  vtkSetClampMacro(SizeUnit, int, MEAN_EDGES, DIAGONAL);
+  vtkSetMacro(SizeUnit, int);
   vtkGetMacro(SizeUnit, int);
   ///@}
 
@@ -99,7 +99,7 @@ public:
 
   ///@{
   /** What becomes of the boundary of a surface. Default: AUTOMATIC. */
-  vtkSetClampMacro(Boundary, int, AUTOMATIC, FREE);
+  vtkSetMacro(Boundary, int);
   vtkGetMacro(Boundary, int);
   ///@}
 
@@ -127,7 +127,7 @@ public:
   ///@{
   /** The treatment of the normals of points and of cells (the active normals and arrays `Normals`)
    * if points move: see vtkStreamingMeshDeformation. Default: RECOMPUTE. */
-  vtkSetClampMacro(Normals, int, RECOMPUTE, DROP);
+  vtkSetMacro(Normals, int);
   vtkGetMacro(Normals, int);
   ///@}
 
@@ -135,6 +135,7 @@ protected:
   vtkStreamingMeshSmoothing();
   ~vtkStreamingMeshSmoothing() override;
 
+  void CheckRanges() const override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int columns) override; // without normals

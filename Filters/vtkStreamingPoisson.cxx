@@ -13,6 +13,7 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCells.h"
+#include "IO/vtkPropertyRange.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Problem/ComposeDescriptions.h"
@@ -236,6 +237,12 @@ int vtkStreamingPoisson::ComputePipelineMTime(vtkInformation* request,
 {
   this->Internal->lookAtFile();
   return this->Superclass::ComputePipelineMTime(request, inputVector, outputVector, port, time);
+}
+
+void vtkStreamingPoisson::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange({ { "Acceleration", this->Acceleration, AUTOMATIC, CONJUGATE_GRADIENTS } });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)

@@ -101,7 +101,7 @@ public:
 
   ///@{
   /** The acceleration of the V-cycles. Default: AUTOMATIC. */
-  vtkSetClampMacro(Acceleration, int, AUTOMATIC, CONJUGATE_GRADIENTS);
+  vtkSetMacro(Acceleration, int);
   vtkGetMacro(Acceleration, int);
   ///@}
 
@@ -129,6 +129,7 @@ protected:
   vtkStreamingPoisson();
   ~vtkStreamingPoisson() override;
 
+  void CheckRanges() const override;
   /** Looks whether the problem file has changed, once for every update of the pipeline. */
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int port, vtkMTimeType* time) override;

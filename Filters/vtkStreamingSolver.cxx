@@ -4,6 +4,8 @@
 #include "Filters/Tasks/vtkSolveEstimate.h"
 #include "Filters/vtkSolverRequests.h"
 #include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyRange.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkExecutive.h"
@@ -90,7 +92,13 @@ const char* vtkStreamingSolver::GetEstimate()
   smg::SolveOptions options;
   this->FillOptions(options);
   this->Internal->Estimate = smg::solveEstimate(
-    *this, [this](vtkPointSet& input) { return this->MakeEstimatedTask(input); }, options);
+    *this,
+    [this](vtkPointSet& input)
+    {
+      this->CheckRanges();
+      return this->MakeEstimatedTask(input);
+    },
+    options);
   return this->Internal->Estimate.c_str();
 }
 
@@ -117,6 +125,17 @@ const char* vtkStreamingSolver::GetReport()
 const char* vtkStreamingSolver::GetError()
 {
   return this->Internal->Failures.error().c_str();
+}
+
+void vtkStreamingSolver::CheckRanges() const
+{
+  constexpr int MaxThreads = 4096;
+  smg::requireInRange({ { "Solve", this->Solve, AUTOMATIC_SOLVE, ON_FULL_MESH },
+    { "Weights", this->Weights, UNIFORM, CLAMPED }, { "Sweeps", this->Sweeps, 1, 20 },
+    { "MaximumCycles", this->MaximumCycles, 1 }, { "MemoryLimit", this->MemoryLimit, 1 },
+    { "ScratchLimit", this->ScratchLimit, 0 },
+    { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most },
+    { "NumberOfThreads", this->NumberOfThreads, 0, MaxThreads } });
 }
 
 void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
@@ -270,9 +289,9 @@ void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   constexpr const char* places[] = { "automatic", "on the preview", "on the full mesh" };
-  os << indent << "Solve: " << places[this->Solve] << "\n";
+  os << indent << "Solve: " << smg::printedChoice(places, this->Solve) << "\n";
   constexpr const char* names[] = { "uniform", "cotangent", "clamped" };
-  os << indent << "Weights: " << names[this->Weights] << "\n";
+  os << indent << "Weights: " << smg::printedChoice(names, this->Weights) << "\n";
   os << indent << "Operators: " << (this->Operators ? this->Operators : "(none)") << "\n";
   os << indent << "Sweeps: " << this->Sweeps << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

@@ -10,7 +10,8 @@
  * only if the filter, its input or the time of a time-dependent input has changed.
  *
  * The report of the solve (JSON) is in the field data array `Report`. A solve that does not reach
- * Tolerance within MaximumCycles returns its last values with a warning, and Converged is 0.
+ * Tolerance within MaximumCycles returns its last values with a warning, and Converged is 0. A
+ * property out of its range is an error of the update, before anything is computed.
  *
  * With several processes, process 0 solves and sends the others the values of their points; a
  * failure in one process is a failure in all. Process 0 alone processes streamed requests (see
@@ -82,13 +83,13 @@ public:
    * that of the full mesh. GetOutcome() says first which of them it was. Default: AUTOMATIC_SOLVE;
    * for vtkStreamingMeshDeformation: ON_PREVIEW.
    */
-  vtkSetClampMacro(Solve, int, AUTOMATIC_SOLVE, ON_FULL_MESH);
+  vtkSetMacro(Solve, int);
   vtkGetMacro(Solve, int);
   ///@}
 
   ///@{
   /** The weights of the edges. Default: COTANGENT; for vtkStreamingMeshDeformation: CLAMPED. */
-  vtkSetClampMacro(Weights, int, UNIFORM, CLAMPED);
+  vtkSetMacro(Weights, int);
   vtkGetMacro(Weights, int);
   ///@}
 
@@ -100,7 +101,7 @@ public:
 
   ///@{
   /** Gauss-Seidel sweeps before and after each coarse-grid correction, 1 to 20. Default: 2. */
-  vtkSetClampMacro(Sweeps, int, 1, 20);
+  vtkSetMacro(Sweeps, int);
   vtkGetMacro(Sweeps, int);
   ///@}
 
@@ -117,7 +118,7 @@ public:
 
   ///@{
   /** The maximum number of V-cycles, at least 1. Default: 50. */
-  vtkSetClampMacro(MaximumCycles, int, 1, VTK_INT_MAX);
+  vtkSetMacro(MaximumCycles, int);
   vtkGetMacro(MaximumCycles, int);
   ///@}
 
@@ -125,7 +126,7 @@ public:
   /** The memory limit of the solver in MiB, at least 1. Default: 1024. If the mesh needs more, the
    * solve fails immediately and states how much. Scratch files in memory (see ScratchDirectory)
    * take at most half of it, besides. */
-  vtkSetClampMacro(MemoryLimit, int, 1, VTK_INT_MAX);
+  vtkSetMacro(MemoryLimit, int);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
@@ -142,7 +143,7 @@ public:
   /** The limit of the scratch files that exist at once, in MiB; 0 (default): none. Before it is
    * exceeded, the solve fails with an error that states both figures. The files of a checkpoint
    * have this limit for themselves. */
-  vtkSetClampMacro(ScratchLimit, int, 0, VTK_INT_MAX);
+  vtkSetMacro(ScratchLimit, int);
   vtkGetMacro(ScratchLimit, int);
   ///@}
 
@@ -164,13 +165,13 @@ public:
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
    * and such that a piece takes at most a sixteenth of MemoryLimit). More pieces need less memory.
    * The solution does not depend on it. */
-  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
+  vtkSetMacro(NumberOfPieces, int);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
   ///@{
   /** Compute threads; 0 (default): one per core. The solution does not depend on it. */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkSetMacro(NumberOfThreads, int);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
@@ -272,6 +273,8 @@ protected:
   /** Whether to warn if a solve does not reach the tolerance. Default: true. */
   virtual bool IsToConverge() { return true; }
 
+  /** Throws smg::Error if a property is out of its range. Subclasses add their own. */
+  virtual void CheckRanges() const;
   /** Sets the options according to the properties. */
   void FillOptions(smg::SolveOptions& options) const;
   smg::Weights ChosenWeights() const;

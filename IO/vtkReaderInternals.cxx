@@ -4,6 +4,7 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
+#include "IO/vtkPropertyRange.h"
 #include "smg/Error.h"
 
 #include "vtkDataObject.h"
@@ -28,6 +29,9 @@ vtkStreamingMeshReader::Internals::Stamp vtkStreamingMeshReader::Internals::stam
 smg::VsmReader& vtkStreamingMeshReader::Internals::open(
   vtkStreamingMeshReader& self, vtkInformation* request)
 {
+  smg::requireInRange({ { "MaximumPointsInMemory", self.MaximumPointsInMemory, 0 },
+    { "PreviewPoints", self.PreviewPoints, smg::MinPreviewPoints, smg::MaxPreviewPoints },
+    { "PreviewCells", self.PreviewCells, SURFACE, TETRAHEDRA } });
   const bool isAsked = this->Mesh && this->Opened.Properties == self.GetMTime();
   if (isAsked && !this->Opened.areFilesUnchanged())
   {

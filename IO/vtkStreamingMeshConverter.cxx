@@ -5,6 +5,7 @@
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkFailures.h"
+#include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
@@ -137,6 +138,9 @@ void vtkStreamingMeshConverter::UpdateContainer()
   {
     throw smg::Error("No conversion is named: set FileName and OutputFileName.");
   }
+  smg::requireInRange({ { "Order", this->Order, BREADTH_FIRST, SPECTRAL },
+    { "Cells", this->Cells, ONLY, TETRAHEDRA }, { "TimeStep", this->TimeStep, 0 },
+    { "Partition", this->Partition, -1 }, { "MemoryLimit", this->MemoryLimit, 0 } });
   const char* scratch = this->GetScratchDirectory();
   smg::ConversionOptions options;
   options.order = Orders[this->Order];

@@ -56,7 +56,7 @@ public:
 
   ///@{
   /** The order of the stream. Default: BREADTH_FIRST, which suits nearly every mesh. */
-  vtkSetClampMacro(Order, int, BREADTH_FIRST, SPECTRAL);
+  vtkSetMacro(Order, int);
   vtkGetMacro(Order, int);
   ///@}
 
@@ -70,7 +70,7 @@ public:
 
   ///@{
   /** The cells of a file to keep. Default: ONLY. */
-  vtkSetClampMacro(Cells, int, ONLY, TETRAHEDRA);
+  vtkSetMacro(Cells, int);
   vtkGetMacro(Cells, int);
   ///@}
 
@@ -84,13 +84,13 @@ public:
   ///@{
   /** Points within this distance, in units of the coordinates, are merged. Default: 0 (points of
    * equal coordinates). */
-  vtkSetClampMacro(WeldDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(WeldDistance, double);
   vtkGetMacro(WeldDistance, double);
   ///@}
 
   ///@{
   /** Which time step of a file with time steps (VTKHDF) to read, from 0. Default: 0. */
-  vtkSetClampMacro(TimeStep, int, 0, VTK_INT_MAX);
+  vtkSetMacro(TimeStep, int);
   vtkGetMacro(TimeStep, int);
   ///@}
 
@@ -99,7 +99,7 @@ public:
    * Which partition of a file with partitions (VTKHDF) to read, from 0. Default: -1, all of them,
    * joined.
    */
-  vtkSetClampMacro(Partition, int, -1, VTK_INT_MAX);
+  vtkSetMacro(Partition, int);
   vtkGetMacro(Partition, int);
   ///@}
 
@@ -115,7 +115,7 @@ public:
   ///@{
   /** The memory limit of the conversion in MiB, at least 16, for any size of the mesh. Default: 0,
    * which is 256. */
-  vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
+  vtkSetMacro(MemoryLimit, int);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 

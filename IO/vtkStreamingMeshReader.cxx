@@ -56,17 +56,6 @@ void vtkStreamingMeshReader::UpdateContainer()
   }
 }
 
-void vtkStreamingMeshReader::SetPreviewPoints(int points)
-{
-  const int possible = static_cast<int>(
-    std::clamp<std::int64_t>(points, smg::MinPreviewPoints, smg::MaxPreviewPoints));
-  if (possible != this->PreviewPoints)
-  {
-    this->PreviewPoints = possible;
-    this->Modified();
-  }
-}
-
 vtkDataArraySelection* vtkStreamingMeshReader::GetPointDataArraySelection()
 {
   return this->Internal->PointArrays;

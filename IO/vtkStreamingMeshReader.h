@@ -29,7 +29,7 @@
  *
  * A file that is replaced or changed while it is in use is an error of the next piece, until the
  * reader is modified: its pieces would not go with those before, nor with what filters made of
- * them.
+ * them. So is a property out of its range, before anything is read.
  *
  * A request for a piece of more than MaximumPointsInMemory points returns a preview, unless it
  * comes from a streaming filter (see vtkStreamingMeshKeys): the surface simplified to at most
@@ -78,14 +78,14 @@ public:
   ///@{
   /** The maximum number of points of a piece that is not streamed; for a larger piece the preview
    * is returned. Default: 2,000,000. 0: always the preview. */
-  vtkSetClampMacro(MaximumPointsInMemory, vtkIdType, 0, VTK_ID_MAX);
+  vtkSetMacro(MaximumPointsInMemory, vtkIdType);
   vtkGetMacro(MaximumPointsInMemory, vtkIdType);
   ///@}
 
   ///@{
   /** The maximum number of points of the preview, 8 to 1,000,000. Making it takes up to 3.5 KB of
    * memory a point. Default: 100,000. */
-  void SetPreviewPoints(int points);
+  vtkSetMacro(PreviewPoints, int);
   vtkGetMacro(PreviewPoints, int);
   ///@}
 
@@ -97,7 +97,7 @@ public:
   };
   ///@{
   /** What the preview of a tetrahedral mesh consists of. Default: SURFACE. */
-  vtkSetClampMacro(PreviewCells, int, SURFACE, TETRAHEDRA);
+  vtkSetMacro(PreviewCells, int);
   vtkGetMacro(PreviewCells, int);
   ///@}
 

@@ -16,6 +16,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyRange.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Solver/Core/Text.h"
@@ -324,6 +325,8 @@ struct vtkStreamingMeshWriter::Internals
     files.writeMesh(path);
     files.check();
     code = vtkErrorCode::UnknownError;
+    smg::requireInRange({ { "NumberOfStreamedPieces", this->Self.NumberOfStreamedPieces, 0,
+      smg::PieceCount::Most } });
     if (smg::isFailed(this->Self.GetInputDataObject(0, 0)))
     {
       // Perhaps no longer, if a filter has been modified since.

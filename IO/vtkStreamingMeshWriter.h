@@ -51,7 +51,7 @@ public:
   ///@{
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (pieces of
    * about 4 MiB). (ParaView calls SetNumberOfPieces with the number of processes.) */
-  vtkSetClampMacro(NumberOfStreamedPieces, int, 0, 1000000);
+  vtkSetMacro(NumberOfStreamedPieces, int);
   vtkGetMacro(NumberOfStreamedPieces, int);
   ///@}
 

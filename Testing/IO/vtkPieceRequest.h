@@ -22,6 +22,9 @@ class Errors
 {
 public:
   explicit Errors(vtkAlgorithm* algorithm) { this->watch(algorithm); }
+  ~Errors() { this->Command->SetCallback(nullptr); }
+  Errors(const Errors&) = delete;
+  Errors& operator=(const Errors&) = delete;
 
   void watch(vtkAlgorithm* algorithm)
   {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <string>
+
+namespace smg
+{
+
+/** A whole number that a user has set as a property, and what it may be. */
+struct PropertyRange
+{
+  static constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
+
+  const char* property;
+  std::int64_t value;
+  std::int64_t least;
+  std::int64_t most = NoLimit;
+};
+
+/** Throws Error, which names the property, if a number is out of its range. Setters do not clamp: a
+ * user would have another number than was set, without a word. */
+inline void requireInRange(std::initializer_list<PropertyRange> numbers)
+{
+  for (const PropertyRange& number : numbers)
+  {
+    if (number.value < number.least || number.value > number.most)
+    {
+      throw Error(
+        std::string(number.property) + " is " + std::to_string(number.value) + ": set it to " +
+        (number.most == PropertyRange::NoLimit ? "at least " + std::to_string(number.least)
+                                               : "a number from " + std::to_string(number.least) +
+                                                   " to " + std::to_string(number.most)) +
+        '.');
+    }
+  }
+}
+
+/** What to print for one of the values of an enumeration; the number, if it is another. */
+template <std::size_t Count>
+std::string printedChoice(const char* const (&names)[Count], int value)
+{
+  const bool isOne = value >= 0 && static_cast<std::size_t>(value) < Count;
+  return isOne ? names[value] : std::to_string(value);
+}
+
+} // namespace smg

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkMeshCondition.h"
+#include "Filters/vtkMeshRegion.h"
+#include "Filters/vtkStreamingBlend.h"
+#include "Filters/vtkStreamingDistance.h"
+#include "Filters/vtkStreamingMeshDeformation.h"
+#include "Filters/vtkStreamingMeshPreview.h"
+#include "Filters/vtkStreamingMeshSimplification.h"
+#include "Filters/vtkStreamingMeshSmoothing.h"
+#include "Filters/vtkStreamingPoisson.h"
+#include "IO/vtkStreamingMeshConverter.h"
+#include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/vtkMeshHandleFixture.h"
+
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// A number out of its range is an error of the update, which names it; no other one is taken.
+
+namespace smg::testing
+{
+namespace
+{
+
+constexpr vtkIdType NoLimit = std::numeric_limits<vtkIdType>::max();
+
+/** One property of an algorithm. */
+template <class Algorithm, class Number>
+struct Property
+{
+  const char* name;
+  void (Algorithm::*set)(Number);
+  Number (Algorithm::*get)();
+  vtkIdType least, most = NoLimit;
+};
+
+/** Expects that a number out of the range is refused by its name, before the update does anything,
+ * and that it does not fail with the former number. */
+template <class Algorithm, class Number>
+void expectRange(Algorithm* algorithm, const Property<Algorithm, Number>& property)
+{
+  const Number before = (algorithm->*property.get)();
+  std::vector<vtkIdType> refused{ property.least - 1, property.least - 1000 };
+  std::string range = "at least " + std::to_string(property.least);
+  if (property.most != NoLimit)
+  {
+    refused.push_back(property.most + 1);
+    range =
+      "a number from " + std::to_string(property.least) + " to " + std::to_string(property.most);
+  }
+  const auto isUpdated = [&]
+  {
+    auto* writer = vtkStreamingMeshWriter::SafeDownCast(algorithm);
+    return writer ? writer->Write() == 1 : updatePiece(algorithm, 0, 1) == 1;
+  };
+  for (const vtkIdType number : refused)
+  {
+    (algorithm->*property.set)(static_cast<Number>(number));
+    EXPECT_EQ((algorithm->*property.get)(), static_cast<Number>(number)) << property.name;
+    Errors said(algorithm);
+    EXPECT_FALSE(isUpdated()) << property.name << " " << number;
+    EXPECT_TRUE(said.contain(
+      std::string(property.name) + " is " + std::to_string(number) + ": set it to " + range + "."))
+      << property.name << " " << number << ": " << said.text();
+    std::ostringstream printed;
+    algorithm->Print(printed);
+    (algorithm->*property.set)(before);
+    said.clear();
+    isUpdated();
+    EXPECT_FALSE(said.contain(": set it to ")) << said.text();
+  }
+}
+
+constexpr int Pieces = 1000000, Threads = 4096;
+
+/** The numbers of every solver. */
+void expectRangesOfSolver(vtkStreamingSolver* solver)
+{
+  using S = vtkStreamingSolver;
+  SCOPED_TRACE(solver->GetClassName());
+  expectRange<S, int>(solver, { "Solve", &S::SetSolve, &S::GetSolve, 0, 2 });
+  expectRange<S, int>(solver, { "Weights", &S::SetWeights, &S::GetWeights, 0, 2 });
+  expectRange<S, int>(solver, { "Sweeps", &S::SetSweeps, &S::GetSweeps, 1, 20 });
+  expectRange<S, int>(solver, { "MaximumCycles", &S::SetMaximumCycles, &S::GetMaximumCycles, 1 });
+  expectRange<S, int>(solver, { "MemoryLimit", &S::SetMemoryLimit, &S::GetMemoryLimit, 1 });
+  expectRange<S, int>(solver, { "ScratchLimit", &S::SetScratchLimit, &S::GetScratchLimit, 0 });
+  expectRange<S, int>(
+    solver, { "NumberOfPieces", &S::SetNumberOfPieces, &S::GetNumberOfPieces, 0, Pieces });
+  expectRange<S, int>(
+    solver, { "NumberOfThreads", &S::SetNumberOfThreads, &S::GetNumberOfThreads, 0, Threads });
+}
+
+/** The numbers of every region. */
+void expectRangesOfRegion(vtkRegionFilter* filter)
+{
+  using R = vtkRegionFilter;
+  SCOPED_TRACE(filter->GetClassName());
+  expectRange<R, int>(filter, { "Region", &R::SetRegion, &R::GetRegion, 0, 7 });
+  expectRange<R, int>(filter, { "IdType", &R::SetIdType, &R::GetIdType, 0, 1 });
+  expectRange<R, int>(filter, { "Rings", &R::SetRings, &R::GetRings, 0, 100 });
+  expectRange<R, int>(
+    filter, { "NumberOfPieces", &R::SetNumberOfPieces, &R::GetNumberOfPieces, 0, Pieces });
+}
+
+class VtkPropertyRange : public VtkMeshHandle
+{
+protected:
+  template <class Filter>
+  void connect(Filter& filter)
+  {
+    filter.SetInputConnection(this->Reader->GetOutputPort());
+  }
+};
+
+TEST_F(VtkPropertyRange, OfSolvers)
+{
+  using Poisson = vtkStreamingPoisson;
+  using Smoothing = vtkStreamingMeshSmoothing;
+  using Blend = vtkStreamingBlend;
+  using Distance = vtkStreamingDistance;
+  using Deformation = vtkStreamingMeshDeformation;
+  vtkNew<Poisson> poisson;
+  vtkNew<Smoothing> smoothing;
+  vtkNew<Blend> blend;
+  vtkNew<Distance> distance;
+  vtkNew<Deformation> deformation;
+  for (vtkStreamingSolver* solver :
+    { static_cast<vtkStreamingSolver*>(poisson), static_cast<vtkStreamingSolver*>(smoothing),
+      static_cast<vtkStreamingSolver*>(blend), static_cast<vtkStreamingSolver*>(distance),
+      static_cast<vtkStreamingSolver*>(deformation) })
+  {
+    this->connect(*solver);
+    expectRangesOfSolver(solver);
+  }
+  expectRange<Poisson, int>(
+    poisson, { "Acceleration", &Poisson::SetAcceleration, &Poisson::GetAcceleration, 0, 3 });
+  expectRange<vtkMultiEngineSolver, int>(poisson,
+    { "Engine", &vtkMultiEngineSolver::SetEngine, &vtkMultiEngineSolver::GetEngine, 0, 2 });
+  expectRange<Smoothing, int>(
+    smoothing, { "SizeUnit", &Smoothing::SetSizeUnit, &Smoothing::GetSizeUnit, 0, 2 });
+  expectRange<Smoothing, int>(
+    smoothing, { "Boundary", &Smoothing::SetBoundary, &Smoothing::GetBoundary, 0, 3 });
+  expectRange<Smoothing, int>(
+    smoothing, { "Normals", &Smoothing::SetNormals, &Smoothing::GetNormals, 0, 1 });
+  expectRange<Blend, int>(
+    blend, { "SeamGradient", &Blend::SetSeamGradient, &Blend::GetSeamGradient, 0, 1 });
+  expectRange<Distance, int>(
+    distance, { "MaximumPasses", &Distance::SetMaximumPasses, &Distance::GetMaximumPasses, 1 });
+  expectRange<Deformation, int>(
+    deformation, { "Cycles", &Deformation::SetCycles, &Deformation::GetCycles, 0 });
+  expectRange<Deformation, int>(
+    deformation, { "Normals", &Deformation::SetNormals, &Deformation::GetNormals, 0, 1 });
+  expectRange<Deformation, vtkIdType>(
+    deformation, { "InteractivePoints", &Deformation::SetInteractivePoints,
+                   &Deformation::GetInteractivePoints, 0 });
+  expectRange<Deformation, vtkIdType>(
+    deformation, { "DragPoints", &Deformation::SetDragPoints, &Deformation::GetDragPoints, 8 });
+}
+
+TEST_F(VtkPropertyRange, OfRegions)
+{
+  using Handle = vtkMeshHandle;
+  using Condition = vtkMeshCondition;
+  vtkNew<Condition> condition;
+  vtkNew<vtkMeshRegion> region;
+  for (vtkRegionFilter* filter : { static_cast<vtkRegionFilter*>(this->Handle),
+         static_cast<vtkRegionFilter*>(condition), static_cast<vtkRegionFilter*>(region) })
+  {
+    this->connect(*filter);
+    filter->SetRegionFunction(this->Ball);
+    expectRangesOfRegion(filter);
+  }
+  expectRange<Handle, int>(
+    this->Handle, { "Motion", &Handle::SetMotion, &Handle::GetMotion, 0, 2 });
+  expectRange<Condition, int>(
+    condition, { "Condition", &Condition::SetCondition, &Condition::GetCondition, 0, 6 });
+}
+
+TEST_F(VtkPropertyRange, OfCoarserMeshes)
+{
+  using Simplification = vtkStreamingMeshSimplification;
+  using Preview = vtkStreamingMeshPreview;
+  vtkNew<Simplification> simplification;
+  this->connect(*simplification);
+  expectRange<Simplification, vtkIdType>(
+    simplification, { "NumberOfVertices", &Simplification::SetNumberOfVertices,
+                      &Simplification::GetNumberOfVertices, 0 });
+  expectRange<Simplification, int>(simplification,
+    { "MemoryLimit", &Simplification::SetMemoryLimit, &Simplification::GetMemoryLimit, 16 });
+  expectRange<Simplification, int>(
+    simplification, { "NumberOfPieces", &Simplification::SetNumberOfPieces,
+                      &Simplification::GetNumberOfPieces, 0, Pieces });
+  expectRange<Simplification, int>(
+    simplification, { "NumberOfThreads", &Simplification::SetNumberOfThreads,
+                      &Simplification::GetNumberOfThreads, 0, Threads });
+  vtkNew<Preview> preview;
+  this->connect(*preview);
+  expectRange<Preview, int>(preview,
+    { "PreviewPoints", &Preview::SetPreviewPoints, &Preview::GetPreviewPoints, 8, 1000000 });
+  expectRange<Preview, int>(preview,
+    { "NumberOfPieces", &Preview::SetNumberOfPieces, &Preview::GetNumberOfPieces, 0, Pieces });
+}
+
+TEST_F(VtkPropertyRange, OfReadersAndWriters)
+{
+  using Reader = vtkStreamingMeshReader;
+  using Converter = vtkStreamingMeshConverter;
+  using Writer = vtkStreamingMeshWriter;
+  vtkNew<Converter> converter;
+  converter->SetFileName((this->Folder / "mesh.vsm").c_str());
+  converter->SetOutputFileName((this->Folder / "converted.vsm").c_str());
+  for (Reader* reader : { static_cast<Reader*>(this->Reader), static_cast<Reader*>(converter) })
+  {
+    SCOPED_TRACE(reader->GetClassName());
+    expectRange<Reader, vtkIdType>(
+      reader, { "MaximumPointsInMemory", &Reader::SetMaximumPointsInMemory,
+                &Reader::GetMaximumPointsInMemory, 0 });
+    expectRange<Reader, int>(reader,
+      { "PreviewPoints", &Reader::SetPreviewPoints, &Reader::GetPreviewPoints, 8, 1000000 });
+    expectRange<Reader, int>(
+      reader, { "PreviewCells", &Reader::SetPreviewCells, &Reader::GetPreviewCells, 0, 1 });
+  }
+  expectRange<Converter, int>(
+    converter, { "Order", &Converter::SetOrder, &Converter::GetOrder, 0, 3 });
+  expectRange<Converter, int>(
+    converter, { "Cells", &Converter::SetCells, &Converter::GetCells, 0, 2 });
+  expectRange<Converter, int>(
+    converter, { "TimeStep", &Converter::SetTimeStep, &Converter::GetTimeStep, 0 });
+  expectRange<Converter, int>(
+    converter, { "Partition", &Converter::SetPartition, &Converter::GetPartition, -1 });
+  expectRange<Converter, int>(
+    converter, { "MemoryLimit", &Converter::SetMemoryLimit, &Converter::GetMemoryLimit, 0 });
+  vtkNew<Writer> writer;
+  this->connect(*writer);
+  writer->SetFileName((this->Folder / "written.vsm").c_str());
+  expectRange<Writer, int>(writer, { "NumberOfStreamedPieces", &Writer::SetNumberOfStreamedPieces,
+                                     &Writer::GetNumberOfStreamedPieces, 0, Pieces });
+}
+
+} // namespace
+} // namespace smg::testing
