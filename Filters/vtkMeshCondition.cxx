@@ -4,6 +4,7 @@
 #include "Filters/Regions/ConditionText.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkRegionArrays.h"
+#include "IO/vtkModeProperty.h"
 #include "IO/vtkPropertyRange.h"
 
 #include "vtkDataArray.h"
@@ -13,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshCondition);
@@ -88,6 +90,19 @@ void vtkMeshCondition::Check()
     this->RegionArray();
   }
   this->Internal->condition().text();
+}
+
+std::string vtkMeshCondition::UnusedProperty()
+{
+  const bool hasValues = !this->Internal->Values.empty();
+  const std::string own = smg::unusedProperty({
+    { "Value", this->Value != 0.0, !this->ValueIsPosition, "turn ValueIsPosition off" },
+    { "Values", hasValues, !this->ValueIsPosition, "turn ValueIsPosition off" },
+    { "Value", this->Value != 0.0, !hasValues, "remove the Values" },
+    { "Coefficient", this->Coefficient != 1.0, this->Condition == ROBIN || this->Condition == SOFT,
+      "set Condition to Robin or Soft" },
+  });
+  return own.empty() ? this->Superclass::UnusedProperty() : own;
 }
 
 void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output)

@@ -28,6 +28,7 @@
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkMeshCondition : public vtkRegionFilter
 {
@@ -86,6 +87,7 @@ protected:
   ~vtkMeshCondition() override;
 
   void Check() override;
+  std::string UnusedProperty() override;
   bool IsElsewhere() override;
   void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) override;
 

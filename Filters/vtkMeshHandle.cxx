@@ -2,6 +2,7 @@
 #include "Filters/vtkMeshHandle.h"
 
 #include "Filters/Regions/vtkHandleArrays.h"
+#include "IO/vtkModeProperty.h"
 #include "IO/vtkPropertyRange.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Error.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshHandle);
@@ -52,10 +54,17 @@ struct vtkMeshHandle::Internals
     }
   }
 
+  /** Whether the region consists of single points. */
+  bool isOfPoints() const
+  {
+    return this->Self.Region == SELECTION || this->Self.Region == IDS ||
+           this->Self.Region == POINTS;
+  }
+
   smg::HandleTargets targets() const
   {
     smg::HandleTargets targets{ this->motion(), {} };
-    if (this->Self.Region == SELECTION || this->Self.Region == IDS || this->Self.Region == POINTS)
+    if (this->isOfPoints())
     {
       targets.ofHolders = this->Targets;
     }
@@ -104,6 +113,24 @@ void vtkMeshHandle::Check()
 {
   smg::requireInRange({ { "Motion", this->Motion, FIXED, TRANSFORM } });
   this->Internal->targets();
+}
+
+std::string vtkMeshHandle::UnusedProperty()
+{
+  const bool isSimilarity = this->Motion == SIMILARITY;
+  const bool isTranslated =
+    std::ranges::any_of(this->Translation, [](double component) { return component != 0.0; });
+  const bool hasTargets = !this->Internal->Targets.empty();
+  const char* remedy = "set Motion to Similarity";
+  const std::string own = smg::unusedProperty({
+    { "Translation", isTranslated, isSimilarity, remedy },
+    { "RotationAngle", this->RotationAngle != 0.0, isSimilarity, remedy },
+    { "Scale", this->Scale != 1.0, isSimilarity, remedy },
+    { "PointTargets", hasTargets, this->Internal->isOfPoints(),
+      "set Region to Selection, Ids or Points" },
+    { "Translation", isTranslated, !hasTargets, "remove the PointTargets" },
+  });
+  return own.empty() ? this->Superclass::UnusedProperty() : own;
 }
 
 void vtkMeshHandle::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output)

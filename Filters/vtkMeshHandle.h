@@ -25,6 +25,7 @@
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkLinearTransform;
 
@@ -106,6 +107,7 @@ protected:
   ~vtkMeshHandle() override;
 
   void Check() override;
+  std::string UnusedProperty() override;
   void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) override;
 
 private:

@@ -10,6 +10,7 @@
 #include "Filters/vtkRegionChain.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkModeProperty.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
@@ -39,6 +40,7 @@ struct vtkRegionFilter::Internals
     : Self(self)
     , FarPoints(self)
     , NoPoint(self)
+    , Unused(self)
   {
   }
 
@@ -198,7 +200,7 @@ struct vtkRegionFilter::Internals
   smg::HeldCount Count;
   std::int64_t PointsBehind = 0; ///< of a preview, whose points were counted
   std::string Outcome;
-  smg::WarnOnce FarPoints, NoPoint;
+  smg::WarnOnce FarPoints, NoPoint, Unused;
 };
 
 vtkRegionFilter::vtkRegionFilter()
@@ -225,6 +227,24 @@ std::string vtkRegionFilter::RegionArray() const
                      ", or another Region.");
   }
   return name;
+}
+
+std::string vtkRegionFilter::UnusedProperty()
+{
+  const bool isOfPoints = this->Internal->isOfPoints();
+  return smg::unusedProperty({
+    { "InsideOut", this->InsideOut, this->Region == FUNCTION, "set Region to Function" },
+    { "Selection", this->GetNumberOfInputConnections(1) > 0, this->Region == SELECTION,
+      "set Region to Selection" },
+    { "Ids", !this->Internal->Ids.empty(), this->Region == IDS, "set Region to Ids" },
+    { "IdType", this->IdType != GLOBAL_IDS, this->Region == IDS, "set Region to Ids" },
+    { "Points", !this->Internal->Points.empty(), this->Region == POINTS, "set Region to Points" },
+    { "Radius", this->Radius >= 0.0, isOfPoints, "set Region to Selection, Ids or Points" },
+    { "Rings", this->Rings > 0, isOfPoints, "set Region to Selection, Ids or Points" },
+    { "MaskArray", smg::namesArray(this->MaskArray), this->Region == MASK, "set Region to Mask" },
+    { "TagArray", smg::namesArray(this->TagArray), this->Region == TAG, "set Region to Tag" },
+    { "Tag", this->Tag != 0.0, this->Region == TAG, "set Region to Tag" },
+  });
 }
 
 void vtkRegionFilter::SetSelectionConnection(vtkAlgorithmOutput* selection)
@@ -359,6 +379,7 @@ int vtkRegionFilter::RequestData(
         { "Rings", this->Rings, 0, smg::PointProjection::MaximumRings },
         { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
       this->Check();
+      this->Internal->Unused.warn(this->UnusedProperty());
       smg::PieceInput input(*this, 0);
       smg::HeldPoints held;
       vtkPointSet& piece = this->Internal->fetchPiece(input, request, inputVector, held);

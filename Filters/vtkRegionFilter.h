@@ -32,7 +32,8 @@
  * of the surface preview of a solid all points. An array of the cells that a preview does not have
  * is evaluated on the mesh, whose points those of the preview are.
  *
- * A property out of its range is an error of the update. An empty region is an error, reported when
+ * A property that is set but has no effect with this Region causes a warning, one out of its range
+ * is an error of the update. An empty region is an error, reported when
  * the whole mesh is requested, or at the last piece when streamed pieces are requested in order. A
  * preview without a point in the region causes a warning, since the mesh may have some.
  *
@@ -201,6 +202,10 @@ protected:
   /** Throws smg::Error if a property of the subclass is invalid; called before the input is
    * updated. */
   virtual void Check() = 0;
+
+  /** A sentence about a property that is set but has no effect with the others, for a warning; ""
+   * if there is none. */
+  virtual std::string UnusedProperty();
 
   /** Whether the data are assigned without held points; `held` is then empty. Default: false. */
   virtual bool IsElsewhere() { return false; }

@@ -43,6 +43,7 @@ struct vtkStreamingSolver::Internals
 {
   explicit Internals(vtkStreamingSolver& self)
     : Self(self)
+    , Unused(self)
   {
   }
 
@@ -56,6 +57,10 @@ struct vtkStreamingSolver::Internals
     this->checkRanges(exchange.isServer());
     vtkSmartPointer<vtkPointSet> present;
     exchange.together([&] { present = smg::fetchPiece(input, request, exchange); });
+    if (exchange.isServer())
+    {
+      this->Unused.warn(this->Self.UnusedProperty(*present));
+    }
     const bool isOrdinary =
       !exchange.isParallel() && this->fetchWhole(input, request, inputInfo, present);
     if (isOrdinary && request.Piece > 0)
@@ -419,6 +424,7 @@ struct vtkStreamingSolver::Internals
   smg::SolveSummary Shown;       ///< of the last one that was not streamed
   std::string Outcome, Estimate; ///< storage of the strings returned by GetOutcome(), GetEstimate()
   smg::SharedRequest Shared;
+  smg::WarnOnce Unused; ///< of a property that has no effect
 };
 
 #endif

@@ -8,6 +8,7 @@
 #include "Filters/Tasks/vtkMovedPiece.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkModeProperty.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Smooth.h"
@@ -117,6 +118,16 @@ void vtkStreamingMeshSmoothing::CheckRanges() const
   smg::requireInRange({ { "SizeUnit", this->SizeUnit, MEAN_EDGES, DIAGONAL },
     { "Boundary", this->Boundary, AUTOMATIC, FREE },
     { "Normals", this->Normals, RECOMPUTE, DROP } });
+}
+
+std::string vtkStreamingMeshSmoothing::UnusedProperty(vtkPointSet&)
+{
+  constexpr double UsualAngle = 30.0;
+  return smg::unusedProperty({
+    { "EdgeAngle", this->EdgeAngle != UsualAngle, this->KeepEdges, "turn KeepEdges on" },
+    { "Column", smg::namesArray(this->Column), !smg::namesArray(this->Array), "leave Array empty" },
+    { "Normals", this->Normals != RECOMPUTE, this->SmoothedArray().empty(), "leave Array empty" },
+  });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)

@@ -138,6 +138,11 @@ void vtkStreamingSolver::CheckRanges() const
     { "NumberOfThreads", this->NumberOfThreads, 0, MaxThreads } });
 }
 
+std::string vtkStreamingSolver::UnusedProperty(vtkPointSet&)
+{
+  return "";
+}
+
 void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
 {
   options.operators = this->Operators ? this->Operators : "";

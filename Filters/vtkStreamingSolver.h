@@ -32,6 +32,7 @@
 
 #include <functional> // For std::function
 #include <memory>     // For std::unique_ptr
+#include <string>     // For std::string
 #include <vector>     // For std::vector
 
 class vtkMultiProcessController;
@@ -275,6 +276,9 @@ protected:
 
   /** Throws smg::Error if a property is out of its range. Subclasses add their own. */
   virtual void CheckRanges() const;
+  /** A sentence about a property that is set but has no effect with the others, for a warning; ""
+   * if there is none. `input` is some piece of the mesh. */
+  virtual std::string UnusedProperty(vtkPointSet& input);
   /** Sets the options according to the properties. */
   void FillOptions(smg::SolveOptions& options) const;
   smg::Weights ChosenWeights() const;

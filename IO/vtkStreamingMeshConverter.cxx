@@ -5,6 +5,7 @@
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkFailures.h"
+#include "IO/vtkModeProperty.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
@@ -141,6 +142,12 @@ void vtkStreamingMeshConverter::UpdateContainer()
   smg::requireInRange({ { "Order", this->Order, BREADTH_FIRST, SPECTRAL },
     { "Cells", this->Cells, ONLY, TETRAHEDRA }, { "TimeStep", this->TimeStep, 0 },
     { "Partition", this->Partition, -1 }, { "MemoryLimit", this->MemoryLimit, 0 } });
+  if (const std::string unused = smg::unusedProperty(
+        { { "WeldDistance", this->WeldDistance != 0.0, this->Weld, "turn Weld on" } });
+      !unused.empty())
+  {
+    vtkWarningMacro(<< unused);
+  }
   const char* scratch = this->GetScratchDirectory();
   smg::ConversionOptions options;
   options.order = Orders[this->Order];

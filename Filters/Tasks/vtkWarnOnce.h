@@ -20,10 +20,14 @@ public:
   {
   }
 
-  /** Warns, unless this was the last warning. */
+  /** Warns, unless this was the last warning; "": the cause has gone. */
   void warn(const std::string& sentence)
   {
-    if (this->Last != sentence)
+    if (sentence.empty())
+    {
+      this->forget();
+    }
+    else if (this->Last != sentence)
     {
       vtkWarningWithObjectMacro(&this->Object, << oneLine(sentence));
       this->Last = sentence;

@@ -7,6 +7,8 @@ import sys
 
 import smg_testing as t
 from paraview.simple import *
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_STRING
 
 LoadPlugin(sys.argv[1], ns=globals())
 
@@ -44,13 +46,28 @@ def expected_on(filter_of, name):
     return MISSING[filter_of]
 
 
+def warnings_of(proxy):
+    """What the filter warns of from now on."""
+    warnings = []
+
+    @calldata_type(VTK_STRING)
+    def note(_filter, _event, text):
+        warnings.append(text)
+
+    t.client_object(proxy).AddObserver("WarningEvent", note)
+    return warnings
+
+
 def check(filter_of, name):
     source = SOURCES[name]()
     source.UpdatePipeline()
     made = filter_of(Input=source)
+    warnings = warnings_of(made)
     made.UpdatePipeline()
     made.UpdatePropertyInformation()
     what = f"{made.SMProxy.GetXMLName()} on {name}"
+    # What panels send by default is not said to have no effect.
+    assert "has no effect" not in "".join(warnings), (what, warnings)
     error, expected = made.GetPropertyValue("Error"), expected_on(filter_of, name)
     points = made.GetDataInformation().GetNumberOfPoints()
     if expected:
@@ -69,6 +86,21 @@ def check(filter_of, name):
 for filter_of in (*MISSING, MeshRegion, MeshHandle, MeshCondition):
     for name in SOURCES:
         check(filter_of, name)
+
+turned = MeshHandle(Input=Sphere(), RotationAngle=70.0)
+warnings = warnings_of(turned)
+turned.UpdatePipeline()
+turned.Radius = 2.0
+turned.UpdatePipeline()
+assert len(warnings) == 1 and "RotationAngle has no effect: set Motion to Similarity" in warnings[0], warnings
+# A number out of its range is not taken for another one.
+for filter_of, name, least in ((StreamingMeshSmoothing, "MemoryLimit", 1), (StreamingDistance, "MaximumPasses", 1),
+                               (StreamingMeshSimplification, "MemoryLimit", 16), (MeshRegion, "Rings", 0)):
+    made = filter_of(Input=Sphere(), **{name: least - 1})
+    made.UpdatePipeline()
+    made.UpdatePropertyInformation()
+    error = made.GetPropertyValue("Error")
+    assert error.startswith(f"{name} is {least - 1}: set it to "), error
 
 # A preview is said to be one, by the reader and by regions on it.
 reader = OpenDataFile(t.BUNNY)
