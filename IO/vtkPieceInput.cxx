@@ -79,13 +79,6 @@ std::string nameInPipeline(vtkAlgorithm& filter)
   return words;
 }
 
-std::string placeOfPiece(int piece, int pieces)
-{
-  return pieces == 1
-           ? "The input"
-           : "Piece " + std::to_string(piece) + " of " + std::to_string(pieces) + " of the input";
-}
-
 namespace
 {
 
@@ -148,8 +141,9 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed, int ghos
   }
   if (!data || isFailed(data))
   {
-    throw InputFailed(placeOfPiece(piece, pieces) + " could not be made: see the error that " +
-                      this->producerName() + " or the pipeline before it reported.");
+    throw InputFailed(this->placeOfPiece(piece, pieces) +
+                      " could not be made: see the error that " + this->producerName() +
+                      " or the pipeline before it reported.");
   }
   if (data->IsA("vtkCompositeDataSet"))
   {
@@ -207,6 +201,17 @@ std::optional<StreamInfo> PieceInput::meshInfo()
     return {};
   }
   return VsmReader(file, nullptr, this->streamFingerprint()).info();
+}
+
+std::string PieceInput::placeOfPiece(int piece, int pieces) const
+{
+  if (pieces == 1)
+  {
+    return "The input";
+  }
+  return this->NamesPieces
+           ? "Piece " + std::to_string(piece) + " of " + std::to_string(pieces) + " of the input"
+           : "The input from " + this->producerName();
 }
 
 std::string PieceInput::producerName() const

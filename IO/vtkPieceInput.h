@@ -24,9 +24,6 @@ namespace smg
  * as "Streaming Distance". */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::string nameInPipeline(vtkAlgorithm& filter);
 
-/** "Piece 3 of 64 of the input", or "The input" where it comes as a whole. */
-std::string placeOfPiece(int piece, int pieces);
-
 /** The first connection of an input port of a VTK algorithm, from which the algorithm requests
  * pieces one at a time while it executes. Of a data set of several blocks, the single one with
  * cells is the input, for whichever piece: see meshOf(). */
@@ -79,6 +76,12 @@ public:
    * data that they have, or renumber it. */
   bool isInMemory() const;
 
+  /** Says that the user has not chosen the number of pieces: messages do not count them. */
+  void hidePieces() { this->NamesPieces = false; }
+  /** What a message says of a piece: "Piece 3 of 64 of the input"; "The input" where it comes as a
+   * whole, and "The input from Clip" where the user knows no pieces. */
+  std::string placeOfPiece(int piece, int pieces) const;
+
   /** The name of the filter that delivers the pieces, for messages. */
   std::string producerName() const;
 
@@ -100,6 +103,7 @@ private:
 
   vtkAlgorithm* Producer;
   int ProducerPort;
+  bool NamesPieces = true;            ///< whether messages count them
   bool Differs = false;               ///< whether two pieces do at a point of both
   bool IsStreaming = false;           ///< whether the last request was streamed
   vtkSmartPointer<vtkPointSet> Block; ///< of an input of several blocks, once it was requested

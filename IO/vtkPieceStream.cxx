@@ -132,6 +132,10 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
   , IsFiltered(input.isFiltered())
   , GhostLevels(pieces.ghostLevels(input, this->Pieces))
 {
+  if (pieces.given == 0)
+  {
+    input.hidePieces();
+  }
   this->First = this->pull();
   if (const int enough = this->First ? pieces.enough(this->Pieces, *this->First) : 0;
       enough > this->Pieces)
@@ -152,7 +156,7 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
 
 std::string PieceStream::where() const
 {
-  return placeOfPiece(this->NextPiece - 1, this->Pieces);
+  return this->Input.placeOfPiece(this->NextPiece - 1, this->Pieces);
 }
 
 vtkPointSet* PieceStream::pull()

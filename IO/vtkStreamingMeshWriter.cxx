@@ -351,6 +351,10 @@ struct vtkStreamingMeshWriter::Internals
   void write(smg::PieceInput& input, WriteFunction write, const std::filesystem::path& path,
     smg::Progress& progress)
   {
+    if (this->Self.NumberOfStreamedPieces == 0)
+    {
+      input.hidePieces();
+    }
     const Trial trial = tryPiece(input, this->Self.NumberOfStreamedPieces);
     const char* streamFile = this->Self.StreamFileName;
     const Job job{ input, trial.pieces, path, streamFile ? streamFile : "", this->Self.WriteText,

@@ -82,9 +82,11 @@ JobEstimate estimateFor(
   {
     return estimateOf({ ordinaryMeshInfo(*present), places }, *present);
   }
-  throw Error(present && present->GetNumberOfPoints() > 0
-                ? "the input is one piece of a mesh, whose size no file tells."
-                : "the filter before this one has not been applied, or has no mesh.");
+  const bool isShown = present && present->GetNumberOfPoints() > 0;
+  throw Error(isShown && isPreview(*present)
+                ? "the input is a preview, and no file tells the size of the mesh."
+              : isShown ? "the input is one piece of a mesh, whose size no file tells."
+                        : "the filter before this one has not been applied, or has no mesh.");
 }
 
 /** Of a solve. */

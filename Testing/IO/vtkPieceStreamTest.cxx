@@ -16,7 +16,10 @@
 #include "vtkTypeInt64Array.h"
 #include "vtkTypeUInt64Array.h"
 
+#include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 namespace smg::testing
 {
@@ -129,6 +132,30 @@ TEST_F(VtkPieceStream, FailureOfAPieceIsAnError)
   this->Filter->FailAtPiece = -1;
   this->Filter->Modified();
   EXPECT_EQ(this->pull(7), "");
+}
+
+TEST_F(VtkPieceStream, WhoHasChosenNoPiecesIsToldTheFilter)
+{
+  const auto expect = [this](const std::string& words)
+  {
+    this->Filter->Modified();
+    const std::string error = this->pull(0);
+    EXPECT_NE(error.find("The input from Faulty Filter " + words), std::string::npos) << error;
+    EXPECT_EQ(error.find("Piece "), std::string::npos) << error;
+  };
+  this->Filter->FailAtPiece = 3;
+  expect("could not be made");
+  this->Filter->FailAtPiece = -1;
+  for (const auto& [array, words] : std::map<std::string, std::string>{
+         { "GlobalIds", "has no point GlobalIds" }, { "vtkGhostType", "owns the point" } })
+  {
+    this->Filter->RemoveArray = array;
+    expect(words);
+  }
+  this->Filter->RemoveArray.clear();
+  this->Filter->Spoil = [](vtkPointSet* mesh, int)
+  { mesh->GetPoints()->SetPoint(0, HUGE_VAL, 0.0, 0.0); };
+  expect("has a coordinate that is not a finite number");
 }
 
 /** Behind it there may be points of ghost cells alone. */

@@ -118,6 +118,21 @@ for proxy, words in ((reader, "All 34,834 points."), (region, "34,834 points."))
     proxy.UpdatePropertyInformation()
     assert proxy.GetPropertyValue("Outcome") == words, proxy.GetPropertyValue("Outcome")
 
+# What fails behind other filters of a preview is said in words of the pipeline: its user knows no pieces.
+reader.MaximumPointsInMemory = 1000
+for before in (Clip(Input=reader), Decimate(Input=reader), Threshold(Input=reader, Scalars=["POINTS", "OriginalId"])):
+    for filter_of in (StreamingMeshSmoothing, StreamingDistance, StreamingMeshSimplification, StreamingMeshPreview):
+        made = filter_of(Input=before)
+        if made.GetProperty("Solve"):
+            made.Solve = "Full Mesh"
+        made.UpdatePipeline()
+        made.UpdatePropertyInformation()
+        what = f"{made.SMProxy.GetXMLName()} behind {before.SMProxy.GetXMLName()}"
+        for name in ("Error", "Outcome", "Estimate"):
+            said = made.GetPropertyValue(name) if made.GetProperty(name) else ""
+            assert not re.search(r"[Pp]iece \d", said or ""), (what, said)
+        Delete(made)
+
 # Every filter of the menu has an icon.
 for name in ("MeshRegion", "MeshCondition", "MeshHandle", "StreamingPoisson", "StreamingMeshDeformation",
              "StreamingMeshSmoothing", "StreamingBlend", "StreamingDistance", "StreamingMeshSimplification",
