@@ -126,6 +126,7 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed, int ghos
   {
     return this->Block;
   }
+  this->learnMesh();
   vtkNew<vtkInformationVector> requests;
   requests->SetNumberOfInformationObjects(this->Producer->GetNumberOfOutputPorts());
   vtkInformation* request = requests->GetInformationObject(this->ProducerPort);
@@ -191,9 +192,32 @@ std::string PieceInput::text(vtkInformationStringKey* key) const
   return text ? text : "";
 }
 
-std::optional<StreamInfo> PieceInput::meshInfo()
+void PieceInput::learnMesh()
 {
   this->Executive->UpdateInformation();
+  vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
+  if (this->Block || !info->Has(vtkStreamingMeshKeys::STREAM_FILE()) ||
+      info->Has(vtkStreamingMeshKeys::PREVIEWED()))
+  {
+    return;
+  }
+  if (!info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
+  {
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  if (!this->Executive->PropagateUpdateExtent(this->ProducerPort))
+  {
+    throw InputFailed("The input could not be made: see the error that " + this->producerName() +
+                      " or the pipeline before it reported.");
+  }
+  this->Executive->UpdateInformation();
+}
+
+std::optional<StreamInfo> PieceInput::meshInfo()
+{
+  this->learnMesh();
   const std::filesystem::path file = this->streamFile();
   std::error_code absent;
   if (file.empty() || !std::filesystem::exists(file, absent))

@@ -99,6 +99,9 @@ public:
   bool isData() const;
 
 private:
+  /** Has a reader convert its file if it has read only its beginning, so that what it says of the
+   * mesh comes through the filters between before a piece is requested. */
+  void learnMesh();
   std::string text(vtkInformationStringKey* key) const;
 
   vtkAlgorithm* Producer;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkReaderInternals.h"
 
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPropertyRange.h"
+#include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -24,6 +27,62 @@ vtkStreamingMeshReader::Internals::Stamp vtkStreamingMeshReader::Internals::stam
 {
   return { self.GetMTime(), smg::InputState(self.FileName ? self.FileName : ""),
     smg::InputState(self.GetContainerName()) };
+}
+
+namespace
+{
+
+/** What the file states; none, too, if that is not valid: its conversion says why. */
+std::optional<smg::StreamInfo> statedBy(const char* name)
+{
+  try
+  {
+    return name ? smg::statedMesh(name) : std::nullopt;
+  }
+  catch (const smg::Error&)
+  {
+    return std::nullopt;
+  }
+}
+
+/** Whether a container is a file that takes a conversion itself. */
+bool isForeign(const std::string& name)
+{
+  return smg::kindOfInput(name) != smg::MeshFileKind::Vsm;
+}
+
+void offerTimes(const std::vector<double>& times, vtkInformation& output)
+{
+  if (times.empty())
+  {
+    output.Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    output.Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+    return;
+  }
+  const double range[] = { times.front(), times.back() };
+  output.Set(
+    vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+  output.Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+}
+
+} // namespace
+
+const smg::StreamInfo& vtkStreamingMeshReader::Internals::look(vtkStreamingMeshReader& self)
+{
+  const bool isAsked = this->Mesh && this->Opened.Properties == self.GetMTime();
+  const bool isConverted =
+    !isAsked &&
+    (!self.IsContainerMade() || (isForeign(self.GetContainerName()) && !this->isOpen(self)));
+  std::optional<smg::StreamInfo> stated = isConverted ? statedBy(self.FileName) : std::nullopt;
+  if (!stated)
+  {
+    return this->open(self).info();
+  }
+  this->close();
+  this->takeName(self);
+  this->Stated = std::move(stated);
+  this->Reason.clear();
+  return *this->Stated;
 }
 
 smg::VsmReader& vtkStreamingMeshReader::Internals::open(
@@ -41,20 +100,12 @@ smg::VsmReader& vtkStreamingMeshReader::Internals::open(
   if (!isAsked)
   {
     self.UpdateContainer();
-    const std::string name = self.GetContainerName();
-    const std::string folder = self.ScratchDirectory ? self.ScratchDirectory : "";
-    if (!this->Mesh || this->Name != name || this->Scratch != folder ||
-        !this->Opened.Container.isUnchanged())
+    if (!this->isOpen(self))
     {
-      this->close();
-      this->Times = smg::timesOf(name);
-      if (this->Name != name && !this->Name.empty())
-      {
-        this->PointArrays->RemoveAllArrays();
-        this->CellArrays->RemoveAllArrays();
-      }
-      this->Name = name;
-      this->Scratch = folder;
+      // Of a mesh that was stated, the pipeline knows the folder.
+      this->Stated ? this->closeMesh() : this->close();
+      this->takeName(self);
+      this->Times = smg::timesOf(this->Name);
     }
   }
   const std::int64_t step = this->stepOf(request);
@@ -66,9 +117,94 @@ smg::VsmReader& vtkStreamingMeshReader::Internals::open(
   {
     return this->Mesh->reader();
   }
+  this->Stated.reset();
   this->Opened = stampOf(self);
   this->Reason.clear();
   return this->Mesh->reader();
+}
+
+/** Whether the mesh is that of the container as it is now. */
+bool vtkStreamingMeshReader::Internals::isOpen(vtkStreamingMeshReader& self) const
+{
+  return this->Mesh && this->Name == self.GetContainerName() &&
+         this->Scratch == (self.ScratchDirectory ? self.ScratchDirectory : "") &&
+         this->Opened.Container.isUnchanged();
+}
+
+/** Takes the names of the container and of the scratch folder; another one has other arrays. */
+void vtkStreamingMeshReader::Internals::takeName(vtkStreamingMeshReader& self)
+{
+  const std::string name = self.GetContainerName();
+  if (this->Name != name && !this->Name.empty())
+  {
+    this->PointArrays->RemoveAllArrays();
+    this->CellArrays->RemoveAllArrays();
+  }
+  this->Name = name;
+  this->Scratch = self.ScratchDirectory ? self.ScratchDirectory : "";
+}
+
+/** The .vsm file of the mesh, now or when it is converted. */
+std::filesystem::path vtkStreamingMeshReader::Internals::file()
+{
+  if (!isForeign(this->Name))
+  {
+    return this->Name;
+  }
+  if (!this->Folder)
+  {
+    this->Folder.emplace(this->Scratch);
+  }
+  return *this->Folder / "mesh.vsm";
+}
+
+void vtkStreamingMeshReader::Internals::openStated(
+  vtkStreamingMeshReader& self, vtkInformation& output)
+{
+  this->Failures.begin();
+  try
+  {
+    this->open(self, &output);
+    this->Outdated.Modified(); // so that the filters behind are told as well
+    this->tell(self, output);
+    this->Opened = stampOf(self);
+  }
+  catch (const smg::Cancelled&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    this->Outdated.Modified();
+    this->fail(self, error.what());
+  }
+}
+
+void vtkStreamingMeshReader::Internals::tell(vtkStreamingMeshReader& self, vtkInformation& output)
+{
+  const bool isKnown = this->Mesh || this->Stated;
+  offerTimes(isKnown ? this->Times : std::vector<double>{}, output);
+  output.Remove(vtkStreamingMeshKeys::STREAM_FILE());
+  output.Remove(vtkStreamingMeshKeys::STREAM_FINGERPRINT());
+  output.Remove(vtkStreamingMeshKeys::PREVIEWED());
+  if (!isKnown)
+  {
+    return;
+  }
+  output.Set(vtkStreamingMeshKeys::STREAM_FILE(), this->file().c_str());
+  const smg::StreamInfo& info = this->Mesh ? this->Mesh->reader().info() : *this->Stated;
+  if (this->Mesh)
+  {
+    output.Set(
+      vtkStreamingMeshKeys::PREVIEWED(), info.vertices > self.MaximumPointsInMemory ? 1 : 0);
+  }
+  // The same file has another content at each time step.
+  if (this->Mesh && this->Times.size() < 2)
+  {
+    output.Set(vtkStreamingMeshKeys::STREAM_FINGERPRINT(), this->Mesh->fingerprint().c_str());
+  }
+  smg::offerColumns(*this->PointArrays, info.vertexColumns);
+  smg::offerColumns(*this->CellArrays, info.cellColumns);
 }
 
 /** The time step of a request: the last one that has begun, or else the first. */
@@ -84,30 +220,25 @@ std::int64_t vtkStreamingMeshReader::Internals::stepOf(vtkInformation* request) 
   return std::max<std::int64_t>(0, later - this->Times.begin() - 1);
 }
 
-/** Opens the file, of one with time steps the wanted one. */
+/** Opens the file after its conversion, of one with time steps that of the wanted one. */
 void vtkStreamingMeshReader::Internals::openStep(
   std::int64_t step, const smg::ProgressFunction& progress)
 {
   this->closeMesh();
-  smg::ConversionOptions options;
-  options.scratch = this->Scratch;
-  options.progress = progress;
-  if (this->Times.size() < 2)
+  const std::filesystem::path mesh = this->file();
+  if (mesh != this->Name)
   {
-    this->Mesh = smg::openMesh(this->Name, options);
-  }
-  else
-  {
-    if (!this->OfSteps)
-    {
-      this->OfSteps.emplace(this->Scratch);
-    }
-    options.scratch = this->OfSteps->path();
+    smg::ConversionOptions options;
+    options.scratch = this->Folder->path();
+    options.progress = progress;
     options.timeStep = step;
-    const std::filesystem::path mesh = *this->OfSteps / "mesh.vsm";
+    if (smg::kindOfInput(this->Name) == smg::MeshFileKind::Stream)
+    {
+      options.order = smg::StreamOrder::Keep;
+    }
     smg::convert(this->Name, mesh, options);
-    this->Mesh = smg::openMesh(mesh);
   }
+  this->Mesh = smg::openMesh(mesh);
   this->Step = step;
 }
 
@@ -163,8 +294,9 @@ void vtkStreamingMeshReader::Internals::lookAtFiles(vtkStreamingMeshReader& self
 void vtkStreamingMeshReader::Internals::close()
 {
   this->closeMesh();
+  this->Stated.reset();
   this->Times.clear();
-  this->OfSteps.reset();
+  this->Folder.reset();
 }
 
 void vtkStreamingMeshReader::Internals::closeMesh()
@@ -186,22 +318,30 @@ void vtkStreamingMeshReader::Internals::setOutput(vtkInformation& info, bool isS
   }
 }
 
-void vtkStreamingMeshReader::Internals::setTime(
+void vtkStreamingMeshReader::Internals::requireType(
   vtkPointSet& output, const smg::StreamInfo& info) const
 {
-  if (this->Times.empty())
+  const bool isSurface = info.cellType == smg::CellType::Triangle;
+  if ((output.IsA("vtkPolyData") != 0) == isSurface)
   {
     return;
   }
-  if (output.IsA("vtkPolyData") != (info.cellType == smg::CellType::Triangle))
+  const std::string kinds = isSurface ? " is a surface, unlike " : " is a solid, unlike ";
+  throw smg::Error(this->Times.empty()
+                     ? this->Name + kinds +
+                         "what it was when the pipeline asked for its type: reload it (File > "
+                         "Reload Files, or Modified() of the reader)."
+                     : this->Name + ": time step " + std::to_string(this->Step) + kinds +
+                         "others: convert the time steps one by one (smg convert --time-step).");
+}
+
+void vtkStreamingMeshReader::Internals::setTime(vtkPointSet& output) const
+{
+  if (!this->Times.empty())
   {
-    throw smg::Error(this->Name + ": time step " + std::to_string(this->Step) + " is a " +
-                     (output.IsA("vtkPolyData") ? "solid" : "surface") +
-                     ", unlike others: convert the time steps one by one (smg convert "
-                     "--time-step).");
+    output.GetInformation()->Set(
+      vtkDataObject::DATA_TIME_STEP(), this->Times[static_cast<std::size_t>(this->Step)]);
   }
-  output.GetInformation()->Set(
-    vtkDataObject::DATA_TIME_STEP(), this->Times[static_cast<std::size_t>(this->Step)]);
 }
 
 void vtkStreamingMeshReader::Internals::readPiece(

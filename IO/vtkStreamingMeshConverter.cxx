@@ -128,43 +128,58 @@ std::string vtkStreamingMeshConverter::GetContainerName()
   return isMeshNamed && this->OutputFileName ? this->OutputFileName : "";
 }
 
+struct vtkStreamingMeshConverter::Internals
+{
+  /** Throws Error if a number is out of its range. */
+  static smg::ConversionOptions optionsOf(vtkStreamingMeshConverter& self)
+  {
+    static constexpr smg::StreamOrder Orders[] = { smg::StreamOrder::BreadthFirst,
+      smg::StreamOrder::Axis, smg::StreamOrder::Keep, smg::StreamOrder::Spectral };
+    static constexpr smg::CellChoice Choices[] = { smg::CellChoice::Only,
+      smg::CellChoice::Triangles, smg::CellChoice::Tetrahedra };
+    smg::requireInRange({ { "Order", self.Order, BREADTH_FIRST, SPECTRAL },
+      { "Cells", self.Cells, ONLY, TETRAHEDRA }, { "TimeStep", self.TimeStep, 0 },
+      { "Partition", self.Partition, -1 }, { "MemoryLimit", self.MemoryLimit, 0 } });
+    const char* scratch = self.GetScratchDirectory();
+    smg::ConversionOptions options;
+    options.order = Orders[self.Order];
+    options.cells = Choices[self.Cells];
+    if (self.Weld)
+    {
+      options.weld = self.WeldDistance;
+    }
+    options.timeStep = self.TimeStep;
+    if (self.Partition >= 0)
+    {
+      options.partition = self.Partition;
+    }
+    options.memoryLimit = std::int64_t(self.MemoryLimit) << 20;
+    options.scratch = scratch ? scratch : "";
+    options.progress = smg::progressOf(self);
+    return options;
+  }
+};
+
+bool vtkStreamingMeshConverter::IsContainerMade()
+{
+  return smg::isKept(this->GetFileName(), this->GetContainerName(), Internals::optionsOf(*this));
+}
+
 void vtkStreamingMeshConverter::UpdateContainer()
 {
-  static constexpr smg::StreamOrder Orders[] = { smg::StreamOrder::BreadthFirst,
-    smg::StreamOrder::Axis, smg::StreamOrder::Keep, smg::StreamOrder::Spectral };
-  static constexpr smg::CellChoice Choices[] = { smg::CellChoice::Only, smg::CellChoice::Triangles,
-    smg::CellChoice::Tetrahedra };
   const std::string out = this->GetContainerName();
   if (out.empty())
   {
     throw smg::Error("No conversion is named: set FileName and OutputFileName.");
   }
-  smg::requireInRange({ { "Order", this->Order, BREADTH_FIRST, SPECTRAL },
-    { "Cells", this->Cells, ONLY, TETRAHEDRA }, { "TimeStep", this->TimeStep, 0 },
-    { "Partition", this->Partition, -1 }, { "MemoryLimit", this->MemoryLimit, 0 } });
   if (const std::string unused = smg::unusedProperty(
         { { "WeldDistance", this->WeldDistance != 0.0, this->Weld, "turn Weld on" } });
       !unused.empty())
   {
     vtkWarningMacro(<< unused);
   }
-  const char* scratch = this->GetScratchDirectory();
-  smg::ConversionOptions options;
-  options.order = Orders[this->Order];
-  options.cells = Choices[this->Cells];
-  if (this->Weld)
-  {
-    options.weld = this->WeldDistance;
-  }
-  options.timeStep = this->TimeStep;
-  if (this->Partition >= 0)
-  {
-    options.partition = this->Partition;
-  }
-  options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
-  options.scratch = scratch ? scratch : "";
-  options.progress = smg::progressOf(*this);
-  const auto report = smg::convertToKeep(this->GetFileName(), out, options, this->Overwrite);
+  const auto report =
+    smg::convertToKeep(this->GetFileName(), out, Internals::optionsOf(*this), this->Overwrite);
   if (report || this->ReportedName != out)
   {
     this->Report = report ? report->json() : std::string();

@@ -140,6 +140,7 @@ protected:
   ~vtkStreamingMeshConverter() override;
 
   std::string GetContainerName() override;
+  bool IsContainerMade() override;
   void UpdateContainer() override;
 
 private:
@@ -155,6 +156,8 @@ private:
   int Partition = -1;
   bool Overwrite = false;
   int MemoryLimit = 0;
+  struct Internals;
+
   std::string Report, Estimate;
   std::string ReportedName; ///< of the container that the report is about
 };

@@ -44,7 +44,8 @@ public:
   static vtkInformationIntegerKey* STREAMED_DATA();
 
   /** Pipeline information: the .vsm file of the pieces. Absent if they are not those of a
-   * vtkStreamingMeshReader. */
+   * vtkStreamingMeshReader. Without PREVIEWED() the file is not there yet: the reader makes it when
+   * data are requested. */
   static vtkInformationStringKey* STREAM_FILE();
 
   /** Pipeline information: what names the content of STREAM_FILE()

@@ -6,7 +6,6 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/vtkFailures.h"
-#include "IO/vtkPieceColumns.h"
 #include "IO/vtkReaderInternals.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Text.h"
@@ -14,7 +13,6 @@
 
 #include "vtkDataArraySelection.h"
 #include "vtkInformation.h"
-#include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -25,7 +23,6 @@
 #include <exception>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 using vtkSDDP = vtkStreamingDemandDrivenPipeline;
 
@@ -46,6 +43,11 @@ vtkStreamingMeshReader::~vtkStreamingMeshReader()
 std::string vtkStreamingMeshReader::GetContainerName()
 {
   return this->FileName ? this->FileName : "";
+}
+
+bool vtkStreamingMeshReader::IsContainerMade()
+{
+  return true;
 }
 
 void vtkStreamingMeshReader::UpdateContainer()
@@ -161,7 +163,7 @@ int vtkStreamingMeshReader::RequestDataObject(
     this->Internal->Failures.begin();
     try
     {
-      isSurface = this->Internal->open(*this).info().cellType == smg::CellType::Triangle;
+      isSurface = this->Internal->look(*this).cellType == smg::CellType::Triangle;
     }
     catch (const smg::Cancelled&)
     {
@@ -176,49 +178,37 @@ int vtkStreamingMeshReader::RequestDataObject(
   return 1;
 }
 
-namespace
-{
-
-void offerTimes(const std::vector<double>& times, vtkInformation& output)
-{
-  if (times.empty())
-  {
-    output.Remove(vtkSDDP::TIME_STEPS());
-    output.Remove(vtkSDDP::TIME_RANGE());
-    return;
-  }
-  const double range[] = { times.front(), times.back() };
-  output.Set(vtkSDDP::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
-  output.Set(vtkSDDP::TIME_RANGE(), range, 2);
-}
-
-} // namespace
-
 int vtkStreamingMeshReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkInformation* output = outputVector->GetInformationObject(0);
-  if (!this->Internal->Mesh)
+  vtkInformation& output = *outputVector->GetInformationObject(0);
+  try
   {
-    output->Remove(vtkStreamingMeshKeys::STREAM_FILE());
-    output->Remove(vtkStreamingMeshKeys::STREAM_FINGERPRINT());
-    output->Remove(vtkStreamingMeshKeys::PREVIEWED());
-    offerTimes({}, *output);
-    return smg::offerPieces(*outputVector);
+    this->Internal->tell(*this, output);
   }
-  const smg::VsmReader& reader = this->Internal->Mesh->reader();
-  const smg::StreamInfo& info = reader.info();
-  output->Set(vtkStreamingMeshKeys::STREAM_FILE(), reader.path().c_str());
-  // The same file has another content at each time step.
-  this->Internal->OfSteps
-    ? output->Remove(vtkStreamingMeshKeys::STREAM_FINGERPRINT())
-    : output->Set(vtkStreamingMeshKeys::STREAM_FINGERPRINT(), reader.fingerprint().c_str());
-  offerTimes(this->Internal->Times, *output);
-  output->Set(
-    vtkStreamingMeshKeys::PREVIEWED(), info.vertices > this->MaximumPointsInMemory ? 1 : 0);
-  smg::offerColumns(*this->Internal->PointArrays, info.vertexColumns);
-  smg::offerColumns(*this->Internal->CellArrays, info.cellColumns);
+  catch (const std::exception& error)
+  {
+    this->Internal->fail(*this, error.what());
+    this->Internal->tell(*this, output);
+  }
   return smg::offerPieces(*outputVector);
+}
+
+int vtkStreamingMeshReader::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  try
+  {
+    if (this->Internal->Stated)
+    {
+      this->Internal->openStated(*this, *outputVector->GetInformationObject(0));
+    }
+    return 1;
+  }
+  catch (const smg::Cancelled&)
+  {
+    return this->Internal->Failures.refuse(*this);
+  }
 }
 
 int vtkStreamingMeshReader::RequestData(
@@ -238,7 +228,8 @@ int vtkStreamingMeshReader::RequestData(
       const int part = piece < 0 ? parts : std::min(piece, parts);
       vtkPointSet* output = vtkPointSet::GetData(request);
       const smg::StreamInfo& info = this->Internal->open(*this, request).info();
-      this->Internal->setTime(*output, info);
+      this->Internal->requireType(*output, info);
+      this->Internal->setTime(*output);
       if (!vtkStreamingMeshKeys::IsStreamed(request) &&
           info.vertices / parts > this->MaximumPointsInMemory)
       {

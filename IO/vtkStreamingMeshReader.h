@@ -5,8 +5,14 @@
  *
  * Reads streaming meshes: .vsm containers, SMA and SMB (triangles), SVA and SVB (tetrahedra), and
  * every other mesh file that can be converted to a stream. A file that is not a .vsm is converted
- * on opening to a temporary .vsm in ScratchDirectory. The output is a vtkPolyData for triangles and
- * a vtkUnstructuredGrid for tetrahedra.
+ * to a temporary .vsm in ScratchDirectory. The output is a vtkPolyData for triangles and a
+ * vtkUnstructuredGrid for tetrahedra.
+ *
+ * The conversion takes place when data are requested, if the format or the beginning of the file
+ * tells the type of the cells: PLY, OFF, OBJ, STL and mesh streams. UpdateInformation() then reads
+ * only that beginning, and offers the arrays that it states. Files of other formats (Medit, Gmsh,
+ * TetGen, VTK, VTKHDF) may hold either type anywhere, and are converted when the pipeline asks for
+ * the type of the output.
  *
  * Piece p of N has the cells [C p/N, C (p+1)/N) in the order of the stream with all the points that
  * they use, and
@@ -108,7 +114,8 @@ public:
   ///@}
 
   ///@{
-  /** Counts of the whole mesh, after UpdateInformation(); -1 before. */
+  /** Counts of the whole mesh: of a file that is converted when data are requested after Update(),
+   * of others after UpdateInformation(); -1 before. */
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
 
@@ -120,7 +127,7 @@ public:
   const char* GetError();
   ///@}
 
-  /** The maximum number of simultaneously active vertices of the stream, after UpdateInformation();
+  /** The maximum number of simultaneously active vertices of the stream, known when the counts are;
    * -1 before. */
   vtkIdType GetWidth();
 
@@ -144,12 +151,17 @@ protected:
     vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  /** Converts a file of which the pipeline knows only the beginning. */
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
 
   /** The file whose pieces are delivered: FileName. Empty if none is set. */
   virtual std::string GetContainerName();
+  /** Whether that file is there and up to date, so that UpdateContainer() takes no conversion. */
+  virtual bool IsContainerMade();
   /** Updates that file; called before it is opened, and again when the properties, the file of
    * FileName or that file have changed. Throws smg::Error if none is set, and smg::Cancelled. */
   virtual void UpdateContainer();

@@ -6,6 +6,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
+#include "IO/vtkStreamingMeshReader.h"
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
@@ -59,12 +60,24 @@ std::string textOf(const JobEstimate& estimate, std::int64_t scratchLimit)
   return text.str();
 }
 
-/** The .vsm file that the input of the filter names; empty: none. */
+/** The .vsm file that the input of the filter names; one that is not converted yet is named by its
+ * reader, and its conversion is part of the cost. Empty: none. */
 std::string fileOf(vtkAlgorithm& filter)
 {
   const bool isConnected = filter.GetNumberOfInputConnections(0) > 0;
   vtkInformation* info = isConnected ? filter.GetInputInformation(0, 0) : nullptr;
   const char* file = info ? info->Get(vtkStreamingMeshKeys::STREAM_FILE()) : nullptr;
+  if (file && !info->Has(vtkStreamingMeshKeys::PREVIEWED()))
+  {
+    vtkAlgorithm* at = &filter;
+    while (!at->IsA("vtkStreamingMeshReader") && at->GetNumberOfInputPorts() > 0 &&
+           at->GetNumberOfInputConnections(0) > 0)
+    {
+      at = at->GetInputAlgorithm(0, 0);
+    }
+    auto* reader = vtkStreamingMeshReader::SafeDownCast(at);
+    file = reader ? static_cast<const char*>(reader->GetFileName()) : nullptr;
+  }
   return file ? file : "";
 }
 

@@ -190,6 +190,28 @@ void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, s
   }
 }
 
+std::optional<StreamInfo> statedMesh(const std::filesystem::path& path)
+{
+  const MeshFileKind kind = kindOfInput(path);
+  const Format* const format = kind == MeshFileKind::Stream    ? &StreamsFormat
+                               : kind == MeshFileKind::Indexed ? formatOfFile(path)
+                                                               : nullptr;
+  // The partitions of a file may differ.
+  if (!format || format->hasParts)
+  {
+    return {};
+  }
+  const Counts counts = countsOf(path, {});
+  const bool isSurface = std::ranges::none_of(format->suffixes, &FileSuffix::tetrahedra);
+  if (!counts.counted && !isSurface)
+  {
+    return {};
+  }
+  StreamInfo mesh = counts.counted ? counts.mesh : StreamInfo{};
+  mesh.cellType = isSurface ? CellType::Triangle : mesh.cellType;
+  return converted(mesh);
+}
+
 ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options, bool throughVsm)
 {

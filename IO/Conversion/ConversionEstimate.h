@@ -7,10 +7,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace smg
 {
+
+/**
+ * The mesh that a conversion makes of a file, as far as the beginning of the file or its format
+ * tells: the type of the cells, and some or all of the columns. None of a .vsm file, of one with
+ * time steps or partitions, or if that does not tell the type. Throws Error if the beginning is not
+ * valid.
+ */
+SMG_EXPORT std::optional<StreamInfo> statedMesh(const std::filesystem::path& path);
 
 /** An estimate of the cost of a conversion, before the mesh is read. */
 struct SMG_EXPORT ConversionEstimate

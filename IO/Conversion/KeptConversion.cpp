@@ -106,6 +106,14 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
          (options.partition ? ", partition " + std::to_string(*options.partition) : "");
 }
 
+bool isKept(const std::filesystem::path& in, const std::filesystem::path& out,
+  const ConversionOptions& options)
+{
+  std::error_code absent;
+  return std::filesystem::is_regular_file(in, absent) &&
+         std::filesystem::is_regular_file(out, absent) && toldOrigin(out) == originOf(in, options);
+}
+
 std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options, bool overwrite)
 {

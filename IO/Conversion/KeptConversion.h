@@ -14,6 +14,10 @@ namespace smg
 /** Identifies a conversion of the current file: its name, size and time, and the options. */
 std::string originOf(const std::filesystem::path& in, const ConversionOptions& options);
 
+/** Whether `out` is what convertToKeep() makes, up to date, so that it does not convert. */
+SMG_EXPORT bool isKept(const std::filesystem::path& in, const std::filesystem::path& out,
+  const ConversionOptions& options);
+
 /**
  * Converts a mesh file to a .vsm file that is kept and reused. The file is created if it does not
  * exist, and replaced if this function created it from an earlier version of the same file or with
