@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
+#include "MeshCommand.h"
 #include "ProgressBar.h"
 
 #include "IO/Conversion/JobEstimate.h"
@@ -34,6 +35,7 @@ private:
   std::filesystem::path In, Out;
   smg::SimplifyTarget Target;
   smg::SimplifyOptions Simplify;
+  PlacesOption Hold{ "--hold" };
   bool DryRun = false;
 };
 
@@ -102,8 +104,10 @@ int SimplifyCommand::run()
   smg::UsedFiles files;
   files.readMesh(this->In);
   files.writeMesh(this->Out);
+  this->Hold.addFiles(files);
   this->checkFiles(std::move(files));
   this->checkCheckpoint({ this->Out, this->report });
+  this->Simplify.hold = this->Hold.places();
   if (this->DryRun)
   {
     const smg::JobEstimate costs = this->estimate();
@@ -146,6 +150,7 @@ void SimplifyCommand::addOptions(CLI::App& command)
         return length && *length > 0.0 ? std::string() : '\'' + given + "' is not a number above 0";
       })
     ->type_name("LENGTH");
+  this->Hold.addTo(command, "A part of the mesh whose points all stay");
   command.add_flag("--dry-run", this->DryRun, "Only estimate the size of the mesh and the costs");
   this->addTextTo(command);
   this->addInputTo(command);

@@ -80,7 +80,7 @@ MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
   Progress done(progress);
   Workers workers(mesh.info().cells > CellsOfOneThread ? 0 : 1);
   SolidBoundary triangles(mesh);
-  StreamSimplifier simplifier(triangles, { .vertices = maximumPoints },
+  StreamSimplifier simplifier(triangles, false, { .vertices = maximumPoints },
     std::min(memoryFor(maximumPoints, mesh.info()), maxMemory), workers,
     [&done](double share) { done.update(share); });
   SurfacePart surface;

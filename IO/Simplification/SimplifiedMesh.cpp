@@ -14,16 +14,20 @@
 namespace smg
 {
 
-SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, const SimplifyTarget& target, std::int64_t memory,
-  Workers& workers, std::function<void(double)> progress)
+SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, bool marksHeld, const SimplifyTarget& target,
+  std::int64_t memory, Workers& workers, std::function<void(double)> progress)
   : Surface(mesh)
-  , Simplifier(this->Surface, target, memory, workers, std::move(progress))
+  , Simplifier(this->Surface, marksHeld, target, memory, workers, std::move(progress))
   , Info(mesh.info())
 {
   this->Info.cellType = CellType::Triangle;
   // Counted as the stream goes; what the mesh says of its order does not hold for the result.
   this->Info.vertices = this->Info.cells = 0;
   this->Info.width = this->Info.span = -1;
+  if (marksHeld)
+  {
+    this->Info.vertexColumns.pop_back();
+  }
   this->Info.cellColumns = carriedColumns(this->Surface.info());
   this->AddsIds = std::ranges::none_of(
     this->Info.vertexColumns, [](const ColumnSpec& spec) { return spec.name == OriginalIdName; });

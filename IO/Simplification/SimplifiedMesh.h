@@ -23,9 +23,10 @@ namespace smg
 class SMG_EXPORT SimplifiedMesh : public MeshSource
 {
 public:
-  /** `mesh` and `workers` must outlive it; see StreamSimplifier. */
-  SimplifiedMesh(MeshSource& mesh, const SimplifyTarget& target, std::int64_t memory,
-    Workers& workers, std::function<void(double)> progress);
+  /** `mesh` and `workers` must outlive it; see StreamSimplifier. With `marksHeld`, the last column
+   * of the vertices is not in the result. */
+  SimplifiedMesh(MeshSource& mesh, bool marksHeld, const SimplifyTarget& target,
+    std::int64_t memory, Workers& workers, std::function<void(double)> progress);
 
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;

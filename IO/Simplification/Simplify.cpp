@@ -6,6 +6,7 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Simplification/HeldMesh.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Text.h"
@@ -68,7 +69,8 @@ std::vector<Checkpoint::Item> subjectOf(
   std::snprintf(error, sizeof(error), "%.17g", target.error);
   return { { "kind of task", "simplification" }, { "mesh", mesh.fingerprint() },
     { "number of vertices", std::to_string(target.vertices) }, { "error", error },
-    { "memory limit", std::to_string(options.memoryLimit) } };
+    { "memory limit", std::to_string(options.memoryLimit) },
+    { "held parts", textOf(options.hold) } };
 }
 
 std::string cellColumnsOf(const std::vector<std::string>& names)
@@ -113,8 +115,35 @@ void noteBorders(
   }
 }
 
+/** Says where the number of vertices is not that which was asked for, or points are held in vain.
+ * `held`: in the mesh. */
+void noteVertices(const SimplifyTarget& target, const SimplifyReport& report,
+  const SimplificationCounts& counts, std::int64_t held, std::vector<std::string>& notes)
+{
+  if (const std::int64_t lost = held - counts.held; lost > 0)
+  {
+    notes.push_back(std::to_string(lost) + " of the " + std::to_string(held) +
+                    " held points are in no triangle of the surface, so not in the result.");
+  }
+  if (target.vertices <= 0 || report.vertices <= target.vertices)
+  {
+    return;
+  }
+  const std::string more =
+    "The result has more than " + std::to_string(target.vertices) + " vertices: ";
+  if (counts.held >= target.vertices)
+  {
+    notes.push_back(more + std::to_string(counts.held) + " are held.");
+    return;
+  }
+  notes.push_back(
+    more + (counts.held > 0 ? std::to_string(counts.held) + " are held, and further" : "further") +
+    " collapses would turn triangles over, tear the surface" +
+    (target.error > 0.0 ? " or exceed the error." : "."));
+}
+
 std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& target,
-  const SimplifyReport& report, const StreamSimplifier& simplifier)
+  const SimplifyReport& report, const StreamSimplifier& simplifier, std::int64_t held)
 {
   const SimplificationCounts& counts = simplifier.counts();
   std::vector<std::string> notes;
@@ -140,29 +169,34 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
       "with the same coordinates first: on the command line with --weld 0, in ParaView by the "
       "filter Clean.");
   }
-  if (target.vertices > 0 && report.vertices > target.vertices)
-  {
-    notes.push_back("The result has more than " + std::to_string(target.vertices) +
-                    " vertices: further collapses would turn triangles over, tear the surface" +
-                    (target.error > 0.0 ? " or exceed the error." : "."));
-  }
+  noteVertices(target, report, counts, held, notes);
   return notes;
 }
 
-/** Simplifies the mesh to a .vsm file and reports what it did. `kept` is the folder of the
+/** Simplifies the mesh to a .vsm file and reports what it did. `checkpoint` is the folder of the
  * checkpoint, or null. */
 SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& target,
-  const std::filesystem::path& vsm, const SimplifyOptions& options, double end, ScratchFolder* kept)
+  const std::filesystem::path& vsm, const SimplifyOptions& options, double end,
+  ScratchFolder* checkpoint)
 {
-  Progress done(partOf(options.progress, 0.0, end));
-  Workers workers(options.threads);
-  const auto source =
-    mesh.source(columnNames(mesh.info().vertexColumns), columnNames(carriedColumns(mesh.info())));
-  SimplifiedMesh simplified(
-    *source, target, options.memoryLimit, workers, [&done](double share) { done.update(share); });
-  if (kept)
+  const double found = options.hold.empty() ? 0.0 : 0.2 * end;
+  std::unique_ptr<HeldMesh> held;
+  if (!options.hold.empty())
   {
-    simplified.simplifier().keepIn(*kept, subjectOf(mesh, target, options));
+    held = std::make_unique<HeldMesh>(mesh, options.hold, options.memoryLimit, options.scratch,
+      partOf(options.progress, 0.0, found));
+  }
+  Progress done(partOf(options.progress, found, end));
+  Workers workers(options.threads);
+  const auto source = held ? nullptr
+                           : mesh.source(columnNames(mesh.info().vertexColumns),
+                               columnNames(carriedColumns(mesh.info())));
+  const std::int64_t kept = held ? held->bytes() : 0;
+  SimplifiedMesh simplified(held ? *held : *source, held != nullptr, target,
+    options.memoryLimit - kept, workers, [&done](double share) { done.update(share); });
+  if (checkpoint)
+  {
+    simplified.simplifier().keepIn(*checkpoint, subjectOf(mesh, target, options));
   }
   VsmWriter writer(vsm, simplified.info(), { .codec = options.codec, .scratch = options.scratch });
   for (MeshBlock block; simplified.next(block);)
@@ -179,8 +213,13 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   report.error = counts.isClustered ? std::numeric_limits<double>::quiet_NaN() : counts.error;
   report.dropped_bodies = counts.dropped;
   report.resumed_vertices = counts.resumedAt;
-  report.pool_bytes_peak = simplified.simplifier().peakMemory();
-  report.notes = notesOn(mesh.info(), target, report, simplified.simplifier());
+  report.pool_bytes_peak = kept + simplified.simplifier().peakMemory();
+  if (held)
+  {
+    report.pool_bytes_peak = std::max(report.pool_bytes_peak, held->peakMemory());
+  }
+  report.notes =
+    notesOn(mesh.info(), target, report, simplified.simplifier(), held ? held->held() : 0);
   done.update(1.0);
   return report;
 }
@@ -196,7 +235,7 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
   constexpr std::int64_t BytesOfCell = 400;
   Costs costs;
   costs.memory = std::min(options.memoryLimit, BytesOfCell * mesh.info.cells);
-  costs.passes = 1;
+  costs.passes = options.hold.empty() ? 1 : 2;
   costs.seconds = SecondsOfCell * static_cast<double>(mesh.info.cells);
   EstimatedInput result = mesh;
   result.parts.clear();

@@ -65,13 +65,14 @@ std::size_t partOf(std::int64_t memory, const StreamInfo& info)
 
 } // namespace
 
-StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& target,
-  std::int64_t memory, Workers& workers, std::function<void(double)> progress)
+StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
+  const SimplifyTarget& target, std::int64_t memory, Workers& workers,
+  std::function<void(double)> progress)
   : Memory(memory, SimplificationMemory)
   , Told(progress)
   , Polled([this] { this->poll(); })
-  , Parts(
-      triangles, this->Memory, partOf(memory, triangles.info()), std::move(progress), this->Polled)
+  , Parts(triangles, marksHeld, this->Memory, partOf(memory, triangles.info()), std::move(progress),
+      this->Polled)
   , Info(triangles.info())
   , Goal{ target.vertices,
     target.error > 0.0 ? target.error : std::numeric_limits<double>::infinity() }
@@ -82,12 +83,14 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplifyTarget& 
       [this](Item& item)
       {
         std::vector<std::uint8_t> locked(item.part.surface.vertices());
+        std::size_t inside = 0;
         for (std::size_t v = 0; v < locked.size(); ++v)
         {
           locked[v] = item.part.isInside(v) ? 0 : 1;
+          inside += locked[v] == 0 && !item.part.surface.isHeld(v) ? 1 : 0;
         }
-        // Vertices that other parts have are all left; the share is of the others.
-        const auto inside = static_cast<std::size_t>(std::ranges::count(locked, 0));
+        // Vertices that other parts have, or that are held, are all left; the share is of the
+        // others.
         CollapseGoal goal{ locked.size() - inside, item.error };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
         item.error = collapseEdges(item.part.surface, locked, goal, this->Polled).error;
@@ -221,6 +224,7 @@ void StreamSimplifier::append(const StreamPart& part)
   std::vector<std::uint32_t> places(from.vertices());
   to.origin = from.origin;
   to.labels = from.labels;
+  to.marksHeld = from.marksHeld;
   if (to.triangles() == 0)
   {
     // At once: moving a full window to a larger place takes long.
@@ -277,6 +281,26 @@ std::vector<std::uint8_t> StreamSimplifier::locked() const
   return locked;
 }
 
+/** The same, and the held ones. */
+std::vector<std::uint8_t> StreamSimplifier::fixed() const
+{
+  std::vector<std::uint8_t> fixed = this->locked();
+  for (std::size_t v = 0; v < fixed.size() && this->Window.marksHeld; ++v)
+  {
+    this->Polled.at(v);
+    fixed[v] |= this->Window.isHeld(v) ? 1 : 0;
+  }
+  return fixed;
+}
+
+/** The held vertices of the window that are not locked. */
+std::int64_t StreamSimplifier::heldInWindow() const
+{
+  return this->Window.marksHeld
+           ? std::ranges::count(this->fixed(), 1) - std::ranges::count(this->locked(), 1)
+           : 0;
+}
+
 /** For the window alone; the parts keep their size. */
 void StreamSimplifier::enlarge(std::size_t capacity)
 {
@@ -286,11 +310,10 @@ void StreamSimplifier::enlarge(std::size_t capacity)
 }
 
 /** Makes the window larger if too many of its vertices are locked, as in a stream with a very large
- * span. Throws Error if the memory does not suffice. */
+ * span, or held. Throws Error if the memory does not suffice. */
 bool StreamSimplifier::grow()
 {
-  const std::vector<std::uint8_t> locked = this->locked();
-  const auto fixed = static_cast<std::size_t>(std::ranges::count(locked, 1));
+  const auto fixed = static_cast<std::size_t>(std::ranges::count(this->fixed(), 1));
   if (fixed * TrianglesPerLocked <= this->Capacity)
   {
     return false;
@@ -329,12 +352,13 @@ void StreamSimplifier::makeRoom()
   this->save();
 }
 
-/** Collapses edges of the window until it has `vertices` vertices that are not locked. */
+/** Collapses edges of the window until it has `vertices` vertices that are not locked. The topology
+ * is not given up for a number below that of the held ones. */
 void StreamSimplifier::collapse(std::int64_t vertices)
 {
   const std::vector<std::uint8_t> locked = this->locked();
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
-    this->Goal.error, !this->limitsError() };
+    this->Goal.error, !this->limitsError() && this->heldInWindow() <= vertices };
   goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
   const Collapsed done = collapseEdges(this->Window, locked, goal, this->Polled);
   this->Counts.error = std::max(this->Counts.error, done.error);
@@ -345,7 +369,13 @@ void StreamSimplifier::collapse(std::int64_t vertices)
  * no collapse removes a body. Returns whether they are fragments, which stay. */
 bool StreamSimplifier::dropBodies(std::int64_t vertices)
 {
-  const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), vertices, this->Polled);
+  const std::int64_t others = vertices - this->heldInWindow();
+  if (others < 0)
+  {
+    return false;
+  }
+  // Bodies with held vertices stay.
+  const KeptBodies bodies = keepLargestBodies(this->Window, this->fixed(), others, this->Polled);
   this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
   return bodies.areFragments;
 }
@@ -439,6 +469,7 @@ void StreamSimplifier::deliver(const std::vector<std::uint8_t>& leaves)
     this->Polled.at(v);
     const std::int64_t id = result.surface.ids[v];
     const bool isShared = staying.contains(id);
+    this->Counts.held += result.surface.isHeld(v) && !this->Delivered.contains(id) ? 1 : 0;
     result.isShared.push_back(isShared ? 1 : 0);
     if (isShared)
     {
@@ -484,7 +515,7 @@ void StreamSimplifier::finish()
     this->fit(most);
   }
   // Collapses alone leave too many vertices: they are merged by their positions.
-  if (mayDrop && this->remaining() > most)
+  if (mayDrop && this->remaining() > most && this->heldInWindow() <= most)
   {
     SurfacePart merged = this->Window;
     clusterVertices(merged, static_cast<std::size_t>(most), this->Polled);

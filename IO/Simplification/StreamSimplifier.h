@@ -31,6 +31,7 @@ struct SimplificationCounts
   std::int64_t vertices = 0;   ///< that were read
   double error = 0.0;          ///< the largest of a collapse, see collapseEdges()
   std::int64_t dropped = 0;    ///< small bodies
+  std::int64_t held = 0;       ///< vertices of the result
   bool isClustered = false;    ///< whether edges of some parts could not be collapsed
   bool crossesBorders = false; ///< whether borders between labels were given up
   std::int64_t resumedAt = 0;  ///< vertices simplified by an earlier program, see keepIn()
@@ -69,11 +70,12 @@ public:
     }
   };
 
-  /** `triangles` and `workers` must outlive it; `progress` receives the share of the stream that
-   * was read, and may throw. A result of more than a third of what fits into `memory`, in bytes,
-   * needs the number of vertices. */
-  StreamSimplifier(MeshSource& triangles, const SimplifyTarget& target, std::int64_t memory,
-    Workers& workers, std::function<void(double)> progress);
+  /** `triangles` and `workers` must outlive it; `marksHeld`: whether their last column of the
+   * vertices, of one byte, says which are held (HeldMesh); `progress` receives the share of the
+   * stream that was read, and may throw. A result of more than a third of what fits into `memory`,
+   * in bytes, needs the number of vertices. */
+  StreamSimplifier(MeshSource& triangles, bool marksHeld, const SimplifyTarget& target,
+    std::int64_t memory, Workers& workers, std::function<void(double)> progress);
   ~StreamSimplifier();
   StreamSimplifier(const StreamSimplifier&) = delete;
   StreamSimplifier& operator=(const StreamSimplifier&) = delete;
@@ -113,6 +115,8 @@ private:
   double shareOfPart() const;
   void append(const StreamPart& part);
   std::vector<std::uint8_t> locked() const;
+  std::vector<std::uint8_t> fixed() const;
+  std::int64_t heldInWindow() const;
   bool grow();
   void enlarge(std::size_t capacity);
   void makeRoom();

@@ -116,6 +116,7 @@ SurfacePart SurfacePart::extract(
   }
   std::vector<std::uint32_t> place = usedBy(some, this->vertices(), poll);
   part.origin = this->origin;
+  part.marksHeld = this->marksHeld;
   for (std::size_t v = 0; v < place.size(); ++v)
   {
     poll.at(v);
@@ -179,9 +180,10 @@ std::vector<ColumnSpec> carriedColumns(const StreamInfo& info)
   return carried;
 }
 
-SurfaceParts::SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles,
+SurfaceParts::SurfaceParts(MeshSource& source, bool marksHeld, Pool& pool, std::size_t triangles,
   std::function<void(double)> progress, const Poll& poll)
   : Source(source)
+  , MarksHeld(marksHeld)
   , Least(triangles)
   , Progress(std::move(progress))
   , Polled(poll)
@@ -328,6 +330,7 @@ void SurfaceParts::localise(SurfacePart& surface)
   }
   surface.cellRows = this->CellRows;
   surface.labels = this->Labels.places();
+  surface.marksHeld = this->MarksHeld;
   surface.corners.reserve(this->Corners.size());
   for (std::size_t i = 0; i < this->Corners.size(); ++i)
   {

@@ -80,6 +80,7 @@ struct SurfacePart
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
   std::vector<std::byte> cellRows;    ///< for each triangle its tuples of the carried columns
   std::vector<LabelPlace> labels;     ///< in these tuples; collapses keep their borders
+  bool marksHeld = false; ///< whether the last byte in the row of a vertex says if that is held
 
   std::size_t vertices() const { return this->ids.size(); }
   std::size_t triangles() const { return this->corners.size() / 3; }
@@ -95,6 +96,11 @@ struct SurfacePart
     return this->cellRows.empty() ? 0 : this->cellRows.size() / this->triangles();
   }
 
+  /** Whether a vertex must stay. */
+  bool isHeld(std::size_t vertex) const
+  {
+    return this->marksHeld && this->rows[(vertex + 1) * this->rowBytes() - 1] != std::byte{ 0 };
+  }
   /** Makes room for so many triangles, with rows and vertices as those of another surface. */
   void reserve(std::size_t triangles, const SurfacePart& like);
   /** Whether two triangles have the same labels. */
@@ -176,8 +182,8 @@ class SurfaceParts
 public:
   /** Each part has at least `triangles` triangles, in whole blocks; the last one may have fewer.
    * `progress` receives the share of the vertices that was read, if their number is known, and may
-   * throw, as may `poll`, which must outlive this. */
-  SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles,
+   * throw, as may `poll`, which must outlive this. `marksHeld`: see SurfacePart. */
+  SurfaceParts(MeshSource& source, bool marksHeld, Pool& pool, std::size_t triangles,
     std::function<void(double)> progress, const Poll& poll);
 
   /** Replaces `part` by the next one; returns whether there is one. */
@@ -196,6 +202,7 @@ private:
   void localise(SurfacePart& surface);
 
   MeshSource& Source;
+  bool MarksHeld;
   std::size_t Least;
   std::function<void(double)> Progress;
   const Poll& Polled;

@@ -104,6 +104,10 @@ void SurfaceTopology::classify(std::uint32_t v)
   const bool isHub = triangles > MaxTriangles;
   this->IsFixed[v] =
     isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? ByTopology : 0;
+  if (this->Part.isHeld(v))
+  {
+    this->IsFixed[v] |= ByHold;
+  }
   if (this->KeepsBorders)
   {
     const std::size_t curves = this->curvesAt(v);
@@ -200,7 +204,7 @@ void SurfaceTopology::releaseBorders()
   for (std::size_t v = 0; v < this->Curves.size(); ++v)
   {
     this->Curves[v] &= OnBoundary;
-    this->IsFixed[v] &= ByTopology;
+    this->IsFixed[v] &= ByTopology | ByHold;
   }
 }
 
@@ -261,6 +265,7 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
   }
   std::size_t shared = 0, common = 0;
   std::uint32_t opposite[2] = {};
+  bool isHeldOpposite = false;
   for (const std::uint32_t t : this->star(from))
   {
     const auto [a, b] = this->others(t, from);
@@ -279,6 +284,7 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     if (a != b && (a == to || b == to)) // a == b: collapsed in this pass
     {
       opposite[std::min<std::size_t>(shared++, 1)] = a == to ? b : a;
+      isHeldOpposite = isHeldOpposite || this->isHeld(a == to ? b : a);
     }
   }
   // Their triangles have gone in this pass; or `from` is on the boundary and would leave it.
@@ -293,15 +299,17 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     return Change::Impossible;
   }
   // The link condition: the only common neighbours are the corners opposite to the edge.
+  // Of a held vertex, a change of the topology could take all triangles away.
+  const Change pinch = isHeldOpposite ? Change::Impossible : Change::Pinch;
   if (common != shared || shared > 2)
   {
-    return Change::Pinch;
+    return pinch;
   }
   // A triangle with two boundary edges may go, but not one with three: it is all of its body.
   const bool isLast =
     shared == 2 ? this->isTetrahedron(from, to, opposite)
                 : this->hasOneTriangle(from, opposite[0]) && this->hasOneTriangle(to, opposite[0]);
-  return isLast ? Change::Pinch : Change::None;
+  return isLast ? pinch : Change::None;
 }
 
 /** Whether exactly one of the triangles of v is at the edge to w. */
@@ -450,6 +458,12 @@ std::size_t SurfaceTopology::dropFolded()
 {
   std::vector<std::uint8_t> isFolded = this->foldedTriangles();
   this->keepFoldedBodies(isFolded);
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  {
+    this->Polled.at(i);
+    // Both triangles of a pair have the same corners.
+    isFolded[i / 3] &= this->isHeld(this->Corners[i]) ? 0 : 1;
+  }
   if (!this->KeepsFolded)
   {
     this->Part.removeTriangles(

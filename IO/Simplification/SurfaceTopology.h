@@ -25,8 +25,9 @@ namespace smg
  * edge contraction, 1999). Vertices whose triangles are not one fan, and those of very many
  * triangles, may not go.
  *
- * Borders between labels are kept as boundaries are, until releaseBorders(): a vertex on one moves
- * along it, and one where several meet does not go. So no label vanishes, and none comes apart.
+ * Held vertices (SurfacePart::isHeld()) stay, with triangles. Borders between labels are kept as
+ * boundaries are, until releaseBorders(): a vertex on one moves along it, and one where several
+ * meet does not go. So no label vanishes, and none comes apart.
  */
 class SurfaceTopology
 {
@@ -126,6 +127,7 @@ private:
   using Triangle = std::array<std::uint32_t, 3>;
   void pairTurned(std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const;
   std::vector<std::uint8_t> foldedTriangles() const;
+  bool isHeld(std::uint32_t v) const { return (this->IsFixed[v] & ByHold) != 0; }
   void keepFoldedBodies(std::vector<std::uint8_t>& isFolded) const;
 
   SurfacePart& Part;
@@ -136,7 +138,8 @@ private:
   enum : std::uint8_t
   {
     ByTopology = 1,
-    ByBorders = 2
+    ByBorders = 2,
+    ByHold = 4
   };
   /** The curves that a vertex is on: bits. */
   enum : std::uint8_t

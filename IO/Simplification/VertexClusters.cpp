@@ -41,6 +41,10 @@ public:
     , Keys(std::bit_ceil(2 * part.vertices() + 1))
     , Numbers(this->Keys.size())
   {
+    if (part.marksHeld)
+    {
+      this->keepHeld();
+    }
     std::array<double, 3> high{};
     for (std::size_t i = 0; i < part.points.size(); ++i)
     {
@@ -133,8 +137,30 @@ public:
   }
 
 private:
+  /** A vertex of a triangle with a held corner is a cluster of its own, so that the held one keeps
+   * its triangles. */
+  void keepHeld()
+  {
+    this->IsOwn.assign(this->Part.vertices(), 0);
+    const std::vector<std::uint32_t>& corners = this->Part.corners;
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+    {
+      this->Polled.at(i / 3);
+      const bool isOwn = this->Part.isHeld(corners[i]) || this->Part.isHeld(corners[i + 1]) ||
+                         this->Part.isHeld(corners[i + 2]);
+      for (std::size_t k = i; isOwn && k < i + 3; ++k)
+      {
+        this->IsOwn[corners[k]] = 1;
+      }
+    }
+  }
+
   std::uint64_t keyOf(std::size_t v, double cells) const
   {
+    if (!this->IsOwn.empty() && this->IsOwn[v] != 0)
+    {
+      return std::uint64_t(1) << 63 | v; // no key of a cell, which has 63 bits
+    }
     std::uint64_t key = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -155,6 +181,7 @@ private:
   const Poll& Polled;
   std::array<double, 3> Low{};
   double Extent = 0.0;
+  std::vector<std::uint8_t> IsOwn;    ///< for each vertex whether it is all of its cluster
   std::vector<std::uint32_t> Cluster; ///< of each vertex
   std::size_t Count = 0;              ///< of clusters
   std::vector<std::uint8_t> IsUsed;   ///< of each cluster

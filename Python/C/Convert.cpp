@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Formats/MeshFile.h"
 #include "Python/C/Call.h"
 #include "Python/C/Handles.h"
@@ -52,7 +53,10 @@ smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* pat
         smg::checkIsNotInput(given.shared->name(), out);
       }
       smg::SimplifyCall call = smg::simplifyCallOf(description, limitsOf(given.shared->options()));
-      call.options.progress = smg::progressOf(progress, user);
+      const smg::ProgressFunction told = smg::progressOf(progress, user);
+      given.shared->requireRows(
+        smg::optionsText(description, "simplify"), smg::partOf(told, 0.0, 0.05));
+      call.options.progress = smg::partOf(told, 0.05, 1.0);
       given.text =
         smg::simplify(given.withoutArguments().stored(), call.target, out, call.options).json();
       if (report)

@@ -264,7 +264,7 @@ SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults)
     {
       const JsonNode node(json, "simplify");
       node.requireObject(
-        { "vertices", "error", "memory", "threads", "scratch", "checkpoint", "text" });
+        { "vertices", "error", "hold", "memory", "threads", "scratch", "checkpoint", "text" });
       if (!node.has("vertices") && !node.has("error"))
       {
         node.fail("needs \"vertices\", \"error\" or both");
@@ -283,6 +283,7 @@ SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults)
           node.member("error").fail("must be a length above 0");
         }
       }
+      call.options.hold = placesIn(node, "hold");
       call.options.text = node.has("text") && flagIn(node.member("text"));
       if (node.has("checkpoint"))
       {

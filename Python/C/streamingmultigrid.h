@@ -174,9 +174,9 @@ extern "C"
   SMG_C_EXPORT smg_status smg_open_field(
     smg_field* field, smg_progress progress, void* user, smg_mesh** mesh);
 
-  /* Writes the simplified surface. description: "vertices", "error", "memory", "threads",
-   * "scratch", "checkpoint", "text". The report is that of `smg simplify --report`; its text as
-   * that of smg_info(). */
+  /* Writes the simplified surface. description: "vertices", "error", "hold" (WHERE or a
+   * list), "memory", "threads", "scratch", "checkpoint", "text". The report is that of `smg
+   * simplify --report`; its text as that of smg_info(). */
   SMG_C_EXPORT smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* path,
     smg_progress progress, void* user, const char** report);
 

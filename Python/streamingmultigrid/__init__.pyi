@@ -123,7 +123,8 @@ class Mesh:
     ) -> Field: ...
     def simplify(
         self, vertices: Optional[int] = None, *, error: Optional[float] = None,
-        path: Optional[types.Path] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        hold: Optional[types.Places] = None, path: Optional[types.Path] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, checkpoint: Optional[types.Path] = None,
         progress: Optional[types.Progress] = None
     ) -> Mesh: ...
@@ -264,7 +265,8 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Field: ...
     def simplify(
         self, vertices: Optional[int] = None, *, error: Optional[float] = None,
-        path: Optional[types.Path] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        hold: Optional[types.Places] = None, path: Optional[types.Path] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, checkpoint: Optional[types.Path] = None,
         progress: Optional[types.Progress] = None
     ) -> Mesh: ...
@@ -443,8 +445,9 @@ def robin(region: types.Where, coefficient: types.Value, ambient: types.Value) -
 
 def simplify(
     points: npt.ArrayLike, cells: npt.ArrayLike, vertices: Optional[int] = None, *,
-    error: Optional[float] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None, progress: Optional[types.Progress] = None
+    error: Optional[float] = None, hold: Optional[types.Places] = None, memory: Optional[types.Size] = None,
+    threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+    progress: Optional[types.Progress] = None
 ) -> Tuple[npt.NDArray[Any], npt.NDArray[Any]]: ...
 
 def smooth(

@@ -66,6 +66,7 @@ def simplify(
     vertices: Optional[int] = None,
     *,
     error: Optional[float] = None,
+    hold: Optional[types.Places] = None,
     memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
     scratch: Optional[types.Path] = None,
@@ -76,14 +77,14 @@ def simplify(
     Args:
         points, cells: (n, 3) or (n, 2) numbers and (m, 3) integers.
         vertices: the most vertices of the result, at least 4.
-        error, memory, threads, scratch, progress: as of `Mesh.simplify`.
+        error, hold, memory, threads, scratch, progress: as of `Mesh.simplify`.
 
     Returns:
         Its points, (k, 3) float64, and triangles, (l, 3) int64.
     """
     options: Dict[str, Any] = {"memory": memory, "threads": threads, "scratch": scratch}
     with _opened(points, cells, options) as opened:
-        with opened.simplify(vertices, error=error, progress=progress, **options) as small:
+        with opened.simplify(vertices, error=error, hold=hold, progress=progress, **options) as small:
             return small.points, small.cells
 
 

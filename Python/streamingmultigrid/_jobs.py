@@ -10,19 +10,32 @@ import functools
 import inspect
 from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _problem as problems
 from . import _types as types
 from ._columns import Columns
 from ._errors import InputError
-from ._regions import as_regions
+from ._regions import Region, as_regions
+from ._regions import vertices as vertices_of
 
 _Description = Tuple[Dict[str, Any], List[str]]  # for smg_run(), and the columns of the result
 
 
 def _where(added: Columns, regions: Any) -> Any:
     return None if regions is None else [each.where(added) for each in as_regions(regions)]
+
+
+def _where_of_file(added: Columns, region: Region) -> Any:
+    """WHERE of a region for a job that takes no columns: of arrays it has the numbers of the vertices."""
+    own = Columns(added.mesh)
+    where = region.where(own)
+    if not own.added:
+        return where
+    selected, of_cells = region.selected(added.mesh)
+    rows = np.unique(added.mesh.cells[selected]) if of_cells else np.flatnonzero(selected)
+    return vertices_of(rows).where(own)
 
 
 #: By the names that the library knows them by.
@@ -305,6 +318,7 @@ def simplify(
     vertices: Optional[int] = None,
     *,
     error: Optional[float] = None,
+    hold: Optional[types.Places] = None,
     memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
     scratch: Optional[types.Path] = None,
@@ -312,7 +326,8 @@ def simplify(
 ) -> _Description:
     if vertices is None and error is None:
         raise InputError("simplify: give the number of vertices, or the error, or both.")
-    return given, ["Position"]
+    held = None if hold is None else [_where_of_file(added, each) for each in as_regions(hold)]
+    return {**given, "hold": held}, ["Position"]
 
 
 #: The arguments of `solve` that say what the matrix is, and how it is treated.

@@ -420,6 +420,7 @@ class Mesh:
         vertices: Optional[int] = None,
         *,
         error: Optional[float] = None,
+        hold: Optional[types.Places] = None,
         path: Optional[types.Path] = None,
         memory: Optional[types.Size] = None,
         threads: Optional[int] = None,
@@ -432,6 +433,8 @@ class Mesh:
         Args:
             vertices: the most vertices of the result, at least 4.
             error: the largest error, in the unit of the mesh; with `vertices`, what comes first.
+            hold: what stays: a region, a mask (booleans, (n,)), numbers of vertices, or a list. All of
+                its vertices on the surface are in the result, also if they are more than `vertices`.
             path: where to write the result; default: a scratch file, removed with the new mesh.
             memory, threads, scratch, progress: as of `solve`.
             checkpoint: a folder from which the same simplification continues if it was killed.
@@ -442,7 +445,7 @@ class Mesh:
             `report` says more.
         """
         options = {"memory": memory, "threads": threads, "scratch": scratch, "checkpoint": checkpoint}
-        simplified = self._simplified(vertices, path, progress, {"error": error, **options})
+        simplified = self._simplified(vertices, path, progress, {"error": error, "hold": hold, **options})
         assert simplified.report is not None
         warn_of(simplified.report, set())
         warn_of_notes(simplified.report)

@@ -20,7 +20,7 @@ namespace smg
 
 /** The vertices that a job holds: those of several parts of a mesh and, if it is fixed, of its
  * boundary. Evaluated block by block of the stream. */
-class FixedVertices
+class SMG_EXPORT FixedVertices
 {
 public:
   /** Throws Error if a part is not valid. `columns` must outlive this. `findsBoundary`: whether the

@@ -68,6 +68,21 @@ def test_labels_are_those_of_triangles_that_were_there():
     assert "Material" in " ".join(load("report.json")["notes"])
 
 
+def test_held_points_stay():
+    """WHERE in JSON, several times, and a file; and a simplification that goes on knows what was held."""
+    points, *_ = read_mesh("torus.obj")
+    with open("low.json", "w") as file:
+        file.write('[{"halfspace": [0, 0, -1, 0.9]}]')
+    held = {tuple(point) for k, point in enumerate(points) if point[2] <= -0.9 or k in (5, 77)}
+    for vertices in (5000, 100):
+        done = simplify("torus.vsm", "small.ply", "--vertices", vertices, "--hold", '{"vertices": [5, 77]}',
+                        "--hold", "low.json")
+        assert held <= set(map(tuple, read_mesh("small.ply")[0]))
+        assert (f"more than 100 vertices: {len(held)} are held." in done.stdout) == (vertices == 100), done.stdout
+    assert "hold[0]" in simplify("torus.vsm", "x.ply", "--vertices", 99, "--hold", '{"sphere": [9, 9, 9, 1]}', code=1).stderr
+    simplify("torus.vsm", "x.ply", "--vertices", 99, "--hold", '{"ball": [9, 9, 9, 1]}', code=2)
+
+
 def test_an_error_is_kept():
     counts = []
     for error in (1e-3, 1e-2):
@@ -153,6 +168,7 @@ def test_a_killed_one_continues():
 
 test_every_format_has_the_same_surface()
 test_labels_are_those_of_triangles_that_were_there()
+test_held_points_stay()
 test_an_error_is_kept()
 test_few_vertices_are_few()
 test_dry_run()

@@ -451,7 +451,7 @@ TEST_F(Simplify, VerticesOfTheStreamBecomeFinal)
   const StreamMesh mesh = toStream(torus(300, 200, 0.2));
   MemorySource source(mesh, 1000);
   Workers workers(1);
-  SimplifiedMesh simple(source, { .vertices = 40000 }, LittleMemory, workers, {});
+  SimplifiedMesh simple(source, false, { .vertices = 40000 }, LittleMemory, workers, {});
   std::int64_t blocks = 0, open = 0;
   for (MeshBlock block; simple.next(block); ++blocks)
   {

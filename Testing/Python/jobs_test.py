@@ -126,6 +126,30 @@ class CommandLineTest(unittest.TestCase):
             self.assertEqual(bits(small.points), bits(points[small["OriginalId"]]))
             self.assertTrue(np.isfinite(small.points).all())
 
+    def test_simplify_holds(self):
+        """A region, a mask of vertices or cells, numbers and lists: all of their vertices are in the result."""
+        points, cells = sphere(5)
+        high = points[:, 2] > 0.7
+        last = np.arange(len(points)) >= len(points) - 5
+        of_cells = high[cells].all(axis=1)
+        ball = smg.mesh(points, cells)
+        for hold, held in (
+            (smg.above(z=0.7), high),
+            (high, high),
+            (np.flatnonzero(last), last),
+            ([smg.above(z=0.7), smg.vertices(np.flatnonzero(last))], high | last),
+            (smg.mask(of_cells), np.isin(np.arange(len(points)), cells[of_cells])),
+        ):
+            small = ball.simplify(len(points) // 2, hold=hold)
+            kept = dict(zip(small["OriginalId"].tolist(), small.points))
+            for vertex in np.flatnonzero(held).tolist():
+                self.assertEqual(bits(kept[vertex]), bits(points[vertex]))
+            self.assertEqual(set(small.columns["vertices"]), {"OriginalId"})
+        with self.assertWarnsRegex(smg.ReportWarning, "%d are held" % high.sum()):
+            self.assertGreaterEqual(ball.simplify(50, hold=high).n_vertices, high.sum())
+        few, _ = smg.simplify(points, cells, 2000, hold=last)
+        self.assertTrue(set(map(tuple, points[last])) <= set(map(tuple, few)))
+
 
     def test_info(self):
         """The report of smg info; what depends on the order is that of the mesh as it was opened."""

@@ -5,6 +5,7 @@
 #include "smg/Error.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/Region.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,6 +29,9 @@ struct SimplifyTarget
 /** How to simplify a surface. */
 struct SimplifyOptions
 {
+  /** Parts of the mesh whose vertices are all in the result, also if they are more than asked for;
+   * then a note says so. The mesh is read once more to find them. */
+  std::vector<Where> hold = {};
   /** Memory limit in bytes, at least 16 MiB. */
   std::int64_t memoryLimit = std::int64_t(256) << 20;
   /** Threads; 0: one per core. The result does not depend on them, but on the memory limit. */
