@@ -14,7 +14,8 @@ smg_build_packages=(
 # smg_install.
 smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev libpython3-dev xvfb xauth
-  "qt6-svg-plugins|libqt5svg5")
+  "qt6-svg-plugins|libqt5svg5"
+  qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools) # the help of the plugin, with Qt 5
 smg_test_packages=(
   libgtest-dev libbenchmark-dev lld clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev xz-utils
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-pip
