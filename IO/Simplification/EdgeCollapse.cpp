@@ -111,6 +111,20 @@ public:
     }
   }
 
+  SeamPoints boundary() const
+  {
+    SeamPoints points;
+    for (std::uint32_t v = 0; v < this->Part.vertices(); ++v)
+    {
+      this->Polled.at(v);
+      if (this->Surface.isOnBoundary(v))
+      {
+        points.add(this->point(v));
+      }
+    }
+    return points;
+  }
+
   /** Passes until the goal is reached or nothing can collapse. Where the topology may change and
    * nothing else is possible, borders between labels are given up, and then collapses that change
    * the topology compete with any error. */
@@ -156,7 +170,7 @@ public:
       }
     }
     this->Part.dropUnusedVertices(this->Polled);
-    return { std::sqrt(this->Error), crossesBorders };
+    return { std::sqrt(this->Error), crossesBorders, {} };
   }
 
 private:
@@ -344,10 +358,13 @@ Collapsed collapseEdges(
   {
     collapser.addPlanes();
   }
+  SeamPoints boundary = needsPlanes ? collapser.boundary() : SeamPoints();
   // Also for parts that have quadrics: edges whose ends were open before may be complete by this
   // time.
   collapser.addBoundary();
-  return collapser.run(goal);
+  Collapsed done = collapser.run(goal);
+  done.boundary = std::move(boundary);
+  return done;
 }
 
 } // namespace smg

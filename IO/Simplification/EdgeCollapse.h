@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Simplification/SeamPoints.h"
 #include "IO/Simplification/SurfaceParts.h"
 #include "IO/Simplification/SurfaceTopology.h"
 
@@ -31,6 +32,7 @@ struct Collapsed
   double error = 0.0; ///< the largest of a collapse
   /** Whether borders between labels were given up, since nothing else could collapse. */
   bool crossesBorders = false;
+  SeamPoints boundary; ///< of a part that had no quadrics, without vertices of other parts
 };
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */

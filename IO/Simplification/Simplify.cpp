@@ -115,6 +115,24 @@ void noteBorders(
   }
 }
 
+/** Says that cracks may open along seams; where vertices were merged, or nothing was simplified,
+ * none do. */
+void noteSeams(
+  const StreamSimplifier& simplifier, const SimplifyReport& report, std::vector<std::string>& notes)
+{
+  const std::int64_t places = simplifier.seams().places();
+  if (places == 0 || simplifier.counts().isClustered || report.vertices == report.vertices_before)
+  {
+    return;
+  }
+  notes.push_back("Points of the boundary coincide at " +
+                  std::string(simplifier.seams().isExact() ? "" : "about ") +
+                  std::to_string(places) + (places == 1 ? " place" : " places") +
+                  ": the sides of such a seam are simplified each for itself, and a crack may open "
+                  "between them, unless these points are joined first: on the command line with "
+                  "--weld 0, in ParaView by the filter Clean.");
+}
+
 /** Says where the number of vertices is not that which was asked for, or points are held in vain.
  * `held`: in the mesh. */
 void noteVertices(const SimplifyTarget& target, const SimplifyReport& report,
@@ -160,6 +178,7 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
   }
   noteCellColumns(info, notes);
   noteBorders(simplifier, info, notes);
+  noteSeams(simplifier, report, notes);
   if (counts.isClustered)
   {
     notes.emplace_back(

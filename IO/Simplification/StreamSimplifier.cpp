@@ -93,11 +93,14 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
         // others.
         CollapseGoal goal{ locked.size() - inside, item.error };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
-        item.error = collapseEdges(item.part.surface, locked, goal, this->Polled).error;
+        Collapsed done = collapseEdges(item.part.surface, locked, goal, this->Polled);
+        item.error = done.error;
+        item.boundary = std::move(done.boundary);
       },
       [this](Item& item)
       {
         this->Counts.error = std::max(this->Counts.error, item.error);
+        this->Seams.add(item.boundary);
         this->append(item.part);
       })
 {

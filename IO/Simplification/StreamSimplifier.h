@@ -94,6 +94,8 @@ public:
   std::int64_t peakMemory() const { return this->Memory.peak(); }
   /** The labels of the cells that were read. */
   const CellLabels& labels() const { return this->Parts.labels(); }
+  /** Where points of the boundary coincide, without the few that several parts have. */
+  const SeamPoints& seams() const { return this->Seams; }
   /** Asks whether to go on, for work on a part of the result. */
   const Poll& polled() const { return this->Polled; }
 
@@ -103,6 +105,7 @@ private:
     StreamPart part;
     double share = 1.0; ///< of its vertices that is left
     double error = 0.0; ///< that is allowed, and then the largest of a collapse
+    SeamPoints boundary;
   };
 
   /** The share of the vertices of the stream that is in the window or delivered; 0 if their number
@@ -156,6 +159,7 @@ private:
   std::deque<Result> Ready;
   bool IsFinished = false;
   SimplificationCounts Counts;
+  SeamPoints Seams;
   // Of a checkpoint, which has the parts of the result in states of their own.
   ScratchFolder* Folder = nullptr;
   std::vector<Checkpoint::Item> Subject;

@@ -52,6 +52,11 @@ public:
   /** Whether borders between labels are kept. */
   bool keepsBorders() const { return this->KeepsBorders; }
   void releaseBorders();
+  /** Whether a vertex certainly has an edge of one triangle. */
+  bool isOnBoundary(std::uint32_t v) const
+  {
+    return this->Open[v] == 0 && (this->Curves[v] & OnBoundary) != 0;
+  }
   /** Whether an edge may have a single triangle; false if it certainly has two. */
   bool mayBeBoundary(std::uint32_t a, std::uint32_t b) const
   {
