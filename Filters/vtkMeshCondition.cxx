@@ -96,10 +96,8 @@ std::string vtkMeshCondition::UnusedProperty()
 {
   const bool hasValues = !this->Internal->Values.empty();
   const std::string own = smg::unusedProperty({
-    { "Value", this->Value != 0.0, !this->ValueIsPosition, "turn ValueIsPosition off" },
-    { "Values", hasValues, !this->ValueIsPosition, "turn ValueIsPosition off" },
     { "Value", this->Value != 0.0, !hasValues, "remove the Values" },
-    { "Coefficient", this->Coefficient != 1.0, this->Condition == ROBIN || this->Condition == SOFT,
+    { "Coefficient", this->Coefficient != 1.0, this->Condition != DIRICHLET,
       "set Condition to Robin or Soft" },
   });
   return own.empty() ? this->Superclass::UnusedProperty() : own;

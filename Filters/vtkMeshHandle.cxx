@@ -117,15 +117,16 @@ void vtkMeshHandle::Check()
 
 std::string vtkMeshHandle::UnusedProperty()
 {
-  const bool isSimilarity = this->Motion == SIMILARITY;
+  // Panels hide what another chosen motion does not use, and keep it.
+  const bool isChosen = this->Motion != FIXED;
   const bool isTranslated =
     std::ranges::any_of(this->Translation, [](double component) { return component != 0.0; });
   const bool hasTargets = !this->Internal->Targets.empty();
   const char* remedy = "set Motion to Similarity";
   const std::string own = smg::unusedProperty({
-    { "Translation", isTranslated, isSimilarity, remedy },
-    { "RotationAngle", this->RotationAngle != 0.0, isSimilarity, remedy },
-    { "Scale", this->Scale != 1.0, isSimilarity, remedy },
+    { "Translation", isTranslated, isChosen, remedy },
+    { "RotationAngle", this->RotationAngle != 0.0, isChosen, remedy },
+    { "Scale", this->Scale != 1.0, isChosen, remedy },
     { "PointTargets", hasTargets, this->Internal->isOfPoints(),
       "set Region to Selection, Ids or Points" },
     { "Translation", isTranslated, !hasTargets, "remove the PointTargets" },

@@ -231,19 +231,18 @@ std::string vtkRegionFilter::RegionArray() const
 
 std::string vtkRegionFilter::UnusedProperty()
 {
-  const bool isOfPoints = this->Internal->isOfPoints();
+  // Panels hide what another chosen region does not use, and keep it.
+  const bool isChosen = this->Region != FUNCTION;
   return smg::unusedProperty({
-    { "InsideOut", this->InsideOut, this->Region == FUNCTION, "set Region to Function" },
-    { "Selection", this->GetNumberOfInputConnections(1) > 0, this->Region == SELECTION,
-      "set Region to Selection" },
-    { "Ids", !this->Internal->Ids.empty(), this->Region == IDS, "set Region to Ids" },
-    { "IdType", this->IdType != GLOBAL_IDS, this->Region == IDS, "set Region to Ids" },
-    { "Points", !this->Internal->Points.empty(), this->Region == POINTS, "set Region to Points" },
-    { "Radius", this->Radius >= 0.0, isOfPoints, "set Region to Selection, Ids or Points" },
-    { "Rings", this->Rings > 0, isOfPoints, "set Region to Selection, Ids or Points" },
-    { "MaskArray", smg::namesArray(this->MaskArray), this->Region == MASK, "set Region to Mask" },
-    { "TagArray", smg::namesArray(this->TagArray), this->Region == TAG, "set Region to Tag" },
-    { "Tag", this->Tag != 0.0, this->Region == TAG, "set Region to Tag" },
+    { "Selection", this->GetNumberOfInputConnections(1) > 0, isChosen, "set Region to Selection" },
+    { "Ids", !this->Internal->Ids.empty(), isChosen, "set Region to Ids" },
+    { "IdType", this->IdType != GLOBAL_IDS, isChosen, "set Region to Ids" },
+    { "Points", !this->Internal->Points.empty(), isChosen, "set Region to Points" },
+    { "Radius", this->Radius >= 0.0, isChosen, "set Region to Selection, Ids or Points" },
+    { "Rings", this->Rings > 0, isChosen, "set Region to Selection, Ids or Points" },
+    { "MaskArray", smg::namesArray(this->MaskArray), isChosen, "set Region to Mask" },
+    { "TagArray", smg::namesArray(this->TagArray), isChosen, "set Region to Tag" },
+    { "Tag", this->Tag != 0.0, isChosen, "set Region to Tag" },
   });
 }
 

@@ -32,10 +32,10 @@
  * of the surface preview of a solid all points. An array of the cells that a preview does not have
  * is evaluated on the mesh, whose points those of the preview are.
  *
- * A property that is set but has no effect with this Region causes a warning, one out of its range
- * is an error of the update. An empty region is an error, reported when
- * the whole mesh is requested, or at the last piece when streamed pieces are requested in order. A
- * preview without a point in the region causes a warning, since the mesh may have some.
+ * A property that is set but has no effect while Region is Function causes a warning, one out of
+ * its range is an error of the update. An empty region is an error, reported when the whole mesh is
+ * requested, or at the last piece when streamed pieces are requested in order. A preview without a
+ * point in the region causes a warning, since the mesh may have some.
  *
  * With several processes, selections by point index refer to the points of the named process as
  * long as each process requests its own piece; streamed requests need GlobalIds, unless a preview

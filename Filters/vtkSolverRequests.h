@@ -59,7 +59,7 @@ struct vtkStreamingSolver::Internals
     exchange.together([&] { present = smg::fetchPiece(input, request, exchange); });
     if (exchange.isServer())
     {
-      this->Unused.warn(this->Self.UnusedProperty(*present));
+      this->Unused.warn(this->Self.UnusedProperty());
     }
     const bool isOrdinary =
       !exchange.isParallel() && this->fetchWhole(input, request, inputInfo, present);

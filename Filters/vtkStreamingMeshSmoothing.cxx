@@ -120,13 +120,11 @@ void vtkStreamingMeshSmoothing::CheckRanges() const
     { "Normals", this->Normals, RECOMPUTE, DROP } });
 }
 
-std::string vtkStreamingMeshSmoothing::UnusedProperty(vtkPointSet&)
+std::string vtkStreamingMeshSmoothing::UnusedProperty()
 {
   constexpr double UsualAngle = 30.0;
   return smg::unusedProperty({
     { "EdgeAngle", this->EdgeAngle != UsualAngle, this->KeepEdges, "turn KeepEdges on" },
-    { "Column", smg::namesArray(this->Column), !smg::namesArray(this->Array), "leave Array empty" },
-    { "Normals", this->Normals != RECOMPUTE, this->SmoothedArray().empty(), "leave Array empty" },
   });
 }
 

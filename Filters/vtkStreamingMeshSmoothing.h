@@ -136,7 +136,7 @@ protected:
   ~vtkStreamingMeshSmoothing() override;
 
   void CheckRanges() const override;
-  std::string UnusedProperty(vtkPointSet& input) override;
+  std::string UnusedProperty() override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int columns) override; // without normals

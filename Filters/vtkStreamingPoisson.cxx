@@ -11,7 +11,6 @@
 #include "Filters/vtkRegionChain.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/vtkMeshPieceData.h"
-#include "IO/vtkModeProperty.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPropertyRange.h"
@@ -244,17 +243,6 @@ void vtkStreamingPoisson::CheckRanges() const
 {
   this->Superclass::CheckRanges();
   smg::requireInRange({ { "Acceleration", this->Acceleration, AUTOMATIC, CONJUGATE_GRADIENTS } });
-}
-
-std::string vtkStreamingPoisson::UnusedProperty(vtkPointSet& input)
-{
-  const smg::ChosenArrays arrays(*this, input);
-  return smg::unusedProperty({
-    { "Conductivity", this->Conductivity != 1.0, arrays.named(CONDUCTIVITY_ARRAY).empty(),
-      "set ConductivityArray to None" },
-    { "Screening", this->Screening != 0.0, arrays.named(SCREENING_ARRAY).empty(),
-      "set ScreeningArray to None" },
-  });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)

@@ -130,7 +130,6 @@ protected:
   ~vtkStreamingPoisson() override;
 
   void CheckRanges() const override;
-  std::string UnusedProperty(vtkPointSet& input) override;
   /** Looks whether the problem file has changed, once for every update of the pipeline. */
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int port, vtkMTimeType* time) override;

@@ -138,7 +138,7 @@ void vtkStreamingSolver::CheckRanges() const
     { "NumberOfThreads", this->NumberOfThreads, 0, MaxThreads } });
 }
 
-std::string vtkStreamingSolver::UnusedProperty(vtkPointSet&)
+std::string vtkStreamingSolver::UnusedProperty()
 {
   return "";
 }

@@ -277,8 +277,8 @@ protected:
   /** Throws smg::Error if a property is out of its range. Subclasses add their own. */
   virtual void CheckRanges() const;
   /** A sentence about a property that is set but has no effect with the others, for a warning; ""
-   * if there is none. `input` is some piece of the mesh. */
-  virtual std::string UnusedProperty(vtkPointSet& input);
+   * if there is none. */
+  virtual std::string UnusedProperty();
   /** Sets the options according to the properties. */
   void FillOptions(smg::SolveOptions& options) const;
   smg::Weights ChosenWeights() const;

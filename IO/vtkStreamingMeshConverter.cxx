@@ -172,12 +172,13 @@ void vtkStreamingMeshConverter::UpdateContainer()
   {
     throw smg::Error("No conversion is named: set FileName and OutputFileName.");
   }
-  if (const std::string unused = smg::unusedProperty(
-        { { "WeldDistance", this->WeldDistance != 0.0, this->Weld, "turn Weld on" } });
-      !unused.empty())
+  const std::string unused = smg::unusedProperty(
+    { { "WeldDistance", this->WeldDistance != 0.0, this->Weld, "turn Weld on" } });
+  if (!unused.empty() && unused != this->Warned)
   {
     vtkWarningMacro(<< unused);
   }
+  this->Warned = unused;
   const auto report =
     smg::convertToKeep(this->GetFileName(), out, Internals::optionsOf(*this), this->Overwrite);
   if (report || this->ReportedName != out)

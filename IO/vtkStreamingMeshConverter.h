@@ -159,6 +159,7 @@ private:
   struct Internals;
 
   std::string Report, Estimate;
+  std::string Warned;       ///< the last warning, which is not repeated
   std::string ReportedName; ///< of the container that the report is about
 };
 

@@ -167,6 +167,7 @@ int vtkStreamingMeshReader::RequestDataObject(
     }
     catch (const smg::Cancelled&)
     {
+      smg::endAbort(*this);
       return this->Internal->Failures.refuse(*this);
     }
     catch (const std::exception& error)
@@ -207,6 +208,7 @@ int vtkStreamingMeshReader::RequestUpdateExtent(
   }
   catch (const smg::Cancelled&)
   {
+    smg::endAbort(*this);
     return this->Internal->Failures.refuse(*this);
   }
 }

@@ -49,6 +49,7 @@ void CellLabels::add(const MeshBlock& block)
       {
         continue;
       }
+      integers.changes += isFirst ? 0 : 1;
       last = value;
       isFirst = false;
       std::vector<std::uint64_t>& values = integers.values;

@@ -20,12 +20,13 @@ struct LabelPlace
 
 /** Finds the columns of the cells that are labels, whose borders a simplification holds: those of
  * one integer that have at least two values, at most MostLabels, and on average one for at least
- * CellsOfLabel cells; so the numbers of cells are none. */
+ * CellsOfLabel cells; so the numbers of cells are none. Nor are values that change at more than one
+ * of ChangeCells cells of the stream, as grey values or grades: most edges would be borders. */
 class CellLabels
 {
 public:
   static constexpr std::size_t MostLabels = 1024;
-  static constexpr std::int64_t CellsOfLabel = 4;
+  static constexpr std::int64_t CellsOfLabel = 4, ChangeCells = 3;
 
   /** `columns`: those whose tuples follow one another in the row of a triangle. `pool` accounts for
    * the values. */
@@ -35,7 +36,7 @@ public:
   void add(const MeshBlock& block);
   /** The labels, as far as the cells that were added tell. */
   std::vector<LabelPlace> places() const;
-  /** The columns of integers that have too many values. */
+  /** The columns of integers that have too many values, or values that change too often. */
   std::vector<std::string> others() const;
 
 private:
@@ -45,11 +46,12 @@ private:
     LabelPlace place;
     std::vector<std::uint64_t> values; ///< the bytes of each, ascending
     bool hasMore = false;              ///< than MostLabels values
+    std::int64_t changes = 0;          ///< from one cell to the next
   };
 
   bool areLabels(const Integers& column) const
   {
-    return !column.hasMore &&
+    return !column.hasMore && ChangeCells * column.changes <= this->Cells &&
            CellsOfLabel * static_cast<std::int64_t>(column.values.size()) <= this->Cells;
   }
 

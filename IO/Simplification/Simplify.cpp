@@ -103,7 +103,7 @@ void noteBorders(
       !names.empty() && info.cellType == CellType::Triangle)
   {
     notes.push_back("The " + cellColumnsOf(names) + (names.size() == 1 ? " has" : " have") +
-                    " too many values for labels (at most " +
+                    " too many values, or values that change too often, for labels (at most " +
                     std::to_string(CellLabels::MostLabels) + ", each of at least " +
                     std::to_string(CellLabels::CellsOfLabel) +
                     " cells on average): borders between them are not held.");

@@ -97,6 +97,9 @@ public:
     return static_cast<std::size_t>(std::ranges::count(this->IsUsed, 1));
   }
 
+  /** The number of vertices that are all of their clusters, whatever the cells are. */
+  std::size_t own() const { return static_cast<std::size_t>(std::ranges::count(this->IsOwn, 1)); }
+
   /** For each vertex the one that is left of its cluster. */
   std::vector<std::uint32_t> places() const
   {
@@ -241,7 +244,8 @@ void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll)
     return;
   }
   Clusters clusters(part, poll);
-  clusters.assign(cellsFor(clusters, vertices));
+  // What is held must not take the place of all others.
+  clusters.assign(cellsFor(clusters, std::max(vertices, clusters.own() + vertices / 8)));
   const std::vector<std::uint32_t> places = clusters.places();
   for (std::size_t v = 0; v < places.size() && !part.quadrics.empty(); ++v)
   {

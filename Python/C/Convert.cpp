@@ -54,8 +54,12 @@ smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* pat
       }
       smg::SimplifyCall call = smg::simplifyCallOf(description, limitsOf(given.shared->options()));
       const smg::ProgressFunction told = smg::progressOf(progress, user);
-      given.shared->requireRows(
-        smg::optionsText(description, "simplify"), smg::partOf(told, 0.0, 0.05));
+      // "vertices" of the description itself is how many are wanted.
+      if (const nlohmann::json text = smg::optionsText(description, "simplify");
+          text.contains("hold"))
+      {
+        given.shared->requireRows(text.at("hold"), smg::partOf(told, 0.0, 0.05));
+      }
       call.options.progress = smg::partOf(told, 0.05, 1.0);
       given.text =
         smg::simplify(given.withoutArguments().stored(), call.target, out, call.options).json();

@@ -85,8 +85,8 @@ void SharedMesh::requireRows(const nlohmann::json& description, const ProgressFu
       this->order(progress)->vertices().column.empty())
   {
     throw ArgumentError("vertices: the column OriginalId of this mesh has the numbers of another "
-                        "mesh, as that of a simplified one: choose vertices by a mask, or the "
-                        "nearest to points.");
+                        "mesh, as that of a simplified one: choose vertices by the nearest to "
+                        "points or, for other jobs than simplify, by a mask.");
   }
 }
 

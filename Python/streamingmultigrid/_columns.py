@@ -37,13 +37,19 @@ class Columns:
         bounds = np.reshape(self.mesh.bounds, (3, 2))
         return float(np.linalg.norm(bounds[:, 1] - bounds[:, 0]))
 
-    def rows(self, values: np.ndarray, cells: Optional[bool]) -> Optional[bool]:
-        """Whether an array has a row for each cell or element (True) or vertex (False), or none (None)."""
+    def rows(self, values: np.ndarray, cells: Optional[bool], elements: bool = True) -> Optional[bool]:
+        """Whether an array has a row for each cell (True) or vertex (False), or neither (None).
+
+        Args:
+            elements: whether a row for each element (`Mesh.elements`) is one for each cell, which is known
+                after the cells were read.
+        """
         count = values.shape[0] if values.ndim else -1
         for of_cells, wanted in ((False, self.mesh.n_vertices), (True, self.mesh.n_cells)):
             if count == wanted and cells in (None, of_cells):
                 return of_cells
-        if cells is not False and 0 < count < self.mesh.n_cells and count == self._n_elements():
+        few = elements and cells is not False and 0 < count < self.mesh.n_cells
+        if few and count == self._n_elements():
             return True
         return None
 

@@ -207,8 +207,8 @@ class Mesh:
     def elements(self) -> np.ndarray:
         """Of each cell the number of the cell of the file that it is a part of, (m,) int64, from 0.
 
-        Polygons are read as triangles; hexahedra, prisms and pyramids as tetrahedra. Arrays that are
-        given for the cells may have a row for each of these elements instead. Means of a result by
+        Polygons are read as triangles; hexahedra, prisms and pyramids as tetrahedra. Where there are
+        fewer elements than cells, arrays that are given may have a row for each of them instead. Means of a result by
         element: ``np.bincount(mesh.elements, values) / np.bincount(mesh.elements)``.
         """
         if self._elements is None:
@@ -216,6 +216,7 @@ class Mesh:
             self._elements = (
                 self.read("OriginalCellId", cells=True) if has_numbers else np.arange(self.n_cells)
             )
+            self._elements.setflags(write=False)
         return self._elements
 
     def read(

@@ -70,10 +70,12 @@ class _Data:
         if array.ndim == 2:
             return array.shape[1]
         ids = self._ids(region)
-        if self.columns.rows(array, None) is not None or ids is not None and len(array) == len(ids):
+        # A list may be a number for each right-hand side: the cells are not read for that.
+        is_list = isinstance(value, (list, tuple))
+        if self.columns.rows(array, None, not is_list) is not None or ids is not None and len(array) == len(ids):
             return 1  # a row for each vertex, cell, or vertex of the region
         # An array of another length is more likely a mistake than a number for each right-hand side.
-        return len(array) if isinstance(value, (list, tuple)) and len(array) <= _MOST_COLUMNS else None
+        return len(array) if is_list and len(array) <= _MOST_COLUMNS else None
 
     def value(self, value: Any, what: str, cells: Optional[bool] = None) -> Any:
         """A value everywhere in a region: a number for each component, or the name of a column."""
@@ -84,7 +86,7 @@ class _Data:
         width = self.width or 1
         if array.ndim == 0:
             return [array.item()] * width if width > 1 else array.item()
-        rows = self.columns.rows(array, cells) is not None
+        rows = self.columns.rows(array, cells, not isinstance(value, (list, tuple))) is not None
         if rows and array.shape == (width,) and width > 1:
             raise InputError(
                 "%s: %d numbers may be one for each right-hand side, or one for each row: give an array "

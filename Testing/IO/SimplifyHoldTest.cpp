@@ -140,6 +140,23 @@ TEST_F(SimplifyHold, HeldPointsAreInTheResult)
   }
 }
 
+/** Loose triangles, which are merged by their places: those with a held corner stay, and are more
+ * than the vertices that are asked for. */
+TEST_F(SimplifyHold, LeavesARestOfWhatIsNotHeld)
+{
+  const StreamMesh mesh = toStream(looseTriangles(torus(100, 60, 0.2)));
+  std::vector<std::int64_t> held;
+  for (std::int64_t v = 0; v < mesh.vertices(); v += 24)
+  {
+    held.push_back(v);
+  }
+  const auto corners = static_cast<std::int64_t>(3 * held.size());
+  const StreamMesh simple =
+    this->simplified(mesh, { .vertices = 2 * corners / 3 }, { Region::Vertices{ held } });
+  EXPECT_GT(simple.vertices(), corners + corners / 24);
+  EXPECT_LT(simple.vertices(), mesh.vertices() / 2);
+}
+
 TEST_F(SimplifyHold, DoesNotDependOnThreads)
 {
   const StreamMesh mesh = toStream(torus(220, 150, 0.2));

@@ -195,6 +195,24 @@ TEST_F(SimplifyLabels, AreGivenUpForTheNumberWhichIsSaid)
   EXPECT_NE(report.notes[0].find("more than 60 vertices"), std::string::npos);
 }
 
+TEST_F(SimplifyLabels, AreNotValuesThatChangeFromCellToCell)
+{
+  StreamMesh mesh = toStream(torus(120, 80, 0.2));
+  const SimplifyTarget target{ .error = 0.05 };
+  const SimplifyReport plain = simplify(MemoryMesh(mesh, 1000), target, this->Folder / "plain.vsm");
+  EXPECT_LT(plain.vertices, mesh.vertices() / 2);
+  std::vector<std::uint8_t> grey;
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    grey.push_back(static_cast<std::uint8_t>(c * 7919 % 200));
+  }
+  mesh.cellColumns = { makeColumn<std::uint8_t>("Grey", grey) };
+  const SimplifyReport report = simplify(MemoryMesh(mesh, 1000), target, this->Folder / "grey.vsm");
+  EXPECT_EQ(report.vertices, plain.vertices);
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_NE(report.notes[0].find("'Grey' has too many values"), std::string::npos);
+}
+
 TEST_F(SimplifyLabels, AreNotTheNumbersOfCells)
 {
   StreamMesh mesh = toStream(torus(120, 80, 0.2));

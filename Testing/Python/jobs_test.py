@@ -118,6 +118,7 @@ class CommandLineTest(unittest.TestCase):
         with open("python.ply", "rb") as one, open("small.ply", "rb") as two:
             self.assertEqual(one.read(), two.read())
         self.assertLessEqual(small.n_vertices, 2000)
+        self.assertLessEqual(small.simplify(500).n_vertices, 500)
         self.assertEqual(small.report.vertices, small.n_vertices)
         self.assertEqual(bits(small.points), bits(smg.open(BUNNY).points[small["OriginalId"]]))
         points, cells = sphere(4)

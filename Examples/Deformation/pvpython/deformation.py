@@ -185,6 +185,7 @@ def main():
     with open(arguments.handles, encoding="utf-8") as file:
         options = json.load(file)
     mesh = StreamingMeshReader(FileName=arguments.mesh)
+    mesh.UpdatePipeline()
     mesh.UpdatePropertyInformation()
     if mesh.GetPropertyValue("FullNumberOfPoints") < 1:
         sys.exit("The mesh cannot be read: see the messages above.")
