@@ -69,6 +69,7 @@ class Mesh:
         self._own: Dict[Tuple[str, bool], np.ndarray] = {}
         self._folder: Optional[_Folder] = None  # of a scratch file of its own
         self._source: Optional[str] = None  # the file whose conversion this is
+        self._made_of: Tuple[str, ...] = ()  # the files of the mesh of which this was made
         self._reopening: Optional[Dict[str, Any]] = None  # the arguments of `open`, if it is all of it
         self._facts: Dict[bool, Dict[str, Any]] = {}
         self._elements: Optional[np.ndarray] = None
@@ -91,10 +92,16 @@ class Mesh:
         """What the library uses of the mesh as it is now: arrays, and its folder."""
         return [self._folder, *self._own.values()]
 
+    @property
+    def _files(self) -> Tuple[str, ...]:
+        """The files that a result must not replace."""
+        return (*self._made_of, *([] if self._source is None else [self._source]))
+
     def check_output(self, path: Any) -> None:
         """Raises InputError if the file would be written over that of the mesh."""
-        if self._source is not None and os.path.exists(path) and os.path.samefile(path, self._source):
-            raise InputError("%s: it is the file of the mesh: choose another name." % os.fspath(path))
+        for name in self._files:
+            if os.path.exists(path) and os.path.exists(name) and os.path.samefile(path, name):
+                raise InputError("%s: it is the file of the mesh: choose another name." % os.fspath(path))
 
     def defaults(self, *names: str) -> Dict[str, Any]:
         """Of `memory`, `threads`, `scratch`, `scratch_limit`: those that the mesh was opened with."""
@@ -475,6 +482,7 @@ class Mesh:
 
         simplified = open(path, **self._defaults)
         simplified.report = facts
+        simplified._made_of = self._files
         if folder:
             simplified.name = "%s, simplified" % self.name
             simplified._folder = folder

@@ -180,7 +180,7 @@ def mesh_of(field: Field, handle: NativeHandle, job: str, progress: Any) -> Mesh
 
     of = field.mesh
     made = Mesh("%s, %s" % (of.name, job), opener, of.defaults(*_LIMITS), progress)
-    made._source = of._source
+    made._source, made._made_of = of._source, of._made_of
     made._handle()
     made._opener = None  # which has the field
     return made

@@ -148,10 +148,11 @@ def _conductivity(value: Any, columns: Columns) -> Any:
     if isinstance(value, str) or np.ndim(value) == 0:
         return value
     array = numbers(value, "conductivity")
-    if array.shape in ((3,), (6,), (3, 3)) and array.shape[0] == columns.mesh.n_cells:
+    is_tensor = array.shape in ((3,), (6,), (3, 3))
+    if is_tensor and columns.rows(array, True):
         raise InputError(
-            "conductivity: of a mesh of %d cells, an array of the shape %s may be a tensor or a row for "
-            "each cell: give the tensor as %s, or the rows as an array (%d, %d)."
+            "conductivity: of a mesh of %d cells or elements, an array of the shape %s may be a tensor or a "
+            "row for each cell: give the tensor as %s, or the rows as an array (%d, %d)."
             % (
                 len(array),
                 array.shape,

@@ -347,6 +347,8 @@ class LifetimesTest(unittest.TestCase):
             lambda: mesh.save(name),
             lambda: mesh.smooth().save(name),
             lambda: mesh.simplify(50, path=name),
+            lambda: mesh.simplify(50).save(name),
+            lambda: mesh.smooth().simplify(50).smooth().save(name),
         ):
             with self.assertRaisesRegex(smg.InputError, "kept.off"):
                 call()
@@ -397,6 +399,20 @@ class ElementsTest(unittest.TestCase):
                 self.assertEqual(bits(one), bits(two))
                 with self.assertRaisesRegex(smg.InputError, "row for each"):
                     mesh["k"] = values[1:]
+
+    def test_a_tensor_or_a_row_for_each_element(self):
+        with open("one.vtk", "w", encoding="utf-8") as file:
+            file.write("# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 16 float\n")
+            for z in range(4):
+                file.write("0 0 {0} 1 0 {0} 1 1 {0} 0 1 {0}\n".format(z))
+            file.write("CELLS 3 27\n")
+            for k in (0, 4, 8):
+                file.write("8 %d %d %d %d %d %d %d %d\n" % tuple(range(k, k + 8)))
+            file.write("CELL_TYPES 3\n12\n12\n12\n")
+        mesh = smg.open("one.vtk")
+        self.assertEqual(len(np.unique(mesh.elements)), 3)
+        with self.assertRaisesRegex(smg.InputError, "may be a tensor or a row for each"):
+            mesh.solve(conductivity=np.array([1.0, 2.0, 3.0]), dirichlet=smg.below(z=0) >> 0)
 
     def test_means_by_element(self):
         name, count = next(self.files())
