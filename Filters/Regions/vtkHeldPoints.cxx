@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkHeldPoints.h"
 
+#include "vtkBox.h"
 #include "vtkCylinder.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkHomogeneousTransform.h"
 #include "vtkImplicitFunction.h"
 #include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPlane.h"
 #include "vtkPointSet.h"
 #include "vtkSphere.h"
@@ -111,6 +114,14 @@ void check(vtkImplicitFunction* function)
       plane && vtkMath::Norm(plane->GetNormal()) == 0.0)
   {
     throw Error("The plane of the region has no direction: set Normal.");
+  }
+  // Such as that of ParaView, a unit cube that is moved, turned and scaled to its lengths.
+  auto* const moved = vtkHomogeneousTransform::SafeDownCast(function->GetTransform());
+  if (moved && vtkBox::SafeDownCast(function) && moved->GetMatrix()->Determinant() == 0.0)
+  {
+    throw Error(
+      "The box of the region is flat, so that no point is inside: give its Length a small "
+      "number instead of 0.");
   }
   if (auto* sphere = vtkSphere::SafeDownCast(function))
   {

@@ -4,6 +4,7 @@
 #include "vtkBox.h"
 #include "vtkPlane.h"
 #include "vtkSphere.h"
+#include "vtkTransform.h"
 
 #include <chrono>
 #include <cmath>
@@ -254,6 +255,27 @@ TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
   problem << R"({"dirichlet": [{"tag": ["both", )" << tag << R"(], "value": 1}]})";
   this->Poisson->SetProblem(problem.str().c_str());
   EXPECT_EQ(this->filter(1).solution, byCondition.solution);
+}
+
+/** As ParaView fits one to a flat mesh: its transform has no inverse. */
+TEST_F(VtkMeshCondition, AFlatBoxIsRefused)
+{
+  vtkNew<vtkTransform> transform;
+  vtkNew<vtkBox> box;
+  box->SetBounds(0, 1, 0, 1, 0, 1);
+  box->SetTransform(transform);
+  vtkMeshCondition& held = this->add(vtkMeshCondition::DIRICHLET, { 1 });
+  held.SetRegionFunction(box);
+  for (const double length : { 0.0, 100.0 })
+  {
+    transform->Identity();
+    transform->Scale(100.0, 100.0, length);
+    transform->Inverse();
+    Errors errors(&held);
+    held.Modified();
+    updatePiece(&held, 0, 1);
+    EXPECT_EQ(errors.contain("The box of the region is flat"), length == 0.0) << errors.text();
+  }
 }
 
 /** The filter is not executed then, and its last outcome belongs to another problem. */
