@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
-// Labels are told from other integers by the number of their values, which are kept as sorted
-// lists. Neighbouring cells have mostly the same label, so hardly any is looked up.
+// Labels differ from other integers in that they have few values, which are kept as sorted lists,
+// and in that cells that follow one another in the stream have mostly the same: hardly any is
+// looked up.
 
 namespace smg
 {

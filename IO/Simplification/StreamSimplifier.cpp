@@ -299,9 +299,18 @@ std::vector<std::uint8_t> StreamSimplifier::fixed() const
 /** The held vertices of the window that are not locked. */
 std::int64_t StreamSimplifier::heldInWindow() const
 {
-  return this->Window.marksHeld
-           ? std::ranges::count(this->fixed(), 1) - std::ranges::count(this->locked(), 1)
-           : 0;
+  if (!this->Window.marksHeld)
+  {
+    return 0;
+  }
+  const std::vector<std::uint8_t> locked = this->locked();
+  std::int64_t held = 0;
+  for (std::size_t v = 0; v < locked.size(); ++v)
+  {
+    this->Polled.at(v);
+    held += locked[v] == 0 && this->Window.isHeld(v) ? 1 : 0;
+  }
+  return held;
 }
 
 /** For the window alone; the parts keep their size. */

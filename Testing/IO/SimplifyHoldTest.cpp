@@ -6,6 +6,7 @@
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
+#include "Testing/Support/Unwelded.h"
 #include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
@@ -26,19 +27,6 @@ namespace smg::testing
 {
 namespace
 {
-
-/** The mesh with vertices of its own for each triangle. */
-IndexedTestMesh looseTriangles(const IndexedTestMesh& mesh)
-{
-  IndexedTestMesh loose;
-  for (const std::int64_t corner : mesh.corners)
-  {
-    loose.corners.push_back(loose.vertices());
-    const auto point = mesh.positions.begin() + 3 * corner;
-    loose.positions.insert(loose.positions.end(), point, point + 3);
-  }
-  return loose;
-}
 
 IndexedTestMesh balls(int number)
 {
@@ -84,7 +72,7 @@ TEST_F(SimplifyHold, HeldPointsAreInTheResult)
 {
   const std::vector<std::pair<std::string, IndexedTestMesh>> meshes{
     { "torus", torus(220, 150, 0.2) }, { "plate", grid(220, 150, 0.1) }, { "balls", balls(150) },
-    { "loose triangles", looseTriangles(torus(100, 60, 0.2)) }
+    { "loose triangles", unwelded(torus(100, 60, 0.2)) }
   };
   const Region part = smg::sphere({ 1.0, 1.0, 0.0 }, 0.7);
   for (const auto& [name, indexed] : meshes)
@@ -144,7 +132,7 @@ TEST_F(SimplifyHold, HeldPointsAreInTheResult)
  * than the vertices that are asked for. */
 TEST_F(SimplifyHold, LeavesARestOfWhatIsNotHeld)
 {
-  const StreamMesh mesh = toStream(looseTriangles(torus(100, 60, 0.2)));
+  const StreamMesh mesh = toStream(unwelded(torus(100, 60, 0.2)));
   std::vector<std::int64_t> held;
   for (std::int64_t v = 0; v < mesh.vertices(); v += 24)
   {

@@ -11,6 +11,7 @@
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
+#include "Testing/Support/Unwelded.h"
 #include "smg/VsmReader.h"
 
 #include <Eigen/Dense>
@@ -97,19 +98,6 @@ void expectVerticesOf(const StreamMesh& mesh, const StreamMesh& simple)
       ASSERT_EQ(simple.positions[3 * v + axis], mesh.positions[3 * id + axis]);
     }
   }
-}
-
-/** The mesh with vertices of its own for each triangle. */
-IndexedTestMesh unwelded(const IndexedTestMesh& mesh)
-{
-  IndexedTestMesh soup;
-  for (const std::int64_t corner : mesh.corners)
-  {
-    soup.corners.push_back(soup.vertices());
-    const auto point = mesh.positions.begin() + 3 * corner;
-    soup.positions.insert(soup.positions.end(), point, point + 3);
-  }
-  return soup;
 }
 
 double areaOf(const StreamMesh& mesh)

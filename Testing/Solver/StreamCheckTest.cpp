@@ -4,6 +4,7 @@
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
+#include "Testing/Support/Unwelded.h"
 
 #include <gtest/gtest.h>
 
@@ -108,17 +109,6 @@ TEST(StreamCheck, NotesMeshesWhoseCellsShareNothing)
 {
   const auto note = [](const IndexedTestMesh& mesh)
   { return unweldedNote(mesh.cellType, mesh.vertices(), mesh.cells()); };
-  const auto soup = [](const IndexedTestMesh& mesh)
-  {
-    IndexedTestMesh apart{ mesh.cellType, {}, {} };
-    for (const std::int64_t v : mesh.corners)
-    {
-      apart.corners.push_back(apart.vertices());
-      apart.positions.insert(
-        apart.positions.end(), &mesh.positions[3 * v], &mesh.positions[3 * v] + 3);
-    }
-    return apart;
-  };
   IndexedTestMesh grains = sphere(0);
   for (int k = 0; k < 7; ++k)
   {
@@ -127,9 +117,9 @@ TEST(StreamCheck, NotesMeshesWhoseCellsShareNothing)
   for (const IndexedTestMesh& mesh : { grid(12, 12), torus(10, 12), tetBox(5, 5, 5), grains })
   {
     EXPECT_EQ(note(mesh), "");
-    EXPECT_TRUE(contains(note(soup(mesh)), "--weld 0")) << note(soup(mesh));
+    EXPECT_TRUE(contains(note(unwelded(mesh)), "--weld 0")) << note(unwelded(mesh));
   }
-  EXPECT_EQ(note(soup(sphere(0))), "") << "few cells may be anything";
+  EXPECT_EQ(note(unwelded(sphere(0))), "") << "few cells may be anything";
 }
 
 } // namespace smg::testing
