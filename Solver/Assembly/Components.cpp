@@ -25,9 +25,10 @@
 // same mean as the initial values (meanShifts()).
 //
 // On a component that is held loosely the same is done with the row sums as weights: with w = S 1
-// and c = (sum of b - w . x0) / sum of w, y = x - c satisfies (L + S) y = b - c w, and the product
-// of w with both sides says that w . y = w . x0. Nothing is neglected; the iteration only has less
-// to represent, and the constant, which V-cycles determine worst, is known beforehand.
+// and c = sum of b / sum of w, y = x - c satisfies (L + S) y = b - c w, and the product of w with
+// both sides says that w . y = 0. Nothing is neglected; the iteration only has less to represent,
+// and the constant, which V-cycles determine worst, is known beforehand. It begins at x0 minus its
+// mean, which may be as large as c.
 //
 // Memory: a few numbers per label and column; the label of each vertex in memory or on a scratch
 // file (ComponentLabels), 4 bytes for a block of 1024 vertices of one component that has a
@@ -164,6 +165,15 @@ void Components::anchorHeld()
   }
 }
 
+bool Components::hasConstantsInKernel(std::int32_t root) const
+{
+  constexpr double Rounding = 1e-10;
+  const auto label = static_cast<std::size_t>(root);
+  const Component& of = this->Of[label];
+  const auto number = static_cast<double>(this->Counted[label].number);
+  return !of.anchored && number * of.rowSum <= Rounding * of.weights;
+}
+
 void Components::restartCounts()
 {
   std::ranges::fill(this->Counted, Unknowns{});
@@ -216,29 +226,36 @@ void Components::combine(const std::function<void(std::span<double>)>& add)
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
     const Unknowns& all = this->Counted[label];
-    sums.insert(sums.end(), { this->Of[label].anchored ? 1.0 : 0.0, static_cast<double>(all.number),
-                              all.mass, all.massSquares });
+    const Component& of = this->Of[label];
+    sums.insert(
+      sums.end(), { of.anchored ? 1.0 : 0.0, of.rowSum, of.weights, static_cast<double>(all.number),
+                    all.mass, all.massSquares, all.rowSum, all.rowSumSquares });
   }
   for (const Sums& sum : this->Summed)
   {
-    sums.insert(
-      sums.end(), { sum.b, sum.absolute, sum.initial, sum.weighed, sum.residual, sum.residuals });
+    sums.insert(sums.end(), { sum.b, sum.absolute, sum.initial, sum.weighed, sum.residual,
+                              sum.residuals, sum.held, sum.heldResiduals });
   }
   add(sums);
   const double* next = sums.data();
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
     Unknowns& all = this->Counted[label];
+    Component& of = this->Of[label];
     // The order is that in which the numbers were packed above.
-    this->Of[label].anchored = *next++ > 0.0;
+    of.anchored = *next++ > 0.0;
+    of.rowSum = *next++;
+    of.weights = *next++;
     all.number = static_cast<std::int64_t>(*next++);
-    all.mass = *next++;
-    all.massSquares = *next++;
+    for (double* value : { &all.mass, &all.massSquares, &all.rowSum, &all.rowSumSquares })
+    {
+      *value = *next++;
+    }
   }
   for (Sums& sum : this->Summed)
   {
-    for (double* value :
-      { &sum.b, &sum.absolute, &sum.initial, &sum.weighed, &sum.residual, &sum.residuals })
+    for (double* value : { &sum.b, &sum.absolute, &sum.initial, &sum.weighed, &sum.residual,
+           &sum.residuals, &sum.held, &sum.heldResiduals })
     {
       *value = *next++;
     }
@@ -310,6 +327,20 @@ void Components::forShifts(F&& f) const
   }
 }
 
+/** Calls f(label, column, place) for components that are held loosely. */
+template <class F>
+void Components::forHeld(F&& f) const
+{
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    for (int k = 0; this->floats(label) && this->isHeld(label) && k < this->Columns; ++k)
+    {
+      f(label, k, label * columns + static_cast<std::size_t>(k));
+    }
+  }
+}
+
 std::vector<double> Components::rightSideShifts() const
 {
   std::vector<double> shifts(this->Summed.size());
@@ -320,6 +351,8 @@ std::vector<double> Components::rightSideShifts() const
       shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
         all.b / all.weights;
     });
+  this->forHeld([&](std::size_t label, int k, std::size_t place)
+    { shifts[place] = this->sums(label, k).b / this->weighed(label, k).weights; });
   return shifts;
 }
 
@@ -368,20 +401,32 @@ double Components::shiftedSquares() const
   return squares;
 }
 
+std::vector<double> Components::initialMeans() const
+{
+  std::vector<double> means;
+  this->forHeld(
+    [&](std::size_t label, int k, std::size_t place)
+    {
+      const Weighed all = this->weighed(label, k);
+      if (all.initial != 0.0)
+      {
+        means.resize(this->Summed.size());
+        means[place] = all.initial / all.weights;
+      }
+    });
+  return means;
+}
+
 std::vector<double> Components::constantShifts() const
 {
   std::vector<double> shifts;
-  this->forShifts(
-    [&](std::size_t label, int k)
-    {
-      if (this->isHeld(label))
-      {
-        shifts.resize(this->Summed.size());
-        const Weighed all = this->weighed(label, k);
-        shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
-          -all.b / all.weights;
-      }
-    });
+  if (!this->anyHeldLoosely())
+  {
+    return shifts;
+  }
+  shifts.resize(this->Summed.size());
+  this->forHeld([&](std::size_t label, int k, std::size_t place)
+    { shifts[place] = -this->sums(label, k).b / this->weighed(label, k).weights; });
   return shifts;
 }
 
@@ -396,7 +441,7 @@ std::vector<double> Components::meanShifts(std::span<const double> sums) const
       const std::size_t place =
         label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k);
       const Weighed all = this->weighed(label, k);
-      shifts[place] += (sums[place] - all.initial) / all.weights;
+      shifts[place] += (sums[place] - (this->isHeld(label) ? 0.0 : all.initial)) / all.weights;
     }
   }
   return shifts;

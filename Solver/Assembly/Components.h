@@ -29,7 +29,8 @@ namespace smg
  * solution is a large constant c, the sum of the right-hand side over that of the row sums, plus
  * what varies. In double precision the constant would leave the variation few digits or none. So
  * (L + S) (c + y) = F is solved for y, whose right-hand side F - S c sums to zero, and c is added
- * to the result: as for a free component, with the row sums as weights.
+ * to the result: as for a free component, with the row sums as weights. The iterates of y begin at
+ * the initial values minus their mean, which may be as large as c.
  *
  * One thread may count() while another one adds, joins and anchors labels, since the sums of a
  * label do not depend on when it is joined. settle() ends this.
@@ -67,6 +68,9 @@ public:
   /** To be called once after all vertices: anchors components whose loose rows together are not
    * loose. */
   void anchorHeld();
+  /** Whether a component floats and its row sums are so small that constants are in the kernel of
+   * its matrix up to rounding. */
+  bool hasConstantsInKernel(std::int32_t root) const;
   /** Marks the component as constrained. */
   void anchor(std::int32_t label) { this->Of[static_cast<std::size_t>(label)].anchored = true; }
 
@@ -83,10 +87,14 @@ public:
 
   /** Per column and component (label-major): the mean source, sum of b / sum of masses; 0 for
    * components that do not float, or if b sums to zero up to rounding. For one that is held
-   * loosely: the constant c, beside the mean of the initial values. */
+   * loosely: the constant c. */
   std::vector<double> rightSideShifts() const;
-  /** Whether any of the shifts is not 0. */
+  /** Whether any of the shifts changes the residual of the initial values: of c, what differs from
+   * their mean does. */
   bool shiftsRightSide() const;
+  /** Per column and component: the mean of the initial values of a component that is held loosely,
+   * which is to be subtracted from its iterate; 0 for others. Empty if all are 0. */
+  std::vector<double> initialMeans() const;
   /** Per column: the sum of b that the shifts subtract from all free components. */
   std::vector<double> shiftedSums() const;
   /** The largest |sum of b| / sum of |b| that the shifts subtract from a free component; 0 without
@@ -96,9 +104,9 @@ public:
   double shiftedSquares() const;
   /** Per column and floating component: what is to be subtracted from the values, given the sums of
    * the weighted values (label-major): their mean minus that of the initial values; for a component
-   * that is held loosely, minus the constant c, too. */
+   * that is held loosely, minus the constant c. */
   std::vector<double> meanShifts(std::span<const double> sums) const;
-  /** The part of the shifts that does not depend on the values; empty if no component is held
+  /** The constants -c, to be subtracted from values whose mean is 0; empty if no component is held
    * loosely. */
   std::vector<double> constantShifts() const;
   /** The weight of a vertex in the means of the component, given its weight as of count(). */
@@ -178,6 +186,8 @@ private:
   void extendCounts(std::size_t labels);
   template <class F>
   void forShifts(F&& f) const;
+  template <class F>
+  void forHeld(F&& f) const;
   bool isRoot(std::size_t label) const
   {
     return this->Of[label].parent == static_cast<std::int32_t>(label);

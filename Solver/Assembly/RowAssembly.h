@@ -142,6 +142,8 @@ public:
   double termSquares() const { return this->TermSquares; }
   /** The same with the shares by which rows count in later residuals: see residualShare(). */
   double roundingSquares() const { return this->RoundingSquares; }
+  /** The part of these that is due to the right-hand side alone. */
+  double loadSquares() const { return this->LoadSquares; }
   /** Whether any of the terms is not 0, though its square may be. */
   bool anyTerm() const { return this->AnyTerm; }
   /** The least and the largest initial value of each column. */
@@ -150,7 +152,7 @@ public:
 
 private:
   std::vector<double> OfRow, Least, Most;
-  double Squares = 0.0, TermSquares = 0.0, RoundingSquares = 0.0;
+  double Squares = 0.0, TermSquares = 0.0, RoundingSquares = 0.0, LoadSquares = 0.0;
   bool AnyTerm = false;
 };
 
@@ -158,7 +160,7 @@ template <class Row>
 std::span<const double> InitialResidual::add(
   const Row& row, const double* x, const double* b, std::int64_t stride, double share)
 {
-  double squares = 0.0, termSquares = 0.0;
+  double squares = 0.0, termSquares = 0.0, loadSquares = 0.0;
   withColumns(static_cast<int>(this->OfRow.size()),
     [&](auto columns)
     {
@@ -181,6 +183,7 @@ std::span<const double> InitialResidual::add(
       {
         squares += sum[k] * sum[k];
         termSquares += b[k] * b[k] + row.diagonal * row.diagonal * x[k] * x[k];
+        loadSquares += b[k] * b[k];
         this->AnyTerm = this->AnyTerm || b[k] != 0.0 || x[k] != 0.0;
         const auto column = static_cast<std::size_t>(k);
         this->Least[column] = std::min(this->Least[column], x[k]);
@@ -191,6 +194,7 @@ std::span<const double> InitialResidual::add(
   this->TermSquares += termSquares;
   const double rounding = residualShare(share);
   this->RoundingSquares += rounding * rounding * termSquares;
+  this->LoadSquares += rounding * rounding * loadSquares;
   return this->OfRow;
 }
 

@@ -193,15 +193,16 @@ void DistributedRun::fix(const Problem& problem)
 }
 
 /** In a component without constraint the solution is determined up to a constant. It gets the mean
- * of the initial values, weighted by masses, as in the streaming engine. */
+ * of the initial values, weighted by masses, as in the streaming engine; one that is held loosely
+ * gets its constant. */
 void DistributedRun::fixMeans()
 {
-  if (this->report.free_components == 0)
+  PartSystem& system = this->System;
+  SharedComponents& components = *system.components;
+  if (components.floatingComponents() == 0)
   {
     return;
   }
-  PartSystem& system = this->System;
-  SharedComponents& components = *system.components;
   const auto columns = static_cast<int>(system.x.size());
   const auto weight = [&](std::int64_t k, const SharedComponents::Place& place)
   { return place.components->weightOf(place.label, system.mass[static_cast<std::size_t>(k)]); };
@@ -217,7 +218,10 @@ void DistributedRun::fixMeans()
       value(k, c) -= shifts(place, columns, c);
     }
   }
-  noteFreeComponents(this->report);
+  if (this->report.free_components > 0)
+  {
+    noteFreeComponents(this->report);
+  }
 }
 
 std::vector<double> DistributedRun::values() const

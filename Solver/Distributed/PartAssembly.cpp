@@ -219,14 +219,20 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
     {
       system.undetermined.push_back(static_cast<std::int64_t>(k));
     }
+    const bool isLoose = !isKnown && of[RowSum] > 0.0 && Components::isLoose(of[RowSum], of[Terms]);
     // What makes a component solvable: a vertex whose value is known, or a diagonal beyond the
-    // edges.
-    if (place.components && (isKnown || isHeld || of[RowSum] > 0.0))
+    // edges, though one that is lost in rounding holds it only together with others.
+    if (place.components && isLoose)
+    {
+      place.components->hold(place.label, of[RowSum], of[Terms]);
+    }
+    else if (place.components && (isKnown || isHeld || of[RowSum] > 0.0))
     {
       place.components->anchor(place.label);
     }
     if (!isKnown && !isHeld)
     {
+      system.mass[k] = isLoose ? -of[RowSum] : of[Mass];
       this->closeUnknown(static_cast<std::int64_t>(k), of, system);
     }
   }
@@ -245,7 +251,6 @@ void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& 
   this->Raised += raise > 0.0 ? 1 : 0;
   this->IsUnknown[row] = 1;
   this->Diagonals[row] = sums[RowSum] + edges + raise;
-  system.mass[row] = sums[Mass];
   system.share[row] = commonShare(sums[RowSum] + (sums[Terms] - sums[Ordinary]), sums[Ordinary]);
   std::vector<double> x(static_cast<std::size_t>(this->Columns));
   for (std::size_t c = 0; c < x.size(); ++c)
@@ -260,16 +265,18 @@ void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& 
   {
     // Components would also sum residuals, which are not needed here.
     const std::vector<double> none(x.size());
-    place.components->count(place.label, sums + Load, x.data(), none.data(), sums[Mass]);
+    place.components->count(place.label, sums + Load, x.data(), none.data(), system.mass[row]);
   }
 }
 
 /** Makes components without constraint solvable, and completes the matrix. For those the right-hand
- * side must sum to zero: the mean of the source is subtracted. */
+ * side must sum to zero: the mean of the source is subtracted. Of a component that is held loosely
+ * the part beside its constant is solved for, see Components. */
 void PartAssembly::finish(PartSystem& system)
 {
   system.components->combine();
   const SharedComponents::Shifts shifts = system.components->rightSideShifts();
+  const SharedComponents::Shifts means = system.components->initialMeans();
   const auto own = static_cast<std::int64_t>(this->Diagonals.size());
   for (std::int64_t k = 0; k < own; ++k)
   {
@@ -282,6 +289,7 @@ void PartAssembly::finish(PartSystem& system)
       {
         system.b[column][row] -= place.components->weightOf(place.label, system.mass[row]) *
                                  shifts(place, this->Columns, c);
+        system.x[column][row] -= means(place, this->Columns, c);
       }
       // The rounding of the residual grows with the terms of b - A x, not with their difference.
       const double terms[2] = { system.b[column][row],
@@ -295,10 +303,10 @@ void PartAssembly::finish(PartSystem& system)
         (this->IsUnknown[row] && (system.b[column][row] != 0.0 || system.x[column][row] != 0.0));
     }
   }
-  // A free component has a singular matrix: constants are in its kernel. With the diagonal of one
-  // of its unknowns doubled it is definite. The sum of its equations, whose right-hand sides sum to
-  // zero, then says that this unknown is zero: the solution remains one of the problem, and fix()
-  // gives it its mean.
+  // A component that is free, or held by next to nothing, has a singular matrix: constants are in
+  // its kernel. With the diagonal of one of its unknowns doubled it is definite. The sum of its
+  // equations, whose right-hand sides sum to zero, then says that this unknown is zero: the
+  // solution remains one of the problem, and fix() gives it its mean.
   const auto isUnknown = [this](std::int64_t k)
   { return this->IsUnknown[static_cast<std::size_t>(k)] != 0; };
   for (const std::int64_t k : system.components->representatives(isUnknown))

@@ -24,7 +24,7 @@ struct PartSystem
   std::unique_ptr<HypreMatrix> matrix;
   std::vector<std::vector<double>> x, b; ///< by column: initial values, right-hand side
   std::vector<double> share;             ///< see commonShare()
-  std::vector<double> mass;
+  std::vector<double> mass;              ///< as the weight of Components::count()
   std::vector<std::int64_t> undetermined; ///< own vertices, from 0, that nothing determines
   // By column, of all processes: see InitialResidual.
   std::vector<double> termSquares, roundingSquares;

@@ -121,8 +121,9 @@ SharedComponents::Place SharedComponents::of(std::int64_t k)
  * the vertices of each are added label by label. */
 void SharedComponents::combine()
 {
-  this->Whole.settle();
+  this->Whole.anchorHeld();
   this->Split.combine([this](std::span<double> sums) { this->Vertices.team().sum(sums); });
+  this->Split.anchorHeld();
 }
 
 std::int64_t SharedComponents::components() const
@@ -137,6 +138,13 @@ std::int64_t SharedComponents::freeComponents() const
   std::int64_t count = this->Whole.freeComponents();
   this->Vertices.team().sum({ &count, 1 });
   return count + this->Split.freeComponents();
+}
+
+std::int64_t SharedComponents::floatingComponents() const
+{
+  std::int64_t count = this->Whole.floatingComponents();
+  this->Vertices.team().sum({ &count, 1 });
+  return count + this->Split.floatingComponents();
 }
 
 double SharedComponents::incompatibility() const
@@ -155,7 +163,7 @@ std::vector<double> SharedComponents::shiftedSums() const
   return sums;
 }
 
-/** The vertex with the smallest stream index of each free component: of a split one by a reduction,
+/** The vertex with the smallest stream index of each such component: of a split one by a reduction,
  * after which only the process that owns the vertex takes it. */
 std::vector<std::int64_t> SharedComponents::representatives(
   const std::function<bool(std::int64_t)>& chosen)
@@ -169,7 +177,7 @@ std::vector<std::int64_t> SharedComponents::representatives(
   for (std::int64_t k = 0; k < own; ++k)
   {
     const Place place = this->of(k);
-    if (place.components && place.components->isFloating(place.label) && chosen(k))
+    if (place.components && place.components->hasConstantsInKernel(place.label) && chosen(k))
     {
       std::int64_t& least =
         (place.components == &this->Whole ? ofWhole
@@ -196,6 +204,11 @@ std::vector<std::int64_t> SharedComponents::representatives(
 SharedComponents::Shifts SharedComponents::rightSideShifts() const
 {
   return { &this->Whole, this->Whole.rightSideShifts(), this->Split.rightSideShifts() };
+}
+
+SharedComponents::Shifts SharedComponents::initialMeans() const
+{
+  return { &this->Whole, this->Whole.initialMeans(), this->Split.initialMeans() };
 }
 
 SharedComponents::Shifts SharedComponents::meanShifts(

@@ -40,14 +40,15 @@ public:
   // On all processes, after that:
   std::int64_t components() const;
   std::int64_t freeComponents() const;
+  std::int64_t floatingComponents() const;
   /** See Components. */
   double incompatibility() const;
   std::vector<double> shiftedSums() const;
-  /** Chooses the first vertex with chosen(k) of each free component; each is returned on the
-   * process that owns it, as its number among the own vertices. */
+  /** Chooses the first vertex with chosen(k) of each component whose matrix has constants in its
+   * kernel; each is returned on the process that owns it, as its number among the own vertices. */
   std::vector<std::int64_t> representatives(const std::function<bool(std::int64_t)>& chosen);
 
-  /** Components::rightSideShifts() of the own and of the shared components. */
+  /** Numbers of the own and of the shared components, `columns` each; none are zeros. */
   struct Shifts
   {
     const Components* whole;
@@ -56,11 +57,14 @@ public:
     double operator()(const Place& place, int columns, int column) const
     {
       const std::vector<double>& shifts = place.components == this->whole ? ofWhole : ofSplit;
-      return shifts[static_cast<std::size_t>(place.label) * static_cast<std::size_t>(columns) +
-                    static_cast<std::size_t>(column)];
+      return shifts.empty()
+               ? 0.0
+               : shifts[static_cast<std::size_t>(place.label) * static_cast<std::size_t>(columns) +
+                        static_cast<std::size_t>(column)];
     }
   };
   Shifts rightSideShifts() const;
+  Shifts initialMeans() const;
   /** Components::meanShifts(), given the weighted values value(k, column) of own vertices k of free
    * components. */
   Shifts meanShifts(const std::function<double(std::int64_t, int)>& value);

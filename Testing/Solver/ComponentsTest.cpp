@@ -138,14 +138,16 @@ TEST(Components, AComponentThatIsHeldLooselyHasAConstant)
   // Nothing is taken from the sources.
   EXPECT_EQ(parts.incompatibility(), 0.0);
   EXPECT_EQ(parts.shiftedSums()[0], 0.0);
-  // The sum of b over that of the row sums, beside their mean of the initial values.
-  const double constant = 2e12 - 3.5;
-  EXPECT_NEAR(parts.rightSideShifts()[whole], constant, 1e-3);
+  // The sum of b over that of the row sums.
+  EXPECT_NEAR(parts.rightSideShifts()[whole], 2e12, 1e-3);
   EXPECT_EQ(parts.weightOf(whole, 7.0), 0.0);
   EXPECT_EQ(parts.weightOf(whole, -3e-12), 3e-12);
   std::vector<double> sums(2);
-  sums[static_cast<std::size_t>(whole)] = 14e-12 + 4e-12; // 1 above the initial mean
-  EXPECT_NEAR(parts.meanShifts(sums)[whole], 1.0 - constant, 1e-3);
+  // The iterates begin without the mean of the initial values, and the result has the constant
+  // alone.
+  EXPECT_DOUBLE_EQ(parts.initialMeans()[static_cast<std::size_t>(whole)], 3.5);
+  sums[static_cast<std::size_t>(whole)] = 4e-12; // 1 above 0
+  EXPECT_NEAR(parts.meanShifts(sums)[whole], 1.0 - 2e12, 1e-3);
 }
 
 TEST(Components, ManyLooseRowsAreNotLooseTogether)

@@ -211,6 +211,41 @@ TEST(EllipticFamily, ConditionsOfAllSizesHoldABody)
   }
 }
 
+/** Without a source the solution is nearly a constant, and may be nearer to the initial values than
+ * the rounding of these. */
+TEST(EllipticFamily, AmbientValuesOfAllSizesHoldABodyFromAnyInitialValues)
+{
+  const std::vector<ElementProblem::Values> starts = { columnsOf(Columns,
+                                                         [](const Point&, int) { return 0.7; }),
+    columnsOf(Columns, [](const Point&, int k) { return 293.0 - 1e4 * k; }),
+    columnsOf(Columns, [](const Point& p, int k) { return 293.0 + wave(p, k); }) };
+  std::vector<Hold> robin = holds();
+  std::erase_if(robin, [](const Hold& hold) { return !hold.name.starts_with("Robin"); });
+  ASSERT_EQ(robin.size(), 2U);
+  for (const StreamMesh& mesh : { patch(9, 8), block(4, 4, 5) })
+  {
+    for (const Hold& hold : robin)
+    {
+      for (int exponent = -13; exponent <= 13; ++exponent)
+      {
+        for (std::size_t start = 0; start < starts.size(); ++start)
+        {
+          ElementProblem problem(mesh);
+          problem.Columns = Columns;
+          problem.Initial = starts[start];
+          hold.set(problem, std::pow(10.0, exponent));
+          const std::string name =
+            hold.name + " 1e" + std::to_string(exponent) + " from " + std::to_string(start);
+          const Solved solved = solveMesh(mesh, problem, SolveOptions());
+          EXPECT_TRUE(solved.report.converged) << name;
+          EXPECT_LE(solved.report.cycles, 25) << name;
+          EXPECT_LT(relativeError(solved.values, heldSolution(problem)), 1e-5) << name;
+        }
+      }
+    }
+  }
+}
+
 TEST(EllipticFamily, BodiesThatAreHeldLooselyDoNotKnowEachOther)
 {
   // One body has a large constant, one a prescribed value, one no condition.

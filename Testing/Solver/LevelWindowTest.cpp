@@ -96,4 +96,20 @@ TEST(LevelWindow, ReadsItsSolutionAfterItsRightSideWasRewritten)
     { EXPECT_TRUE(std::ranges::all_of(b, [=](double value) { return value == block; })); });
 }
 
+TEST(LevelWindow, RewritesItsSolutionAndKeepsItsRightSide)
+{
+  StoredLevel level;
+  level.window.rewriteB([](std::int64_t block, std::span<double> b)
+    { std::ranges::fill(b, static_cast<double>(block)); });
+  EXPECT_TRUE(level.reads(5, 100));
+  level.window.rewriteX([](std::int64_t, std::span<double> x)
+    { std::ranges::for_each(x, [](double& value) { value += 1.0; }); });
+  EXPECT_FALSE(level.reads(5, 100));
+  level.window.rewriteX([](std::int64_t, std::span<double> x)
+    { std::ranges::for_each(x, [](double& value) { value -= 1.0; }); });
+  EXPECT_TRUE(level.reads(0, StoredNodes));
+  level.window.rewriteB([](std::int64_t block, std::span<double> b)
+    { EXPECT_TRUE(std::ranges::all_of(b, [=](double value) { return value == block; })); });
+}
+
 } // namespace smg::testing

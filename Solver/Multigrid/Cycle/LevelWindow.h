@@ -273,6 +273,9 @@ public:
    * RowBlock::Nodes nodes without padding, and stores b as f leaves it. */
   template <class F>
   void rewriteB(F&& f);
+  /** The same for x, of the finest level or of one in memory. */
+  template <class F>
+  void rewriteX(F&& f);
 
   /** Moves the buffers of released blocks to `others` for reuse in the first pass. */
   void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MaxSpareRows); }
@@ -317,6 +320,9 @@ private:
   void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
   template <class F>
   void forBlocks(F&& f);
+  template <class F, class Reader, class Writer>
+  void rewrite(std::optional<ScratchStream>& file, Ring<Real>& inMemory, F&& f, const Reader& read,
+    const Writer& append);
   RowBlock readRows(ScratchStream& from, std::int64_t nodes);
   void loadInMemory(StateReader& state, std::int64_t nodes);
 
@@ -365,31 +371,55 @@ template <class Real>
 template <class F>
 void LevelWindow<Real>::rewriteB(F&& f)
 {
-  if (this->RightSide)
+  this->rewrite(
+    this->RightSide, this->Now.b, f, [this](std::span<Real> b) { this->readRightSide(b); },
+    [this](std::span<const Real> b) { this->appendRightSide(b); });
+}
+
+template <class Real>
+template <class F>
+void LevelWindow<Real>::rewriteX(F&& f)
+{
+  this->rewrite(
+    this->Values, this->Now.x, f,
+    [this](std::span<Real> x) { this->Values->read(std::as_writable_bytes(x)); },
+    [this](std::span<const Real> x) { this->Values->append(std::as_bytes(x)); });
+}
+
+/** f(block, values) changes the values of each block, which read() takes from the file, if there is
+ * one, and append() gives back to it. */
+template <class Real>
+template <class F, class Reader, class Writer>
+void LevelWindow<Real>::rewrite(std::optional<ScratchStream>& file, Ring<Real>& inMemory, F&& f,
+  const Reader& read, const Writer& append)
+{
+  // Values come from Packed, in which readX() no longer finds its block.
+  this->CachedBlock = -1;
+  if (file)
   {
-    this->RightSide->startPass(true);
+    file->startPass(true);
   }
   for (std::int64_t first = 0; first < this->Nodes; first += RowBlock::Nodes)
   {
     const std::int64_t end = std::min(this->Nodes, first + RowBlock::Nodes);
     this->Packed.resize(static_cast<std::size_t>((end - first) * this->Columns));
-    const std::span<Real> b(this->Packed);
-    if (this->RightSide)
+    const std::span<Real> values(this->Packed);
+    if (file)
     {
-      this->readRightSide(b);
-      f(first / RowBlock::Nodes, b);
-      this->appendRightSide(b);
+      read(values);
+      f(first / RowBlock::Nodes, values);
+      append(values);
     }
     else
     {
-      this->pack(this->Now.b, this->Columns, first, end, b.data());
-      f(first / RowBlock::Nodes, b);
-      this->unpack(this->Now.b, first, end, b.data());
+      this->pack(inMemory, this->Columns, first, end, values.data());
+      f(first / RowBlock::Nodes, values);
+      this->unpack(inMemory, first, end, values.data());
     }
   }
-  if (this->RightSide)
+  if (file)
   {
-    this->RightSide->endPass();
+    file->endPass();
   }
 }
 

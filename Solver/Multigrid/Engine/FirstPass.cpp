@@ -53,15 +53,15 @@ FirstResidual FirstPass::run(
   }
   this->Built.open(mesh.info().vertices);
   const FirstResidual residual = this->build(mesh, problem, listener);
-  projectRightSide(this->Run, this->Built);
+  project(this->Run, this->Built);
   this->Run.report.seconds.build = building.seconds();
   this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
   return residual;
 }
 
-void FirstPass::projectRightSide(SolveContext& run, Hierarchy& hierarchy)
+void FirstPass::project(SolveContext& run, Hierarchy& hierarchy)
 {
-  if (run.free.projectRightSide(hierarchy.window(), run.report))
+  if (run.free.project(hierarchy.window(), run.report))
   {
     // The coarse levels were given the right-hand side before the projection, of a problem without
     // a solution: their correction is left out.
@@ -233,8 +233,11 @@ FirstResidual FirstPass::residualOf(const InitialResidual& residual, const Compo
   // If the sources equal their mean, only the rounding of this difference of squares remains, which
   // does not measure the residual: then the sources themselves do.
   const double minShare = components.anyHeldLoosely() ? 1e-12 : 1e-14;
+  // The mean of the initial values, whose rounding may be more than all that varies, is no longer
+  // in the iterates of components that are held loosely.
   return { std::sqrt(shifted < minShare * whole ? whole : shifted),
-    roundingOf(residual.roundingSquares()) };
+    roundingOf(
+      components.initialMeans().empty() ? residual.roundingSquares() : residual.loadSquares()) };
 }
 
 } // namespace smg

@@ -49,7 +49,7 @@ public:
   /** Takes note of the initial values, if the range of the iterates is wanted. */
   static void beginRange(SolveContext& run, const InitialResidual& residual);
   /** Makes the right-hand sides of free components sum to zero, after they were restricted. */
-  static void projectRightSide(SolveContext& run, Hierarchy& hierarchy);
+  static void project(SolveContext& run, Hierarchy& hierarchy);
 
 private:
   FirstResidual run(

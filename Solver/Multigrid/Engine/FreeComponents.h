@@ -38,7 +38,8 @@ enum class UndeterminedValues
  * like that, too, for what its solution is beside a constant (Components). Values that nothing
  * determines keep the initial value or become not a number, as the problem wants.
  *
- * A State of the finest level provides nodes(), rewriteB() and readX(), like LevelWindow.
+ * A State of the finest level provides nodes(), rewriteB(), rewriteX() and readX(), like
+ * LevelWindow.
  */
 class SMG_EXPORT FreeComponents
 {
@@ -51,9 +52,11 @@ public:
   }
 
   /** Makes the right-hand sides of floating components sum to zero where they do not: subtracts the
-   * mean of the source, notes this in the report if it changes the problem, and returns true. */
+   * mean of the source, and notes this in the report if it changes the problem. The iterates of
+   * components that are held loosely lose the mean of their initial values. Returns whether this
+   * has changed the residual. */
   template <class State>
-  bool projectRightSide(State& level, Report& report);
+  bool project(State& level, Report& report);
 
   /** To be called after the solve: prepares complete(). `report` has the counts of the assembly
    * and gets notes. */
@@ -90,6 +93,9 @@ private:
    * the index in the block, the component, and the weight of the vertex in its means. */
   template <class F>
   void forFree(std::int64_t block, F&& f);
+  template <class F>
+  void subtract(
+    std::span<const double> ofComponents, std::int64_t block, std::span<double> values, F&& factor);
   template <class State>
   void fixMeans(State& level, Report& report);
 
@@ -115,32 +121,43 @@ void FreeComponents::forFree(std::int64_t block, F&& f)
 }
 
 template <class State>
-bool FreeComponents::projectRightSide(State& level, Report& report)
+bool FreeComponents::project(State& level, Report& report)
 {
-  if (!this->Parts.shiftsRightSide())
+  if (const std::vector<double> means = this->Parts.initialMeans(); !means.empty())
+  {
+    level.rewriteX([&](std::int64_t block, std::span<double> x)
+      { this->subtract(means, block, x, [](double) { return 1.0; }); });
+  }
+  const std::vector<double> shifts = this->Parts.rightSideShifts();
+  if (std::ranges::all_of(shifts, [](double shift) { return shift == 0.0; }))
   {
     return false;
   }
-  const std::vector<double> shifts = this->Parts.rightSideShifts();
-  const auto columns = static_cast<std::size_t>(this->Columns);
-  level.rewriteB(
-    [&](std::int64_t block, std::span<double> b)
-    {
-      this->forFree(block,
-        [&](std::size_t i, std::int32_t root, double weight)
-        {
-          for (std::size_t k = 0; k < columns; ++k)
-          {
-            b[i * columns + k] -= weight * shifts[static_cast<std::size_t>(root) * columns + k];
-          }
-        });
-    });
+  level.rewriteB([&](std::int64_t block, std::span<double> b)
+    { this->subtract(shifts, block, b, [](double weight) { return weight; }); });
   if (const double share = this->Parts.incompatibility(); share > 0.0)
   {
     report.removed_source = this->Parts.shiftedSums();
     noteIncompatibility(report, share);
   }
-  return true;
+  return this->Parts.shiftsRightSide();
+}
+
+/** Subtracts of the values of a block those of their component, times factor(weight). */
+template <class F>
+void FreeComponents::subtract(
+  std::span<const double> ofComponents, std::int64_t block, std::span<double> values, F&& factor)
+{
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  this->forFree(block,
+    [&](std::size_t i, std::int32_t root, double weight)
+    {
+      for (std::size_t k = 0; k < columns; ++k)
+      {
+        values[i * columns + k] -=
+          factor(weight) * ofComponents[static_cast<std::size_t>(root) * columns + k];
+      }
+    });
 }
 
 /** Computes by how much the values of free components are to be shifted: one pass over the

@@ -190,7 +190,7 @@ FirstResidual LinearEngine::begin()
   checkSquares(residual.termSquares(), residual.anyTerm());
   FirstPass::beginRange(this->Run, residual);
   Pass(this->Run, this->Levels).begin();
-  FirstPass::projectRightSide(this->Run, this->Levels);
+  FirstPass::project(this->Run, this->Levels);
   return FirstPass::residualOf(residual, components);
 }
 

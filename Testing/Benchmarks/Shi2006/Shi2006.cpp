@@ -36,17 +36,29 @@ struct FinestState
   {
     std::copy_n(this->level.value.at(first), count * this->level.columns(), values);
   }
+  template <class F>
+  void rewriteX(F&& f) const
+  {
+    this->rewrite(this->level.value, f);
+  }
   /** Changes xi0 instead of b, block by block: b also has the contributions of the edge targets,
    * which must not change, and is summed again afterwards. */
   template <class F>
   void rewriteB(F&& f) const
   {
+    this->rewrite(this->level.constraint, f);
+  }
+
+private:
+  template <class Numbers, class F>
+  void rewrite(Numbers& numbers, F&& f) const
+  {
     constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
     for (std::int64_t first = 0; first < this->nodes(); first += Block)
     {
       const std::int64_t count = std::min(Block, this->nodes() - first);
-      f(first / Block, std::span(this->level.constraint.at(first),
-                         static_cast<std::size_t>(count * this->level.columns())));
+      f(first / Block,
+        std::span(numbers.at(first), static_cast<std::size_t>(count * this->level.columns())));
     }
   }
 };
@@ -142,7 +154,7 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   reportAssembly(rows.assembly(), this->Parts, this->Result);
   this->RoundingNorm = roundingOf(rows.assembly().residual().termSquares());
   FinestState state{ finest };
-  this->Free.projectRightSide(state, this->Result);
+  this->Free.project(state, this->Result);
   sumRightSide(finest);
   this->Result.passes = 1;
 }
