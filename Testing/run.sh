@@ -13,7 +13,8 @@
 #                                  assertions
 #   benchmarks  build/             the benchmarks on tiny meshes
 #   nightly     build/             what main leaves out since it takes long and seldom fails: the tests of the
-#                                  VTK classes on ParaView's VTK, and of more numbers of processes
+#                                  VTK classes on ParaView's VTK, more numbers of processes, Testing/nightly.txt
+#   nightly-asan-ubsan  build-asan-ubsan/  what asan-ubsan leaves out, of the same list
 #   debug       build-debug/       main without a unity build, where each source must include what it uses;
 #                                  with assertions; for daily work
 #   tsan        build-tsan/        Solver, IO and smg without VTK, under ThreadSanitizer; unity build; for a
@@ -64,6 +65,15 @@ run_tests() {
   ctest --preset "$1" --parallel "$((jobs + 1))" --output-junit tests.xml "${@:2}"
 }
 
+# regex_of NAME...
+# Those tests alone.
+regex_of() {
+  echo "^($(printf '%s\n' "$@" | sed 's/\./\\./g' | paste -sd '|'))\$"
+}
+slow() { regex_of $(sed -e '/^#/d' Testing/slow.txt); }
+# nightly CONFIGURATION: the tests that it leaves to the night.
+nightly() { regex_of $(awk -v of="$1" '!/^#/ && NF && ($2 ? $2 : "main") == of { print $1 }' Testing/nightly.txt); }
+
 # The programs under sanitizers are compiled while the tests of main leave processors idle. What fails, or is
 # not finished then, their own configuration compiles again.
 ahead=
@@ -99,12 +109,12 @@ for configuration in $configurations; do
   case $configuration in
     quick)
       build_main
-      run_tests release --exclude-regex "^($(sed -e '/^#/d' -e '/^$/d' -e 's/\./\\./g' Testing/slow.txt | paste -sd '|'))\$"
+      run_tests release --exclude-regex "$(slow)"
       ;;
     main)
       build_main
       begin_sanitizers
-      run_tests release
+      run_tests release --exclude-regex "$(nightly main)"
       ;;
     vtk)
       build_main
@@ -123,6 +133,11 @@ for configuration in $configurations; do
     nightly)
       configure_build release -DSMG_BUILD_VTK_TESTS=ON
       run_tests nightly
+      run_tests release --tests-regex "$(nightly main)"
+      ;;
+    nightly-asan-ubsan)
+      configure_build asan-ubsan
+      run_tests asan-ubsan --tests-regex "$(nightly asan-ubsan)"
       ;;
     asan-ubsan)
       end_sanitizers
@@ -130,7 +145,7 @@ for configuration in $configurations; do
       # Of the preset: intercept_tls_get_addr=0, since libasan 8 now and then takes variables of threads in
       # libraries that were opened later for memory of another kind and ends the search for leaks; and
       # LD_LIBRARY_PATH, since its dlopen() knows no DT_RUNPATH.
-      run_tests asan-ubsan
+      run_tests asan-ubsan --exclude-regex "$(nightly asan-ubsan)"
       ;;
     debug | tsan)
       configure_build "$configuration"

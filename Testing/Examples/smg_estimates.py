@@ -226,7 +226,7 @@ def test_unconverted():
 
 
 def write_meshes():
-    write_surface("surface.ply", 300, 250)
+    write_surface("surface.ply", 220, 190)
     write_solid("solid.mesh", WIDTH)
     run("convert", "surface.ply", "surface.vsm", "--quiet")
     run("convert", "surface.vsm", "surface.smb", "--order", "keep", "--quiet")
@@ -239,7 +239,7 @@ def write_meshes():
 if os.path.exists("o.vsm"):  # of an earlier failed run
     os.remove("o.vsm")
 shutil.rmtree("checkpoint", ignore_errors=True)
-WIDTH = 38
+WIDTH = 30
 write_meshes()
 write_tasks()
 test_formats()

@@ -39,14 +39,14 @@ void expectNoGrowth(const std::function<IndexedTestMesh(int)>& meshOf)
 
 TEST(ConvergenceLaw, GoodSurfaces)
 {
-  expectNoGrowth([](int times) { return torus(270 * times, 135 * times, 0.2); });
+  expectNoGrowth([](int times) { return torus(200 * times, 100 * times, 0.2); });
 }
 
 TEST(ConvergenceLaw, NoisySurfaces)
 {
   for (const std::uint64_t seed : { 1, 2 })
   {
-    expectNoGrowth([seed](int times) { return noisyGyroid(30 * times, 0.05, seed); });
+    expectNoGrowth([seed](int times) { return noisyGyroid(24 * times, 0.05, seed); });
   }
 }
 
@@ -59,12 +59,12 @@ TEST(ConvergenceLaw, ClustersOnSurfacesCostFewCycles)
 
 TEST(ConvergenceLaw, GoodSolids)
 {
-  expectNoGrowth([](int times) { return tetBox(20 * times, 20 * times, 20 * times); });
+  expectNoGrowth([](int times) { return tetBox(15 * times, 15 * times, 15 * times); });
 }
 
 TEST(ConvergenceLaw, NoisySolids)
 {
-  expectNoGrowth([](int times) { return tetBox(20 * times, 20 * times, 20 * times, 0.19); });
+  expectNoGrowth([](int times) { return tetBox(15 * times, 15 * times, 15 * times, 0.19); });
 }
 
 // To 2.3 million vertices of surfaces and 1.7 million of solids.

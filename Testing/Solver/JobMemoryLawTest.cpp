@@ -23,7 +23,7 @@ class JobLimitLaw : public JobTest
 protected:
   StreamMesh someMesh() const
   {
-    return toStream(this->job().ofSurfaces ? torus(200, 100, 0.3) : tetBox(27, 27, 27, 0.15));
+    return toStream(this->job().ofSurfaces ? torus(140, 70, 0.3) : tetBox(20, 20, 20, 0.15));
   }
   Way someWay() const
   {
@@ -124,7 +124,7 @@ TEST_P(JobLimitLaw, TheLimitThatAnErrorNamesSuffices)
 TEST_P(JobLimitLaw, ALimitBelowTheNeedIsRefusedWithBothFigures)
 {
   const JobOnMesh run(this->job(),
-    toStream(this->job().ofSurfaces ? torus(400, 200, 0.3) : tetBox(40, 40, 40, 0.15)));
+    toStream(this->job().ofSurfaces ? torus(280, 140, 0.3) : tetBox(30, 30, 30, 0.15)));
   for (const bool inCore : { false, true })
   {
     if (inCore && !this->job().inCore)
@@ -149,7 +149,7 @@ TEST_P(JobMemoryLaw, OfASurfaceIsTheSquareRoot)
 {
   if (this->job().ofSurfaces)
   {
-    this->expectGrowth({ torus(316, 158), torus(632, 316), torus(1264, 632) }, 2.2, 2.4);
+    this->expectGrowth({ torus(224, 112), torus(448, 224), torus(896, 448) }, 2.2, 2.4);
   }
 }
 
@@ -176,7 +176,7 @@ TEST_P(JobMemoryLaw, OfAStripIsItsWidth)
   // Independent of the length, except that every additional level keeps some blocks.
   if (this->job().ofSurfaces)
   {
-    this->expectGrowth({ grid(2000, 40), grid(8000, 40) }, 1.25, 1.25);
+    this->expectGrowth({ grid(1500, 40), grid(6000, 40) }, 1.25, 1.25);
   }
 }
 
