@@ -22,9 +22,9 @@ namespace smg
 struct PartSystem
 {
   std::unique_ptr<HypreMatrix> matrix;
-  std::vector<std::vector<double>> x, b; ///< by column: initial values, right-hand side
-  std::vector<double> share;             ///< see commonShare()
-  std::vector<double> mass;              ///< as the weight of Components::count()
+  std::vector<std::vector<double>> x, b;  ///< by column: initial values, right-hand side
+  std::vector<double> share;              ///< see commonShare()
+  std::vector<double> mass;               ///< as the weight of Components::count()
   std::vector<std::int64_t> undetermined; ///< own vertices, from 0, that nothing determines
   // By column, of all processes: see InitialResidual.
   std::vector<double> termSquares, roundingSquares;
