@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Assembly/Components.h"
+#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"

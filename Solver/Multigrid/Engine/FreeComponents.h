@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/Components.h"
+#include "Solver/Assembly/ComponentLabels.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 #include "smg/Report.h"

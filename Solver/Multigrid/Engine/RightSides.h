@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/Components.h"
+#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Assembly/KnownLinks.h"
 #include "Solver/Assembly/RowAssembly.h"
 #include "Solver/Memory/Pool.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Assembly/Components.h"
+#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Files/IoStatistics.h"
