@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
+#include "Testing/IO/HdfFile.h"
 #include "Testing/IO/ImportFixture.h"
 #include "Testing/Support/ErrorMessage.h"
 
 #include <array>
 #include <functional>
 #include <limits>
+#include <span>
+#include <utility>
 
 namespace smg::testing
 {
@@ -156,6 +159,79 @@ private:
   Hdf5Output Out;
 };
 
+/** What an unstructured grid of three time steps stores once for all of them. */
+struct Stays
+{
+  bool points, counts;
+};
+constexpr std::int64_t GridSteps = 3, GridParts = 2;
+
+/** Partition p has 4 + p points, at the height of the step if they move, and 2 + p triangles around
+ * the first one, always the same; the column Step is the number of the step. */
+void writeGrid(const std::filesystem::path& path, const Stays& stays)
+{
+  std::vector<float> points, values;
+  std::vector<std::int64_t> counts, cells, ids, corners, ends, parts, own, pointOffsets, zeros;
+  std::vector<std::int64_t> valueOffsets;
+  for (std::int64_t step = 0; step < GridSteps; ++step)
+  {
+    parts.push_back(stays.counts ? 0 : step * GridParts);
+    own.push_back(GridParts);
+    zeros.push_back(0);
+    pointOffsets.push_back(stays.points ? 0 : static_cast<std::int64_t>(points.size() / 3));
+    valueOffsets.push_back(static_cast<std::int64_t>(values.size()));
+    for (std::int64_t part = 0; part < GridParts; ++part)
+    {
+      values.insert(values.end(), static_cast<std::size_t>(4 + part), static_cast<float>(step));
+      for (int i = 0; i < 4 + part && (step == 0 || !stays.points); ++i)
+      {
+        points.insert(points.end(), { static_cast<float>(i), static_cast<float>(i * i),
+                                      static_cast<float>(stays.points ? 0 : step) });
+      }
+      if (step == 0 || !stays.counts)
+      {
+        counts.push_back(4 + part);
+        cells.push_back(2 + part);
+        ids.push_back(3 * (2 + part));
+      }
+      for (std::int64_t cell = 0; cell < 2 + part && step == 0; ++cell)
+      {
+        corners.insert(corners.end(), { 0, cell + 1, cell + 2 });
+      }
+      for (std::int64_t end = 0; end <= 2 + part && step == 0; ++end)
+      {
+        ends.push_back(3 * end);
+      }
+    }
+  }
+  HdfFile file(path, "UnstructuredGrid");
+  const auto add = [&file](
+                     const std::string& name, ScalarType type, int components, const auto& all)
+  {
+    file.out().addDataset("/VTKHDF/" + name, type, components);
+    file.out().append("/VTKHDF/" + name, std::span(all));
+  };
+  for (const char* group : { "PointData", "Steps", "Steps/PointDataOffsets" })
+  {
+    file.group(group);
+  }
+  add("Points", ScalarType::Float32, 3, points);
+  add("PointData/Step", ScalarType::Float32, 0, values);
+  add("Types", ScalarType::UInt8, 0, std::vector<std::uint8_t>(corners.size() / 3, 5));
+  const std::pair<const char*, const std::vector<std::int64_t>&> lists[] = { { "NumberOfPoints",
+                                                                               counts },
+    { "NumberOfCells", cells }, { "NumberOfConnectivityIds", ids }, { "Connectivity", corners },
+    { "Offsets", ends }, { "Steps/PartOffsets", parts }, { "Steps/NumberOfParts", own },
+    { "Steps/PointOffsets", pointOffsets }, { "Steps/CellOffsets", zeros },
+    { "Steps/ConnectivityIdOffsets", zeros }, { "Steps/PointDataOffsets/Step", valueOffsets } };
+  for (const auto& [name, numbers] : lists)
+  {
+    add(name, ScalarType::Int64, 0, numbers);
+  }
+  file.out().addIntegers("/VTKHDF/Steps", "NSteps", std::vector<std::int64_t>{ GridSteps });
+  file.finish();
+}
+
 class VtkHdfTimeSteps : public ImportFixture
 {
 protected:
@@ -220,6 +296,32 @@ TEST_F(VtkHdfTimeSteps, CellsStayWherePointsMove)
   this->expectSteps(stepsOf(4, some, some), true);
   this->expectSteps(stepsOf(4, last, others), true);
   this->expectSteps(stepsOf(4, others, last), true);
+}
+
+/** As simulations store meshes that do not change, or whose points alone move. */
+TEST_F(VtkHdfTimeSteps, GridsStoreOnceWhatStays)
+{
+  for (const Stays& stays :
+    { Stays{ true, true }, Stays{ true, false }, Stays{ false, true }, Stays{ false, false } })
+  {
+    SCOPED_TRACE(std::string(stays.points ? "points " : "") + (stays.counts ? "counts" : ""));
+    writeGrid(this->Folder / "grid.vtkhdf", stays);
+    for (std::int64_t step = 0; step < GridSteps; ++step)
+    {
+      const ReadMesh mesh = this->readStep("grid.vtkhdf", step, {});
+      EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 4, 7, 8 }));
+      ASSERT_EQ(mesh.vertices(), 9);
+      ASSERT_EQ(mesh.vertexColumns.size(), 1U);
+      for (std::int64_t vertex = 0; vertex < mesh.vertices(); ++vertex)
+      {
+        EXPECT_EQ(mesh.positions[static_cast<std::size_t>(3 * vertex + 2)],
+          stays.points ? 0.0 : static_cast<double>(step));
+        EXPECT_EQ(mesh.vertexColumns[0].value(static_cast<std::size_t>(vertex)), step);
+      }
+      EXPECT_EQ(
+        this->readStep("grid.vtkhdf", step, 1).corners, (Numbers{ 0, 1, 2, 0, 2, 3, 0, 3, 4 }));
+    }
+  }
 }
 
 TEST_F(VtkHdfTimeSteps, CellsChange)

@@ -198,7 +198,7 @@ private:
       cells.points = this->counts(cells.group + "NumberOfConnectivityIds");
       cells.firstCell = this->Step.number("CellOffsets", 0, kind, kinds.size());
       cells.firstPoint = this->Step.number("ConnectivityIdOffsets", 0, kind, kinds.size());
-      cells.firstEnd = type == 0 ? this->FirstPart : this->partsBefore(cells);
+      cells.firstEnd = this->partsBefore(cells);
       ++kind;
       this->Lists.push_back(std::move(cells));
     }
