@@ -3,12 +3,15 @@
 
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Import/Weld.h"
+#include "IO/Mesh/Columns.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace smg
 {
@@ -63,10 +66,55 @@ std::vector<std::int64_t> ranksOf(const std::vector<std::int64_t>& numbers)
   return ranks;
 }
 
+bool hasCellNumbers(const StoredMesh& mesh)
+{
+  return findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0;
+}
+
+/** Calls use(number of the first, vertices) for the vertices of no cell, some at a time. */
+template <class Use>
+void forEachIsolated(const StoredMesh& mesh, const Use& use)
+{
+  VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
+  IsolatedVertices chunk;
+  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
+  {
+    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
+    use(first, chunk);
+  }
+}
+
+/** Whether each cell of the file has become one of the mesh. */
+bool keepsCells(const ConversionReport& conversion)
+{
+  return !conversion.keeps_numbers && conversion.dropped_cells == 0 &&
+         conversion.triangulated_polygons == 0 && conversion.split_cells == 0;
+}
+
 } // namespace
 
-OriginalOrder::OriginalOrder(
+std::int64_t countElements(
   const StoredMesh& mesh, const ConversionReport* conversion, const ProgressFunction& progress)
+{
+  if (!hasCellNumbers(mesh) || (conversion && keepsCells(*conversion)))
+  {
+    return mesh.info().cells;
+  }
+  std::int64_t largest = -1;
+  visitBlocks(*mesh.source({}, { OriginalCellIdName }), progress, 0.0, 1.0,
+    [&largest](const MeshBlock& block)
+    {
+      for (const std::int64_t number : block.cellColumns[0].as<std::int64_t>())
+      {
+        largest = std::max(largest, number);
+      }
+    });
+  return largest + 1;
+}
+
+OriginalOrder::OriginalOrder(const StoredMesh& mesh, const ConversionReport* conversion,
+  const ProgressFunction& progress, std::optional<double> weld)
   : StreamVertices(mesh.info().vertices)
 {
   this->Vertices.count = countVertices(mesh);
@@ -80,14 +128,17 @@ OriginalOrder::OriginalOrder(
   {
     this->readVertices(mesh, partOf(progress, 0.0, 0.5));
   }
-  if (isTold && conversion->dropped_cells == 0 && conversion->triangulated_polygons == 0 &&
-      conversion->split_cells == 0 && findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0)
+  if (isTold && keepsCells(*conversion) && hasCellNumbers(mesh))
   {
     this->Cells.column = OriginalCellIdName;
   }
   else
   {
     this->readCells(mesh, partOf(progress, 0.5, 1.0));
+  }
+  if (weld && (!conversion || conversion->merged_points > 0))
+  {
+    this->findMerged(mesh, *weld, partOf(progress, 1.0, 1.0));
   }
 }
 
@@ -106,14 +157,8 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
   SeenNumbers seen(this->Vertices.count);
   visitBlocks(*mesh.source({ OriginalIdName }, {}), progress, 0.0, 1.0,
     [&seen](const MeshBlock& block) { seen.add(block.vertexColumns[0].as<std::int64_t>()); });
-  VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
-  IsolatedVertices chunk;
-  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
-  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
-  {
-    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
-    seen.add(chunk.ids);
-  }
+  forEachIsolated(
+    mesh, [&seen](std::int64_t, const IsolatedVertices& vertices) { seen.add(vertices.ids); });
   if (seen.areRows())
   {
     this->Vertices.column = OriginalIdName;
@@ -122,7 +167,7 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
 
 void OriginalOrder::readCells(const StoredMesh& mesh, const ProgressFunction& progress)
 {
-  if (findColumn(mesh.info().cellColumns, OriginalCellIdSpec) < 0)
+  if (!hasCellNumbers(mesh))
   {
     return;
   }
@@ -143,6 +188,50 @@ void OriginalOrder::readCells(const StoredMesh& mesh, const ProgressFunction& pr
   else if (!std::ranges::is_sorted(numbers))
   {
     this->Cells.table = ranksOf(numbers);
+  }
+}
+
+/** Merged points are vertices of no cell of the file of the mesh: which ones, and with what,
+ * follows from the positions as in the conversion. */
+void OriginalOrder::findMerged(
+  const StoredMesh& mesh, double weld, const ProgressFunction& progress)
+{
+  const auto count = static_cast<std::size_t>(this->Vertices.count);
+  std::vector<WeldPoint> points(count);
+  std::vector<bool> isOfCell(count);
+  const auto add = [&points](std::int64_t row, const double* position)
+  {
+    points[static_cast<std::size_t>(row)] = { { position[0], position[1], position[2] },
+      static_cast<std::uint32_t>(row) };
+  };
+  std::vector<std::int64_t> rows;
+  visitBlocks(*mesh.source(this->Vertices.columns(), {}), progress, 0.0, 1.0,
+    [&](const MeshBlock& block)
+    {
+      rows.clear();
+      this->Vertices.append(block, rows);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        add(rows[i], block.positions.data() + 3 * i);
+        isOfCell[static_cast<std::size_t>(rows[i])] = true;
+      }
+    });
+  forEachIsolated(mesh,
+    [&](std::int64_t first, const IsolatedVertices& vertices)
+    {
+      for (std::size_t i = 0; i < vertices.ids.size(); ++i)
+      {
+        add(this->isolatedRow(first + static_cast<std::int64_t>(i), vertices.ids[i]),
+          vertices.positions.data() + 3 * i);
+      }
+    });
+  const std::vector<std::uint32_t> kept = mergedWith(std::move(points), weld);
+  for (std::size_t row = 0; row < count; ++row)
+  {
+    if (!isOfCell[row] && isOfCell[kept[row]])
+    {
+      this->Merged.push_back({ static_cast<std::int64_t>(row), kept[row] });
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,15 +58,29 @@ struct OriginalRows
 };
 
 /**
+ * The number of cells of the file or arrays of which the cells of a mesh are parts, as
+ * OriginalCellId says: one more than the largest. Without this column it is that of the cells.
+ * @param conversion that has made the mesh; null: not known. The column is read unless it tells.
+ * @throws Error if the file cannot be read; Cancelled
+ */
+SMG_EXPORT std::int64_t countElements(const StoredMesh& mesh,
+  const ConversionReport* conversion = nullptr, const ProgressFunction& progress = {});
+
+/** A point of the file that was merged with another one, and that one: rows of vertices. */
+struct MergedRow
+{
+  std::int64_t row, kept;
+};
+
+/**
  * The original order of a mesh, in which arrays have a row for each vertex or cell: that of the
  * file or of the arrays it was made of, by the columns OriginalId and OriginalCellId.
  *
- * Vertices include those of no cell; points that were merged with others have rows without a
- * vertex. Triangles or tetrahedra that were a single cell of the file follow each other, in stream
- * order, and nothing stands for cells that were left out. Where a column is missing, or has other
- * numbers than 0, 1, ... (as that of a simplified surface, which names vertices of another mesh, or
- * of a file whose points were merged before), the order is that of the stream, before the vertices
- * of no cell.
+ * Vertices include those of no cell, and points that were merged with others. Triangles or
+ * tetrahedra that were a single cell of the file follow each other, in stream order, and nothing
+ * stands for cells that were left out. Where a column is missing, or has other numbers than 0, 1,
+ * ... (as that of a simplified surface, which names vertices of another mesh, or of a file whose
+ * points were merged before), the order is that of the stream, before the vertices of no cell.
  */
 class SMG_EXPORT OriginalOrder
 {
@@ -74,13 +89,17 @@ public:
    * Reads the numbers, unless the conversion tells all of them.
    * @param mesh a mesh with a StoredMesh::file()
    * @param conversion that has made the mesh; null: not known
+   * @param weld ConversionOptions::weld of that
    * @throws Error if the file cannot be read; Cancelled
    */
   explicit OriginalOrder(const StoredMesh& mesh, const ConversionReport* conversion = nullptr,
-    const ProgressFunction& progress = {});
+    const ProgressFunction& progress = {}, std::optional<double> weld = {});
 
   /** The number of vertices in the original order, for which nothing is read but the header. */
   static std::int64_t countVertices(const StoredMesh& mesh);
+
+  /** The points that the conversion has merged with a vertex of the mesh. */
+  const std::vector<MergedRow>& merged() const { return this->Merged; }
 
   const OriginalRows& vertices() const { return this->Vertices; }
   const OriginalRows& cells() const { return this->Cells; }
@@ -94,8 +113,10 @@ public:
 private:
   void readVertices(const StoredMesh& mesh, const ProgressFunction& progress);
   void readCells(const StoredMesh& mesh, const ProgressFunction& progress);
+  void findMerged(const StoredMesh& mesh, double weld, const ProgressFunction& progress);
 
   OriginalRows Vertices, Cells;
+  std::vector<MergedRow> Merged;
   std::int64_t StreamVertices = 0;
 };
 

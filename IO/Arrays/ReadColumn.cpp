@@ -279,6 +279,16 @@ void readSolution(const StoredMesh& mesh, const OriginalOrder& order, const Adde
           }
         });
     });
+  fillMerged(order, column, values);
+}
+
+void fillMerged(const OriginalOrder& order, const ColumnSpec& column, std::byte* values)
+{
+  const Rows rows(values, column);
+  for (const MergedRow& merged : order.merged())
+  {
+    rows.put(merged.row, rows.row(merged.kept));
+  }
 }
 
 } // namespace smg

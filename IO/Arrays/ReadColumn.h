@@ -26,7 +26,7 @@ SMG_EXPORT ColumnSpec columnOf(const StreamInfo& mesh, bool ofCells, const std::
  * @param added the same mesh if it has added columns, for vertices of no cell; else null
  * @param ofCells of the cells, or of the vertices
  * @param name the column, see columnOf()
- * @param values room for all rows. Rows without a vertex, those of merged points, are NaN or 0.
+ * @param values room for all rows
  * @throws Error if the mesh has no such column or cannot be read; Cancelled
  */
 SMG_EXPORT void readColumn(const StoredMesh& mesh, const OriginalOrder& order,
@@ -39,10 +39,14 @@ SMG_EXPORT void readColumn(const StoredMesh& mesh, const OriginalOrder& order,
  * @param first the number of the first of the components
  * @param column the type that they are rounded to, how many there are, and their value at vertices
  * of no cell (ColumnSpec::isolated; none: what the mesh has there in a column of this name)
- * @param values room for all rows
+ * @param values room for all rows; points that were merged have the values of those with which
  */
 SMG_EXPORT void readSolution(const StoredMesh& mesh, const OriginalOrder& order,
   const AddedColumns* added, Solution& solution, int first, const ColumnSpec& column,
   std::byte* values, const ProgressFunction& progress = {});
+
+/** Gives points that were merged with others (OriginalOrder::merged()) the values of these, in a
+ * whole column of the vertices that was read. */
+SMG_EXPORT void fillMerged(const OriginalOrder& order, const ColumnSpec& column, std::byte* values);
 
 } // namespace smg

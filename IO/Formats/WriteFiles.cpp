@@ -250,7 +250,7 @@ std::vector<std::string> writeMesh(
       if (!options.isolatedFrom.empty())
       {
         copyIsolated(options.isolatedFrom, source.info(), writer, options.completeIsolated,
-          options.isolatedFingerprint);
+          options.isolatedFingerprint, options.changeIsolated);
       }
     };
     writeVsm(source, path,

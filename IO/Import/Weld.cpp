@@ -6,9 +6,12 @@
 #include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
+#include <functional>
+#include <limits>
 #include <unordered_map>
 
 namespace smg
@@ -17,16 +20,7 @@ namespace smg
 namespace
 {
 
-struct Point
-{
-  std::array<double, 3> position;
-  std::uint32_t id;
-
-  bool operator<(const Point& other) const
-  {
-    return this->position != other.position ? this->position < other.position : this->id < other.id;
-  }
-};
+using Point = WeldPoint;
 
 /** The remaining points that may be close to a later point. */
 class NearPoints
@@ -187,6 +181,18 @@ std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace)
   }
   mesh.counts.mergedPoints += merged;
   return merged;
+}
+
+std::vector<std::uint32_t> mergedWith(std::vector<WeldPoint> points, double tolerance)
+{
+  std::ranges::sort(points, std::less());
+  NearPoints near(tolerance, std::numeric_limits<std::int64_t>::max());
+  std::vector<std::uint32_t> kept(points.size());
+  for (const Point& point : points)
+  {
+    kept[point.id] = near.findOrKeep(point);
+  }
+  return kept;
 }
 
 } // namespace smg

@@ -3,8 +3,24 @@
 
 #include "IO/Import/RawMesh.h"
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace smg
 {
+
+/** A point with its number. */
+struct WeldPoint
+{
+  std::array<double, 3> position;
+  std::uint32_t id;
+
+  bool operator<(const WeldPoint& other) const
+  {
+    return this->position != other.position ? this->position < other.position : this->id < other.id;
+  }
+};
 
 /** Throws Error unless weldPoints() accepts this tolerance. */
 void checkWeldDistance(double tolerance);
@@ -19,5 +35,9 @@ void checkWeldDistance(double tolerance);
  * tolerance along x than fit into the memory; Cancelled
  */
 std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace);
+
+/** The points with which weldPoints() merges those of a mesh in memory, themselves where it does
+ * not: by their numbers, which are 0, 1, ... in any order. */
+std::vector<std::uint32_t> mergedWith(std::vector<WeldPoint> points, double tolerance);
 
 } // namespace smg

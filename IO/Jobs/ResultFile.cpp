@@ -214,6 +214,7 @@ std::vector<std::string> ResultFile::write(const StoredMesh& mesh, MeshSource& r
   options.isolatedFrom = mesh.file();
   options.isolatedFingerprint = mesh.fileFingerprint();
   options.completeIsolated = this->Files.isolated;
+  options.changeIsolated = this->Files.merged;
   options.threads = this->threads(memory);
   options.text = this->Files.text;
   options.progress = progress;

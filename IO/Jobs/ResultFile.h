@@ -48,6 +48,8 @@ public:
     bool adds = false;
     /** Adds columns to vertices of no cell; see WriteMeshOptions. */
     CompleteIsolated isolated = {};
+    /** Changes them as they are written to a .vsm file; see WriteMeshOptions::changeIsolated. */
+    CompleteIsolated merged = {};
     /** The state of `in` before it was read; none: now, before it is read. */
     std::optional<InputState> state = {};
   };

@@ -66,6 +66,10 @@ void readOf(smg_field& field, bool ofCells, const std::string& name, std::byte* 
   if (isOfResult(field, ofCells, name))
   {
     readColumn(VsmReader(field.file(progress)), *order, nullptr, ofCells, name, values, progress);
+    if (!ofCells)
+    {
+      fillMerged(*order, columnOf(field.info(), ofCells, name), values);
+    }
     return;
   }
   readColumn(field.stored(), *order, field.added.get(), ofCells, name, values, progress);
@@ -137,8 +141,14 @@ smg_status smg_read(smg_mesh* mesh, smg_field* field, const char* name, int cell
         return;
       }
       const smg_mesh given = smg::required(mesh, "mesh and field").withoutArguments();
-      smg::readColumn(given.stored(), *given.shared->order(reported), given.added.get(), cells != 0,
-        column, room, reported);
+      const auto order = given.shared->order(reported);
+      smg::readColumn(
+        given.stored(), *order, given.added.get(), cells != 0, column, room, reported);
+      const bool isAdded = given.added && given.added->find(false, column);
+      if (cells == 0 && given.shared->isResult(column) && !isAdded)
+      {
+        smg::fillMerged(*order, smg::columnOf(given.stored().info(), false, column), room);
+      }
     });
 }
 

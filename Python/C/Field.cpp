@@ -2,8 +2,10 @@
 #include "Python/C/Field.h"
 
 #include "IO/Arrays/ArgumentColumns.h"
+#include "IO/Arrays/MergedValues.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Mesh/Columns.h"
 #include "Python/C/Call.h"
 #include "Python/C/JobText.h"
 #include "Python/C/Options.h"
@@ -15,6 +17,22 @@
 smg::StreamInfo smg_field::info() const
 {
   return smg::withoutArguments(this->job->resultOn(this->stored().info()), this->added.get());
+}
+
+std::vector<std::string> smg_field::resultColumns() const
+{
+  const smg::StreamInfo& mesh = this->stored().info();
+  const smg::AddedValues added = this->job->addedTo(mesh);
+  std::vector<std::string> columns;
+  for (const smg::ColumnSpec& column : added.ofVertices)
+  {
+    columns.push_back(column.name);
+  }
+  if (added.movesVertices)
+  {
+    columns.insert(columns.end(), { smg::PositionSpec.name, smg::NormalsName });
+  }
+  return columns;
 }
 
 void smg_field::pass(const smg::MeshJob::Reader& read, const smg::ProgressFunction& progress)
@@ -84,7 +102,7 @@ CompleteIsolated isolatedOf(const std::shared_ptr<const AddedColumns>& added)
 }
 
 ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedColumns>& added,
-  const MeshJob* job, const char* path, const WritingOptions& writing)
+  const MeshJob* job, const char* path, const WritingOptions& writing, CompleteIsolated merged)
 {
   ResultFile::Options options;
   options.in = mesh.name();
@@ -97,6 +115,7 @@ ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedC
   // Only a job can move the vertices of the file itself.
   options.adds = added || !job || mesh.isResult();
   options.isolated = isolatedOf(added);
+  options.merged = std::move(merged);
   if (!mesh.name().empty())
   {
     checkIsNotInput(mesh.name(), options.out);
@@ -127,8 +146,8 @@ smg_mesh* meshOf(smg_field& field, const ProgressFunction& progress)
   apply(limitsOf(field.shared->options()), options);
   auto opened = openMesh(field.file(partOf(progress, 0.0, 0.9)), options);
   auto mesh = std::make_unique<smg_mesh>();
-  mesh->shared = std::make_shared<SharedMesh>(
-    std::move(opened), *field.shared, partOf(progress, 0.9, 1.0), field.scratch());
+  mesh->shared = std::make_shared<SharedMesh>(std::move(opened), *field.shared,
+    field.resultColumns(), partOf(progress, 0.9, 1.0), field.scratch());
   return mesh.release();
 }
 
@@ -136,7 +155,14 @@ std::string save(
   smg_field& field, const char* path, const char* text, const ProgressFunction& progress)
 {
   const WritingOptions options = writingOptions(text, limitsOf(field.shared->options()));
-  ResultFile out = resultFile(*field.shared, field.added, field.job.get(), path, options);
+  const bool keepsMerged = field.shared->options().weld && kindOfOutput(path) == MeshFileKind::Vsm;
+  CompleteIsolated merged =
+    keepsMerged ? mergedValues(field.stored(), field.shared->order(partOf(progress, 0.0, 0.0)),
+                    *field.solution, field.job->solutionColumns(field.stored().info()),
+                    partOf(progress, 0.0, 0.0))
+                : CompleteIsolated();
+  ResultFile out =
+    resultFile(*field.shared, field.added, field.job.get(), path, options, std::move(merged));
   const ConversionReport* const conversion = field.shared->mesh().conversion();
   out.chooseOrder(field.stored(), conversion, partOf(progress, 0.0, 0.0));
   std::vector<std::string> notes;

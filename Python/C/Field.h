@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 /** What a job found on a mesh as it was then. */
 struct smg_field
@@ -31,6 +32,8 @@ struct smg_field
 
   /** What the mesh has with the result. */
   smg::StreamInfo info() const;
+  /** The columns of the vertices that the job has made; also "Position" if it moves them. */
+  std::vector<std::string> resultColumns() const;
   /** Passes the mesh with the result to `read` and completes the report. Throws Error; Cancelled.
    */
   void pass(const smg::MeshJob::Reader& read, const smg::ProgressFunction& progress);
@@ -55,8 +58,10 @@ namespace smg
 /** Adds the added columns to vertices of no cell; null: there are none. */
 CompleteIsolated isolatedOf(const std::shared_ptr<const AddedColumns>& added);
 
-/** Where the result of a job on a mesh is written; with no job, the mesh itself. */
+/** Where the result of a job on a mesh is written; with no job, the mesh itself. `merged`: see
+ * mergedValues(). */
 ResultFile resultFile(const SharedMesh& mesh, const std::shared_ptr<const AddedColumns>& added,
-  const MeshJob* job, const char* path, const WritingOptions& writing);
+  const MeshJob* job, const char* path, const WritingOptions& writing,
+  CompleteIsolated merged = {});
 
 } // namespace smg

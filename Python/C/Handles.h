@@ -15,8 +15,10 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -36,19 +38,24 @@ public:
   {
   }
 
-  /** The mesh with a result on `of`, in whose order it is, read from a file of `scratch`. */
-  SharedMesh(std::unique_ptr<OpenedMesh> mesh, SharedMesh& of, const ProgressFunction& progress,
-    std::shared_ptr<const ScratchFolder> scratch)
+  /** The mesh with a result on `of`, in whose order it is, read from a file of `scratch`. `columns`
+   * of the vertices are the result. */
+  SharedMesh(std::unique_ptr<OpenedMesh> mesh, SharedMesh& of, std::vector<std::string> columns,
+    const ProgressFunction& progress, std::shared_ptr<const ScratchFolder> scratch)
     : Mesh(std::move(mesh))
     , Name(of.Name)
     , Options(of.Options)
     , Order(of.order(progress))
     , Scratch(std::move(scratch))
+    , Results(of.Results)
   {
+    this->Results.insert(columns.begin(), columns.end());
   }
 
   /** Whether this is the mesh with a result, which the file that was opened does not have. */
   bool isResult() const { return this->Scratch != nullptr; }
+  /** Whether a column of the vertices is the result of a job. */
+  bool isResult(const std::string& column) const { return this->Results.contains(column); }
   /** The mesh without added columns. */
   const OpenedMesh& mesh() const { return *this->Mesh; }
   /** The file that was opened; empty: the mesh was made of arrays. */
@@ -70,8 +77,8 @@ public:
     const std::lock_guard lock(this->Mutex);
     if (!this->Order)
     {
-      this->Order =
-        std::make_shared<const OriginalOrder>(*this->Mesh, this->Mesh->conversion(), progress);
+      this->Order = std::make_shared<const OriginalOrder>(
+        *this->Mesh, this->Mesh->conversion(), progress, this->Options.weld);
     }
     return this->Order;
   }
@@ -88,6 +95,7 @@ private:
   std::mutex Mutex;
   std::shared_ptr<const OriginalOrder> Order;
   std::shared_ptr<const ScratchFolder> Scratch; ///< of a result; else null
+  std::set<std::string> Results;
 };
 
 } // namespace smg

@@ -31,10 +31,10 @@ smg_mesh* handleOf(std::unique_ptr<OpenedMesh> mesh, std::filesystem::path name,
   return handle.release();
 }
 
-ConversionOptions optionsOf(const char* text, bool isFile)
+ConversionOptions optionsOfArrays(const char* text)
 {
   const nlohmann::json json = optionsText(text, "options");
-  return argument([&] { return conversionIn(JsonNode(json, "options"), isFile); });
+  return argument([&] { return conversionIn(JsonNode(json, "options"), false); });
 }
 
 void addColumn(smg_mesh& mesh, const std::string& name, bool ofCells, const smg_array& values,
@@ -100,9 +100,16 @@ smg_status smg_open(
     {
       smg::required(mesh, "mesh") = nullptr;
       const std::filesystem::path file = &smg::required(path, "path");
-      smg::ConversionOptions given = smg::optionsOf(options, true);
+      const nlohmann::json json = smg::optionsText(options, "options");
+      const smg::JsonNode node(json, "options");
+      smg::ConversionOptions given =
+        smg::argument([&] { return smg::conversionIn(node, true, { "welded" }); });
       smg::ConversionOptions opening = given;
       opening.progress = smg::progressOf(progress, user);
+      if (node.has("welded"))
+      {
+        given.weld = smg::argument([&] { return smg::weldIn(node.member("welded")); });
+      }
       smg::InputState state(file);
       *mesh = smg::handleOf(smg::openMesh(file, opening), file, std::move(state), given);
     });
@@ -117,7 +124,7 @@ smg_status smg_open_arrays(const smg_array* points, const smg_array* cells, cons
       smg::required(mesh, "mesh") = nullptr;
       const smg::ArrayView ofPoints = smg::viewOf(points, "points");
       const smg::ArrayView ofCells = smg::viewOf(cells, "cells");
-      smg::ConversionOptions given = smg::optionsOf(options, false);
+      smg::ConversionOptions given = smg::optionsOfArrays(options);
       smg::ConversionOptions opening = given;
       opening.progress = smg::progressOf(progress, user);
       *mesh = smg::handleOf(smg::openArrays(ofPoints, ofCells, opening), {}, {}, given);
@@ -160,6 +167,17 @@ smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells)
       const smg::SharedMesh& given = *smg::required(mesh, "mesh").shared;
       smg::required(vertices, "vertices") = given.vertices();
       smg::required(cells, "cells") = given.mesh().info().cells;
+    });
+}
+
+smg_status smg_elements(const smg_mesh* mesh, smg_progress progress, void* user, int64_t* elements)
+{
+  return smg::guarded(
+    [&]
+    {
+      const smg::OpenedMesh& given = smg::required(mesh, "mesh").shared->mesh();
+      smg::required(elements, "elements") =
+        smg::countElements(given, given.conversion(), smg::progressOf(progress, user));
     });
 }
 

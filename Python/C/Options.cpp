@@ -126,6 +126,16 @@ WritingOptions writingOptions(const char* options, const JobLimits& defaults)
     });
 }
 
+double weldIn(const JsonNode& node)
+{
+  const double distance = node.number();
+  if (distance < 0.0)
+  {
+    node.fail("must be a distance from 0 on");
+  }
+  return distance;
+}
+
 ConversionOptions conversionIn(
   const JsonNode& object, bool isFile, std::initializer_list<const char*> more)
 {
@@ -143,11 +153,7 @@ ConversionOptions conversionIn(
   apply(limitsIn(object), options);
   if (object.has("weld"))
   {
-    options.weld = object.member("weld").number();
-    if (*options.weld < 0.0)
-    {
-      object.member("weld").fail("must be a distance from 0 on");
-    }
+    options.weld = weldIn(object.member("weld"));
   }
   if (object.has("order"))
   {

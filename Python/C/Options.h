@@ -45,6 +45,9 @@ WritingOptions writingOptions(const char* options, const JobLimits& defaults);
 ConversionOptions conversionIn(
   const JsonNode& object, bool isFile, std::initializer_list<const char*> more = {});
 
+/** A distance within which points are merged. */
+double weldIn(const JsonNode& node);
+
 /** Limits as the options that mean the same. */
 void apply(const JobLimits& limits, ConversionOptions& options);
 /** The limits with which a mesh was opened. */

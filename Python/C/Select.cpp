@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Arrays/ReadColumn.h"
 #include "IO/Description/ParseDescriptions.h"
 #include "IO/Files/PartialProgress.h"
 #include "Python/C/Call.h"
@@ -56,6 +57,7 @@ void markFixed(const smg_mesh& mesh, const ProblemDescription& description,
         selected[static_cast<std::size_t>(rows[i])] = conditions.dirichlet[i] >= 0 ? 1 : 0;
       }
     });
+  fillMerged(*order, { "selected", ScalarType::UInt8, 1 }, std::as_writable_bytes(selected).data());
 }
 
 void select(

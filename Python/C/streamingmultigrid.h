@@ -91,7 +91,8 @@ extern "C"
   /* Opens a mesh file of any format; one that is no .vsm is converted to a scratch file.
    * options: "memory" (bytes, or a text as "1GB"), "cells" ("triangles", "tets"), "weld"
    * (distance), "time_step", "partition", "order" ("bfs", "spectral", "axis", "keep"), "threads",
-   * "scratch" (folder), "scratch_limit" (bytes, or a text), "checkpoint" (folder). */
+   * "scratch" (folder), "scratch_limit" (bytes, or a text), "checkpoint" (folder); of a .vsm that
+   * smg_convert() has made, "welded": its "weld". */
   SMG_C_EXPORT smg_status smg_open(
     const char* path, const char* options, smg_progress progress, void* user, smg_mesh** mesh);
 
@@ -134,6 +135,11 @@ extern "C"
 
   /* The numbers of vertices and cells in the original order. */
   SMG_C_EXPORT smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells);
+
+  /* The number of cells of the file or arrays, as polygons or hexahedra, of which the cells of the
+   * mesh are parts, by the column OriginalCellId: one more than the largest of these. */
+  SMG_C_EXPORT smg_status smg_elements(
+    const smg_mesh* mesh, smg_progress progress, void* user, int64_t* elements);
 
   /* The files of a mesh, which are several of TetGen, or of VTK in pieces: a JSON list of paths,
    * the given one first. The text is valid until the next call on this thread. */

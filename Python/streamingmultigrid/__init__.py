@@ -22,9 +22,10 @@ Meshes: `open`, `mesh`, `from_pyvista`, which make a `Mesh` with the jobs `solve
 `blend`, `distance`, `simplify` and `solver`; on arrays the functions of these names. Regions: `plane`,
 `above`, `below`, `halfspace`, `box`, `sphere`, `vertices`, `nearest`, `tag`, `mask`, `boundary`,
 `everywhere`, combined by ``|``, ``&`` and ``~``; ``region >> value`` pairs one with a value, and so do `dirichlet`, `neumann`, `robin`
-and `soft`. Errors: `Error` and its subclasses. `progress` says how calls report how far they are.
+and `soft`. `of_vertices` and `of_cells` say what an array has rows for. Errors: `Error` and its subclasses. `progress` says how calls report how far they are.
 """
 
+from ._columns import of_cells, of_vertices
 from ._errors import (
     Error,
     InputError,
@@ -92,6 +93,8 @@ __all__ = [  # not `open`: import * would replace that of Python
     "mesh",
     "nearest",
     "neumann",
+    "of_cells",
+    "of_vertices",
     "plane",
     "robin",
     "simplify",

@@ -54,6 +54,8 @@ class Mesh:
     def cells(self) -> npt.NDArray[Any]: ...
     @property
     def elements(self) -> npt.NDArray[Any]: ...
+    @property
+    def n_elements(self) -> int: ...
     def read(
         self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
     ) -> npt.NDArray[Any]: ...
@@ -428,6 +430,10 @@ def nearest(points: npt.ArrayLike) -> Region: ...
 
 def neumann(region: types.Where, value: types.Value) -> Placed: ...
 
+def of_cells(values: npt.ArrayLike) -> npt.NDArray[Any]: ...
+
+def of_vertices(values: npt.ArrayLike) -> npt.NDArray[Any]: ...
+
 def open(
     path: types.Path, *, memory: Optional[types.Size] = None, threads: Optional[int] = None,
     scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
@@ -527,6 +533,8 @@ __all__ = [
     "mesh",
     "nearest",
     "neumann",
+    "of_cells",
+    "of_vertices",
     "plane",
     "robin",
     "simplify",

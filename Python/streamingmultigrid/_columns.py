@@ -6,9 +6,47 @@ from __future__ import annotations
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from ._arrays import numbers
 from ._errors import InputError
+
+
+class _Said(np.ndarray):
+    """An array of which is said what its rows are of; arrays that are made of it say nothing."""
+
+    rows_of_cells: Optional[bool] = None
+
+
+def said_of(values: Any) -> Optional[bool]:
+    """Whether an array, or a field, is said to be of the cells (True) or of the vertices (False); None:
+    neither."""
+    return getattr(values, "rows_of_cells", None)
+
+
+def saying(values: Any, rows_of_cells: Optional[bool]) -> np.ndarray:
+    """The values as an array of which that is said."""
+    said = np.asarray(values).view(_Said)
+    said.rows_of_cells = rows_of_cells
+    return said
+
+
+def of_vertices(values: npt.ArrayLike) -> np.ndarray:
+    """An array with a row for each vertex: says so where a mesh has as many cells, or cells of its file.
+
+    ::
+
+        mesh.solve(source=smg.of_vertices(heat), dirichlet=smg.boundary >> 0)
+    """
+    numbers(values, "of_vertices")
+    return saying(values, False)
+
+
+def of_cells(values: npt.ArrayLike) -> np.ndarray:
+    """An array with a row for each cell, or each of the `Mesh.elements`: says so where a mesh has as many
+    vertices. As `of_vertices`."""
+    numbers(values, "of_cells")
+    return saying(values, True)
 
 
 class Column(NamedTuple):
@@ -37,25 +75,46 @@ class Columns:
         bounds = np.reshape(self.mesh.bounds, (3, 2))
         return float(np.linalg.norm(bounds[:, 1] - bounds[:, 0]))
 
-    def rows(self, values: np.ndarray, cells: Optional[bool], elements: bool = True) -> Optional[bool]:
-        """Whether an array has a row for each cell (True) or vertex (False), or neither (None).
+    @staticmethod
+    def side(values: Any, what: str, cells: Optional[bool]) -> Optional[bool]:
+        """Whether values are of the cells (True) or of the vertices (False), as they say or as `cells` says;
+        None: neither does."""
+        said = said_of(values)
+        if said is None or said == cells:
+            return cells
+        if cells is not None:
+            nouns = ("cells", "vertices") if cells else ("vertices", "cells")
+            raise InputError("%s: the array is said to be of the %s; one of the %s is needed." % (what, *nouns[::-1]))
+        return said
+
+    def has_rows(self, values: np.ndarray, cells: Optional[bool], elements: bool = True) -> bool:
+        """Whether an array has a row for each vertex, or for each cell.
 
         Args:
-            elements: whether a row for each element (`Mesh.elements`) is one for each cell, which is known
-                after the cells were read.
+            elements: whether a row for each element (`Mesh.elements`) counts, for which the cells may be
+                read.
         """
         count = values.shape[0] if values.ndim else -1
-        for of_cells, wanted in ((False, self.mesh.n_vertices), (True, self.mesh.n_cells)):
-            if count == wanted and cells in (None, of_cells):
-                return of_cells
-        few = elements and cells is not False and 0 < count < self.mesh.n_cells
-        if few and count == self._n_elements():
-            return True
-        return None
+        return (
+            (cells is not True and count == self.mesh.n_vertices)
+            or (cells is not False and count == self.mesh.n_cells)
+            or (elements and self._are_elements(count, cells))
+        )
 
-    def _n_elements(self) -> int:
-        elements = self.mesh.elements
-        return int(elements.max()) + 1 if elements.size else 0
+    def _are_elements(self, count: int, cells: Optional[bool]) -> bool:
+        return cells is not False and 0 < count < self.mesh.n_cells and count == self.mesh.n_elements
+
+    def _rows(self, values: np.ndarray, what: str, cells: Optional[bool]) -> Optional[bool]:
+        """Whether an array has a row for each cell (True) or vertex (False), or neither (None)."""
+        count = values.shape[0] if values.ndim else -1
+        of_vertices_ = cells is not True and count == self.mesh.n_vertices
+        noun = "cells" if count == self.mesh.n_cells else "elements" if self._are_elements(count, cells) else ""
+        if of_vertices_ and noun and cells is None:
+            raise InputError(
+                "%s: the mesh has %d vertices and as many %s: say of which the array is, by "
+                "smg.of_vertices(array) or smg.of_cells(array)." % (what, count, noun)
+            )
+        return False if of_vertices_ else True if noun and cells is not False else None
 
     def add(
         self,
@@ -70,12 +129,13 @@ class Columns:
         Args:
             values: (n,) or (n, k), a row for each vertex, cell or element (`Mesh.elements`).
             what: the argument, for messages.
-            cells: True, False, or by the number of rows; vertices if both have as many.
+            cells: True, False, or as the array says (`of_cells`), or else by the number of rows.
             components: those that are allowed; empty: any.
             name: for a column of the result; default: it is an argument of the job alone.
         """
+        cells = self.side(values, what, cells)
         array = numbers(values, what)
-        of_cells = self.rows(array, cells)
+        of_cells = self._rows(array, what, cells)
         if of_cells is None or array.ndim > 2:
             wanted = [
                 "%d %s" % (count, noun)

@@ -208,6 +208,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
 
     mesh: Mesh
     names: Tuple[str, ...]
+    rows_of_cells = False  # as an argument of another job
 
     def __init__(
         self,

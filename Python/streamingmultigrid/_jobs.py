@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +40,14 @@ def _where_of_file(added: Columns, region: Region) -> Any:
 
 #: By the names that the library knows them by.
 DESCRIPTIONS: Dict[str, Callable[..., _Description]] = {}
+_BINDING: Dict[str, Callable[..., inspect.BoundArguments]] = {}
+#: Arguments with which results are written, which no job has but `path` of `simplify`.
+_OF_SAVING = ("path", "text")
+
+
+def require_arguments(job: str, arguments: Sequence[Any], options: Mapping[str, Any]) -> None:
+    """Raises TypeError for arguments that a job does not have, before a mesh is opened for it."""
+    _BINDING[job](None, *arguments, **options)
 
 
 def _job(function: Callable[..., _Description]) -> Callable[..., _Description]:
@@ -48,15 +56,24 @@ def _job(function: Callable[..., _Description]) -> Callable[..., _Description]:
     signature = inspect.signature(function)
     own = list(signature.parameters.values())[1:]  # without `given`
 
+    def bind(*arguments: Any, **options: Any) -> inspect.BoundArguments:
+        try:
+            return signature.bind({}, *arguments, **options)
+        except TypeError as error:
+            for_files = [name for name in options if name in _OF_SAVING and name not in signature.parameters]
+            hint = "; it is one of save()" if for_files else ""
+            raise TypeError("%s() %s%s" % (function.__name__, error, hint)) from None
+
     @functools.wraps(function)
     def describe(*arguments: Any, **options: Any) -> _Description:
-        bound = signature.bind({}, *arguments, **options)
+        bound = bind(*arguments, **options)
         bound.apply_defaults()
         given = dict(bound.arguments)
         del given["given"], given["added"]
         bound.arguments["given"] = given
         return function(*bound.args, **bound.kwargs)
 
+    _BINDING[function.__name__] = bind
     describe.__signature__ = signature.replace(parameters=own)  # type: ignore[attr-defined]
     DESCRIPTIONS[function.__name__] = describe
     return describe

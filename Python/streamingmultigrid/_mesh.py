@@ -73,6 +73,7 @@ class Mesh:
         self._reopening: Optional[Dict[str, Any]] = None  # the arguments of `open`, if it is all of it
         self._facts: Dict[bool, Dict[str, Any]] = {}
         self._elements: Optional[np.ndarray] = None
+        self._n_elements: Optional[int] = None
         self.report = None
 
     # Opening, which is done at the first use.
@@ -226,6 +227,16 @@ class Mesh:
             self._elements.setflags(write=False)
         return self._elements
 
+    @property
+    def n_elements(self) -> int:
+        """The number of `elements`. Unless the conversion has told it, the cells are read once for that."""
+        if self._n_elements is None:
+            count = c_int64()
+            with self._handle() as mesh:
+                call_reporting("smg_elements", (mesh,), None, byref(count))
+            self._n_elements = count.value
+        return self._n_elements
+
     def read(
         self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
     ) -> np.ndarray:
@@ -259,7 +270,7 @@ class Mesh:
         Args:
             name: any but those with a meaning of their own, as Position and OriginalId.
             values: (n,) or (n, k), a row for each vertex, each cell or each of the `elements`.
-            cells: True, False, or by the number of rows; vertices if there are as many of both.
+            cells: True, False, or by the number of rows, which must tell.
             copy: False: the array is used where it is. Do not change it while the mesh or a field of it
                 is used.
         """
@@ -377,6 +388,7 @@ class Mesh:
         )
 
     def _run(self, job: str, progress: Any, strict: bool, arguments: tuple, options: dict) -> Field:
+        jobs.require_arguments(job, arguments, options)
         columns = Columns(self)
         with reporting(progress, job) as report:
             opening = 0.0 if self._opened else 0.3

@@ -73,7 +73,9 @@ def open(  # noqa: A001, the word of the trade
         scratch: the folder for scratch files; default: $TMPDIR, or /tmp.
         scratch_limit: the most bytes of scratch files at once, or a text; default: none.
         cells: "triangles" or "tets", of a file that has both.
-        weld: merge points within this distance, in the unit of the mesh; 0: of equal coordinates.
+        weld: merge points within this distance, in the unit of the mesh; 0: of equal coordinates. Arrays
+            have rows for all points of the file; what a job finds at a point that was merged is what it
+            finds at the one that stayed.
         time_step, partition: which of a VTKHDF file, from 0.
         order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
         cache: a folder for conversions; True: ~/.cache/streamingmultigrid; "beside": the folder of the
@@ -111,7 +113,7 @@ def open(  # noqa: A001, the word of the trade
                 call_reporting(
                     "smg_convert", (encoded(name), encoded(file), json_text(options)), report, None
                 )
-        how = options if file == name else defaults
+        how = options if file == name else {**defaults, "welded": weld}
         handle = NativeHandle("mesh")
         call_reporting("smg_open", (encoded(file), json_text(how)), report, byref(handle.pointer))
         return handle

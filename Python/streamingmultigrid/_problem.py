@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _types as types
 from ._arrays import numbers
-from ._columns import Columns
+from ._columns import Columns, said_of
 from ._errors import InputError
 from ._library import json_file
 from ._regions import Placed, Region, as_region, everywhere, vertices
@@ -72,7 +72,7 @@ class _Data:
         ids = self._ids(region)
         # A list may be a number for each right-hand side: the cells are not read for that.
         is_list = isinstance(value, (list, tuple))
-        if self.columns.rows(array, None, not is_list) is not None or ids is not None and len(array) == len(ids):
+        if self.columns.has_rows(array, said_of(value), not is_list) or ids is not None and len(array) == len(ids):
             return 1  # a row for each vertex, cell, or vertex of the region
         # An array of another length is more likely a mistake than a number for each right-hand side.
         return len(array) if is_list and len(array) <= _MOST_COLUMNS else None
@@ -81,12 +81,13 @@ class _Data:
         """A value everywhere in a region: a number for each component, or the name of a column."""
         if isinstance(value, str):
             return value
+        cells = self.columns.side(value, what, cells)
         array = numbers(value, what)
         self.columns.shape_as(array)
         width = self.width or 1
         if array.ndim == 0:
             return [array.item()] * width if width > 1 else array.item()
-        rows = self.columns.rows(array, cells, not isinstance(value, (list, tuple))) is not None
+        rows = self.columns.has_rows(array, cells, not isinstance(value, (list, tuple)))
         if rows and array.shape == (width,) and width > 1:
             raise InputError(
                 "%s: %d numbers may be one for each right-hand side, or one for each row: give an array "
@@ -147,12 +148,13 @@ def _conductivity(value: Any, columns: Columns) -> Any:
     """A number, a tensor as the six numbers of the JSON, or the name of a column of the cells."""
     if isinstance(value, str) or np.ndim(value) == 0:
         return value
+    columns.side(value, "conductivity", True)
     array = numbers(value, "conductivity")
-    is_tensor = array.shape in ((3,), (6,), (3, 3))
-    if is_tensor and columns.rows(array, True):
+    is_tensor = said_of(value) is None and array.shape in ((3,), (6,), (3, 3))
+    if is_tensor and columns.has_rows(array, True):
         raise InputError(
             "conductivity: of a mesh of %d cells or elements, an array of the shape %s may be a tensor or a "
-            "row for each cell: give the tensor as %s, or the rows as an array (%d, %d)."
+            "row for each cell: give the tensor as %s, or the rows as an array (%d, %d) or by smg.of_cells()."
             % (
                 len(array),
                 array.shape,
@@ -161,13 +163,13 @@ def _conductivity(value: Any, columns: Columns) -> Any:
                 6 if array.ndim == 2 else 1,
             )
         )
-    if array.ndim >= 2 and array.shape[-2:] == (3, 3):
+    if (array.ndim == 3 or is_tensor) and array.shape[-2:] == (3, 3):
         if not np.array_equal(array, np.swapaxes(array, -1, -2)):
             raise InputError("conductivity: a tensor must be symmetric.")
         array = array[..., (0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2)]  # xx yy zz xy yz xz
-    if array.shape == (3,):
+    if is_tensor and array.shape == (3,):
         array = np.concatenate([array, np.zeros(3)])
-    if array.shape == (6,):
+    if is_tensor and array.shape == (6,):
         return array.tolist()
     return columns.add(array, "conductivity", True, (1, 3, 6)).name
 
@@ -293,7 +295,7 @@ class Handle:
         for key, value in self.motion.items():
             if key in ("target", "rotation", "logScale") and not isinstance(value, str):
                 array = numbers(value, key)
-                if columns.rows(array, False) is not None:
+                if columns.has_rows(array, columns.side(value, key, False)):
                     value = columns.add(array, key, False, (1,) if key == "logScale" else (3,)).name
             written[key] = value
         return written

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _types as types
 from ._arrays import numbers
-from ._columns import Columns
+from ._columns import Columns, said_of, saying
 from ._errors import InputError
 
 _FAR = 1e300  # beyond every coordinate
@@ -308,7 +308,7 @@ def mask(column_or_values: Union[str, npt.ArrayLike]) -> Region:
     values = numbers(column_or_values, "mask")
     if values.ndim != 1:
         raise InputError("mask: the shape is %s; it must be (n,)." % (values.shape,))
-    return _Mask(values)
+    return _Mask(saying(values, said_of(column_or_values)))
 
 
 def as_region(value: Any) -> Region:

@@ -423,4 +423,98 @@ class ElementsTest(unittest.TestCase):
         np.testing.assert_allclose(means, np.ones(count), rtol=1e-6)
 
 
+class SidesTest(unittest.TestCase):
+    """Of as many vertices as cells, or cells of the file, an array has to say which its rows are."""
+
+    def meshes(self):
+        """(what there are as many of, mesh): triangles; quadrilaterals, of which a torus has as many."""
+        octahedron = np.concatenate([np.eye(3), -np.eye(3)])
+        points = np.concatenate([octahedron, octahedron[:3] + 4])
+        triangles = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5), (6, 7, 8)]
+        yield "cells", smg.mesh(points, np.array(triangles))
+        n = 8
+        i, j = (each.ravel() for each in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
+        u, v = 2 * np.pi * i / n, 2 * np.pi * j / n
+        with open("torus.off", "w", encoding="utf-8") as file:
+            file.write("OFF\n%d %d 0\n" % (n * n, n * n))
+            np.savetxt(file, np.stack([(3 + np.cos(v)) * np.cos(u), (3 + np.cos(v)) * np.sin(u), np.sin(v)], 1))
+            number = lambda a, b: a % n * n + b % n  # noqa: E731
+            corners = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]
+            np.savetxt(file, np.stack([np.full(n * n, 4), *corners], 1), fmt="%d")
+        yield "elements", smg.open("torus.off")
+
+    def test_what_is_of_either(self):
+        for noun, mesh in self.meshes():
+            values = np.linspace(1, 2, mesh.n_vertices)
+            x = mesh.points[:, 0].copy()
+            mesh.add("OfVertices", values, cells=False)
+            mesh.add("OfCells", smg.of_cells(values))
+            mesh.add("MaskOfVertices", smg.of_vertices(values > 1.5))
+            mesh.add("MaskOfCells", values > 1.5, cells=True)
+            for name, given, job in (
+                ("source", values, lambda v: mesh.solve(source=v, screening=1.0)),
+                ("source", values, lambda v: mesh.solve(source=[1.0, smg.everywhere >> v], screening=1.0)),
+                ("screening", values, lambda v: mesh.solve(source=1.0, screening=v)),
+                ("patch", values > 1.5, lambda v: mesh.blend({"X": x}, patch=v)),
+                ("mask", values > 1.5, lambda v: mesh.solve(source=1.0, dirichlet=smg.mask(v) >> 0.0)),
+                ("mask", values > 1.5, lambda v: mesh.smooth(hold=v)),
+                ("mask", values > 1.5, lambda v: mesh.distance(v)),
+                ("mask", values > 1.5, lambda v: mesh.distance(smg.mask(v) & smg.everywhere)),
+            ):
+                with self.subTest(noun, name=name):
+                    words = "^%s: the mesh has %d vertices and as many %s: say" % (name, len(values), noun)
+                    with self.assertRaisesRegex(smg.InputError, words):
+                        job(given)
+                    prefix = "Mask" if given.dtype == bool else ""
+                    found = {}
+                    for said, column in ((smg.of_vertices, "OfVertices"), (smg.of_cells, "OfCells")):
+                        found[column] = bits(job(said(given)).to_numpy())
+                        self.assertEqual(found[column], bits(job(prefix + column).to_numpy()), column)
+                    self.assertNotEqual(*found.values())
+            with self.assertRaisesRegex(smg.InputError, "say of which"):
+                mesh["New"] = values
+            self.assertEqual(bits(mesh["OfVertices"]), bits(values))
+            self.assertEqual(bits(mesh["OfCells"]), bits(values[mesh.elements]))
+
+    def test_what_is_of_one_side_alone(self):
+        for _, mesh in self.meshes():
+            values = np.linspace(1, 2, mesh.n_vertices)
+            vectors = np.stack([values] * 3, 1)
+            fixed = {0: 0.0}
+            mesh.add("P", smg.of_vertices(values > 1.5))
+            for side, job in (
+                (False, lambda v: mesh.solve(dirichlet=smg.everywhere >> v)),
+                (False, lambda v: mesh.solve(soft=smg.everywhere >> (v, 1.0))),
+                (False, lambda v: mesh.solve(initial=v, source=1.0, screening=1.0)),
+                (False, lambda v: mesh.smooth(column={"V": v})),
+                (False, lambda v: mesh.blend({"V": v}, patch="P")),
+                (True, lambda v: mesh.solve(dirichlet=fixed, source=1.0, screening=1.0, conductivity=v)),
+                (None, lambda v: mesh.solve(screening=1.0, field=v)),
+            ):
+                given, side = (vectors, True) if side is None else (values, side)
+                right, wrong = (smg.of_cells, smg.of_vertices) if side else (smg.of_vertices, smg.of_cells)
+                self.assertEqual(bits(job(given).to_numpy()), bits(job(right(given)).to_numpy()))
+                nouns = ("vertices", "cells") if side else ("cells", "vertices")
+                with self.assertRaisesRegex(smg.InputError, "said to be of the %s; one of the %s is needed" % nouns):
+                    job(wrong(given))
+
+    def test_results_are_of_the_vertices(self):
+        for _, mesh in self.meshes():
+            field = mesh.solve(source=1.0, screening=1.0)
+            one, two = (
+                mesh.solve(source=source, screening=1.0).to_numpy()
+                for source in (field, smg.of_vertices(field))
+            )
+            self.assertEqual(bits(one), bits(two))
+
+    def test_what_is_made_of_an_array_says_nothing(self):
+        said = smg.of_cells(np.arange(9.0))
+        self.assertEqual(bits(np.asarray(said)), bits(np.arange(9.0)))
+        noun, mesh = next(iter(self.meshes()))
+        with self.assertRaisesRegex(smg.InputError, "as many cells"):
+            mesh.solve(source=said + 1, screening=1.0)
+        with self.assertRaisesRegex(smg.InputError, "masked"):
+            smg.of_cells(np.ma.masked_less(np.arange(9.0), 3))
+
+
 unittest.main(verbosity=2)

@@ -21,7 +21,7 @@ with open(os.path.join(SOURCE, "docs", "problem.schema.json"), encoding="utf-8")
 class Mesh:
     """What descriptions ask of a mesh: 8 vertices, 12 cells, a diagonal of 5."""
 
-    n_vertices, n_cells = 8, 12
+    n_vertices, n_cells, n_elements = 8, 12, 12
     elements = np.arange(12)
     bounds = (0, 3, 0, 4, 0, 0)
     columns = {"vertices": {"T": {"type": "float64", "components": 1}, "Flow": {

@@ -37,7 +37,7 @@ void fill(Column& column, double value)
 } // namespace
 
 void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer,
-  const CompleteIsolated& complete, const std::string& fingerprint)
+  const CompleteIsolated& complete, const std::string& fingerprint, const CompleteIsolated& change)
 {
   VsmReader reader(from, nullptr, fingerprint);
   IsolatedVertices chunk;
@@ -48,10 +48,6 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
     if (complete)
     {
       complete(first, chunk);
-    }
-    if (!info.doublePositions)
-    {
-      roundToSingle(chunk.positions);
     }
     std::vector<Column> columns = emptyColumns(info.vertexColumns);
     for (Column& column : columns)
@@ -67,7 +63,16 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
         column.bytes = chunk.columns[static_cast<std::size_t>(same)].bytes;
       }
     }
-    writer.isolated(chunk.ids, chunk.positions, columns);
+    chunk.columns = std::move(columns);
+    if (change)
+    {
+      change(first, chunk);
+    }
+    if (!info.doublePositions)
+    {
+      roundToSingle(chunk.positions);
+    }
+    writer.isolated(chunk.ids, chunk.positions, chunk.columns);
   }
 }
 

@@ -52,10 +52,11 @@ WrittenVsm writeVsm(
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
  * stream like `info`, since a stream made from a .vsm file does not contain them. Columns with a
  * value ColumnSpec::isolated get that. `complete` adds columns to those of the file. `fingerprint`:
- * unless empty, that which the file must have.
+ * unless empty, that which the file must have. `change` is called with the vertices as written.
  */
 SMG_EXPORT void copyIsolated(const std::filesystem::path& from, const StreamInfo& info,
-  VsmWriter& writer, const CompleteIsolated& complete = {}, const std::string& fingerprint = {});
+  VsmWriter& writer, const CompleteIsolated& complete = {}, const std::string& fingerprint = {},
+  const CompleteIsolated& change = {});
 
 /** The container of this library. */
 extern const Format VsmFileFormat;

@@ -38,6 +38,8 @@ struct WriteMeshOptions
   std::string isolatedFingerprint{};
   /** Adds to these vertices columns that the .vsm file does not have. */
   CompleteIsolated completeIsolated{};
+  /** Changes these vertices when they have the columns that are written, in place. */
+  CompleteIsolated changeIsolated{};
   /** Threads that compress the blocks of a .vsm file; 0: one per core. The file does not depend on
    * them. */
   int threads = 0;
