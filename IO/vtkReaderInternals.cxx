@@ -32,23 +32,16 @@ vtkStreamingMeshReader::Internals::Stamp vtkStreamingMeshReader::Internals::stam
 namespace
 {
 
-/** What the file states; none, too, if that is not valid: its conversion says why. */
-std::optional<smg::StreamInfo> statedBy(const char* name)
-{
-  try
-  {
-    return name ? smg::statedMesh(name) : std::nullopt;
-  }
-  catch (const smg::Error&)
-  {
-    return std::nullopt;
-  }
-}
-
 /** Whether a container is a file that takes a conversion itself. */
 bool isForeign(const std::string& name)
 {
   return smg::kindOfInput(name) != smg::MeshFileKind::Vsm;
+}
+
+/** The step that is shown where none is asked for: that of before, if there is one. */
+std::int64_t presentStep(std::int64_t before, const std::vector<double>& times)
+{
+  return std::clamp<std::int64_t>(before, 0, std::max<std::int64_t>(0, std::ssize(times) - 1));
 }
 
 void offerTimes(const std::vector<double>& times, vtkInformation& output)
@@ -73,16 +66,40 @@ const smg::StreamInfo& vtkStreamingMeshReader::Internals::look(vtkStreamingMeshR
   const bool isConverted =
     !isAsked &&
     (!self.IsContainerMade() || (isForeign(self.GetContainerName()) && !this->isOpen(self)));
-  std::optional<smg::StreamInfo> stated = isConverted ? statedBy(self.FileName) : std::nullopt;
-  if (!stated)
+  return isConverted && this->state(self) ? *this->Stated : this->open(self).info();
+}
+
+/** Takes what the file states; returns whether that is enough. Throws Cancelled. */
+bool vtkStreamingMeshReader::Internals::state(vtkStreamingMeshReader& self)
+{
+  try
   {
-    return this->open(self).info();
+    std::vector<double> times = smg::timesOf(self.GetContainerName());
+    smg::ConversionOptions options;
+    options.scratch = self.ScratchDirectory ? self.ScratchDirectory : "";
+    options.progress = smg::progressOf(self);
+    options.timeStep = presentStep(this->Step, times);
+    self.ChooseConversion(options);
+    std::optional<smg::StreamInfo> stated = smg::statedMesh(self.FileName, options);
+    if (!stated)
+    {
+      return false;
+    }
+    this->close();
+    this->takeName(self);
+    this->Times = std::move(times);
+    this->Stated = std::move(stated);
+    this->Reason.clear();
+    return true;
   }
-  this->close();
-  this->takeName(self);
-  this->Stated = std::move(stated);
-  this->Reason.clear();
-  return *this->Stated;
+  catch (const smg::Cancelled&)
+  {
+    throw;
+  }
+  catch (const smg::Error&)
+  {
+    return false;
+  }
 }
 
 smg::VsmReader& vtkStreamingMeshReader::Internals::open(
@@ -212,8 +229,7 @@ std::int64_t vtkStreamingMeshReader::Internals::stepOf(vtkInformation* request) 
 {
   if (!request || !request->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
   {
-    const std::int64_t last = std::ssize(this->Times) - 1;
-    return std::clamp<std::int64_t>(this->Step, 0, std::max<std::int64_t>(0, last));
+    return presentStep(this->Step, this->Times);
   }
   const double time = request->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
   const auto later = std::ranges::upper_bound(this->Times, time);

@@ -66,8 +66,8 @@ struct vtkStreamingMeshReader::Internals
   static Stamp stampOf(vtkStreamingMeshReader& self);
 
   /** The mesh, as far as the pipeline needs it before data are requested. Of a file that takes a
-   * conversion it is what the file states; only if that does not tell the type of the cells, it is
-   * converted. */
+   * conversion it is what the file states; only if that is not valid, it is converted, which says
+   * why. Throws Cancelled. */
   const smg::StreamInfo& look(vtkStreamingMeshReader& self);
 
   /** Opens the container unless it is open and up to date, and of one with time steps that of the
@@ -104,6 +104,7 @@ struct vtkStreamingMeshReader::Internals
     const smg::ProgressFunction& progress);
 
 private:
+  bool state(vtkStreamingMeshReader& self);
   void requireSameMesh(vtkStreamingMeshReader& self) const;
   std::int64_t stepOf(vtkInformation* request) const;
   bool isOpen(vtkStreamingMeshReader& self) const;

@@ -165,6 +165,11 @@ bool vtkStreamingMeshConverter::IsContainerMade()
   return smg::isKept(this->GetFileName(), this->GetContainerName(), Internals::optionsOf(*this));
 }
 
+void vtkStreamingMeshConverter::ChooseConversion(smg::ConversionOptions& options)
+{
+  options = Internals::optionsOf(*this);
+}
+
 void vtkStreamingMeshConverter::UpdateContainer()
 {
   const std::string out = this->GetContainerName();

@@ -141,6 +141,7 @@ protected:
 
   std::string GetContainerName() override;
   bool IsContainerMade() override;
+  void ChooseConversion(smg::ConversionOptions& options) override;
   void UpdateContainer() override;
 
 private:

@@ -50,6 +50,8 @@ bool vtkStreamingMeshReader::IsContainerMade()
   return true;
 }
 
+void vtkStreamingMeshReader::ChooseConversion(smg::ConversionOptions&) {}
+
 void vtkStreamingMeshReader::UpdateContainer()
 {
   if (this->GetContainerName().empty())

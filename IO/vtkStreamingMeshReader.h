@@ -8,11 +8,13 @@
  * to a temporary .vsm in ScratchDirectory. The output is a vtkPolyData for triangles and a
  * vtkUnstructuredGrid for tetrahedra.
  *
- * The conversion takes place when data are requested, if the format or the beginning of the file
- * tells the type of the cells: PLY, OFF, OBJ, STL and mesh streams. UpdateInformation() then reads
- * only that beginning, and offers the arrays that it states. Files of other formats (Medit, Gmsh,
- * TetGen, VTK, VTKHDF) may hold either type anywhere, and are converted when the pipeline asks for
- * the type of the output.
+ * The conversion takes place when data are requested. UpdateInformation() reads what tells the type
+ * of the output and the arrays: the header, or of formats that may hold either type of cells
+ * (Medit, Gmsh, TetGen, VTK, VTKHDF) all up to the first cell, where binary data are skipped and
+ * texts skimmed; if such a file is compressed, it is decompressed to a scratch file for that. What
+ * only the whole file tells, the counts and arrays of labels, is known after Update(). A file that
+ * is not valid up to there is an error of UpdateInformation(), one that is not valid further on of
+ * Update().
  *
  * Piece p of N has the cells [C p/N, C (p+1)/N) in the order of the stream with all the points that
  * they use, and
@@ -60,6 +62,11 @@
 #include <string> // For std::string
 
 class vtkDataArraySelection;
+
+namespace smg
+{
+struct ConversionOptions;
+}
 
 class VTKSTREAMINGMULTIGRIDIO_EXPORT vtkStreamingMeshReader : public vtkDataObjectAlgorithm
 {
@@ -114,8 +121,8 @@ public:
   ///@}
 
   ///@{
-  /** Counts of the whole mesh: of a file that is converted when data are requested after Update(),
-   * of others after UpdateInformation(); -1 before. */
+  /** Counts of the whole mesh: of a .vsm file after UpdateInformation(), of others, which are
+   * converted when data are requested, after Update(); -1 before. */
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
 
@@ -162,6 +169,9 @@ protected:
   virtual std::string GetContainerName();
   /** Whether that file is there and up to date, so that UpdateContainer() takes no conversion. */
   virtual bool IsContainerMade();
+  /** Sets what is to be converted: the cells, the time step, the partition. The reader: the time
+   * step alone, which is set before. */
+  virtual void ChooseConversion(smg::ConversionOptions& options);
   /** Updates that file; called before it is opened, and again when the properties, the file of
    * FileName or that file have changed. Throws smg::Error if none is set, and smg::Cancelled. */
   virtual void UpdateContainer();

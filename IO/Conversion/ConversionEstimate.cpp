@@ -190,19 +190,25 @@ void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, s
   }
 }
 
-std::optional<StreamInfo> statedMesh(const std::filesystem::path& path)
+std::optional<StreamInfo> statedMesh(
+  const std::filesystem::path& path, const ConversionOptions& options)
 {
   const MeshFileKind kind = kindOfInput(path);
   const Format* const format = kind == MeshFileKind::Stream    ? &StreamsFormat
                                : kind == MeshFileKind::Indexed ? formatOfFile(path)
                                                                : nullptr;
-  // The partitions of a file may differ.
-  if (!format || format->hasParts)
+  if (!format)
   {
     return {};
   }
-  const Counts counts = countsOf(path, {});
+  const MeshPart part{ options.timeStep, options.partition };
   const bool isSurface = std::ranges::none_of(format->suffixes, &FileSuffix::tetrahedra);
+  if (kind == MeshFileKind::Indexed && !isSurface)
+  {
+    Workspace space(options.scratch, memoryOf(options), options.progress, options.scratchLimit, 1);
+    return converted(lookAtMesh(path, space, { options.cells, options.progress, part }));
+  }
+  const Counts counts = countsOf(path, part);
   if (!counts.counted && !isSurface)
   {
     return {};

@@ -14,12 +14,14 @@ namespace smg
 {
 
 /**
- * The mesh that a conversion makes of a file, as far as the beginning of the file or its format
- * tells: the type of the cells, and some or all of the columns. None of a .vsm file, of one with
- * time steps or partitions, or if that does not tell the type. Throws Error if the beginning is not
- * valid.
+ * The mesh that a conversion makes of a file, as far as the format, the header, or else the first
+ * cell tells (lookAtMesh()): the type of the cells, and some or all of the columns. None of a .vsm
+ * file or a compressed mesh stream.
+ * @param options of the conversion: the part and the cells; memory, scratch and progress
+ * @throws Error if the file is not valid up to there; Cancelled
  */
-SMG_EXPORT std::optional<StreamInfo> statedMesh(const std::filesystem::path& path);
+SMG_EXPORT std::optional<StreamInfo> statedMesh(
+  const std::filesystem::path& path, const ConversionOptions& options = {});
 
 /** An estimate of the cost of a conversion, before the mesh is read. */
 struct SMG_EXPORT ConversionEstimate

@@ -160,8 +160,10 @@ void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
   format->parse(file, builder, options.part, progress);
 }
 
-RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOptions& options,
-  const ProgressFunction& progress)
+/** Passes a file that is not compressed to the builder, and calls `finish`. */
+template <class Finish>
+void importInflated(InputFile& file, RawMeshBuilder& builder, const ImportOptions& options,
+  const ProgressFunction& progress, const Finish& finish)
 {
   const std::string start(file.at(0, FormatBytes).substr(0, FormatBytes));
   // The name of the file before decompression, with its suffix.
@@ -169,9 +171,8 @@ RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOption
   refuseForeignMesh(file.name(), start, file.size(), format);
   try
   {
-    RawMeshBuilder builder(workspace, options.cells);
     import(file, format, builder, options, progress);
-    return builder.finish();
+    finish();
   }
   catch (const MeshError& error)
   {
@@ -190,8 +191,13 @@ void refuseForeignMesh(const std::string& name, std::string_view start,
   }
 }
 
-RawMesh importMesh(
-  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)
+namespace
+{
+
+/** Passes a file to the builder, and calls `finish`. */
+template <class Finish>
+void importFile(const std::filesystem::path& path, RawMeshBuilder& builder,
+  const ImportOptions& options, const Finish& finish)
 {
   constexpr double inflatingShare = 0.3;
   std::optional<InflatedFile> inflated;
@@ -199,13 +205,39 @@ RawMesh importMesh(
     InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
     if (isCompressed(file))
     {
-      inflated.emplace(file, workspace, "inflated");
+      inflated.emplace(file, builder.workspace(), "inflated");
     }
   }
   const ProgressFunction progress =
     inflated ? partOf(options.progress, inflatingShare, 1.0) : options.progress;
   InputFile file(inflated ? inflated->path() : path, progress, path.string());
-  return importInflated(file, workspace, options, progress);
+  importInflated(file, builder, options, progress, finish);
+}
+
+} // namespace
+
+RawMesh importMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)
+{
+  RawMeshBuilder builder(workspace, options.cells);
+  std::optional<RawMesh> mesh;
+  importFile(path, builder, options, [&] { mesh = builder.finish(); });
+  return std::move(*mesh);
+}
+
+StreamInfo lookAtMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)
+{
+  RawMeshBuilder builder(workspace, options.cells, RawMeshBuilder::Look);
+  try
+  {
+    importFile(path, builder, options, [&] { builder.finish(); });
+  }
+  catch (const CellTypeFound& cells)
+  {
+    return builder.found(cells);
+  }
+  throw Error(path.string() + ": the file has no cells.");
 }
 
 } // namespace smg

@@ -73,4 +73,14 @@ struct ImportOptions
 SMG_EXPORT RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});
 
+/**
+ * What importMesh() would make of the file, as far as its beginning up to the first cell tells: the
+ * type of the cells, the precision, and the columns; no counts. Vertices are skipped, as fast as
+ * the format allows. A column that may turn out to be without information is not told.
+ * @return if the mesh can be imported, its type
+ * @throws Error as importMesh(), where that can be seen up to there; Cancelled
+ */
+SMG_EXPORT StreamInfo lookAtMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});
+
 } // namespace smg

@@ -68,14 +68,18 @@ void appendAs(std::span<const double> numbers, ImportColumn& column)
   column.append(std::as_bytes(std::span(tuple).first(size)));
 }
 
-/** A column of labels, one integer each, which is omitted if all have the default value. */
+/** A column of labels, one integer each, which is omitted if all have the default value: only the
+ * whole file tells whether the mesh has it. */
 class LabelColumn
 {
 public:
   LabelColumn(RawMeshBuilder& builder, ColumnOf of, const char* name, std::int64_t usual = 0)
-    : Column(builder, of, { name, ScalarType::Int64, 1 })
-    , Usual(usual)
+    : Usual(usual)
   {
+    if (!builder.looks())
+    {
+      this->Column = ImportColumn(builder, of, { name, ScalarType::Int64, 1 });
+    }
   }
 
   void add(std::int64_t label)

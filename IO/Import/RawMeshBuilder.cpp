@@ -17,9 +17,10 @@
 namespace smg
 {
 
-RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice)
+RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice, Use use)
   : Space(workspace)
   , Choice(choice)
+  , Used(use)
   , Mesh(workspace)
 {
   if (choice != CellChoice::Only)
@@ -58,7 +59,23 @@ RawMeshBuilder::BuiltColumn* RawMeshBuilder::addColumn(ColumnOf of, const Column
   // Many columns, which may be filled concurrently, share the memory of a few.
   const std::int64_t share = this->Space.available() / 16 / (std::ssize(columns) + 1);
   columns.push_back({ RawColumn{ spec, BucketFile(this->Space, 1, share) } });
-  return &columns.back();
+  return this->looks() ? nullptr : &columns.back();
+}
+
+StreamInfo RawMeshBuilder::found(const CellTypeFound& cells) const
+{
+  StreamInfo info;
+  info.cellType = cells.type;
+  info.doublePositions = this->Mesh.doublePositions;
+  for (const BuiltColumn& column : this->Columns[std::size_t(ColumnOf::Vertices)])
+  {
+    info.vertexColumns.push_back(column.spec);
+  }
+  for (const BuiltColumn& column : this->Columns[std::size_t(ColumnOf::Elements)])
+  {
+    info.cellColumns.push_back(column.spec);
+  }
+  return info;
 }
 
 std::vector<RawColumn> RawMeshBuilder::finishColumns(ColumnOf of, std::int64_t tuples)
@@ -102,12 +119,20 @@ void RawMeshBuilder::vertex(double x, double y, double z)
   {
     throw MeshError("the mesh has more than 4294967294 vertices, which are too many");
   }
-  isDouble ? this->Mesh.positions.put(0, doubles) : this->Mesh.positions.put(0, floats);
   ++this->Mesh.vertices;
+  if (this->looks())
+  {
+    return;
+  }
+  isDouble ? this->Mesh.positions.put(0, doubles) : this->Mesh.positions.put(0, floats);
 }
 
 bool RawMeshBuilder::wants(CellType type)
 {
+  if (this->looks() && (!this->Kind || *this->Kind == type))
+  {
+    throw CellTypeFound{ type };
+  }
   if (!this->Kind)
   {
     this->Kind = this->Mesh.cellType = type;

@@ -19,6 +19,12 @@
 namespace smg
 {
 
+/** Thrown by a builder that only looks at a file, at its first cell; see RawMeshBuilder::Look. */
+struct SMG_EXPORT CellTypeFound
+{
+  CellType type;
+};
+
 /** What the tuples of a column of a mesh belong to. */
 enum class ColumnOf : std::uint8_t
 {
@@ -37,9 +43,21 @@ class RawMeshBuilder
 public:
   static constexpr std::int64_t MaxVertices = std::int64_t(NoIndex) - 1;
 
-  RawMeshBuilder(Workspace& workspace, CellChoice choice);
+  /** What becomes of the mesh. */
+  enum Use : std::uint8_t
+  {
+    Keep,
+    /** Nothing is stored, and the first cell that the mesh would have ends the parser by
+     * CellTypeFound. Until then it declares the columns that it knows, and may skip vertices. */
+    Look
+  };
+
+  RawMeshBuilder(Workspace& workspace, CellChoice choice, Use use = Keep);
 
   Workspace& workspace() { return this->Space; }
+  bool looks() const { return this->Used == Look; }
+  /** After CellTypeFound: the type, precision and columns; the counts are those of no mesh. */
+  StreamInfo found(const CellTypeFound& cells) const;
 
   /** To be called before the first vertex if the numbers of the file have single precision. */
   void useSinglePrecision() { this->Mesh.doublePositions = false; }
@@ -182,6 +200,7 @@ private:
 
   Workspace& Space;
   CellChoice Choice;
+  Use Used;
   RawMesh Mesh;
   std::optional<CellType> Kind; ///< of the cells so far
   bool ElementIsCell = true;    ///< so far

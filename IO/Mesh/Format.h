@@ -147,7 +147,8 @@ struct Format
 
   /**
    * Parses a file as a stream and passes the mesh to the builder. Converts a MeshError of the
-   * builder to an Error with the position in the file, or leaves it to the caller.
+   * builder to an Error with the position in the file, or leaves it to the caller. For a builder
+   * that only looks (RawMeshBuilder::Look), of a format that may hold solids, it skips vertices.
    */
   void (*parse)(InputFile& file, RawMeshBuilder& builder, const MeshPart& part,
     const ProgressFunction& progress) = nullptr;

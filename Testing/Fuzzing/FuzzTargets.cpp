@@ -13,6 +13,7 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "Testing/Fuzzing/Finding.h"
 #include "Testing/Fuzzing/FuzzPlace.h"
 #include "Testing/Fuzzing/MeshChecks.h"
 #include "Testing/Fuzzing/SealedVsm.h"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -43,7 +45,29 @@ std::string_view takeFile(std::string_view& bytes)
   return file;
 }
 
-/** Parses the file in the folder with the parser of one format. */
+/** The type of cells that a parser finds which only looks at the file; none if that fails. */
+template <class Parser>
+std::optional<CellType> lookAt(const std::filesystem::path& path, CellChoice cells, Parser parser)
+{
+  RawMeshBuilder builder(FuzzPlace::instance().workspace(), cells, RawMeshBuilder::Look);
+  InputFile file(path);
+  try
+  {
+    parser(file, builder);
+  }
+  catch (const CellTypeFound& found)
+  {
+    return found.type;
+  }
+  catch (const std::runtime_error&)
+  {
+    // The whole file has the error, too, or else more of it.
+  }
+  return {};
+}
+
+/** Parses the file in the folder with the parser of one format, of which a look at it must have
+ * told the type of the cells. */
 template <class Parser>
 bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
 {
@@ -51,12 +75,15 @@ bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
   return place.run(
     [&]
     {
+      const std::optional<CellType> looked = lookAt(path, cells, parser);
       RawMeshBuilder builder(place.workspace(), cells);
       InputFile file(path);
       parser(file, builder);
       try
       {
-        checkMesh(builder.finish());
+        const RawMesh mesh = builder.finish();
+        checkMesh(mesh);
+        mustHold(looked == mesh.cellType, "a look at the file tells another type of the cells");
       }
       catch (const MeshError& error)
       {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Mesh/Columns.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/Combinations.h"
 #include "Testing/Support/ErrorMessage.h"
@@ -51,9 +53,59 @@ protected:
     Workspace workspace(this->Folder.path(), memory);
     ImportOptions options;
     options.cells = cells;
+    const Looked looked = this->lookAt(path, options, memory);
     const RawMesh mesh = importMesh(path, workspace, options);
     EXPECT_LE(workspace.pool().peak(), memory);
+    expectLooked(looked, mesh, formatOfFile(path));
     return readRaw(mesh);
+  }
+
+  /** What a look at a file tells. */
+  struct Looked
+  {
+    StreamInfo mesh;
+    std::string error; ///< empty: none
+  };
+  Looked lookAt(const std::filesystem::path& path, const ImportOptions& options,
+    std::int64_t memory = Workspace::MinMemory)
+  {
+    Workspace workspace(this->Folder.path(), memory);
+    Looked looked;
+    looked.error = messageOf([&] { looked.mesh = lookAtMesh(path, workspace, options); });
+    EXPECT_LE(workspace.pool().peak(), memory);
+    return looked;
+  }
+
+  /** Expects that a look at a file of the format told what the mesh is. */
+  static void expectLooked(const Looked& looked, const RawMesh& mesh, const Format* format)
+  {
+    EXPECT_EQ(looked.error, "");
+    EXPECT_EQ(looked.mesh.cellType, mesh.cellType);
+    EXPECT_EQ(looked.mesh.doublePositions, mesh.doublePositions);
+    // Only formats that may hold solids are looked at, see statedMesh().
+    if (format && std::ranges::any_of(format->suffixes, &FileSuffix::tetrahedra))
+    {
+      expectColumns(looked.mesh.vertexColumns, mesh.vertexColumns);
+      expectColumns(looked.mesh.cellColumns, mesh.elementColumns);
+    }
+  }
+  /** But for those of labels, which only the whole file tells. */
+  static void expectColumns(
+    const std::vector<ColumnSpec>& looked, const std::vector<RawColumn>& columns)
+  {
+    std::vector<ColumnSpec> told = looked, all;
+    for (const RawColumn& column : columns)
+    {
+      all.push_back(column.spec);
+    }
+    const auto areLabels = [](const ColumnSpec& column)
+    {
+      return column.name == ReferenceName || column.name == PhysicalTagName ||
+             column.name == GeometricalTagName;
+    };
+    std::erase_if(told, areLabels);
+    std::erase_if(all, areLabels);
+    EXPECT_EQ(told, all);
   }
 
   /** The message of the Error; empty if there is none. */

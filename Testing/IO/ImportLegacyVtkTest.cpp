@@ -9,6 +9,7 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "Testing/IO/LookOfParser.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
@@ -79,7 +80,9 @@ protected:
     RawMeshBuilder builder(workspace, cells);
     InputFile file(this->Path);
     importLegacyVtk(file, builder);
-    return readRaw(builder.finish());
+    const RawMesh mesh = builder.finish();
+    expectLook(this->Path, cells, importLegacyVtk, mesh);
+    return readRaw(mesh);
   }
 
   /** A grid of consecutive cells of one type on the given points. */

@@ -29,7 +29,10 @@ protected:
     Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     ImportOptions options;
     options.part = part;
-    return readRaw(importMesh(this->Folder / name, workspace, options));
+    const Looked looked = this->lookAt(this->Folder / name, options);
+    const RawMesh mesh = importMesh(this->Folder / name, workspace, options);
+    expectLooked(looked, mesh, formatOfFile(this->Folder / name));
+    return readRaw(mesh);
   }
 
   void expectRefused(const MeshPart& part, const std::string& sentence)

@@ -11,6 +11,7 @@
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "Testing/IO/LookOfParser.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/VtkXmlWriter.h"
 #include "Testing/Support/Combinations.h"
@@ -44,7 +45,9 @@ protected:
     RawMeshBuilder builder(workspace, CellChoice::Only);
     InputFile file(this->Path);
     importVtkXml(file, builder);
-    return readRaw(builder.finish());
+    const RawMesh mesh = builder.finish();
+    expectLook(this->Path, CellChoice::Only, importVtkXml, mesh);
+    return readRaw(mesh);
   }
 
   /** Whether the file is refused while it is parsed, or because it holds no mesh. */

@@ -16,12 +16,17 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationStringKey.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace smg::testing
 {
@@ -67,8 +72,155 @@ std::set<std::string> suffixesOf(CellType cells)
   return suffixes;
 }
 
-/** Files of formats that tell the type of the cells at their beginning are not converted before
- * data are requested. */
+/** Appends a number as it is in memory, or in the other byte order. */
+template <class T>
+void put(std::string& bytes, T value, bool reversed = false)
+{
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if (reversed)
+  {
+    std::reverse(std::begin(raw), std::end(raw));
+  }
+  bytes.append(raw, sizeof(T));
+}
+
+/** The sizes of the huge meshes. */
+constexpr std::int64_t HugeVertices = 30000000, HugeCells = 20000000;
+
+/** A file with holes: bytes at their offsets; the last ones are its end. */
+using Sparse = std::vector<std::pair<std::uintmax_t, std::string>>;
+
+void writeSparse(const std::filesystem::path& path, const Sparse& parts)
+{
+  std::ofstream file(path, std::ios::binary);
+  for (const auto& [offset, bytes] : parts)
+  {
+    file.seekp(static_cast<std::streamoff>(offset));
+    file << bytes;
+  }
+}
+
+/** Tetrahedra behind the vertices, of the version with positions of 64 bits. */
+Sparse hugeMeshb()
+{
+  std::string head, cells;
+  for (const std::int32_t number : { 1, 3, 3 })
+  {
+    put(head, number);
+  }
+  put<std::int64_t>(head, 24);
+  put<std::int32_t>(head, 3);
+  constexpr std::int64_t Begin = 24 + 16, End = Begin + HugeVertices * 28;
+  put<std::int32_t>(head, 4);
+  put<std::int64_t>(head, End);
+  put(head, static_cast<std::int32_t>(HugeVertices));
+  put<std::int32_t>(cells, 8);
+  put<std::int64_t>(cells, 0);
+  put(cells, static_cast<std::int32_t>(HugeCells));
+  for (const std::int32_t number : { 1, 2, 3, 4, 0 })
+  {
+    put(cells, number);
+  }
+  return { { 0, head }, { End, cells }, { End + 16 + HugeCells * 20 - 1, std::string(1, '\0') } };
+}
+
+Sparse hugeMsh()
+{
+  std::string head = "$MeshFormat\n4.1 1 8\n", cells = "\n$EndNodes\n$Elements\n";
+  put<std::int32_t>(head, 1);
+  head += "\n$EndMeshFormat\n$Nodes\n";
+  const auto block = [](std::string& bytes, std::int64_t count, std::int32_t third)
+  {
+    for (const std::int64_t number : { std::int64_t(1), count, std::int64_t(1), count })
+    {
+      put(bytes, number);
+    }
+    for (const std::int32_t number : { 3, 1, third })
+    {
+      put(bytes, number);
+    }
+    put(bytes, count);
+  };
+  block(head, HugeVertices, 0);
+  block(cells, HugeCells, 4);
+  for (std::int64_t number = 1; number < 6; ++number)
+  {
+    put(cells, number);
+  }
+  const std::uintmax_t at = head.size() + HugeVertices * 32;
+  return { { 0, head }, { at, cells }, { at + cells.size() + HugeCells * 40, "\n$EndElements\n" } };
+}
+
+Sparse hugeVtk()
+{
+  const std::string head =
+    "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS " +
+    std::to_string(HugeVertices) + " double\n";
+  std::string cells =
+    "\nCELLS " + std::to_string(HugeCells) + ' ' + std::to_string(5 * HugeCells) + '\n';
+  const std::uintmax_t begin = head.size() + HugeVertices * 24;
+  std::uintmax_t types = begin + cells.size() + HugeCells * 20;
+  for (const std::int32_t number : { 4, 0, 1, 2, 3 })
+  {
+    put(cells, number, true);
+  }
+  std::string kinds = "\nCELL_TYPES " + std::to_string(HugeCells) + '\n';
+  const std::uintmax_t end = types + kinds.size() + HugeCells * 4;
+  put<std::int32_t>(kinds, 10, true);
+  const std::string data = "\nPOINT_DATA " + std::to_string(HugeVertices) +
+                           "\nSCALARS Heat float 1\nLOOKUP_TABLE default\n";
+  return { { 0, head }, { begin, cells }, { types, kinds }, { end, data },
+    { end + data.size() + HugeVertices * 4, "\n" } };
+}
+
+Sparse hugeVtu()
+{
+  std::uintmax_t offset = 0;
+  const auto array =
+    [&offset](const char* type, const char* name, int components, std::int64_t values, int bytes)
+  {
+    std::ostringstream tag;
+    tag << "<DataArray type='" << type << "' Name='" << name << "' NumberOfComponents='"
+        << components << "' format='appended' offset='" << offset << "'/>\n";
+    offset += 8 + static_cast<std::uintmax_t>(values) * static_cast<std::uintmax_t>(bytes);
+    return tag.str();
+  };
+  std::ostringstream text;
+  text << "<VTKFile type='UnstructuredGrid' version='1.0' byte_order='LittleEndian' "
+          "header_type='UInt64'>\n"
+       << "<UnstructuredGrid><Piece NumberOfPoints='" << HugeVertices << "' NumberOfCells='"
+       << HugeCells << "'>\n<PointData>" << array("Float32", "Heat", 1, HugeVertices, 4)
+       << "</PointData>\n<Points>";
+  const std::uintmax_t points = offset;
+  text << array("Float64", "Points", 3, HugeVertices * 3, 8) << "</Points>\n<Cells>";
+  const std::uintmax_t corners = offset;
+  text << array("Int32", "connectivity", 1, HugeCells * 4, 4);
+  const std::uintmax_t ends = offset;
+  text << array("Int32", "offsets", 1, HugeCells, 4);
+  const std::uintmax_t types = offset;
+  text << array("UInt8", "types", 1, HugeCells, 1)
+       << "</Cells>\n</Piece></UnstructuredGrid>\n<AppendedData encoding='raw'>_";
+  const std::string head = text.str();
+  const auto block = [](std::uint64_t bytes, std::initializer_list<std::int32_t> numbers)
+  {
+    std::string data;
+    put(data, bytes);
+    for (const std::int32_t number : numbers)
+    {
+      put(data, number);
+    }
+    return data;
+  };
+  return { { 0, head }, { head.size(), block(HugeVertices * 4, {}) },
+    { head.size() + points, block(HugeVertices * 24, {}) },
+    { head.size() + corners, block(HugeCells * 16, { 0, 1, 2, 3 }) },
+    { head.size() + ends, block(HugeCells * 4, { 4 }) },
+    { head.size() + types, block(HugeCells, {}) + '\x0a' },
+    { head.size() + offset, "</AppendedData></VTKFile>" } };
+}
+
+/** Files are not converted before data are requested. */
 class VtkLateConversion : public ::testing::Test
 {
 protected:
@@ -87,9 +239,6 @@ protected:
   void expectPieces(vtkStreamingMeshReader& reader, const std::filesystem::path& path, bool isSolid)
   {
     SCOPED_TRACE(path.filename().string() + " by " + reader.GetClassName());
-    static const std::set<std::string> Late = { ".ply", ".off", ".obj", ".stl", ".sma", ".smb",
-      ".sva", ".svb" };
-    const bool isLate = Late.contains(path.extension().string());
     Errors errors(&reader);
     reader.SetFileName(path.c_str());
     reader.SetScratchDirectory(this->Scratch.c_str());
@@ -97,11 +246,8 @@ protected:
     const char* const type = isSolid ? "vtkUnstructuredGrid" : "vtkPolyData";
     EXPECT_TRUE(reader.GetOutputDataObject(0)->IsA(type));
     reader.UpdateInformation();
-    if (isLate)
-    {
-      EXPECT_FALSE(this->isConverted());
-      EXPECT_EQ(reader.GetFullNumberOfPoints(), -1);
-    }
+    EXPECT_FALSE(this->isConverted());
+    EXPECT_EQ(reader.GetFullNumberOfPoints(), -1);
     vtkDataArraySelection* const arrays = reader.GetPointDataArraySelection();
     EXPECT_TRUE(arrays->ArrayExists("OriginalId"));
     ASSERT_TRUE(updatePiece(&reader, 0, 1)) << errors.text();
@@ -145,6 +291,58 @@ TEST_F(VtkLateConversion, NothingIsConvertedBeforeDataAreRequested)
       converter->SetOutputFileName(this->Converted.c_str());
       this->expectPieces(*converter, this->Folder / path, isSolid);
     }
+  }
+}
+
+/** Pieces of VTK, compressed files, and a binary form that is only read. */
+TEST_F(VtkLateConversion, NorAreFilesThatAreOnlyRead)
+{
+  const auto pieces = [](const std::string& kind, const std::string& piece)
+  {
+    return "<VTKFile type='P" + kind + "'><P" + kind + "><Piece Source='" + piece + "'/></P" +
+           kind + "></VTKFile>";
+  };
+  convert(this->Surface, this->Folder / "one.vtp");
+  convert(this->Solid, this->Folder / "one.vtu");
+  writeBytes(this->Folder / "all.pvtp", pieces("PolyData", "one.vtp"));
+  writeBytes(this->Folder / "all.pvtu", pieces("UnstructuredGrid", "one.vtu"));
+  for (const char* name : { "one.vtu", "one.vtp", "all.pvtu", "tets.mesh" })
+  {
+    ASSERT_EQ(std::system(("gzip -fk '" + (this->Folder / name).string() + "'").c_str()), 0);
+  }
+  for (const char* name : { "all.pvtp", "one.vtp.gz" })
+  {
+    this->expectPieces(*vtkNew<vtkStreamingMeshReader>(), this->Folder / name, false);
+  }
+  for (const char* name : { "all.pvtu", "one.vtu.gz", "all.pvtu.gz", "tets.mesh.gz" })
+  {
+    this->expectPieces(*vtkNew<vtkStreamingMeshReader>(), this->Folder / name, true);
+  }
+}
+
+/** Of a gigabyte, the blocks where the cells begin. */
+TEST_F(VtkLateConversion, OnlyTheBeginningOfTheCellsIsReadBeforeDataAreRequested)
+{
+  for (const auto& [name, parts] : std::map<std::string, Sparse>{ { "huge.meshb", hugeMeshb() },
+         { "huge.msh", hugeMsh() }, { "huge.vtk", hugeVtk() }, { "huge.vtu", hugeVtu() } })
+  {
+    SCOPED_TRACE(name);
+    const std::filesystem::path path = this->Folder / name;
+    writeSparse(path, parts);
+    ASSERT_GT(std::filesystem::file_size(path), std::uintmax_t(1) << 30);
+    vtkNew<vtkStreamingMeshReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->SetScratchDirectory(this->Scratch.c_str());
+    Errors errors(reader);
+    const std::int64_t before = bytesReadByAll();
+    reader->UpdateInformation();
+    EXPECT_LT(bytesReadByAll() - before, std::int64_t(16) << 20);
+    EXPECT_EQ(bytesIn(this->Scratch), 0U);
+    EXPECT_EQ(errors.text(), "");
+    EXPECT_TRUE(reader->GetOutputDataObject(0)->IsA("vtkUnstructuredGrid"));
+    EXPECT_EQ(reader->GetPointDataArraySelection()->ArrayExists("Heat"),
+      path.extension() == ".vtk" || path.extension() == ".vtu");
+    std::filesystem::remove(path);
   }
 }
 

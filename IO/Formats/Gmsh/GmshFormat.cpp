@@ -81,6 +81,12 @@ private:
     {
       this->Input.fail("the section $MeshFormat is missing");
     }
+    if (areNodes && this->Builder.looks() && !this->Input.isBinary())
+    {
+      this->HasNodes = true;
+      this->Input.skipSection(end);
+      return;
+    }
     if (hasGroups)
     {
       this->Tags.readEntities(this->Input);
@@ -135,8 +141,14 @@ private:
    * parameters there. */
   void readNodes(bool areParametric)
   {
-    const std::int64_t nodes = this->Input.lineCount("the number of nodes", 8, 28);
+    constexpr std::size_t NodeBytes = 28;
+    const std::int64_t nodes = this->Input.lineCount("the number of nodes", 8, NodeBytes);
     this->Input.beginNumbers();
+    if (this->Builder.looks() && !areParametric)
+    {
+      this->Input.skipNumbers(nodes, NodeBytes);
+      return;
+    }
     for (std::int64_t i = 0; i < nodes; ++i)
     {
       this->Nodes.add(this->Input.integer("the tag of a node"));
@@ -164,7 +176,10 @@ private:
     {
       this->readNodeBlock();
     }
-    this->checkSum(this->Nodes.count(), nodes, "nodes");
+    if (!this->Builder.looks())
+    {
+      this->checkSum(this->Nodes.count(), nodes, "nodes");
+    }
   }
 
   /** The least and the largest tag, which version 4.0 does not have. */
@@ -210,6 +225,13 @@ private:
     }
     const std::int64_t nodes = this->Input.count("the number of nodes of a block", 8, 28);
     const bool tagsFirst = !this->Input.isFourZero();
+    if (this->Builder.looks())
+    {
+      const std::int64_t numbers = 3 + dimension * parametric;
+      this->Input.skipNumbers(nodes, (tagsFirst ? sizeof(std::int64_t) : sizeof(std::int32_t)) +
+                                       static_cast<std::size_t>(numbers) * sizeof(double));
+      return;
+    }
     for (std::int64_t i = 0; tagsFirst && i < nodes; ++i)
     {
       this->Nodes.add(this->blockTag("the tag of a node"));

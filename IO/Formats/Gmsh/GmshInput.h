@@ -63,6 +63,11 @@ public:
   {
     return this->Binary ? this->Numbers.take<double>(what) : this->Scanner.number(what);
   }
+  /** Skips `count` items of `bytes` bytes each in a binary file. */
+  void skipNumbers(std::int64_t count, std::size_t bytes)
+  {
+    this->Numbers.skip(static_cast<std::size_t>(count) * bytes);
+  }
   /** A count of following items, 64 bits, refused if the file cannot hold them. */
   std::int64_t count(const char* what, std::size_t minText, std::size_t minBinary);
   /** The same check for a number of any kind of a binary file that has been read. */

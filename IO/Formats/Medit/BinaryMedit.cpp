@@ -161,6 +161,10 @@ private:
     const bool isSingle = this->Version == 1;
     const std::int64_t count =
       this->count("the number of vertices", 1, axes * (isSingle ? sizeof(float) : sizeof(double)));
+    if (this->Builder.looks())
+    {
+      return; // the next section says where it begins
+    }
     for (std::int64_t i = 0; i < count; ++i)
     {
       std::array<double, 3> point{};

@@ -142,6 +142,11 @@ private:
       this->Scanner.fail("there are two sections 'Vertices'");
     }
     const std::int64_t count = this->Scanner.count("the number of vertices", 4);
+    if (this->Builder.looks())
+    {
+      this->skipSection();
+      return;
+    }
     for (std::int64_t i = 0; i < count; ++i)
     {
       std::array<double, 3> point{};

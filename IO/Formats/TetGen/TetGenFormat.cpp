@@ -67,7 +67,10 @@ public:
           markerColumn =
             ImportColumn(this->Builder, ColumnOf::Vertices, { MarkerName, ScalarType::Int64, 1 });
         }
-        for (std::int64_t i = 0; i < count; ++i)
+        // The first one has the number from which all count.
+        const bool looks = this->Builder.looks();
+        const std::int64_t read = looks ? std::min<std::int64_t>(count, 1) : count;
+        for (std::int64_t i = 0; i < read; ++i)
         {
           this->readNode(scanner, i, static_cast<std::size_t>(dimension));
           this->Column.append(this->readAttributes(scanner));
@@ -77,7 +80,10 @@ public:
             markerColumn.append(std::as_bytes(std::span(&marker, 1)));
           }
         }
-        checkEnd(scanner);
+        if (!looks)
+        {
+          checkEnd(scanner);
+        }
       });
   }
 

@@ -69,21 +69,17 @@ public:
 
   void read()
   {
+    if (this->Builder.looks())
+    {
+      this->look();
+      return;
+    }
     if (VtkPointMerger::applies(this->Layout))
     {
       this->Merger = std::make_unique<VtkPointMerger>(this->Files, this->Layout, this->Builder);
     }
     this->readPoints();
-    for (std::size_t list = 0; list < this->lists(); ++list)
-    {
-      std::int64_t base = 0;
-      for (const VtkPiece& piece : this->Layout.pieces)
-      {
-        this->readCells(piece, list, base);
-        base += piece.points;
-        this->advance();
-      }
-    }
+    this->readCells();
     this->readColumns(&VtkPiece::pointArrays);
     this->readColumns(&VtkPiece::cellArrays);
     noteArrays(this->Builder, this->Layout.otherArrays, this->Layout.repeatedArrays);
@@ -95,6 +91,15 @@ public:
   }
 
 private:
+  /** Declares the columns, and passes cells until one ends that. */
+  void look()
+  {
+    this->declarePrecision();
+    this->readColumns(&VtkPiece::pointArrays);
+    this->readColumns(&VtkPiece::cellArrays);
+    this->readCells();
+  }
+
   std::size_t lists() const
   {
     return this->Layout.pieces.empty() ? 0 : this->Layout.pieces.front().lists.size();
@@ -120,7 +125,7 @@ private:
     throw Error(this->open(piece).name() + ", " + text + '.');
   }
 
-  void readPoints()
+  void declarePrecision()
   {
     const bool isDouble = std::ranges::any_of(this->Layout.pieces, [](const VtkPiece& piece)
       { return piece.points > 0 && piece.positions->type != ScalarType::Float32; });
@@ -128,6 +133,11 @@ private:
     {
       this->Builder.useSinglePrecision();
     }
+  }
+
+  void readPoints()
+  {
+    this->declarePrecision();
     std::optional<VtkPointMerger::Walk> walk;
     if (this->Merger)
     {
@@ -191,10 +201,25 @@ private:
     return cells;
   }
 
+  void readCells()
+  {
+    for (std::size_t list = 0; list < this->lists(); ++list)
+    {
+      std::int64_t base = 0;
+      for (const VtkPiece& piece : this->Layout.pieces)
+      {
+        this->readCells(piece, list, base);
+        base += piece.points;
+        this->advance();
+      }
+    }
+  }
+
   void readCells(const VtkPiece& piece, std::size_t list, std::int64_t base)
   {
     const VtkCellList& cells = piece.lists[list];
-    if (cells.cells == 0)
+    const bool cannotEndIt = this->Builder.looks() && !cells.types && isPointOrLine(cells.type);
+    if (cells.cells == 0 || cannotEndIt)
     {
       return;
     }
