@@ -6,6 +6,7 @@
 #include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "Testing/IO/ContainerMeshes.h"
+#include "Testing/IO/RewrittenBlocks.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Convert.h"
@@ -27,45 +28,6 @@ namespace smg::testing
 {
 namespace
 {
-
-/** The column of a block, to be changed. */
-using Edit = std::function<void(int table, int column, std::vector<std::byte>& bytes)>;
-
-/** Writes a block file anew, with another header, tables and blocks, and another column of the
- * cells, of zeros. */
-void rewrite(const std::filesystem::path& from, const std::filesystem::path& to,
-  const std::string& header, const std::vector<TableSpec>& tables, const Edit& edit = {},
-  const std::optional<ColumnSpec>& added = {})
-{
-  BlockFileReader reader(from);
-  BlockFileWriter writer(to, tables, reader.codec());
-  for (int table = 0; table < static_cast<int>(tables.size()); ++table)
-  {
-    for (std::int64_t block = 0; block < reader.blocks(table); ++block)
-    {
-      const auto columns = static_cast<int>(reader.tables()[table].columns.size());
-      std::vector<std::vector<std::byte>> bytes;
-      std::vector<std::span<const std::byte>> spans;
-      for (int column = 0; column < columns; ++column)
-      {
-        bytes.emplace_back(reader.columnBytes(table, block, column));
-        reader.read(table, block, column, bytes.back());
-        if (edit)
-        {
-          edit(table, column, bytes.back());
-        }
-      }
-      if (added && table == VsmFormat::Cells)
-      {
-        const auto rows = static_cast<std::size_t>(reader.blockRows(table, block));
-        bytes.emplace_back(rows * added->tupleBytes());
-      }
-      spans.assign(bytes.begin(), bytes.end());
-      writer.append(table, reader.blockRows(table, block), spans);
-    }
-  }
-  writer.finish(header);
-}
 
 class ContainerNumbers : public ::testing::Test
 {
