@@ -13,8 +13,8 @@ namespace smg
  * ParaView, such as that of colours, do not offer it. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void addFieldArray(vtkDataObject& data, vtkAbstractArray& array);
 
-/** Adds a mark, a field array of one tuple of ones, which the plugin knows by its unusual number of
- * components: see BigMeshWriter.xml. */
+/** Adds a mark, a field array of one tuple of ones, which the plugin knows by its name; a client
+ * that has not loaded the plugin by its unusual number of components: see BigMeshWriter.xml. */
 void addMark(vtkDataObject& data, const char* name, int components);
 
 /** Hides an array from the lists of arrays of ParaView. */

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreshOutcomes.h"
 
+#include "vtkRegisteredProxies.h"
+
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkSMProperty.h"
 #include "vtkSMProxy.h"
-#include "vtkSMProxyManager.h"
 #include "vtkSMSourceProxy.h"
 
 namespace smg
@@ -27,16 +28,13 @@ void refresh(vtkObject* caller, unsigned long, void*, void*)
   }
 }
 
-/** After a proxy is made. */
-void watch(vtkObject*, unsigned long, void*, void* data)
+void watch(vtkSMProxy& proxy)
 {
   static const vtkNew<vtkCallbackCommand> command;
   command->SetCallback(refresh);
-  const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
-  auto* source = made ? vtkSMSourceProxy::SafeDownCast(made->Proxy) : nullptr;
+  auto* source = vtkSMSourceProxy::SafeDownCast(&proxy);
   vtkSMProperty* outcome = source ? source->GetProperty("Outcome") : nullptr;
   const bool isOurs = outcome && outcome->GetInformationOnly();
-  // A renamed proxy is registered again.
   if (isOurs && !source->HasObserver(vtkCommand::UpdateDataEvent, command))
   {
     source->AddObserver(vtkCommand::UpdateDataEvent, command);
@@ -47,12 +45,7 @@ void watch(vtkObject*, unsigned long, void*, void* data)
 
 void refreshOutcomes()
 {
-  if (vtkSMProxyManager* manager = vtkSMProxyManager::GetProxyManager())
-  {
-    vtkNew<vtkCallbackCommand> command;
-    command->SetCallback(watch);
-    manager->AddObserver(vtkCommand::RegisterEvent, command);
-  }
+  forRegisteredProxies([](vtkSMProxy& proxy, const std::string&) { watch(proxy); });
 }
 
 } // namespace smg

@@ -102,7 +102,7 @@ folder = t.make_folder()
 reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
 calculator.UpdatePipeline()
-# Every other writer that ParaView has for it is named in BigMeshWriter.xml.
+# Every other writer that ParaView has for it refuses it: see guarded_writers.py.
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
 suffixes = re.findall(r"\*\.(\w+)", factory.GetSupportedFileTypes(calculator.SMProxy, 0))
 written = {"vsm", "sma", "smb", "sva", "svb", "ply", "obj", "off", "stl", "mesh", "msh", "node", "ele", "vtk", "vtp", "vtu", "vtkhdf",
