@@ -59,6 +59,7 @@ def play(arguments):
     session.write("PreviewPoints/IntRangeWidget/LineEdit", 10000)
     session.apply()
     session.checkpoint("opened")
+    session.picture("opened")
     hold(session, FEET, 0, False)
     hold(session, EARS, 1, True)
     session.filter("StreamingPoisson")
@@ -100,6 +101,11 @@ def opened():
     bounds = GetActiveSource().GetDataInformation().GetBounds()
     assert bounds[2] < FEET < EARS < bounds[3], bounds
     Render()
+    # Without that anyone asks for it, the view says that this is a preview.
+    hidden = GetActiveView().SMProxy.GetProperty("HiddenRepresentations")
+    lines = [hidden.GetProxy(k).GetProperty("Text") for k in range(hidden.GetNumberOfProxies())]
+    points = GetActiveSource().GetDataInformation().GetNumberOfPoints()
+    assert f"{points:,} of 34,834 points" in [line.GetElement(0) for line in lines if line], lines
 
 
 def held():
