@@ -85,6 +85,23 @@ bool vtkMeshCondition::IsElsewhere()
 void vtkMeshCondition::Check()
 {
   smg::requireInRange({ { "Condition", this->Condition, DIRICHLET, SOFT } });
+  constexpr double NoLimit = smg::RealPropertyRange::NoLimit;
+  const bool isNotNegative = this->Condition == SCREENING;
+  const auto require = [&](const char* name, double value) {
+    smg::requireInRealRange({ { name, value, isNotNegative ? 0.0 : -NoLimit } });
+  };
+  for (const double value : this->Internal->Values)
+  {
+    require("Values", value);
+  }
+  if (this->Internal->Values.empty() && !this->ValueIsPosition)
+  {
+    require("Value", this->Value);
+  }
+  if (this->Condition == ROBIN || this->Condition == SOFT)
+  {
+    smg::requireInRealRange({ { "Coefficient", this->Coefficient, 0.0 } });
+  }
   if (this->Region == MASK || this->Region == TAG)
   {
     this->RegionArray();

@@ -13,6 +13,7 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,31 @@ struct vtkMeshHandle::Internals
           std::span<const double, 16>(this->Self.Transform->GetMatrix()->GetData(), 16));
       default:
         return {};
+    }
+  }
+
+  /** Throws Error, which names the property, if a number of the motion is out of its range. */
+  void checkMotion() const
+  {
+    constexpr double LeastScale = 1e-20, MostScale = 1e20, MostDegrees = 1e6;
+    smg::requireInRealRange({ { "Scale", this->Self.Scale, LeastScale, MostScale },
+      { "RotationAngle", this->Self.RotationAngle, -MostDegrees, MostDegrees } });
+    for (int k = 0; k < 3; ++k)
+    {
+      smg::requireInRealRange({ { "Translation", this->Self.Translation[k] },
+        { "RotationAxis", this->Self.RotationAxis[k] }, { "Center", this->Self.Center[k] } });
+    }
+    if (std::ranges::all_of(this->Self.RotationAxis, [](double x) { return x == 0.0; }))
+    {
+      throw smg::Error("RotationAxis is 0 0 0, which has no direction: set one of its numbers.");
+    }
+  }
+
+  void checkTargets() const
+  {
+    for (std::size_t i = 0; this->isOfPoints() && i < this->Targets.size(); ++i)
+    {
+      smg::requireInRealRange({ { "PointTargets", this->Targets[i] } });
     }
   }
 
@@ -112,6 +138,11 @@ vtkMTimeType vtkMeshHandle::GetMTime()
 void vtkMeshHandle::Check()
 {
   smg::requireInRange({ { "Motion", this->Motion, FIXED, TRANSFORM } });
+  if (this->Motion == SIMILARITY)
+  {
+    this->Internal->checkMotion();
+  }
+  this->Internal->checkTargets();
   this->Internal->targets();
 }
 

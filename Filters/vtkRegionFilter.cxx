@@ -27,6 +27,7 @@
 #include "vtkSelection.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,6 +84,31 @@ struct vtkRegionFilter::Internals
     }
     settings.pieces = this->Self.NumberOfPieces;
     return settings;
+  }
+
+  /** Throws Error, which names the property, if a number of the chosen
+   * region is out of its range. */
+  void checkNumbers() const
+  {
+    constexpr double Automatic = -1.0;
+    const int region = this->Self.Region;
+    if (this->isOfPoints() && this->Self.Radius != Automatic)
+    {
+      smg::requireInRealRange({ { "Radius", this->Self.Radius, 0.0, smg::RealPropertyRange::NoLimit,
+        false, "-1 (automatic)" } });
+    }
+    if (region == TAG)
+    {
+      smg::requireInRealRange({ { "Tag", this->Self.Tag } });
+    }
+    for (std::size_t i = 0; region == IDS && i < this->Ids.size(); ++i)
+    {
+      smg::requireInRange({ { "Ids", this->Ids[i], 0 } });
+    }
+    for (std::size_t i = 0; region == POINTS && i < this->Points.size(); ++i)
+    {
+      smg::requireInRealRange({ { "Points", this->Points[i] } });
+    }
   }
 
   /** Whether the region consists of single points. */
@@ -377,6 +403,7 @@ int vtkRegionFilter::RequestData(
         { "IdType", this->IdType, GLOBAL_IDS, ORIGINAL_IDS },
         { "Rings", this->Rings, 0, smg::PointProjection::MaximumRings },
         { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
+      this->Internal->checkNumbers();
       this->Check();
       this->Internal->Unused.warn(this->UnusedProperty());
       smg::PieceInput input(*this, 0);

@@ -4,7 +4,7 @@
  * @brief   Base class of filters that act on a region of a very large mesh
  *
  * The points that Region selects (the held points):
- * - FUNCTION: the points where RegionFunction is at most 0 (with InsideOut: at least 0);
+ * - FUNCTION: the points where RegionFunction is at most 0 (with InsideOut: above 0);
  * - SELECTION: the points, or the points of the cells, of the selection at input port 1;
  * - IDS: the points with the given Ids, which are GlobalIds (stream indices; of a mesh without
  *   them the numbers of its points, from 0) or values of the array `OriginalId`;
@@ -100,7 +100,7 @@ public:
   ///@}
 
   ///@{
-  /** Whether to hold the points where the function is at least 0 instead. Default: off. */
+  /** Whether to hold the points where the function is above 0 instead. Default: off. */
   vtkSetMacro(InsideOut, bool);
   vtkGetMacro(InsideOut, bool);
   vtkBooleanMacro(InsideOut, bool);
@@ -133,7 +133,7 @@ public:
   ///@{
   /**
    * The distance from the points of a selection, of ids or of positions within which the mesh is
-   * held. 0: only the points themselves. Negative (default -1): for points selected on a preview,
+   * held. 0: only the points themselves. -1 (default): for points selected on a preview,
    * the mean edge length of the preview divided by the square root of 3, the radius that each of
    * them represents; otherwise 0.
    */

@@ -30,12 +30,12 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
-#include "vtkTimeStamp.h"
 
 #include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /** How the filter answers requests, and what it keeps between them. */
@@ -87,6 +87,7 @@ struct vtkStreamingSolver::Internals
         !exchange.isParallel() && this->asksForWhole(input, request),
         isForMemory ? &values : nullptr);
     }
+    this->Summary = this->inPanelWords(std::move(this->Summary));
     this->Summary.isCancelled = !this->Summary.error.empty() && smg::isAborted(this->Self);
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
@@ -249,7 +250,7 @@ struct vtkStreamingSolver::Internals
     }
     catch (const std::exception& error)
     {
-      this->Summary = smg::SolveSummary::failed(error.what());
+      this->Summary = this->failed(error);
     }
   }
 
@@ -289,7 +290,7 @@ struct vtkStreamingSolver::Internals
     }
     catch (const std::exception& error)
     {
-      this->Streamed.fail(error.what());
+      this->Streamed.fail(this->Self.InPanelWords(error.what()));
     }
     // Requesting pieces may itself have updated modification times of the pipeline.
     this->Streamed.setStamp(smg::stampOf(this->Self, input, inputInfo));
@@ -326,7 +327,7 @@ struct vtkStreamingSolver::Internals
     }
     catch (const std::exception& error)
     {
-      return smg::SolveSummary::failed(error.what());
+      return this->failed(error);
     }
   }
 
@@ -370,7 +371,7 @@ struct vtkStreamingSolver::Internals
   {
     if (smg::SolutionExchange(this->Self.Controller).isServer())
     {
-      smg::warnOf(this->Self, summary, this->Self.IsToConverge());
+      smg::warnOf(this->Self, this->inPanelWords(summary), this->Self.IsToConverge());
     }
   }
 
@@ -405,17 +406,29 @@ struct vtkStreamingSolver::Internals
     smg::addFieldArray(output, *report);
   }
 
-  /** The last known modification time of the pipeline. */
-  vtkMTimeType pipelineTime() const
-  {
-    return vtkDemandDrivenPipeline::SafeDownCast(this->Self.GetExecutive())->GetPipelineMTime();
-  }
   /** Whether the last output is up to date with the pipeline. */
-  bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt.GetMTime(); }
+  bool isUpToDate() const { return this->Failures.isCurrent(this->Self); }
+
+  /** The failure of a solve, in the words of panels. */
+  smg::SolveSummary failed(const std::exception& error) const
+  {
+    return smg::SolveSummary::failed(this->Self.InPanelWords(error.what()));
+  }
+
+  /** The same for what a solve has to say. */
+  smg::SolveSummary inPanelWords(smg::SolveSummary summary) const
+  {
+    summary.error = this->Self.InPanelWords(summary.error);
+    summary.notes = this->Self.InPanelWords(summary.notes);
+    for (std::string& warning : summary.warnings)
+    {
+      warning = this->Self.InPanelWords(warning);
+    }
+    return summary;
+  }
 
   vtkStreamingSolver& Self;
   smg::Failures Failures;
-  vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
   smg::StreamedSolve Streamed;
   smg::KeptCoarserPreview Coarser;
   smg::InputStamp StreamStamp; ///< of an input that as a whole is a mesh stream

@@ -152,6 +152,7 @@ void vtkStreamingBlend::CheckRanges() const
 {
   this->Superclass::CheckRanges();
   smg::requireInRange({ { "SeamGradient", this->SeamGradient, ZERO, AVERAGE } });
+  smg::requireInRealRange({ { "Anchor", this->Anchor, 0.0 } });
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)

@@ -5,6 +5,7 @@
 #include "Filters/Tasks/vtkJobTask.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPropertyRange.h"
+#include "Solver/Core/Counted.h"
 #include "smg/Deform.h"
 #include "smg/Distance.h"
 #include "smg/Error.h"
@@ -103,9 +104,9 @@ protected:
   {
     if (report.distance && report.distance->unreached > 0)
     {
-      report.notes.push_back(
-        std::to_string(report.distance->unreached) +
-        " vertices are not reached from any source: their distance is infinite");
+      report.notes.push_back(smg::counted(report.distance->unreached,
+        "vertex is not reached from any source: its distance is infinite",
+        "vertices are not reached from any source: their distance is infinite"));
     }
   }
 };

@@ -143,12 +143,12 @@ const char* vtkStreamingMeshPreview::GetError()
 
 vtkIdType vtkStreamingMeshPreview::GetFullNumberOfPoints()
 {
-  return this->Internal->Full.vertices;
+  return this->Internal->Failures.isCurrent(*this) ? this->Internal->Full.vertices : 0;
 }
 
 vtkIdType vtkStreamingMeshPreview::GetFullNumberOfCells()
 {
-  return this->Internal->Full.cells;
+  return this->Internal->Failures.isCurrent(*this) ? this->Internal->Full.cells : 0;
 }
 
 int vtkStreamingMeshPreview::FillInputPortInformation(int, vtkInformation* info)

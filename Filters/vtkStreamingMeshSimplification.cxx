@@ -110,7 +110,6 @@ struct vtkStreamingMeshSimplification::Internals
     catch (const std::exception& error)
     {
       this->release();
-      this->Outcome = "Failed: " + std::string(error.what());
       throw;
     }
     input.update(request.Piece, request.Pieces, request.IsStreamed);
@@ -120,11 +119,22 @@ struct vtkStreamingMeshSimplification::Internals
 
   void checkRanges() const
   {
-    constexpr int LeastMemory = 16, MaxThreads = 4096;
-    smg::requireInRange({ { "NumberOfVertices", this->Self.NumberOfVertices, 0 },
-      { "MemoryLimit", this->Self.MemoryLimit, LeastMemory },
+    constexpr int LeastVertices = 4, LeastMemory = 16, MaxThreads = 4096;
+    if (this->Self.NumberOfVertices != 0)
+    {
+      smg::requireInRange({ { "NumberOfVertices", this->Self.NumberOfVertices, LeastVertices,
+        smg::PropertyRange::NoLimit, "0 (as few as MaximumError allows)" } });
+    }
+    smg::requireInRange({ { "MemoryLimit", this->Self.MemoryLimit, LeastMemory },
       { "NumberOfPieces", this->Self.NumberOfPieces, 0, smg::PieceCount::Most },
       { "NumberOfThreads", this->Self.NumberOfThreads, 0, MaxThreads } });
+    smg::requireInRealRange({ { "MaximumError", this->Self.MaximumError, 0.0 } });
+    if (this->Self.NumberOfVertices == 0 && this->Self.MaximumError == 0.0)
+    {
+      throw smg::Error(
+        "Nothing says how far to simplify: set NumberOfVertices, MaximumError or both "
+        "above 0.");
+    }
   }
 
   std::string estimate() const
@@ -147,6 +157,9 @@ struct vtkStreamingMeshSimplification::Internals
         return estimate;
       });
   }
+
+  /** Whether the result is that of the present input. */
+  bool isCurrent() const { return this->Result && this->Failures.isCurrent(this->Self); }
 
   smg::SimplifyTarget target() const
   {
@@ -216,7 +229,8 @@ struct vtkStreamingMeshSimplification::Internals
   std::optional<smg::ScratchFolder> Scratch;
   std::optional<smg::VsmReader> Result; ///< in the scratch folder
   smg::SimplifyReport Report;
-  std::string Outcome, Json, Estimate; ///< storage of the strings that are returned
+  std::string Outcome;
+  std::string Shown, Json, Estimate; ///< storage of the strings that are returned
   smg::InputStamp MadeFor;
 };
 
@@ -232,7 +246,7 @@ vtkStreamingMeshSimplification::~vtkStreamingMeshSimplification()
 
 double vtkStreamingMeshSimplification::GetReachedError()
 {
-  return this->Internal->Report.error;
+  return this->Internal->isCurrent() ? this->Internal->Report.error : smg::SimplifyReport().error;
 }
 
 const char* vtkStreamingMeshSimplification::GetEstimate()
@@ -243,7 +257,11 @@ const char* vtkStreamingMeshSimplification::GetEstimate()
 
 const char* vtkStreamingMeshSimplification::GetOutcome()
 {
-  return this->Internal->Outcome.c_str();
+  const std::string& error = this->Internal->Failures.error();
+  this->Internal->Shown = !error.empty()                ? "Failed: " + error
+                          : this->Internal->isCurrent() ? this->Internal->Outcome
+                                                        : "";
+  return this->Internal->Shown.c_str();
 }
 
 const char* vtkStreamingMeshSimplification::GetError()
@@ -253,7 +271,7 @@ const char* vtkStreamingMeshSimplification::GetError()
 
 const char* vtkStreamingMeshSimplification::GetReport()
 {
-  this->Internal->Json = this->Internal->Result ? this->Internal->Report.json() : "";
+  this->Internal->Json = this->Internal->isCurrent() ? this->Internal->Report.json() : "";
   return this->Internal->Json.c_str();
 }
 

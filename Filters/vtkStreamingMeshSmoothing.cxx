@@ -114,10 +114,17 @@ std::string vtkStreamingMeshSmoothing::SmoothedArray() const
 
 void vtkStreamingMeshSmoothing::CheckRanges() const
 {
+  constexpr int MaxSteps = 1000;
   this->Superclass::CheckRanges();
   smg::requireInRange({ { "SizeUnit", this->SizeUnit, MEAN_EDGES, DIAGONAL },
-    { "Boundary", this->Boundary, AUTOMATIC, FREE },
-    { "Normals", this->Normals, RECOMPUTE, DROP } });
+    { "Boundary", this->Boundary, AUTOMATIC, FREE }, { "Normals", this->Normals, RECOMPUTE, DROP },
+    { "Steps", this->Steps, 1, MaxSteps } });
+  constexpr double NoLimit = smg::RealPropertyRange::NoLimit, StraightAngle = 180.0;
+  smg::requireInRealRange({ { "Size", this->Size, 0.0, NoLimit, true } });
+  if (this->KeepEdges)
+  {
+    smg::requireInRealRange({ { "EdgeAngle", this->EdgeAngle, 0.0, StraightAngle, true } });
+  }
 }
 
 std::string vtkStreamingMeshSmoothing::UnusedProperty()

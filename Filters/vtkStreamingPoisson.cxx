@@ -4,6 +4,7 @@
 #include "Filters/Pieces/vtkCellParts.h"
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Processes/vtkDistributedTasks.h"
+#include "Filters/Regions/ConditionNames.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/vtkPoissonTask.h"
@@ -78,7 +79,7 @@ struct vtkStreamingPoisson::Internals
       append(problem, smg::readProblemText(text, "Problem", defaults));
     }
     smg::requireConditionsAfterJoins(this->Self);
-    smg::applyConditions(input, problem);
+    this->Conditions = smg::applyConditions(input, problem);
     problem.gradientOutput = problem.gradientOutput || this->Self.Gradient;
     problem.fluxOutput = problem.fluxOutput || this->Self.Flux;
     return problem;
@@ -203,6 +204,7 @@ struct vtkStreamingPoisson::Internals
   smg::WarnOnce NoCells;
   /** The problem of the last solve, in the process that solves. */
   std::optional<smg::ProblemDescription> Solved;
+  mutable smg::ConditionNames Conditions;   ///< of the last description
   std::string WhyNotOnPreview;              ///< if a preview is shown
   std::filesystem::file_time_type FileTime; ///< of the problem file
   vtkTimeStamp FileChanged;
@@ -223,7 +225,7 @@ vtkStreamingPoisson::~vtkStreamingPoisson()
 
 int vtkStreamingPoisson::GetCycles()
 {
-  return this->GetSummary().cycles;
+  return this->GetPresentSummary().cycles;
 }
 
 vtkMTimeType vtkStreamingPoisson::GetMTime()
@@ -243,6 +245,19 @@ void vtkStreamingPoisson::CheckRanges() const
 {
   this->Superclass::CheckRanges();
   smg::requireInRange({ { "Acceleration", this->Acceleration, AUTOMATIC, CONJUGATE_GRADIENTS } });
+  smg::requireInRealRange(
+    { { "Conductivity", this->Conductivity, 0.0, smg::RealPropertyRange::NoLimit, true },
+      { "Screening", this->Screening, 0.0 } });
+}
+
+std::string vtkStreamingPoisson::InPanelWords(const std::string& text)
+{
+  return this->Internal->Conditions.in(this->Superclass::InPanelWords(text));
+}
+
+bool vtkStreamingPoisson::HasAutomaticTolerance() const
+{
+  return true;
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)

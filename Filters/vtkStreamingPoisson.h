@@ -130,6 +130,9 @@ protected:
   ~vtkStreamingPoisson() override;
 
   void CheckRanges() const override;
+  bool HasAutomaticTolerance() const override;
+  /** Names Mesh Conditions instead of the entries of the problem that they make. */
+  std::string InPanelWords(const std::string& text) override;
   /** Looks whether the problem file has changed, once for every update of the pipeline. */
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int port, vtkMTimeType* time) override;

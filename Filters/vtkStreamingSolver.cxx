@@ -5,6 +5,7 @@
 #include "Filters/vtkSolverRequests.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 
 #include "vtkDemandDrivenPipeline.h"
@@ -18,7 +19,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
-#include "vtkTimeStamp.h"
 
 #include <exception>
 #include <string>
@@ -46,25 +46,31 @@ const smg::SolveSummary& vtkStreamingSolver::GetSummary() const
   return this->Internal->Summary;
 }
 
+const smg::SolveSummary& vtkStreamingSolver::GetPresentSummary() const
+{
+  static const smg::SolveSummary none;
+  // If an upstream filter fails, this one may not be executed.
+  return this->Internal->isUpToDate() ? this->GetSummary() : none;
+}
+
 double vtkStreamingSolver::GetResidual()
 {
-  return this->GetSummary().residual;
+  return this->GetPresentSummary().residual;
 }
 
 int vtkStreamingSolver::GetPasses()
 {
-  return this->GetSummary().passes;
+  return this->GetPresentSummary().passes;
 }
 
 vtkIdType vtkStreamingSolver::GetPeakMemory()
 {
-  return static_cast<vtkIdType>(this->GetSummary().peakMemory);
+  return static_cast<vtkIdType>(this->GetPresentSummary().peakMemory);
 }
 
 int vtkStreamingSolver::GetConverged()
 {
-  // If an upstream filter fails, this one is not executed.
-  return this->GetSummary().converged && this->Internal->isUpToDate() ? 1 : 0;
+  return this->GetPresentSummary().converged ? 1 : 0;
 }
 
 const char* vtkStreamingSolver::GetOutcome()
@@ -99,7 +105,13 @@ const char* vtkStreamingSolver::GetEstimate()
       return this->MakeEstimatedTask(input);
     },
     options);
+  this->Internal->Estimate = this->InPanelWords(this->Internal->Estimate);
   return this->Internal->Estimate.c_str();
+}
+
+std::string vtkStreamingSolver::InPanelWords(const std::string& text)
+{
+  return smg::withProperties(text, *this);
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeEstimatedTask(vtkPointSet& input)
@@ -114,12 +126,12 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeCoarserTask(vtkPointS
 
 const char* vtkStreamingSolver::GetNotes()
 {
-  return this->GetSummary().notes.c_str();
+  return this->GetPresentSummary().notes.c_str();
 }
 
 const char* vtkStreamingSolver::GetReport()
 {
-  return this->GetSummary().report.c_str();
+  return this->GetPresentSummary().report.c_str();
 }
 
 const char* vtkStreamingSolver::GetError()
@@ -136,6 +148,18 @@ void vtkStreamingSolver::CheckRanges() const
     { "ScratchLimit", this->ScratchLimit, 0 },
     { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most },
     { "NumberOfThreads", this->NumberOfThreads, 0, MaxThreads } });
+  const bool isAutomatic =
+    this->Tolerance == smg::SolveOptions::AutomaticTolerance && this->HasAutomaticTolerance();
+  if (!isAutomatic)
+  {
+    smg::requireInRealRange({ { "Tolerance", this->Tolerance, 0.0, 1.0, true,
+      this->HasAutomaticTolerance() ? "0 (automatic)" : "" } });
+  }
+}
+
+bool vtkStreamingSolver::HasAutomaticTolerance() const
+{
+  return false;
 }
 
 std::string vtkStreamingSolver::UnusedProperty()
@@ -280,7 +304,6 @@ int vtkStreamingSolver::RequestData(
       vtkInformation* info = outputVector->GetInformationObject(MESH);
       this->Internal->answer(
         smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
-      this->Internal->AnsweredAt.Modified();
       isSolved = true;
     });
   smg::fillPasses(

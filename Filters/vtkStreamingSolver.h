@@ -276,6 +276,10 @@ protected:
 
   /** Throws smg::Error if a property is out of its range. Subclasses add their own. */
   virtual void CheckRanges() const;
+  /** Whether a Tolerance of 0 stands for one that suits the mesh. Default: false. */
+  virtual bool HasAutomaticTolerance() const;
+  /** What the libraries say, in the words of a user of panels and properties. */
+  virtual std::string InPanelWords(const std::string& text);
   /** A sentence about a property that is set but has no effect with the others, for a warning; ""
    * if there is none. */
   virtual std::string UnusedProperty();
@@ -285,6 +289,9 @@ protected:
 
   /** The summary of the last solve. */
   const smg::SolveSummary& GetSummary() const;
+  /** The same, unless it is of an input or of properties that have changed since: then that of no
+   * solve. */
+  const smg::SolveSummary& GetPresentSummary() const;
 
 private:
   vtkStreamingSolver(const vtkStreamingSolver&) = delete;

@@ -2,6 +2,7 @@
 #include "IO/vtkFailures.h"
 
 #include "IO/vtkFieldMarks.h"
+#include "IO/vtkPropertyNames.h"
 #include "Solver/Core/Text.h"
 
 #include "vtkAlgorithm.h"
@@ -76,9 +77,14 @@ void Failures::begin()
   this->IsRefused = false;
 }
 
+bool Failures::isCurrent(vtkAlgorithm& algorithm) const
+{
+  return this->Error.empty() && this->Answered.GetMTime() >= pipelineTimeOf(algorithm);
+}
+
 void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 {
-  this->Error = oneLine(sentence);
+  this->Error = withProperties(oneLine(sentence), algorithm);
   const vtkMTimeType now = pipelineTimeOf(algorithm);
   if (this->Last == this->Error && this->PipelineTime == now &&
       !algorithm.HasObserver(vtkCommand::ErrorEvent))
@@ -92,7 +98,7 @@ void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 
 void Failures::showToObservers(vtkAlgorithm& algorithm, const std::string& sentence)
 {
-  this->Error = oneLine(sentence);
+  this->Error = withProperties(oneLine(sentence), algorithm);
   if (algorithm.HasObserver(vtkCommand::ErrorEvent))
   {
     vtkErrorWithObjectMacro(&algorithm, << this->Error);

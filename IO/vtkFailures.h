@@ -17,6 +17,7 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkStreamingMultigridIOModule.h"
+#include "vtkTimeStamp.h"
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
 
@@ -62,6 +63,14 @@ public:
   /** The sentence of the last failure since then, shown or not; empty: none. */
   const std::string& error() const { return this->Error; }
 
+  /** Notes that a request has been answered, with all modifications that the answer itself caused.
+   */
+  void noteAnswer() { this->Answered.Modified(); }
+  /** Whether the last request has been answered, and neither the algorithm nor what is before it
+   * has been modified since, as far as the pipeline knows. An algorithm behind another that fails
+   * may not be executed at all. What it says of its last result goes with that. */
+  bool isCurrent(vtkAlgorithm& algorithm) const;
+
   /** Reports the sentence as an error of the algorithm, unless it was the last one and the upstream
    * pipeline has not been modified since. Observers of its errors receive all of them. */
   void show(vtkAlgorithm& algorithm, const std::string& sentence);
@@ -78,6 +87,7 @@ private:
   void watch(vtkExecutive* executive);
 
   std::string Error;
+  vtkTimeStamp Answered;
   std::string Last;              ///< that was shown
   vtkMTimeType PipelineTime = 0; ///< when the last one was shown
   /** Receives the errors of the executive. */
@@ -142,6 +152,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
     }
     throughSingleBlock(input, *output, work);
     completeMesh(*data);
+    failures.noteAnswer();
     return 1;
   }
   catch (const Cancelled&)

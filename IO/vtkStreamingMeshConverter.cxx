@@ -3,6 +3,7 @@
 
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
+#include "IO/External/Workspace.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkModeProperty.h"
@@ -137,9 +138,19 @@ struct vtkStreamingMeshConverter::Internals
       smg::StreamOrder::Axis, smg::StreamOrder::Keep, smg::StreamOrder::Spectral };
     static constexpr smg::CellChoice Choices[] = { smg::CellChoice::Only,
       smg::CellChoice::Triangles, smg::CellChoice::Tetrahedra };
-    smg::requireInRange({ { "Order", self.Order, BREADTH_FIRST, SPECTRAL },
-      { "Cells", self.Cells, ONLY, TETRAHEDRA }, { "TimeStep", self.TimeStep, 0 },
-      { "Partition", self.Partition, -1 }, { "MemoryLimit", self.MemoryLimit, 0 } });
+    smg::requireInRange(
+      { { "Order", self.Order, BREADTH_FIRST, SPECTRAL }, { "Cells", self.Cells, ONLY, TETRAHEDRA },
+        { "TimeStep", self.TimeStep, 0 }, { "Partition", self.Partition, -1 } });
+    if (self.MemoryLimit != 0)
+    {
+      constexpr std::int64_t Least = smg::Workspace::MinMemory >> 20;
+      smg::requireInRange({ { "MemoryLimit", self.MemoryLimit, Least, smg::PropertyRange::NoLimit,
+        "0 (automatic)" } });
+    }
+    if (self.Weld)
+    {
+      smg::requireInRealRange({ { "WeldDistance", self.WeldDistance, 0.0 } });
+    }
     const char* scratch = self.GetScratchDirectory();
     smg::ConversionOptions options;
     options.order = Orders[self.Order];
@@ -184,13 +195,13 @@ void vtkStreamingMeshConverter::UpdateContainer()
     vtkWarningMacro(<< unused);
   }
   this->Warned = unused;
+  // Of a conversion that fails there is no report, and that of the last one is not about it.
+  const std::string last = this->ReportedName == out ? this->Report : "";
+  this->Report.clear();
   const auto report =
     smg::convertToKeep(this->GetFileName(), out, Internals::optionsOf(*this), this->Overwrite);
-  if (report || this->ReportedName != out)
-  {
-    this->Report = report ? report->json() : std::string();
-    this->ReportedName = out;
-  }
+  this->Report = report ? report->json() : last;
+  this->ReportedName = out;
 }
 
 void vtkStreamingMeshConverter::PrintSelf(ostream& os, vtkIndent indent)

@@ -19,6 +19,7 @@
 #include "IO/vtkPropertyRange.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/DiskFull.h"
 #include "Solver/Files/ScratchFolder.h"
@@ -135,9 +136,10 @@ void noteIsolated(const Job& job, Notes& notes)
     from.empty() ? 0 : smg::VsmReader(from, nullptr, job.isolatedFingerprint()).isolatedVertices();
   if (count > 0)
   {
-    notes.push_back("The " + std::to_string(count) +
-                    " points of no cell are left out: a .vsm file keeps them, and so does "
-                    "RestoreOrder.");
+    notes.push_back(
+      smg::counted(count, "point of no cell is left out: a .vsm file keeps it, and so does ",
+        "points of no cell are left out: a .vsm file keeps them, and so does ") +
+      "RestoreOrder.");
   }
 }
 
@@ -325,8 +327,8 @@ struct vtkStreamingMeshWriter::Internals
     files.writeMesh(path);
     files.check();
     code = vtkErrorCode::UnknownError;
-    smg::requireInRange({ { "NumberOfStreamedPieces", this->Self.NumberOfStreamedPieces, 0,
-      smg::PieceCount::Most } });
+    smg::requireInRange(
+      { { "NumberOfPieces", this->Self.NumberOfStreamedPieces, 0, smg::PieceCount::Most } });
     if (smg::isFailed(this->Self.GetInputDataObject(0, 0)))
     {
       // Perhaps no longer, if a filter has been modified since.

@@ -13,6 +13,7 @@
 #include "vtkSphere.h"
 #include "vtkUnsignedCharArray.h"
 
+#include "Solver/Core/Counted.h"
 #include "smg/Error.h"
 
 #include <array>
@@ -90,6 +91,14 @@ bool HeldCount::add(vtkPointSet& piece, const HeldPoints& held, const PieceReque
 namespace
 {
 
+void checkDirection(const double* direction, const char* sentence)
+{
+  if (!(vtkMath::Norm(direction) > 0.0))
+  {
+    throw Error(sentence);
+  }
+}
+
 /** The functions use its square, so that the sign would go unnoticed. */
 void checkRadius(const char* shape, double radius)
 {
@@ -110,10 +119,9 @@ void check(vtkImplicitFunction* function)
     throw Error(
       "The region has no implicit function: set RegionFunction, or choose another Region.");
   }
-  if (auto* plane = vtkPlane::SafeDownCast(function);
-      plane && vtkMath::Norm(plane->GetNormal()) == 0.0)
+  if (auto* plane = vtkPlane::SafeDownCast(function))
   {
-    throw Error("The plane of the region has no direction: set Normal.");
+    checkDirection(plane->GetNormal(), "The plane of the region has no direction: set Normal.");
   }
   // Such as that of ParaView, a unit cube that is moved, turned and scaled to its lengths.
   auto* const moved = vtkHomogeneousTransform::SafeDownCast(function->GetTransform());
@@ -130,6 +138,7 @@ void check(vtkImplicitFunction* function)
   if (auto* cylinder = vtkCylinder::SafeDownCast(function))
   {
     checkRadius("cylinder", cylinder->GetRadius());
+    checkDirection(cylinder->GetAxis(), "The cylinder of the region has no direction: set Axis.");
   }
 }
 
@@ -148,14 +157,12 @@ HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPo
     const double value = function->FunctionValue(point);
     if (!std::isfinite(value))
     {
-      std::ostringstream sentence;
-      sentence << "The implicit function of the region has no finite value at the point ("
-               << point[0] << ", " << point[1] << ", " << point[2]
-               << "): update the input first, so that the function can be fitted to it, or correct "
-                  "its numbers.";
-      throw Error(sentence.str());
+      throw Error("The implicit function of the region has no finite value at the point (" +
+                  shortest(point[0]) + ", " + shortest(point[1]) + ", " + shortest(point[2]) +
+                  "): update the input first, so that the function can be fitted to it, or correct "
+                  "its numbers.");
     }
-    held.by[i] = (isInsideOut ? value >= 0.0 : value <= 0.0) ? 0 : -1;
+    held.by[i] = (isInsideOut ? value > 0.0 : value <= 0.0) ? 0 : -1;
   }
   return held;
 }

@@ -119,8 +119,14 @@ std::string newMaskName(vtkPointSet& mesh)
 
 ProblemDescription conditionAt(vtkPointSet& mesh, int k, const ProblemDescription& defaults)
 {
-  return readProblemText(conditionsOf(mesh)->GetValue(k),
-    "condition " + std::to_string(k + 1) + " of the input", defaults);
+  try
+  {
+    return readProblemText(conditionsOf(mesh)->GetValue(k), "problem", defaults);
+  }
+  catch (const Error& error)
+  {
+    throw Error(ConditionNames::ofAlone(k + 1).in(error.what()));
+  }
 }
 
 } // namespace
@@ -159,14 +165,18 @@ int countConditions(vtkPointSet& mesh)
   return conditions ? static_cast<int>(conditions->GetNumberOfValues()) : 0;
 }
 
-void applyConditions(vtkPointSet& mesh, ProblemDescription& problem)
+ConditionNames applyConditions(vtkPointSet& mesh, ProblemDescription& problem)
 {
+  ConditionNames names;
   for (int k = 0; k < countConditions(mesh); ++k)
   {
     ProblemDescription defaults;
     defaults.weights = problem.weights;
+    const ProblemDescription before = problem;
     append(problem, conditionAt(mesh, k, defaults));
+    names.add(k + 1, before, problem);
   }
+  return names;
 }
 
 } // namespace smg

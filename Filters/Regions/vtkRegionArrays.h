@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Regions/ConditionNames.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "smg/ProblemDescription.h"
 #include "smg/Region.h"
@@ -48,8 +49,8 @@ void removeConditions(vtkPointSet& mesh);
 /** The number of conditions of the mesh. */
 int countConditions(vtkPointSet& mesh);
 
-/** Adds the conditions of a mesh to a problem. Throws Error if one is not a valid part of a
- * problem. */
-void applyConditions(vtkPointSet& mesh, ProblemDescription& problem);
+/** Adds the conditions of a mesh to a problem, and returns which entries they have become. Throws
+ * Error if one is not a valid part of a problem. */
+ConditionNames applyConditions(vtkPointSet& mesh, ProblemDescription& problem);
 
 } // namespace smg

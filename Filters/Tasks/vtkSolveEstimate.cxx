@@ -96,10 +96,13 @@ JobEstimate estimateFor(
     return estimateOf({ ordinaryMeshInfo(*present), places }, *present);
   }
   const bool isShown = present && present->GetNumberOfPoints() > 0;
+  // A piece that was requested is released after the solve.
+  const bool isApplied = present && present->GetUpdateTime() > 0;
   throw Error(isShown && isPreview(*present)
                 ? "the input is a preview, and no file tells the size of the mesh."
-              : isShown ? "the input is one piece of a mesh, whose size no file tells."
-                        : "the filter before this one has not been applied, or has no mesh.");
+              : isShown || isApplied
+                ? "the input is one piece of a mesh, whose size no file tells."
+                : "the filter before this one has not been applied, or has no mesh.");
 }
 
 /** Of a solve. */

@@ -5,6 +5,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -94,9 +95,11 @@ void StreamedSolve::solveWhole(
     notes.notes = converted.notes;
     if (converted.higher_order_cells > 0)
     {
-      notes.warn(std::to_string(converted.higher_order_cells) +
-                 " cells of higher order count by their corners alone: their other points have no "
-                 "result (Tessellate of ParaView makes linear cells of them)");
+      notes.warn(
+        counted(converted.higher_order_cells,
+          "cell of higher order counts by its corners alone: its other points have no ",
+          "cells of higher order count by their corners alone: their other points have no ") +
+        "result (Tessellate of ParaView makes linear cells of them)");
     }
   };
   this->solveOn([&] { return folderFor(mesh, reading); }, make, task, progress);

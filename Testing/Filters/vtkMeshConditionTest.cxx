@@ -122,7 +122,7 @@ TEST_F(VtkMeshCondition, SaysWhatIsWrongInOneSentence)
   condition.SetRegion(vtkMeshCondition::EVERYWHERE);
   condition.RemoveAllValues();
   condition.SetValue(std::nan(""));
-  expectError("The value of the condition is not a finite number");
+  expectError("Value is nan: set it to a finite number.");
   condition.AddValue(1);
   condition.AddValue(2);
   condition.SetCondition(vtkMeshCondition::SCREENING);
@@ -135,9 +135,18 @@ TEST_F(VtkMeshCondition, SaysWhatIsWrongInOneSentence)
   Errors solving(this->Poisson);
   this->Poisson->SetProblem(R"({"source": [1]})");
   EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
-  EXPECT_TRUE(
-    solving.contain("condition 1 of the input: conductivity[0].value: must be a positive"))
+  EXPECT_TRUE(solving.contain("Mesh Condition 1 (Conductivity): Value: must be a positive"))
     << solving.text();
+  // Where the solver counts the entries of all conditions of one kind, too.
+  condition.SetCondition(vtkMeshCondition::DIRICHLET);
+  vtkMeshCondition& second = this->add(vtkMeshCondition::DIRICHLET, { 1, 2 });
+  second.SetRegion(vtkMeshCondition::EVERYWHERE);
+  this->Poisson->SetProblem(nullptr);
+  solving.clear();
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(solving.contain("Mesh Condition 1 (Dirichlet): Value: the number of numbers is 1"))
+    << solving.text();
+  EXPECT_EQ(solving.text().find("dirichlet["), std::string::npos) << solving.text();
 }
 
 TEST_F(VtkMeshCondition, ArraysThatAreMissingOrMeanTwoThingsAreNamed)
@@ -308,7 +317,7 @@ TEST_F(VtkMeshCondition, HasNotConvergedIfAConditionFails)
   Errors solving(this->Poisson);
   this->Poisson->SetScreening(-1.0);
   EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
-  EXPECT_TRUE(solving.contain("screening: must be finite and not negative")) << solving.text();
+  EXPECT_TRUE(solving.contain("Screening is -1: set it to at least 0.")) << solving.text();
   EXPECT_EQ(this->Poisson->GetConverged(), 0);
 }
 

@@ -50,13 +50,13 @@ TEST_F(VtkMeshHandle, SaysWhatIsWrongInOneSentence)
   this->prepare(this->Handle, this->Reader);
   this->Handle->SetMotion(vtkMeshHandle::SIMILARITY);
   this->Handle->SetTranslation(0.0, NaN, 0.0);
-  expectFailure("The translation of a handle's motion must be finite");
+  expectFailure("Translation is nan: set it to a finite number.");
   this->Handle->SetTranslation(0.0, 0.0, 0.0);
   this->Handle->SetScale(0.0);
-  expectFailure("The scale of a handle's motion must be greater than 0");
+  expectFailure("Scale is 0: set it to a number from 1e-20 to 1e+20.");
   this->Handle->SetScale(1.0);
   this->Handle->SetRotationAxis(0.0, 0.0, 0.0);
-  expectFailure("The axis of a handle's rotation must not be 0 0 0");
+  expectFailure("RotationAxis is 0 0 0, which has no direction");
   this->Handle->SetMotion(vtkMeshHandle::TRANSFORM);
   expectFailure("no transform");
   this->Handle->SetMotion(vtkMeshHandle::FIXED);
@@ -67,18 +67,18 @@ TEST_F(VtkMeshHandle, SaysWhatIsWrongInOneSentence)
   this->Handle->AddId(1800);
   expectFailure("no point with the id 1800");
   this->Handle->AddId(-2);
-  expectFailure("The id -2 of the region is negative");
+  expectFailure("Ids is -2: set it to at least 0.");
   this->Handle->SetRegion(vtkMeshHandle::POINTS);
   expectFailure("no points");
   this->Handle->AddPoint(0.0, NaN, 0.0);
-  expectFailure("The point 0 of a handle has a coordinate that is not a finite number");
+  expectFailure("Points is nan: set it to a finite number.");
   this->Handle->RemoveAllPoints();
   this->Handle->AddPoint(3.0, 0.0, 0.0);
   this->Handle->SetRadius(NaN);
-  expectFailure("The radius of the region is not a finite number");
+  expectFailure("Radius is nan: set it to at least 0, or to -1 (automatic).");
   this->Handle->SetRadius(0.0);
   this->Handle->AddPointTarget(0.0, 0.0, NaN);
-  expectFailure("A point target of the handle is not a finite number");
+  expectFailure("PointTargets is nan: set it to a finite number.");
   this->Handle->RemoveAllPointTargets();
   this->Handle->AddPointTarget(0.0, 0.0, 0.0);
   this->Handle->AddPointTarget(0.0, 0.0, 0.0);
@@ -215,7 +215,7 @@ TEST_F(VtkMeshHandle, WhatFailedIsNotTakenForAnEmptyMesh)
     this->Handle->SetScale(-1.0 - i);
     errors.clear();
     EXPECT_FALSE(updatePiece(deformation, 0, 1));
-    EXPECT_TRUE(errors.contain("The scale")) << errors.text();
+    EXPECT_TRUE(errors.contain("Scale is -")) << errors.text();
     EXPECT_FALSE(later.contain("no cells")) << later.text();
     // Nothing has changed: it is neither executed again nor treated as a mesh.
     errors.clear();

@@ -15,6 +15,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 // A number out of its range is an error of the update, which names it; no other one is taken.
@@ -69,6 +70,30 @@ void expectRange(Algorithm* algorithm, const Property<Algorithm, Number>& proper
     (algorithm->*property.set)(before);
     said.clear();
     isUpdated();
+    EXPECT_FALSE(said.contain(": set it to ")) << said.text();
+  }
+}
+
+/** The same for a property with a fraction: each of `refused` is refused with the range in words.
+ */
+template <class Algorithm>
+void expectRealRange(Algorithm* algorithm, const char* name, void (Algorithm::*set)(double),
+  double (Algorithm::*get)(), std::vector<std::pair<double, const char*>> refused,
+  const std::string& range)
+{
+  const double before = (algorithm->*get)();
+  refused.insert(refused.end(), { { std::numeric_limits<double>::quiet_NaN(), "nan" },
+                                  { std::numeric_limits<double>::infinity(), "inf" } });
+  for (const auto& [number, text] : refused)
+  {
+    (algorithm->*set)(number);
+    Errors said(algorithm);
+    EXPECT_FALSE(updatePiece(algorithm, 0, 1) == 1) << name << " " << text;
+    EXPECT_TRUE(said.contain(std::string(name) + " is " + text + ": set it to " + range + "."))
+      << name << " " << text << ": " << said.text();
+    (algorithm->*set)(before);
+    said.clear();
+    updatePiece(algorithm, 0, 1);
     EXPECT_FALSE(said.contain(": set it to ")) << said.text();
   }
 }
@@ -133,7 +158,32 @@ TEST_F(VtkPropertyRange, OfSolvers)
   {
     this->connect(*solver);
     expectRangesOfSolver(solver);
+    const bool isPoisson = solver == poisson.Get();
+    std::vector<std::pair<double, const char*>> tolerances{ { 1.0, "1" }, { -1e-8, "-1e-08" } };
+    if (!isPoisson)
+    {
+      tolerances.emplace_back(0.0, "0");
+    }
+    expectRealRange<vtkStreamingSolver>(solver, "Tolerance", &vtkStreamingSolver::SetTolerance,
+      &vtkStreamingSolver::GetTolerance, tolerances,
+      std::string("a number from 0 to 1, both excluded") +
+        (isPoisson ? ", or to 0 (automatic)" : ""));
   }
+  expectRealRange<Poisson>(poisson, "Conductivity", &Poisson::SetConductivity,
+    &Poisson::GetConductivity, { { 0.0, "0" }, { -1.0, "-1" } }, "a number greater than 0");
+  expectRealRange<Poisson>(poisson, "Screening", &Poisson::SetScreening, &Poisson::GetScreening,
+    { { -0.5, "-0.5" } }, "at least 0");
+  expectRealRange<Smoothing>(smoothing, "Size", &Smoothing::SetSize, &Smoothing::GetSize,
+    { { 0.0, "0" }, { -4.0, "-4" } }, "a number greater than 0");
+  smoothing->SetKeepEdges(true);
+  expectRealRange<Smoothing>(smoothing, "EdgeAngle", &Smoothing::SetEdgeAngle,
+    &Smoothing::GetEdgeAngle, { { 0.0, "0" }, { 180.0, "180" } },
+    "a number from 0 to 180, both excluded");
+  smoothing->SetKeepEdges(false);
+  expectRange<Smoothing, int>(
+    smoothing, { "Steps", &Smoothing::SetSteps, &Smoothing::GetSteps, 1, 1000 });
+  expectRealRange<Blend>(
+    blend, "Anchor", &Blend::SetAnchor, &Blend::GetAnchor, { { -1.0, "-1" } }, "at least 0");
   expectRange<Poisson, int>(
     poisson, { "Acceleration", &Poisson::SetAcceleration, &Poisson::GetAcceleration, 0, 3 });
   expectRange<vtkMultiEngineSolver, int>(poisson,
@@ -171,7 +221,30 @@ TEST_F(VtkPropertyRange, OfRegions)
     this->connect(*filter);
     filter->SetRegionFunction(this->Ball);
     expectRangesOfRegion(filter);
+    using Region = vtkRegionFilter;
+    filter->SetRegion(Region::POINTS);
+    filter->AddPoint(1.0, 0.0, 0.0);
+    expectRealRange<Region>(filter, "Radius", &Region::SetRadius, &Region::GetRadius,
+      { { -2.0, "-2" }, { -1e-9, "-1e-09" } }, "at least 0, or to -1 (automatic)");
+    filter->SetRegion(Region::TAG);
+    expectRealRange<Region>(filter, "Tag", &Region::SetTag, &Region::GetTag, {}, "a finite number");
+    filter->SetRegion(Region::FUNCTION);
   }
+  expectRealRange<Condition>(
+    condition, "Value", &Condition::SetValue, &Condition::GetValue, {}, "a finite number");
+  condition->SetCondition(Condition::ROBIN);
+  expectRealRange<Condition>(condition, "Coefficient", &Condition::SetCoefficient,
+    &Condition::GetCoefficient, { { -1.0, "-1" } }, "at least 0");
+  condition->SetCondition(Condition::SCREENING);
+  expectRealRange<Condition>(condition, "Value", &Condition::SetValue, &Condition::GetValue,
+    { { -1.0, "-1" } }, "at least 0");
+  condition->SetCondition(Condition::DIRICHLET);
+  this->Handle->SetMotion(Handle::SIMILARITY);
+  expectRealRange<Handle>(this->Handle, "Scale", &Handle::SetScale, &Handle::GetScale,
+    { { 0.0, "0" }, { -1.0, "-1" } }, "a number from 1e-20 to 1e+20");
+  expectRealRange<Handle>(this->Handle, "RotationAngle", &Handle::SetRotationAngle,
+    &Handle::GetRotationAngle, { { 2e6, "2e+06" } }, "a number from -1e+06 to 1e+06");
+  this->Handle->SetMotion(Handle::FIXED);
   expectRange<Handle, int>(
     this->Handle, { "Motion", &Handle::SetMotion, &Handle::GetMotion, 0, 2 });
   expectRange<Condition, int>(
@@ -184,9 +257,18 @@ TEST_F(VtkPropertyRange, OfCoarserMeshes)
   using Preview = vtkStreamingMeshPreview;
   vtkNew<Simplification> simplification;
   this->connect(*simplification);
-  expectRange<Simplification, vtkIdType>(
-    simplification, { "NumberOfVertices", &Simplification::SetNumberOfVertices,
-                      &Simplification::GetNumberOfVertices, 0 });
+  for (const vtkIdType number : { -1, 1, 3 })
+  {
+    simplification->SetNumberOfVertices(number);
+    Errors said(simplification);
+    EXPECT_NE(updatePiece(simplification, 0, 1), 1);
+    EXPECT_TRUE(said.contain("NumberOfVertices is " + std::to_string(number) +
+                             ": set it to at least 4, or to 0 (as few as MaximumError allows)."))
+      << said.text();
+  }
+  simplification->SetNumberOfVertices(100);
+  expectRealRange<Simplification>(simplification, "MaximumError", &Simplification::SetMaximumError,
+    &Simplification::GetMaximumError, { { -1.0, "-1" } }, "at least 0");
   expectRange<Simplification, int>(simplification,
     { "MemoryLimit", &Simplification::SetMemoryLimit, &Simplification::GetMemoryLimit, 16 });
   expectRange<Simplification, int>(
@@ -230,12 +312,23 @@ TEST_F(VtkPropertyRange, OfReadersAndWriters)
     converter, { "TimeStep", &Converter::SetTimeStep, &Converter::GetTimeStep, 0 });
   expectRange<Converter, int>(
     converter, { "Partition", &Converter::SetPartition, &Converter::GetPartition, -1 });
-  expectRange<Converter, int>(
-    converter, { "MemoryLimit", &Converter::SetMemoryLimit, &Converter::GetMemoryLimit, 0 });
+  for (const int number : { -1, 1, 15 })
+  {
+    converter->SetMemoryLimit(number);
+    Errors said(converter);
+    EXPECT_NE(updatePiece(converter, 0, 1), 1);
+    EXPECT_TRUE(said.contain(
+      "MemoryLimit is " + std::to_string(number) + ": set it to at least 16, or to 0 (automatic)."))
+      << said.text();
+  }
+  converter->SetMemoryLimit(0);
+  converter->SetWeld(true);
+  expectRealRange<Converter>(converter, "WeldDistance", &Converter::SetWeldDistance,
+    &Converter::GetWeldDistance, { { -1.0, "-1" } }, "at least 0");
   vtkNew<Writer> writer;
   this->connect(*writer);
   writer->SetFileName((this->Folder / "written.vsm").c_str());
-  expectRange<Writer, int>(writer, { "NumberOfStreamedPieces", &Writer::SetNumberOfStreamedPieces,
+  expectRange<Writer, int>(writer, { "NumberOfPieces", &Writer::SetNumberOfStreamedPieces,
                                      &Writer::GetNumberOfStreamedPieces, 0, Pieces });
 }
 

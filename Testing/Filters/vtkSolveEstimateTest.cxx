@@ -123,7 +123,7 @@ TEST_F(VtkSolveEstimate, OfASimplification)
     std::string::npos)
     << text();
   filter->SetNumberOfVertices(0);
-  EXPECT_TRUE(text().starts_with("Not known: a simplification needs ")) << text();
+  EXPECT_TRUE(text().starts_with("Not known: Nothing says how far to simplify")) << text();
   EXPECT_EQ(this->Ends->Executions, 0);
 }
 

@@ -333,7 +333,7 @@ TEST_F(VtkStreamingMeshDeformation, ErrorsSayWhatToDo)
   this->Handles->Modified();
   EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
   this->Deformation->SetTolerance(2.0);
-  expectError("between 0 and 1");
+  expectError("Tolerance is 2: set it to a number from 0 to 1, both excluded.");
 }
 
 TEST_F(VtkStreamingMeshDeformation, FailureOfAPieceIsAnError)

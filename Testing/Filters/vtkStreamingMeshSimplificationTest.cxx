@@ -142,11 +142,11 @@ TEST_F(VtkStreamingMeshSimplification, MistakesAreOneErrorEach)
     EXPECT_EQ(this->Folder.entries(), 1);
   };
   this->Filter->SetNumberOfVertices(3);
-  expect("expected at least 4");
+  expect("NumberOfVertices is 3: set it to at least 4");
   this->Filter->SetNumberOfVertices(0);
-  expect("needs the number of vertices or the error");
+  expect("set NumberOfVertices, MaximumError or both above 0");
   this->Filter->SetMaximumError(-1.0);
-  expect("expected a length above 0");
+  expect("MaximumError is -1: set it to at least 0.");
   this->Filter->SetMaximumError(0.0);
   this->Filter->SetNumberOfVertices(900);
   ASSERT_TRUE(updatePiece(this->Filter, 0, 1));

@@ -235,7 +235,7 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
   expect("hold[0]: no vertex", [&] { this->Smoothing->SetHold(R"({"sphere": [9, 9, 9, 1]})"); });
   expect("no numeric array Missing of its points or cells (it has ",
     [&] { this->Smoothing->SetColumn("Missing"); });
-  expect("must be a positive number", [&] { this->Smoothing->SetSize(-1.0); });
+  expect("Size is -1: set it to a number greater than 0", [&] { this->Smoothing->SetSize(-1.0); });
   expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(0); });
   expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(1001); });
   this->open(tetBox(4, 4, 4));

@@ -66,17 +66,17 @@ PointProjection::PointProjection(std::span<const double> points, const Influence
   {
     if (!std::isfinite(points[i]))
     {
-      throw Error("The point " + std::to_string(i / 3) +
-                  " of a handle has a coordinate that is not a finite number.");
+      throw Error("Point " + std::to_string(i / 3) +
+                  " of the region has a coordinate that is not a finite number.");
     }
   }
   if (!std::isfinite(influence.radius) || influence.radius < 0.0)
   {
-    throw Error("The radius of a handle must be finite and at least 0.");
+    throw Error("The radius of the region must be finite and at least 0.");
   }
   if (influence.rings < 0 || influence.rings > MaximumRings)
   {
-    throw Error("The rings of a handle must be from 0 to " + std::to_string(MaximumRings) + ".");
+    throw Error("The rings of the region must be from 0 to " + std::to_string(MaximumRings) + ".");
   }
   if (influence.rings > 0)
   {
@@ -116,7 +116,7 @@ void PointProjection::finish(Progress& progress)
   this->project();
   if (this->Check.vertices() == 0)
   {
-    throw Error("The mesh has no vertex that a handle's point could be projected to.");
+    throw Error("The mesh has no vertex that a point of the region could be projected to.");
   }
   std::vector<double> anchors;
   for (const Projected& found : this->Found)
@@ -124,7 +124,8 @@ void PointProjection::finish(Progress& progress)
     // The square of every distance has overflowed.
     if (found.vertex < 0)
     {
-      throw Error("A handle's point lies too far from the mesh for a distance to be computed.");
+      throw Error(
+        "A point of the region lies too far from the mesh for a distance to be computed.");
     }
     anchors.insert(anchors.end(), found.position.begin(), found.position.end());
   }
@@ -163,7 +164,7 @@ void PointProjection::forget()
   if (bytes > this->MemoryLimit)
   {
     throw Error("The " + std::to_string(this->Reach.rings) + " rings around the " +
-                std::to_string(this->Found.size()) + " points of a handle need at least " +
+                std::to_string(this->Found.size()) + " points of the region need at least " +
                 std::to_string(bytes) + " bytes, " + std::to_string(this->MemoryLimit) +
                 " are allowed: give fewer rings or points, or a radius instead, or convert the "
                 "mesh with the order bfs.");

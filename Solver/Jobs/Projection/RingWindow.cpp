@@ -174,7 +174,7 @@ void RingWindow::add(const MeshBlock& block)
   if (this->vertices() + block.vertices() > MaxPlaces || this->cells() + corners > MaxPlaces)
   {
     throw Error("more than " + std::to_string(MaxPlaces) +
-                " vertices or cells lie around the points of a handle: give fewer rings, or a "
+                " vertices or cells lie around the points of the region: give fewer rings, or a "
                 "radius instead, or convert the mesh with the order bfs");
   }
   makeRoom(this->Positions, block.positions.size());
