@@ -34,13 +34,11 @@ MISSING = {
     StreamingMeshDeformation: "put a Mesh Handle before this filter",
     StreamingMeshPreview: "use Streaming Mesh Simplification",
 }
-# The default shape, a sphere of radius 0.5 about the origin, holds no point of these.
-OUTSIDE = ("Box", "Cylinder", "Plane")
 
 
 def expected_on(filter_of, name):
     if filter_of in (MeshRegion, MeshHandle, MeshCondition):
-        return "no point of the mesh lies in it" if name in OUTSIDE else ""
+        return ""
     if filter_of is StreamingMeshSmoothing and name == "Tetrahedra":
         return "the positions of tetrahedra cannot be smoothed"
     return MISSING[filter_of]

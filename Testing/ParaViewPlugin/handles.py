@@ -71,8 +71,8 @@ handle = MeshHandle(Input=reader)
 low, high = points.min(axis=0), points.max(axis=0)
 assert handle.Region == "Function" and handle.Motion == "Fixed"
 assert handle.RegionFunction.GetXMLName() == "Sphere"
-for center in (handle.Center, handle.RegionFunction.Center):
-    assert (low < center).all() and (center < high).all(), list(center)
+assert (low < handle.Center).all() and (handle.Center < high).all(), list(handle.Center)
+assert numpy.allclose(handle.RegionFunction.Center, reader.GetDataInformation().GetBounds()[1::2]), list(handle.RegionFunction.Center)
 assert 0.0 < handle.RegionFunction.Radius < (high - low).max()
 defaults = {"InsideOut": 0, "IdType": "Global Ids", "Radius": -1.0, "Rings": 0, "Scale": 1.0,
             "RotationAngle": 0.0, "RotationAxis": [0.0, 0.0, 1.0], "Translation": [0.0, 0.0, 0.0],
