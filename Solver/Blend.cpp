@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Blend.h"
 
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Jobs/Blending/BlendProblem.h"
@@ -108,8 +109,9 @@ void addNotes(const std::string& patch, const SeamSteps& steps, std::int64_t cel
   // A column of values instead of numbers of patches makes every cell one between patches.
   if (steps.cells() > cells / 2)
   {
-    report.notes.push_back(std::to_string(steps.cells()) + " of " + std::to_string(cells) +
-                           " cells lie between patches of the column '" + patch +
+    report.notes.push_back(std::to_string(steps.cells()) + " of " +
+                           counted(cells, "cell lies", "cells lie") +
+                           " between patches of the column '" + patch +
                            "', where the detail of the columns is lost: is this the column with "
                            "the number of the scan or region of each vertex or cell?");
   }

@@ -6,6 +6,7 @@
 #include "IO/Description/Sizes.h"
 #include "IO/Files/FileNames.h"
 #include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "smg/Error.h"
@@ -393,8 +394,9 @@ void requireOneProcess()
 
 void CommonOptions::printEstimate(const smg::JobEstimate& estimate) const
 {
-  std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
-    static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
+  std::printf("%s%lld vertices, %s\n", estimate.counted ? "" : "about ",
+    static_cast<long long>(estimate.vertices),
+    smg::counted(estimate.cells, "cell", "cells").c_str());
   const auto line = [](const char* what, std::int64_t bytes)
   { std::printf("  %-8s about %.0f MiB", what, inMebibytes(bytes)); };
   const auto limit = [](std::int64_t bytes, std::int64_t most, const char* option)

@@ -6,6 +6,7 @@
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
@@ -19,7 +20,8 @@ namespace
 void print(const smg::ConversionReport& report)
 {
   const auto number = [](std::int64_t value) { return static_cast<long long>(value); };
-  std::printf("%lld vertices, %lld cells, ", number(report.vertices), number(report.cells));
+  std::printf("%lld vertices, %s, ", number(report.vertices),
+    smg::counted(report.cells, "cell", "cells").c_str());
   if (report.width >= 0)
   {
     std::printf("width %lld, span %lld, ", number(report.width), number(report.span));

@@ -4,6 +4,7 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Jobs/DistanceJob.h"
+#include "Solver/Core/Counted.h"
 #include <cstdio>
 
 namespace
@@ -84,14 +85,14 @@ protected:
   {
     const smg::Report::Distance& found = *report.distance;
     const std::string sources = this->Job.description.wall ? "wall face" : "source";
-    std::printf("%lld vertices, %lld cells, %lld %s, %d pass%s (the mesh read %.2f times)\n",
-      static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
+    std::printf("%lld vertices, %s, %lld %s, %d pass%s (the mesh read %.2f times)\n",
+      static_cast<long long>(report.vertices), smg::counted(report.cells, "cell", "cells").c_str(),
       static_cast<long long>(found.sources), (found.sources == 1 ? sources : sources + "s").c_str(),
       report.passes, report.passes == 1 ? "" : "es", found.mesh_readings);
     std::printf("  distance: maximum %.6g, mean %.6g", found.maximum, found.mean);
     if (found.unreached > 0)
     {
-      std::printf(", %lld vertices not reached", static_cast<long long>(found.unreached));
+      std::printf(", %s not reached", smg::counted(found.unreached, "vertex", "vertices").c_str());
     }
     std::printf("\n");
   }

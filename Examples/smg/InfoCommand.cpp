@@ -5,6 +5,7 @@
 
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmFile.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "smg/Describe.h"
 #include "smg/Error.h"
@@ -77,6 +78,21 @@ void printColumns(const char* of, const std::vector<smg::ColumnSpec>& specs,
   }
 }
 
+/** With all digits of the positions: rounded ones would be those of other meshes. */
+std::string boundsText(const smg::StreamInfo& info)
+{
+  const auto text = [&info](double bound) {
+    return info.doublePositions ? smg::shortest(bound) : smg::shortest(static_cast<float>(bound));
+  };
+  std::string bounds;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    bounds +=
+      (k > 0 ? " x [" : "[") + text(info.bounds[2 * k]) + ", " + text(info.bounds[2 * k + 1]) + ']';
+  }
+  return bounds;
+}
+
 void print(const std::filesystem::path& file, smg::OpenedMesh& mesh, const ordered_json& report,
   const smg::MeshDescription* described)
 {
@@ -86,15 +102,17 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh, const order
   std::printf("%s\n", smg::oneLine(file.string()).c_str());
   std::printf("  vertices    %lld (%s)\n", static_cast<long long>(info.vertices),
     info.doublePositions ? "float64" : "float32");
-  std::printf("  cells       %lld %s\n", static_cast<long long>(info.cells),
-    info.cellType == smg::CellType::Triangle ? "triangles" : "tetrahedra");
+  const bool isSurface = info.cellType == smg::CellType::Triangle;
+  std::printf(
+    "  cells       %s\n", (isSurface ? smg::counted(info.cells, "triangle", "triangles")
+                                     : smg::counted(info.cells, "tetrahedron", "tetrahedra"))
+                            .c_str());
   if (const std::int64_t isolated = reader.isolatedVertices(); isolated > 0)
   {
     std::printf("  isolated    %lld, vertices of no cell, beside the stream\n",
       static_cast<long long>(isolated));
   }
-  std::printf("  bounds      [%g, %g] x [%g, %g] x [%g, %g]\n", info.bounds[0], info.bounds[1],
-    info.bounds[2], info.bounds[3], info.bounds[4], info.bounds[5]);
+  std::printf("  bounds      %s\n", boundsText(info).c_str());
   std::printf("  width       %lld (%.3f %%), mean %.1f\n", static_cast<long long>(info.width),
     100.0 * static_cast<double>(info.width) / vertices, reader.meanWidth());
   std::printf("  span        %lld (%.3f %%)\n", static_cast<long long>(info.span),

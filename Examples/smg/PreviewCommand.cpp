@@ -5,6 +5,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 #include "smg/Preview.h"
@@ -83,8 +84,9 @@ int PreviewCommand::run() const
   this->writeReport(report.dump(2), facts);
   if (!this->quiet)
   {
-    std::printf("%lld points and %lld triangles of %lld vertices, %.2f s\n",
-      report["points"].get<long long>(), report["triangles"].get<long long>(),
+    std::printf("%s and %s of %lld vertices, %.2f s\n",
+      smg::counted(report["points"].get<long long>(), "point", "points").c_str(),
+      smg::counted(report["triangles"].get<long long>(), "triangle", "triangles").c_str(),
       report["vertices"].get<long long>(), seconds);
     for (const std::string& note : notes)
     {

@@ -8,6 +8,7 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"
@@ -81,8 +82,9 @@ smg::SimplifyReport SimplifyCommand::simplified()
 
 void SimplifyCommand::print(const smg::SimplifyReport& report) const
 {
-  std::printf("%lld vertices and %lld triangles of %lld and %lld, ",
-    static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
+  std::printf("%s and %s of %lld and %lld, ",
+    smg::counted(report.vertices, "vertex", "vertices").c_str(),
+    smg::counted(report.cells, "triangle", "triangles").c_str(),
     static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before));
   if (!std::isnan(report.error))
   {

@@ -2,6 +2,7 @@
 #include "SolvingCommand.h"
 
 #include "IO/Description/JsonNode.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 
 #include <cmath>
@@ -131,12 +132,13 @@ std::string extentOf(const smg::Report::Condition& condition)
 
 void SolvingCommand::print(const smg::Report& report) const
 {
-  std::printf("%lld vertices, %lld cells, ", static_cast<long long>(report.vertices),
-    static_cast<long long>(report.cells));
+  std::printf("%lld vertices, %s, ", static_cast<long long>(report.vertices),
+    smg::counted(report.cells, "cell", "cells").c_str());
   if (report.distributed)
   {
-    std::printf("%d processes, %d iterations, relative residual %.3g\n",
-      report.distributed->processes, report.cycles, report.residual());
+    std::printf("%s, %s, relative residual %.3g\n",
+      smg::counted(report.distributed->processes, "process", "processes").c_str(),
+      smg::counted(report.cycles, "iteration", "iterations").c_str(), report.residual());
   }
   else
   {

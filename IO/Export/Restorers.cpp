@@ -2,6 +2,7 @@
 #include "IO/Export/Restorers.h"
 
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
@@ -351,9 +352,11 @@ std::vector<std::string> ElementRestorer::notes() const
   }
   if (this->Different > 0)
   {
-    notes.push_back(std::to_string(this->Different) +
-                    " polygons were triangles with different values in the mesh stream: they have "
-                    "those of one of these.");
+    notes.push_back(
+      counted(this->Different,
+        "polygon was triangles with different values in the mesh stream: it has ",
+        "polygons were triangles with different values in the mesh stream: they have ") +
+      "those of one of these.");
   }
   return notes;
 }

@@ -113,6 +113,11 @@ def vector(values: Any, name: str, rows: int) -> np.ndarray:
     return array
 
 
+def counted(number: int, one: str, several: str = "") -> str:
+    """"1 cell" or "2,034 cells"."""
+    return "{:,} {}".format(number, one if number == 1 else several or one + "s")
+
+
 def plain(value: Any) -> Any:
     """For JSON: what NumPy has a type of its own for."""
     if isinstance(value, (np.ndarray, np.generic)):

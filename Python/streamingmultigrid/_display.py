@@ -9,6 +9,8 @@ from typing import Any, Iterable, List, Optional, Tuple
 
 import numpy as np
 
+from ._arrays import counted
+
 _STYLE = "font-family:sans-serif;font-size:13px"
 
 
@@ -132,23 +134,23 @@ def _values(column: Any) -> str:
 def _topology(found: Any) -> List[Tuple[str, str]]:
     """Bodies, boundary and cells of a description; what it does not have is left out."""
 
-    def count(key: str, noun: str) -> List[str]:
-        return ["{:,} {}".format(found[key], noun)] if found.get(key) else []
+    def count(key: str, *noun: str) -> List[str]:
+        return [counted(found[key], *noun)] if found.get(key) else []
 
     boundary = [
-        *count("boundary_edges", "edges"),
-        *count("boundary_loops", "loops"),
-        *count("boundary_faces", "faces"),
-        *count("boundary_surfaces", "surfaces"),
+        *count("boundary_edges", "edge"),
+        *count("boundary_loops", "loop"),
+        *count("boundary_faces", "face"),
+        *count("boundary_surfaces", "surface"),
     ]
     flaws = [
-        *count("nonmanifold_edges", "non-manifold edges"),
-        *count("nonmanifold_vertices", "non-manifold vertices"),
-        *count("nonmanifold_faces", "faces of more than two cells"),
-        *count("turned_edges", "edges wound against each other"),
-        *count("inverted_cells", "inverted cells"),
-        *count("degenerate_cells", "degenerate cells"),
-        *count("duplicate_cells", "duplicate cells"),
+        *count("nonmanifold_edges", "non-manifold edge"),
+        *count("nonmanifold_vertices", "non-manifold vertex", "non-manifold vertices"),
+        *count("nonmanifold_faces", "face of more than two cells", "faces of more than two cells"),
+        *count("turned_edges", "edge wound against another", "edges wound against each other"),
+        *count("inverted_cells", "inverted cell"),
+        *count("degenerate_cells", "degenerate cell"),
+        *count("duplicate_cells", "duplicate cell"),
     ]
     lines = []
     if "bodies" in found:
@@ -162,17 +164,23 @@ def _topology(found: Any) -> List[Tuple[str, str]]:
     return lines
 
 
+def _digits(bound: float, info: Any) -> str:
+    """With all digits of the positions: rounded bounds would be those of other meshes."""
+    text = str(bound if info["positions"] == "float64" else np.float32(bound))
+    return text[:-2] if text.endswith(".0") else text
+
+
 def mesh_lines(info: Any) -> List[Tuple[str, str]]:
     """What is known of a mesh, for people: names and values. `info`: the JSON of smg_info()."""
-    kind = "triangles" if info["cell_type"] == "triangle" else "tetrahedra"
+    kind = ("triangle",) if info["cell_type"] == "triangle" else ("tetrahedron", "tetrahedra")
     bounds = info["bounds"]
     lines = [
         ("vertices", "{:,} ({})".format(info["vertices"], info["positions"])),
-        ("cells", "{:,} {}".format(info["cells"], kind)),
-        ("bounds", " x ".join("[%g, %g]" % pair for pair in zip(bounds[::2], bounds[1::2]))),
+        ("cells", counted(info["cells"], *kind)),
+        ("bounds", " x ".join("[%s, %s]" % tuple(_digits(bound, info) for bound in pair) for pair in zip(bounds[::2], bounds[1::2]))),
     ]
     if info.get("isolated_vertices"):
-        lines.append(("isolated", "{:,} vertices of no cell".format(info["isolated_vertices"])))
+        lines.append(("isolated", counted(info["isolated_vertices"], "vertex", "vertices") + " of no cell"))
     description = info.get("description") or {}
     lines += _topology(description)
     columns = description.get("columns") or info["columns"]

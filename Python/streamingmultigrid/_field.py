@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence,
 import numpy as np
 
 from . import _types as types
-from ._arrays import Array, copy, shaped
+from ._arrays import Array, copy, counted, shaped
 from ._errors import Error, InputError
 from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse
 from .progress import reporting
@@ -91,7 +91,7 @@ class Block:
         return self._read[key]
 
     def __repr__(self) -> str:
-        return "<Block of %d vertices and %d cells>" % (self.n_points, self.n_cells)
+        return "<Block of %s and %s>" % (counted(self.n_points, "vertex", "vertices"), counted(self.n_cells, "cell"))
 
 
 def read_blocks(

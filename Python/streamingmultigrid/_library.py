@@ -7,12 +7,13 @@ import ctypes
 import functools
 import glob
 import json
+import math
 import os
 import re
 import sysconfig
 import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
-from typing import Any, Dict, Mapping, Optional
+from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 from . import progress as _progress
 from . import _process as process
@@ -121,6 +122,20 @@ def encoded(value: Any) -> Optional[bytes]:
     return name
 
 
+def _not_finite(value: Any, place: str = "") -> Tuple[str, float]:
+    """Where in a description the first number is that is infinite or NaN, and the number; none: ("", 0)."""
+    value = plain(value) if not isinstance(value, (dict, list, tuple, str, int, float, type(None))) else value
+    if isinstance(value, float) and not math.isfinite(value):
+        return place, value
+    parts: List[Tuple[str, Any]] = []
+    if isinstance(value, dict):
+        parts = [("%s.%s" % (place, key) if place else str(key), part) for key, part in value.items()]
+    elif isinstance(value, (list, tuple)):
+        parts = [("%s[%d]" % (place, k), part) for k, part in enumerate(value)]
+    found = (_not_finite(part, at) for at, part in parts)
+    return next((one for one in found if one[0]), ("", 0.0))
+
+
 def json_text(description: Mapping[str, Any]) -> bytes:
     """The JSON of a description, without the keys whose value is None."""
     given = {key: value for key, value in description.items() if value is not None}
@@ -132,7 +147,9 @@ def json_text(description: Mapping[str, Any]) -> bytes:
     except ValueError as error:
         if isinstance(error, Error):
             raise
-        raise InputError("A number is infinite or NaN: %s." % ", ".join(given)) from None
+        if "Circular" in str(error):
+            raise InputError("A list or dict contains itself: %s." % ", ".join(given)) from None
+        raise InputError("%s is %s: give a finite number there." % _not_finite(given)) from None
     if re.search(r"(?<!\\)(\\\\)*\\u0000", encoded):
         raise InputError("A name cannot contain the character 0: %s." % ", ".join(given))
     return encoded.encode()
@@ -153,10 +170,15 @@ def json_file(path: Any, what: str) -> Any:
         raise Error("%s: this is not valid JSON: %s." % (name, error)) from None
 
 
+def readable(text: str) -> str:
+    """A sentence of the library, with the arguments that it knows as columns called so."""
+    return re.sub(r"(?:the column )?'#([^']+)'+", r"the array given as \1", text)
+
+
 def _check(status: int) -> None:
     if status:
         error = {_INVALID: InputError, _MEMORY: MemoryLimitError}.get(status, Error)
-        raise error(library().smg_error().decode(errors="replace"))
+        raise error(readable(library().smg_error().decode(errors="replace")))
 
 
 def call(name: str, *arguments: Any) -> None:
@@ -239,5 +261,5 @@ def _close(close: Any, pointer: c_void_p, keep: list, lock: process.HandleLock) 
 
 def parse(result: c_char_p) -> Dict[str, Any]:
     """The JSON that a function has returned."""
-    return json.loads(result.value or b"{}")
+    return json.loads(readable((result.value or b"{}").decode()))
 

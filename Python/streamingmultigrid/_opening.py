@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Union
 import numpy.typing as npt
 
 from . import _types as types
-from ._arrays import points_and_cells, table
+from ._arrays import counted, points_and_cells, table
 from ._errors import Error
 from ._field import Field
 from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse, version
@@ -165,7 +165,12 @@ def mesh(
         call_reporting("smg_open_arrays", arguments, report, byref(handle.pointer))
         return handle
 
-    made = Mesh("arrays of %d points and %d cells" % (len(places), len(corners)), opener, defaults, progress)
+    made = Mesh(
+        "arrays of %s and %s" % (counted(len(places), "point"), counted(len(corners), "cell")),
+        opener,
+        defaults,
+        progress,
+    )
     made._handle()
     made._opener = None  # which has the arrays
     return made

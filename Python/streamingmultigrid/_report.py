@@ -6,6 +6,7 @@ from __future__ import annotations
 import difflib
 from typing import Any, Dict, List, Optional
 
+from ._arrays import counted
 from ._display import estimate_html, report_html
 from ._errors import NotConvergedWarning, ReportWarning, warn
 
@@ -118,13 +119,13 @@ class Report(_Facts):
         return report_html(self)
 
     def _lines(self) -> List[str]:
-        lines = ["%s vertices, %s cells" % (f"{self['vertices']:,}", f"{self['cells']:,}")]
+        lines = [counted(self["vertices"], "vertex", "vertices") + ", " + counted(self["cells"], "cell")]
         if "converged" in self:
             residuals = self.get("residuals") or []
             outcome = "converged" if self["converged"] else "NOT CONVERGED"
             if residuals:
-                outcome += " after %d V-cycles, residual %s" % (self["cycles"], _residual(residuals[-1]))
-            lines.append("  %s, %d passes" % (outcome, self.get("passes", 0)))
+                outcome += " after %s, residual %s" % (counted(self["cycles"], "V-cycle"), _residual(residuals[-1]))
+            lines.append("  %s, %s" % (outcome, counted(self.get("passes", 0), "pass", "passes")))
         if "error" in self:
             lines.append("  error %s" % self["error"])
         seconds = (self.get("seconds") or {}).get("total", 0)
@@ -164,7 +165,7 @@ class Estimate(_Facts):
     def __repr__(self) -> str:
         about = "" if self.get("counted", True) else "about "
         return "\n".join(
-            ["%s%s vertices, %s cells" % (about, f"{self['vertices']:,}", f"{self['cells']:,}")]
+            ["%s%s, %s" % (about, counted(self["vertices"], "vertex", "vertices"), counted(self["cells"], "cell"))]
             + ["  %-8s %s" % line for line in self.lines()]
         )
 
@@ -216,8 +217,8 @@ def not_converged(report: Report) -> str:
     """The sentence of a job that did not converge."""
     residuals = report.get("residuals") or []
     if residuals:
-        return "Not converged after %d V-cycles: the relative residual is %s." % (
-            report.get("cycles", len(residuals)),
+        return "Not converged after %s: the relative residual is %s." % (
+            counted(report.get("cycles", len(residuals)), "V-cycle"),
             _residual(residuals[-1]),
         )
-    return "Not settled after %d passes." % report.get("passes", 0)
+    return "Not settled after %s." % counted(report.get("passes", 0), "pass", "passes")

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _jobs as jobs
 from . import _types as types
-from ._arrays import numbers, table, vector
+from ._arrays import counted, numbers, table, vector
 from ._columns import Columns
 from ._errors import InputError, NotConverged
 from ._library import NativeHandle, call, call_reporting, json_text, parse
@@ -175,4 +175,4 @@ class Solver:
         self.close()
 
     def __repr__(self) -> str:
-        return "<Solver of %d vertices>" % self.shape[0]
+        return "<Solver of %s>" % counted(self.shape[0], "vertex", "vertices")

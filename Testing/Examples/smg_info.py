@@ -30,6 +30,16 @@ def test_the_header_tells_the_cost_of_a_solve():
     assert info("torus.obj")[1]["expected_solve"]["memory_bytes"] < 2 * expected["memory_bytes"]
 
 
+def test_bounds_have_all_digits():
+    for x in 448000.12, 448000.13:
+        with open("far.obj", "w", encoding="ascii") as file:
+            file.write(f"v {x} 5412345.678 101.5\nv 448001 5412346 101.5\nv 448002 5412345.9 0.1\nf 1 2 3\n")
+        done, report = info("far.obj")
+        assert report["bounds"][0] == x, report["bounds"]
+        assert f"bounds      [{x}, 448002] x [5412345.678, 5412346] x [0.1, 101.5]" in done.stdout, done.stdout
+        assert "cells       1 triangle\n" in done.stdout, done.stdout
+
+
 def test_a_mesh_is_described():
     for name in ("torus.vsm", "torus.obj"):
         done, report = info(name, "--full")
@@ -75,6 +85,7 @@ def test_too_little_memory_is_an_error():
 
 
 test_the_header_tells_the_cost_of_a_solve()
+test_bounds_have_all_digits()
 test_a_mesh_is_described()
 test_flaws_are_printed()
 test_a_page_has_the_description()

@@ -5,7 +5,7 @@ import json
 import os
 import unittest
 
-from testing import SOURCE, cube, need, np, smg
+from testing import SOURCE, cube, need, np, smg, sphere
 
 need("jsonschema")
 import jsonschema  # noqa: E402
@@ -270,6 +270,26 @@ class ProblemTest(unittest.TestCase):
             lambda: smg.nearest([1, 2]), lambda: np.ones(8) >> smg.boundary,
         ):  # fmt: skip
             self.assertRaises(smg.InputError, wrong)
+
+    def test_numbers_that_are_not_finite_are_named(self):
+        nan, inf = float("nan"), float("inf")
+        for given, words in (
+            ({"source": inf}, r"^problem\.source\S* is inf: give a finite number there\.$"),
+            ({"dirichlet": {0: 1.0, 1: nan}}, r"^problem\.dirichlet\S* is nan: give a finite number there\.$"),
+            ({"screening": -inf, "source": 1}, r"^problem\.screening\S* is -inf: give a finite number there\.$"),
+            ({"source": 1, "tolerance": nan}, "^tolerance is nan: give a finite number there\\.$"),
+        ):
+            with self.subTest(given=given), self.assertRaisesRegex(smg.InputError, words):
+                smg.mesh(*sphere(1)).solve(**given)
+
+    def test_arrays_are_named_by_their_arguments(self):
+        mesh = smg.mesh(*sphere(1))
+        none, large = np.zeros(len(sphere(1)[0])), np.full(len(sphere(1)[0]), 1e200)
+        for given, name in (({"dirichlet": smg.mask(none) >> 1}, "mask"), ({"source": large, "screening": 1}, "source")):
+            with self.subTest(name), self.assertRaisesRegex(smg.Error, "the array given as %s[. ]" % name):
+                mesh.solve(**given)
+        with self.assertRaisesRegex(smg.Error, "its vertices have .*, the array given as patch, its cells"):
+            mesh.blend(patch=none, columns=["x"])
 
     def test_a_problem_file_is_completed(self):
         self.check({"source": 2, "screening": 1}, problem={"source": 5, "screening": 1}, source=2)

@@ -8,6 +8,7 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Counted.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -222,9 +223,9 @@ std::vector<std::string> vsmToStream(const std::filesystem::path& in,
   std::vector<std::string> notes = notesOnOmitted(info, columns, out.extension().string());
   if (elements.roundedVertices() > 0)
   {
-    notes.push_back(
-      "The positions of " + std::to_string(elements.roundedVertices()) +
-      " vertices were rounded to single precision, which is all that the format has.");
+    notes.push_back("The positions of " +
+                    counted(elements.roundedVertices(), "vertex", "vertices") +
+                    " were rounded to single precision, which is all that the format has.");
   }
   return notes;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Deformation/DeformationReport.h"
 
+#include "Solver/Core/Counted.h"
 #include "smg/Error.h"
 
 #include <cmath>
@@ -35,14 +36,16 @@ void addDeformationNotes(Report& report)
 {
   if (report.shared > 0)
   {
-    report.notes.push_back(std::to_string(report.shared) +
-                           " vertices are held by more than one handle: the last one counts");
+    report.notes.push_back(counted(report.shared, "vertex is", "vertices are") +
+                           " held by more than one handle: the last one counts");
   }
   if (report.free_components > 0)
   {
-    report.notes.push_back(std::to_string(report.free_components) + " of " +
-                           std::to_string(report.components) +
-                           " components have no held vertex: they stay as they are");
+    report.notes.push_back(
+      std::to_string(report.free_components) + " of " +
+      counted(report.components, "component", "components") +
+      (report.free_components == 1 ? " has no held vertex: it stays as it is"
+                                   : " have no held vertex: they stay as they are"));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/PathDistance.h"
 
+#include "Solver/Core/Counted.h"
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/March.h"
@@ -161,10 +162,10 @@ void march(ChunkedMesh& chunks, DistanceRun& run)
   report.converged = report.distance->unsettled == 0;
   if (!report.converged)
   {
-    report.notes.push_back("After " + std::to_string(report.passes) +
-                           " passes, the largest number allowed, " +
-                           std::to_string(report.distance->unsettled) +
-                           " vertices had changes to pass on: some distances are too large.");
+    report.notes.push_back("After " + counted(report.passes, "pass", "passes") +
+                           ", the largest number allowed, " +
+                           counted(report.distance->unsettled, "vertex", "vertices") +
+                           " had changes to pass on: some distances are too large.");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 
+#include "Solver/Core/Counted.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "smg/Error.h"
@@ -51,16 +52,16 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   noteUnwelded(counts.type, counts.vertices, counts.cells, report);
   if (counts.limitedCells > 0)
   {
-    report.notes.push_back(std::to_string(counts.limitedCells) +
-                           " cells are so flat that rounding would drown the others: their "
+    report.notes.push_back(counted(counts.limitedCells, "cell is", "cells are") +
+                           " so flat that rounding would drown the others: their "
                            "stiffness was scaled down, by a factor of " +
                            scientific(counts.minFlatness) +
                            " at the least; there the operator is not that of finite elements");
   }
   if (counts.raisedRows > 0)
   {
-    report.notes.push_back(std::to_string(counts.raisedRows) +
-                           " vertices have weights whose sum is lost in rounding: 1e-8 of "
+    report.notes.push_back(counted(counts.raisedRows, "vertex has", "vertices have") +
+                           " weights whose sum is lost in rounding: 1e-8 of "
                            "their magnitudes holds them near their initial values; there the "
                            "operator is not that of finite elements");
   }
