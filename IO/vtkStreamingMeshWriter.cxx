@@ -137,6 +137,7 @@ void noteIsolated(const Job& job, Notes& notes)
   if (count > 0)
   {
     notes.push_back(
+      "The " +
       smg::counted(count, "point of no cell is left out: a .vsm file keeps it, and so does ",
         "points of no cell are left out: a .vsm file keeps them, and so does ") +
       "RestoreOrder.");
