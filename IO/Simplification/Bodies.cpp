@@ -27,6 +27,10 @@ DisjointSets<std::uint32_t> bodySets(const SurfacePart& part, const Poll& poll)
     poll.at(i / 3);
     sets.join(part.corners[i], part.corners[i + 1]);
     sets.join(part.corners[i], part.corners[i + 2]);
+    for (std::size_t k = i; k < i + 3 && !part.wedges.empty(); ++k)
+    {
+      sets.join(part.corners[k], part.wedges[k]);
+    }
   }
   return sets;
 }

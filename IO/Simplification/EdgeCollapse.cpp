@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/EdgeCollapse.h"
 
+#include "IO/Simplification/SeamVertices.h"
 #include "Solver/Core/Vector.h"
 
 #include <algorithm>
@@ -81,9 +82,9 @@ public:
     }
   }
 
-  /** Adds for each boundary edge, and for each edge between labels, the plane through it that is
-   * perpendicular to its triangle, which holds the curve where it is. Each edge gets it once: as
-   * soon as all triangles of one of its ends are in the part. */
+  /** Adds for each boundary edge, and for each edge between labels or on a seam, the plane through
+   * it that is perpendicular to its triangle, which holds the curve where it is. Each edge gets it
+   * once: as soon as all triangles of one of its ends are in the part. */
   void addBoundary()
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
@@ -109,20 +110,6 @@ public:
       // Open vertices may have further boundary edges in later parts.
       lacks[v] = lacks[v] != 0 && this->Surface.isOpen(v) ? 1 : 0;
     }
-  }
-
-  SeamPoints boundary() const
-  {
-    SeamPoints points;
-    for (std::uint32_t v = 0; v < this->Part.vertices(); ++v)
-    {
-      this->Polled.at(v);
-      if (this->Surface.isOnBoundary(v))
-      {
-        points.add(this->point(v));
-      }
-    }
-    return points;
   }
 
   /** Passes until the goal is reached or nothing can collapse. Where the topology may change and
@@ -161,7 +148,7 @@ public:
         if (this->Surface.keepsBorders())
         {
           this->Surface.releaseBorders();
-          crossesBorders = true;
+          crossesBorders = !this->Part.labels.empty();
         }
         else
         {
@@ -169,8 +156,9 @@ public:
         }
       }
     }
+    separateSeams(this->Part);
     this->Part.dropUnusedVertices(this->Polled);
-    return { std::sqrt(this->Error), crossesBorders, {} };
+    return { std::sqrt(this->Error), crossesBorders };
   }
 
 private:
@@ -265,8 +253,8 @@ private:
     }
   }
 
-  /** Collapses at most `most` edges and returns their number. Those that change the topology must
-   * have a rank `worth` times smaller than the usual one. */
+  /** Collapses edges until at most about `most` vertices have gone and returns their number. Those
+   * that change the topology must have a rank `worth` times smaller than the usual one. */
   std::size_t collapse(std::size_t most, std::size_t vertices, float worth)
   {
     this->sortEdges();
@@ -302,7 +290,7 @@ private:
         this->Part.quadrics[to].add(this->Part.quadrics[from]);
         this->Surface.move(from, to);
         this->Pinched += pinches ? 1 : 0;
-        ++done;
+        done += this->Part.joinedIn(from);
       }
     }
     return done;
@@ -353,18 +341,16 @@ Collapsed collapseEdges(
   {
     return {};
   }
+  joinSeams(part, open, poll);
   Collapser collapser(part, open, poll);
   if (needsPlanes)
   {
     collapser.addPlanes();
   }
-  SeamPoints boundary = needsPlanes ? collapser.boundary() : SeamPoints();
   // Also for parts that have quadrics: edges whose ends were open before may be complete by this
   // time.
   collapser.addBoundary();
-  Collapsed done = collapser.run(goal);
-  done.boundary = std::move(boundary);
-  return done;
+  return collapser.run(goal);
 }
 
 } // namespace smg

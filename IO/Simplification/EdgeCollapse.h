@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Simplification/SeamPoints.h"
 #include "IO/Simplification/SurfaceParts.h"
 #include "IO/Simplification/SurfaceTopology.h"
 
@@ -32,7 +31,6 @@ struct Collapsed
   double error = 0.0; ///< the largest of a collapse
   /** Whether borders between labels were given up, since nothing else could collapse. */
   bool crossesBorders = false;
-  SeamPoints boundary; ///< of a part that had no quadrics, without vertices of other parts
 };
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */
@@ -47,7 +45,8 @@ inline constexpr std::int64_t CollapseBytes = 110;
  *
  * The topology stays (see SurfaceTopology): bodies, handles and boundary curves stay, and no edge
  * gets more than two triangles. So do the borders between the labels of the part, which are held as
- * boundaries are. No triangle turns over. Vertices where the surface is not manifold
+ * boundaries are, and the seams all of whose vertices at a place are in the part (joinSeams()):
+ * both sides move together. No triangle turns over. Vertices where the surface is not manifold
  * do not go; how triangles are wound does not matter.
  *
  * Each of several passes over the edges collapses edges that have no end in common, in the order of

@@ -10,8 +10,8 @@
 #include <span>
 #include <variant>
 
-// What a simplification holds, as a column of the stream: so it goes with the vertices wherever
-// their other columns go.
+// What a simplification holds, and its seams, as a column of the stream: so it goes with the
+// vertices wherever their other columns go.
 
 namespace smg
 {
@@ -110,19 +110,50 @@ HeldMesh::HeldMesh(const StoredMesh& mesh, const std::vector<Where>& parts, std:
   const std::filesystem::path& scratch, const ProgressFunction& progress)
   : Columns(mesh.info(), "simplify")
   , Vertices(parts, false, this->Columns)
+  , Holds(!parts.empty())
 {
   this->Columns.memory().setLimit(memory);
-  visitBlocks(*mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns()), progress,
-    0.0, 1.0, [&](const MeshBlock& block) { this->Vertices.prepare(block, scratch); });
-  this->Vertices.endPreparing(false);
+  const bool isSurface = mesh.info().cellType == CellType::Triangle;
+  if (this->Holds || isSurface)
+  {
+    constexpr std::int64_t ShareOfSeams = 8;
+    SeamVertices seams(this->Columns.memory(), memory / ShareOfSeams);
+    visitBlocks(*mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns()), progress,
+      0.0, 1.0,
+      [&](const MeshBlock& block)
+      {
+        this->Vertices.prepare(block, scratch);
+        if (isSurface)
+        {
+          seams.add(block);
+        }
+      });
+    this->Vertices.endPreparing(false);
+    seams.finish();
+    this->SeamPlaces = seams.places();
+    if (seams.isExact())
+    {
+      this->Seams = seams.seams();
+    }
+  }
+  this->Columns.memory().acquire(
+    static_cast<std::int64_t>(this->Seams.size() * sizeof(SeamVertices::Seam)));
+  this->Marks = this->Holds || !this->Seams.empty();
   this->Mesh =
-    mesh.source(columnNames(mesh.info().vertexColumns), columnNames(mesh.info().cellColumns));
+    mesh.source(columnNames(mesh.info().vertexColumns), columnNames(carriedColumns(mesh.info())));
   this->Info = this->Mesh->info();
-  this->Info.vertexColumns.push_back({ HeldName, ScalarType::UInt8, 1 });
+  if (this->Marks)
+  {
+    this->Info.vertexColumns.push_back({ HeldName, ScalarType::UInt8, 1 });
+  }
 }
 
 bool HeldMesh::next(MeshBlock& block)
 {
+  if (!this->Marks)
+  {
+    return this->Mesh->next(block);
+  }
   // The column of the last block is none of the mesh.
   block.vertexColumns.resize(
     std::min(block.vertexColumns.size(), this->Info.vertexColumns.size() - 1));
@@ -130,11 +161,27 @@ bool HeldMesh::next(MeshBlock& block)
   {
     return false;
   }
-  const std::span<const std::uint8_t> held = this->Vertices.at(block);
-  const auto bytes = std::as_bytes(held);
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(block.vertices()), 0);
+  const std::int64_t end = block.firstVertex + block.vertices();
+  for (auto seam =
+         std::ranges::lower_bound(this->Seams, block.firstVertex, {}, &SeamVertices::Seam::vertex);
+       seam != this->Seams.end() && seam->vertex < end; ++seam)
+  {
+    marks[static_cast<std::size_t>(seam->vertex - block.firstVertex)] =
+      static_cast<std::uint8_t>(std::min<std::int64_t>(seam->atPlace, SurfacePart::MostOfSeam));
+  }
+  if (this->Holds)
+  {
+    const std::span<const std::uint8_t> held = this->Vertices.at(block);
+    for (std::size_t v = 0; v < marks.size(); ++v)
+    {
+      marks[v] = held[v] != 0 ? 1 : marks[v];
+    }
+    this->Count += static_cast<std::int64_t>(held.size()) - std::ranges::count(held, 0);
+  }
+  const auto bytes = std::as_bytes(std::span(marks));
   block.vertexColumns.push_back(
     { this->Info.vertexColumns.back(), { bytes.begin(), bytes.end() } });
-  this->Count += static_cast<std::int64_t>(held.size()) - std::ranges::count(held, 0);
   return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Simplification/SeamVertices.h"
 #include "Solver/Problem/FixedVertices.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Error.h"
@@ -16,19 +17,25 @@
 namespace smg
 {
 
-/** A mesh stream with all columns and one more, the last one of the vertices (uint8): not 0 where
- * they are held. */
+/** A mesh stream with its columns and one more, the last one of the vertices (uint8): 1 where they
+ * are held, the number of vertices at their place where they lie on seams, else 0; see
+ * SurfacePart::marksHeld. Without the column where that would be 0 for all. */
 class HeldMesh : public MeshSource
 {
 public:
-  /** Reads the mesh once, to find what is held; `memory` limits what is remembered of it, in bytes.
-   * Throws Error if a part is not valid or has no vertex. */
+  /** Reads the mesh once, to find what is held and, of triangles, the seams; `memory` limits what
+   * is remembered of it, in bytes. Throws Error if a part is not valid or has no vertex. */
   HeldMesh(const StoredMesh& mesh, const std::vector<Where>& parts, std::int64_t memory,
     const std::filesystem::path& scratch, const ProgressFunction& progress);
 
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;
 
+  /** Whether there is the column. */
+  bool marksHeld() const { return this->Marks; }
+  /** The places of seams, which an estimate tells if not all are marked. */
+  std::int64_t seams() const { return this->SeamPlaces; }
+  bool marksSeams() const { return !this->Seams.empty(); }
   /** The vertices held in the blocks that were delivered. */
   std::int64_t held() const { return this->Count; }
   /** The bytes that are kept. */
@@ -40,6 +47,9 @@ private:
   FixedVertices Vertices;
   std::unique_ptr<MeshSource> Mesh;
   StreamInfo Info;
+  bool Holds, Marks = false;
+  std::vector<SeamVertices::Seam> Seams; ///< if all are known
+  std::int64_t SeamPlaces = 0;
   std::int64_t Count = 0;
 };
 

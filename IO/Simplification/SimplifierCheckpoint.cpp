@@ -39,7 +39,7 @@ void StreamSimplifier::exchange(State& state)
   std::vector<std::int64_t> delivered(this->Delivered.begin(), this->Delivered.end());
   auto capacity = static_cast<std::uint64_t>(this->Capacity);
   state(this->Window, delivered, capacity, this->End, this->DeliveredVertices, this->TakenVertices,
-    this->TakenParts, this->FullWindows, this->Counts, this->Seams, this->KeptResults);
+    this->TakenParts, this->FullWindows, this->Counts, this->KeptResults);
   this->Delivered = { delivered.begin(), delivered.end() };
   this->Capacity = static_cast<std::size_t>(capacity);
 }

@@ -115,22 +115,23 @@ void noteBorders(
   }
 }
 
-/** Says that cracks may open along seams; where vertices were merged, or nothing was simplified,
- * none do. */
-void noteSeams(
-  const StreamSimplifier& simplifier, const SimplifyReport& report, std::vector<std::string>& notes)
+/** Says that cracks may open along seams where there was no memory to hold them; where vertices
+ * were merged, or nothing was simplified, none do. */
+void noteSeams(const HeldMesh& mesh, const SimplifyReport& report,
+  const SimplificationCounts& counts, std::vector<std::string>& notes)
 {
-  const std::int64_t places = simplifier.seams().places();
-  if (places == 0 || simplifier.counts().isClustered || report.vertices == report.vertices_before)
+  if (mesh.seams() == 0 || (mesh.marksSeams() && !counts.splitsSeams) || counts.isClustered ||
+      report.vertices == report.vertices_before)
   {
     return;
   }
   notes.push_back("Points of the boundary coincide at " +
-                  std::string(simplifier.seams().isExact() ? "" : "about ") +
-                  std::to_string(places) + (places == 1 ? " place" : " places") +
-                  ": the sides of such a seam are simplified each for itself, and a crack may open "
-                  "between them, unless these points are joined first: on the command line with "
-                  "--weld 0, in ParaView by the filter Clean.");
+                  std::string(mesh.marksSeams() ? "" : "about ") + std::to_string(mesh.seams()) +
+                  (mesh.seams() == 1 ? " place" : " places") +
+                  ", more than the memory limit has room for: the sides of such a seam are "
+                  "simplified each for itself, and a crack may open between them. Raise the limit, "
+                  "or join these points first: on the command line with --weld 0, in ParaView by "
+                  "the filter Clean.");
 }
 
 /** Says where the number of vertices is not that which was asked for, or points are held in vain.
@@ -161,7 +162,7 @@ void noteVertices(const SimplifyTarget& target, const SimplifyReport& report,
 }
 
 std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& target,
-  const SimplifyReport& report, const StreamSimplifier& simplifier, std::int64_t held)
+  const SimplifyReport& report, const StreamSimplifier& simplifier, const HeldMesh& mesh)
 {
   const SimplificationCounts& counts = simplifier.counts();
   std::vector<std::string> notes;
@@ -178,7 +179,7 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
   }
   noteCellColumns(info, notes);
   noteBorders(simplifier, info, notes);
-  noteSeams(simplifier, report, notes);
+  noteSeams(mesh, report, counts, notes);
   if (counts.isClustered)
   {
     notes.emplace_back(
@@ -188,7 +189,7 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
       "with the same coordinates first: on the command line with --weld 0, in ParaView by the "
       "filter Clean.");
   }
-  noteVertices(target, report, counts, held, notes);
+  noteVertices(target, report, counts, mesh.held(), notes);
   return notes;
 }
 
@@ -198,21 +199,18 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   const std::filesystem::path& vsm, const SimplifyOptions& options, double end,
   ScratchFolder* checkpoint)
 {
-  const double found = options.hold.empty() ? 0.0 : 0.2 * end;
-  std::unique_ptr<HeldMesh> held;
-  if (!options.hold.empty())
-  {
-    held = std::make_unique<HeldMesh>(mesh, options.hold, options.memoryLimit, options.scratch,
-      partOf(options.progress, 0.0, found));
-  }
+  // What is read first: only positions and corners, unless something is held.
+  const double found = (options.hold.empty() ? 0.1 : 0.2) * end;
+  HeldMesh source(
+    mesh, options.hold, options.memoryLimit, options.scratch, partOf(options.progress, 0.0, found));
   Progress done(partOf(options.progress, found, end));
   Workers workers(options.threads);
-  const auto source = held ? nullptr
-                           : mesh.source(columnNames(mesh.info().vertexColumns),
-                               columnNames(carriedColumns(mesh.info())));
-  const std::int64_t kept = held ? held->bytes() : 0;
-  SimplifiedMesh simplified(held ? *held : *source, held != nullptr, target,
-    options.memoryLimit - kept, workers, [&done](double share) { done.update(share); });
+  const std::int64_t kept = source.bytes();
+  // Joined seams take more memory in the window.
+  constexpr std::int64_t ShareOfSeams = 10;
+  const std::int64_t seams = source.marksSeams() ? options.memoryLimit / ShareOfSeams : 0;
+  SimplifiedMesh simplified(source, source.marksHeld(), target, options.memoryLimit - kept - seams,
+    workers, [&done](double share) { done.update(share); });
   if (checkpoint)
   {
     simplified.simplifier().keepIn(*checkpoint, subjectOf(mesh, target, options));
@@ -232,13 +230,9 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   report.error = counts.isClustered ? std::numeric_limits<double>::quiet_NaN() : counts.error;
   report.dropped_bodies = counts.dropped;
   report.resumed_vertices = counts.resumedAt;
-  report.pool_bytes_peak = kept + simplified.simplifier().peakMemory();
-  if (held)
-  {
-    report.pool_bytes_peak = std::max(report.pool_bytes_peak, held->peakMemory());
-  }
-  report.notes =
-    notesOn(mesh.info(), target, report, simplified.simplifier(), held ? held->held() : 0);
+  report.pool_bytes_peak =
+    std::max(kept + seams + simplified.simplifier().peakMemory(), source.peakMemory());
+  report.notes = notesOn(mesh.info(), target, report, simplified.simplifier(), source);
   done.update(1.0);
   return report;
 }
@@ -254,7 +248,8 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
   constexpr std::int64_t BytesOfCell = 400;
   Costs costs;
   costs.memory = std::min(options.memoryLimit, BytesOfCell * mesh.info.cells);
-  costs.passes = options.hold.empty() ? 1 : 2;
+  const bool isSurface = mesh.info.cellType == CellType::Triangle;
+  costs.passes = isSurface || !options.hold.empty() ? 2 : 1; // the first for seams and what is held
   costs.seconds = SecondsOfCell * static_cast<double>(mesh.info.cells);
   EstimatedInput result = mesh;
   result.parts.clear();

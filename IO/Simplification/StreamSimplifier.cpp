@@ -3,11 +3,13 @@
 
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/Bodies.h"
+#include "IO/Simplification/SeamVertices.h"
 #include "IO/Simplification/VertexClusters.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -87,20 +89,18 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
         for (std::size_t v = 0; v < locked.size(); ++v)
         {
           locked[v] = item.part.isInside(v) ? 0 : 1;
-          inside += locked[v] == 0 && !item.part.surface.isHeld(v) ? 1 : 0;
+          const bool isFree = !item.part.surface.isHeld(v) && item.part.surface.seamOf(v) == 0;
+          inside += locked[v] == 0 && isFree ? 1 : 0;
         }
-        // Vertices that other parts have, or that are held, are all left; the share is of the
-        // others.
+        // Vertices that other parts have, that are held or on seams, are all left; the share is of
+        // the others.
         CollapseGoal goal{ locked.size() - inside, item.error };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
-        Collapsed done = collapseEdges(item.part.surface, locked, goal, this->Polled);
-        item.error = done.error;
-        item.boundary = std::move(done.boundary);
+        item.error = collapseEdges(item.part.surface, locked, goal, this->Polled).error;
       },
       [this](Item& item)
       {
         this->Counts.error = std::max(this->Counts.error, item.error);
-        this->Seams.add(item.boundary);
         this->append(item.part);
       })
 {
@@ -261,6 +261,10 @@ void StreamSimplifier::append(const StreamPart& part)
     to.corners.push_back(places[from.corners[i]]);
   }
   to.cellRows.insert(to.cellRows.end(), from.cellRows.begin(), from.cellRows.end());
+  if (this->Counts.splitsSeams)
+  {
+    forgetSeams(to, this->Polled);
+  }
   this->End = part.end;
   this->TakenVertices = part.endVertex;
   ++this->TakenParts;
@@ -270,47 +274,31 @@ void StreamSimplifier::append(const StreamPart& part)
   }
 }
 
-/** For each vertex of the window whether later parts, or parts of the result that were delivered,
- * have it. */
-std::vector<std::uint8_t> StreamSimplifier::locked() const
+StreamSimplifier::Staying StreamSimplifier::staying() const
 {
-  std::vector<std::uint8_t> locked(this->Window.vertices());
-  for (std::size_t v = 0; v < locked.size(); ++v)
+  Staying staying;
+  staying.locked.resize(this->Window.vertices());
+  for (std::size_t v = 0; v < staying.locked.size(); ++v)
   {
     this->Polled.at(v);
     const std::int64_t id = this->Window.ids[v];
-    locked[v] = id >= this->End || this->Delivered.contains(id) ? 1 : 0;
+    staying.locked[v] = id >= this->End || this->Delivered.contains(id) ? 1 : 0;
   }
-  return locked;
-}
-
-/** The same, and the held ones. */
-std::vector<std::uint8_t> StreamSimplifier::fixed() const
-{
-  std::vector<std::uint8_t> fixed = this->locked();
-  for (std::size_t v = 0; v < fixed.size() && this->Window.marksHeld; ++v)
+  staying.held = heldVertices(this->Window, staying.locked, this->Polled);
+  for (std::size_t v = 0; v < staying.locked.size(); ++v)
   {
     this->Polled.at(v);
-    fixed[v] |= this->Window.isHeld(v) ? 1 : 0;
+    staying.lockedVertices += staying.locked[v];
+    staying.heldVertices += staying.locked[v] == 0 ? staying.held[v] : 0;
   }
-  return fixed;
+  return staying;
 }
 
-/** The held vertices of the window that are not locked. */
-std::int64_t StreamSimplifier::heldInWindow() const
+std::vector<std::uint8_t> StreamSimplifier::Staying::all() const
 {
-  if (!this->Window.marksHeld)
-  {
-    return 0;
-  }
-  const std::vector<std::uint8_t> locked = this->locked();
-  std::int64_t held = 0;
-  for (std::size_t v = 0; v < locked.size(); ++v)
-  {
-    this->Polled.at(v);
-    held += locked[v] == 0 && this->Window.isHeld(v) ? 1 : 0;
-  }
-  return held;
+  std::vector<std::uint8_t> all = this->locked;
+  std::ranges::transform(all, this->held, all.begin(), std::bit_or<>());
+  return all;
 }
 
 /** For the window alone; the parts keep their size. */
@@ -325,13 +313,40 @@ void StreamSimplifier::enlarge(std::size_t capacity)
  * span, or held. Throws Error if the memory does not suffice. */
 bool StreamSimplifier::grow()
 {
-  const auto fixed = static_cast<std::size_t>(std::ranges::count(this->fixed(), 1));
+  const Staying staying = this->staying();
+  const auto fixed = static_cast<std::size_t>(staying.lockedVertices + staying.heldVertices);
   if (fixed * TrianglesPerLocked <= this->Capacity)
   {
     return false;
   }
-  this->enlarge(fixed * TrianglesPerLocked * 3 / 2);
+  try
+  {
+    this->enlarge(fixed * TrianglesPerLocked * 3 / 2);
+  }
+  catch (const MemoryLimitError&)
+  {
+    if (this->Counts.splitsSeams || !this->hasSeams())
+    {
+      throw;
+    }
+    this->Counts.splitsSeams = true;
+    forgetSeams(this->Window, this->Polled);
+    return this->grow();
+  }
   return true;
+}
+
+bool StreamSimplifier::hasSeams() const
+{
+  for (std::size_t v = 0; v < this->Window.vertices(); ++v)
+  {
+    this->Polled.at(v);
+    if (this->Window.seamOf(v) > 0)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 /** Simplifies the full window. Of a result that does not fit into it, a part then leaves it. */
@@ -368,11 +383,11 @@ void StreamSimplifier::makeRoom()
  * is not given up for a number below that of the held ones. */
 void StreamSimplifier::collapse(std::int64_t vertices)
 {
-  const std::vector<std::uint8_t> locked = this->locked();
+  const Staying staying = this->staying();
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
-    this->Goal.error, !this->limitsError() && this->heldInWindow() <= vertices };
-  goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
-  const Collapsed done = collapseEdges(this->Window, locked, goal, this->Polled);
+    this->Goal.error, !this->limitsError() && staying.heldVertices <= vertices };
+  goal.vertices += static_cast<std::size_t>(staying.lockedVertices);
+  const Collapsed done = collapseEdges(this->Window, staying.locked, goal, this->Polled);
   this->Counts.error = std::max(this->Counts.error, done.error);
   this->Counts.crossesBorders = this->Counts.crossesBorders || done.crossesBorders;
 }
@@ -381,13 +396,16 @@ void StreamSimplifier::collapse(std::int64_t vertices)
  * no collapse removes a body. Returns whether they are fragments, which stay. */
 bool StreamSimplifier::dropBodies(std::int64_t vertices)
 {
-  const std::int64_t others = vertices - this->heldInWindow();
+  const Staying staying = this->staying();
+  const std::int64_t others = vertices - staying.heldVertices;
   if (others < 0)
   {
     return false;
   }
-  // Bodies with held vertices stay.
-  const KeptBodies bodies = keepLargestBodies(this->Window, this->fixed(), others, this->Polled);
+  // Bodies with held vertices stay; patches with seams between them are one.
+  joinSeams(this->Window, staying.locked, this->Polled);
+  const KeptBodies bodies = keepLargestBodies(this->Window, staying.all(), others, this->Polled);
+  separateSeams(this->Window);
   this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
   return bodies.areFragments;
 }
@@ -397,9 +415,9 @@ bool StreamSimplifier::dropBodies(std::int64_t vertices)
 void StreamSimplifier::fit(std::int64_t vertices)
 {
   this->collapse(vertices);
-  const std::vector<std::uint8_t> locked = this->locked();
-  if (this->Streams && this->Goal.vertices > 0 && !this->limitsError() &&
-      std::ranges::count(locked, 0) > vertices)
+  const auto free =
+    static_cast<std::int64_t>(this->Window.vertices()) - this->staying().lockedVertices;
+  if (this->Streams && this->Goal.vertices > 0 && !this->limitsError() && free > vertices)
   {
     this->dropBodies(vertices);
   }
@@ -417,7 +435,7 @@ void StreamSimplifier::shrink(std::size_t vertices)
   if (4 * this->Window.triangles() > 3 * this->Capacity)
   {
     this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
-    clusterVertices(this->Window, this->Capacity / 8, this->Polled);
+    clusterVertices(this->Window, this->staying().held, this->Capacity / 8, this->Polled);
     this->Counts.isClustered = true;
   }
 }
@@ -527,10 +545,11 @@ void StreamSimplifier::finish()
     this->fit(most);
   }
   // Collapses alone leave too many vertices: they are merged by their positions.
-  if (mayDrop && this->remaining() > most && this->heldInWindow() <= most)
+  const Staying staying = this->staying();
+  if (mayDrop && this->remaining() > most && staying.heldVertices <= most)
   {
     SurfacePart merged = this->Window;
-    clusterVertices(merged, static_cast<std::size_t>(most), this->Polled);
+    clusterVertices(merged, staying.held, static_cast<std::size_t>(most), this->Polled);
     if (merged.triangles() > 0)
     {
       this->Counts.crossesBorders = this->Counts.crossesBorders || !merged.labels.empty();

@@ -34,6 +34,7 @@ struct SimplificationCounts
   std::int64_t held = 0;       ///< vertices of the result
   bool isClustered = false;    ///< whether edges of some parts could not be collapsed
   bool crossesBorders = false; ///< whether borders between labels were given up
+  bool splitsSeams = false;    ///< whether seams were given up, see joinSeams()
   std::int64_t resumedAt = 0;  ///< vertices simplified by an earlier program, see keepIn()
 };
 
@@ -45,6 +46,9 @@ struct SimplificationCounts
  * those of its vertices locked that later parts have, so that no edge between parts remains. A
  * result that fits into the window stays there until the end, when all of it is simplified to the
  * goal; of a larger one, the older half leaves the window whenever that is full.
+ *
+ * Seams are joined wherever all vertices at a place are in a part or in the window; until then
+ * these are held. If the window has no room for so many, seams are given up.
  *
  * Of a surface with very many bodies the smallest are left out, so that the vertices of the result
  * are enough for 20 of each body, or all that it has; of a result that does not fit into the window
@@ -71,9 +75,9 @@ public:
   };
 
   /** `triangles` and `workers` must outlive it; `marksHeld`: whether their last column of the
-   * vertices, of one byte, says which are held (HeldMesh); `progress` receives the share of the
-   * stream that was read, and may throw. A result of more than a third of what fits into `memory`,
-   * in bytes, needs the number of vertices. */
+   * vertices, of one byte, says which are held or on seams (HeldMesh); `progress` receives the
+   * share of the stream that was read, and may throw. A result of more than a third of what fits
+   * into `memory`, in bytes, needs the number of vertices. */
   StreamSimplifier(MeshSource& triangles, bool marksHeld, const SimplifyTarget& target,
     std::int64_t memory, Workers& workers, std::function<void(double)> progress);
   ~StreamSimplifier();
@@ -94,8 +98,6 @@ public:
   std::int64_t peakMemory() const { return this->Memory.peak(); }
   /** The labels of the cells that were read. */
   const CellLabels& labels() const { return this->Parts.labels(); }
-  /** Where points of the boundary coincide, without the few that several parts have. */
-  const SeamPoints& seams() const { return this->Seams; }
   /** Asks whether to go on, for work on a part of the result. */
   const Poll& polled() const { return this->Polled; }
 
@@ -105,7 +107,6 @@ private:
     StreamPart part;
     double share = 1.0; ///< of its vertices that is left
     double error = 0.0; ///< that is allowed, and then the largest of a collapse
-    SeamPoints boundary;
   };
 
   /** The share of the vertices of the stream that is in the window or delivered; 0 if their number
@@ -117,10 +118,21 @@ private:
   void step();
   double shareOfPart() const;
   void append(const StreamPart& part);
-  std::vector<std::uint8_t> locked() const;
-  std::vector<std::uint8_t> fixed() const;
-  std::int64_t heldInWindow() const;
+  /** The vertices of the window that do not go. */
+  struct Staying
+  {
+    /** Those that later parts, or parts of the result that were delivered, have. */
+    std::vector<std::uint8_t> locked;
+    /** Those that are held, see heldVertices(). */
+    std::vector<std::uint8_t> held;
+    std::int64_t lockedVertices = 0;
+    std::int64_t heldVertices = 0; ///< that are not locked
+
+    std::vector<std::uint8_t> all() const;
+  };
+  Staying staying() const;
   bool grow();
+  bool hasSeams() const;
   void enlarge(std::size_t capacity);
   void makeRoom();
   void collapse(std::int64_t vertices);
@@ -159,7 +171,6 @@ private:
   std::deque<Result> Ready;
   bool IsFinished = false;
   SimplificationCounts Counts;
-  SeamPoints Seams;
   // Of a checkpoint, which has the parts of the result in states of their own.
   ScratchFolder* Folder = nullptr;
   std::vector<Checkpoint::Item> Subject;

@@ -20,17 +20,15 @@ namespace
 
 constexpr std::uint32_t Unused = std::numeric_limits<std::uint32_t>::max();
 
-/** For each vertex 0 if a triangle uses it, else Unused. */
-std::vector<std::uint32_t> usedBy(
-  const std::vector<std::uint32_t>& corners, std::size_t vertices, const Poll& poll)
+/** Sets 0 for each vertex that a triangle uses. */
+void markUsed(
+  const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& used, const Poll& poll)
 {
-  std::vector<std::uint32_t> used(vertices, Unused);
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     poll.at(i);
     used[corners[i]] = 0;
   }
-  return used;
 }
 
 } // namespace
@@ -89,6 +87,11 @@ void SurfacePart::moveTriangle(std::size_t from, std::size_t to)
   const std::size_t stride = this->cellRowBytes();
   std::copy_n(this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(from), 3,
     this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(to));
+  if (!this->wedges.empty())
+  {
+    std::copy_n(this->wedges.begin() + 3 * static_cast<std::ptrdiff_t>(from), 3,
+      this->wedges.begin() + 3 * static_cast<std::ptrdiff_t>(to));
+  }
   std::copy_n(this->cellRows.begin() + static_cast<std::ptrdiff_t>(from * stride), stride,
     this->cellRows.begin() + static_cast<std::ptrdiff_t>(to * stride));
 }
@@ -97,6 +100,7 @@ void SurfacePart::keepTriangles(std::size_t number)
 {
   this->cellRows.resize(number * this->cellRowBytes());
   this->corners.resize(3 * number);
+  this->wedges.resize(this->wedges.empty() ? 0 : 3 * number);
 }
 
 SurfacePart SurfacePart::extract(
@@ -114,7 +118,8 @@ SurfacePart SurfacePart::extract(
     const auto row = this->cellRows.begin() + static_cast<std::ptrdiff_t>(t * stride);
     part.cellRows.insert(part.cellRows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
   }
-  std::vector<std::uint32_t> place = usedBy(some, this->vertices(), poll);
+  std::vector<std::uint32_t> place(this->vertices(), Unused);
+  markUsed(some, place, poll);
   part.origin = this->origin;
   part.marksHeld = this->marksHeld;
   for (std::size_t v = 0; v < place.size(); ++v)
@@ -136,7 +141,9 @@ SurfacePart SurfacePart::extract(
 
 void SurfacePart::dropUnusedVertices(const Poll& poll)
 {
-  std::vector<std::uint32_t> place = usedBy(this->corners, this->vertices(), poll);
+  std::vector<std::uint32_t> place(this->vertices(), Unused);
+  markUsed(this->corners, place, poll);
+  markUsed(this->wedges, place, poll);
   const std::size_t stride = this->rowBytes();
   // In place: a vertex never moves up.
   const bool hasQuadrics = !this->quadrics.empty();
@@ -159,6 +166,10 @@ void SurfacePart::dropUnusedVertices(const Poll& poll)
     }
     std::copy_n(this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride), stride,
       this->rows.begin() + static_cast<std::ptrdiff_t>(kept * stride));
+    if (!this->atPlace.empty())
+    {
+      this->atPlace[kept] = this->atPlace[v];
+    }
     ++kept;
   }
   this->ids.resize(kept);
@@ -166,9 +177,13 @@ void SurfacePart::dropUnusedVertices(const Poll& poll)
   this->quadrics.resize(hasQuadrics ? kept : 0);
   this->lacksBoundary.resize(hasQuadrics ? kept : 0);
   this->rows.resize(kept * stride);
-  for (std::uint32_t& corner : this->corners)
+  this->atPlace.resize(this->atPlace.empty() ? 0 : kept);
+  for (std::vector<std::uint32_t>* const list : { &this->corners, &this->wedges })
   {
-    corner = place[corner];
+    for (std::uint32_t& corner : *list)
+    {
+      corner = place[corner];
+    }
   }
 }
 

@@ -80,7 +80,13 @@ struct SurfacePart
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
   std::vector<std::byte> cellRows;    ///< for each triangle its tuples of the carried columns
   std::vector<LabelPlace> labels;     ///< in these tuples; collapses keep their borders
-  bool marksHeld = false; ///< whether the last byte in the row of a vertex says if that is held
+  /** Whether the last byte in the row of a vertex says if that is held (1), or lies on a seam with
+   * others at its place (their number with it, at most MostOfSeam); else it is 0. */
+  bool marksHeld = false;
+  static constexpr std::uint8_t MostOfSeam = 255;
+  // While seams are joined, see joinSeams():
+  std::vector<std::uint32_t> wedges; ///< for each corner the vertex whose row it has
+  std::vector<std::uint8_t> atPlace; ///< for each vertex the number of those joined in it
 
   std::size_t vertices() const { return this->ids.size(); }
   std::size_t triangles() const { return this->corners.size() / 3; }
@@ -97,9 +103,21 @@ struct SurfacePart
   }
 
   /** Whether a vertex must stay. */
-  bool isHeld(std::size_t vertex) const
+  bool isHeld(std::size_t vertex) const { return this->mark(vertex) == 1; }
+  /** The number of vertices at the place of one on a seam, at most MostOfSeam; 0 elsewhere. */
+  std::uint8_t seamOf(std::size_t vertex) const
   {
-    return this->marksHeld && this->rows[(vertex + 1) * this->rowBytes() - 1] != std::byte{ 0 };
+    const std::uint8_t mark = this->mark(vertex);
+    return mark > 1 ? mark : std::uint8_t(0);
+  }
+  /** The number of vertices that are joined in one. */
+  std::size_t joinedIn(std::size_t vertex) const
+  {
+    return this->atPlace.empty() ? 1 : this->atPlace[vertex];
+  }
+  void forgetSeam(std::size_t vertex)
+  {
+    this->rows[(vertex + 1) * this->rowBytes() - 1] = std::byte{ 0 };
   }
   /** Makes room for so many triangles, with rows and vertices as those of another surface. */
   void reserve(std::size_t triangles, const SurfacePart& like);
@@ -151,6 +169,14 @@ struct SurfacePart
   {
     state(this->ids, this->points, this->quadrics, this->origin, this->lacksBoundary, this->rows,
       this->corners, this->cellRows);
+  }
+
+private:
+  std::uint8_t mark(std::size_t vertex) const
+  {
+    return this->marksHeld
+             ? std::to_integer<std::uint8_t>(this->rows[(vertex + 1) * this->rowBytes() - 1])
+             : std::uint8_t(0);
   }
 };
 

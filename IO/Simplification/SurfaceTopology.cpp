@@ -36,7 +36,7 @@ SurfaceTopology::SurfaceTopology(
   , Polled(poll)
   , IsFixed(open.size())
   , Curves(open.size())
-  , KeepsBorders(!part.labels.empty())
+  , KeepsBorders(!part.labels.empty() || !part.wedges.empty())
   , Target(open.size())
   , Touched(open.size())
   , Seen(open.size(), 0)
@@ -104,7 +104,7 @@ void SurfaceTopology::classify(std::uint32_t v)
   const bool isHub = triangles > MaxTriangles;
   this->IsFixed[v] =
     isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? ByTopology : 0;
-  if (this->Part.isHeld(v))
+  if (this->Part.isHeld(v) || (this->Part.seamOf(v) > 0 && this->Part.joinedIn(v) == 1))
   {
     this->IsFixed[v] |= ByHold;
   }
@@ -116,12 +116,91 @@ void SurfaceTopology::classify(std::uint32_t v)
   }
 }
 
-/** The edges at v of the boundary and between labels; 0 if its triangles have one label. */
+/** Whether two triangles at an edge have the same labels, and there is no seam between them. */
+bool SurfaceTopology::areAlike(
+  std::size_t one, std::size_t other, std::uint32_t v, std::uint32_t w) const
+{
+  return this->Part.haveSameLabels(one, other) &&
+         (this->Part.wedges.empty() || (this->wedgeAt(one, v) == this->wedgeAt(other, v) &&
+                                         this->wedgeAt(one, w) == this->wedgeAt(other, w)));
+}
+
+/** Whether triangles have the same labels, and no corners on seams but those that stand for all. */
+bool SurfaceTopology::isUniform(std::span<const std::uint32_t> star) const
+{
+  return std::ranges::all_of(star,
+    [&](std::size_t t)
+    {
+      return this->Part.haveSameLabels(star[0], t) &&
+             (this->Part.wedges.empty() ||
+               std::equal(this->Corners.begin() + 3 * static_cast<std::ptrdiff_t>(t),
+                 this->Corners.begin() + 3 * static_cast<std::ptrdiff_t>(t + 1),
+                 this->Part.wedges.begin() + 3 * static_cast<std::ptrdiff_t>(t)));
+    });
+}
+
+/** The vertex, of those that are joined in v, that a triangle has. */
+std::uint32_t& SurfaceTopology::wedgeAt(std::size_t triangle, std::uint32_t v) const
+{
+  const std::uint32_t* c = this->Corners.data() + 3 * triangle;
+  const std::size_t k = this->Target[c[0]] == v ? 0 : this->Target[c[1]] == v ? 1 : 2;
+  return this->Part.wedges[3 * triangle + k];
+}
+
+/** Finds onto which vertex each of those that are joined in `from` moves: that at `to` on its side
+ * of the edge between them. Returns whether there is one for each, and not two. */
+bool SurfaceTopology::findMoves(std::uint32_t from, std::uint32_t to)
+{
+  this->Pairs.clear();
+  for (const std::uint32_t t : this->star(from))
+  {
+    const auto [a, b] = this->others(t, from);
+    if (a != b && (a == to || b == to))
+    {
+      this->Pairs.push_back({ this->wedgeAt(t, from), this->wedgeAt(t, to) });
+    }
+  }
+  return std::ranges::all_of(this->star(from),
+    [&](std::uint32_t t)
+    {
+      const auto [a, b] = this->others(t, from);
+      std::size_t found = 0;
+      std::uint32_t onto = 0;
+      for (const auto& [one, other] : this->Pairs)
+      {
+        if (one == this->wedgeAt(t, from) && (found == 0 || other != onto))
+        {
+          onto = other;
+          ++found;
+        }
+      }
+      return a == b || found == 1;
+    });
+}
+
+void SurfaceTopology::move(std::uint32_t from, std::uint32_t to)
+{
+  if (!this->Part.wedges.empty())
+  {
+    this->findMoves(from, to);
+    for (const std::uint32_t t : this->star(from))
+    {
+      std::uint32_t& wedge = this->wedgeAt(t, from);
+      const auto pair =
+        std::ranges::find(this->Pairs, wedge, [](const auto& each) { return each[0]; });
+      wedge = pair == this->Pairs.end() ? wedge : (*pair)[1];
+    }
+  }
+  this->Target[from] = to;
+  this->Touched[from] = this->Touched[to] = 1;
+}
+
+/** The edges at v of the boundary, of seams and between labels; 0 if its triangles have one label
+ * and no seam. */
 std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
 {
   const std::span<const std::uint32_t> star = this->star(v);
-  if (std::ranges::all_of(
-        star, [&](std::uint32_t t) { return this->Part.haveSameLabels(star[0], t); }))
+  if (this->isUniform(star))
   {
     return 0;
   }
@@ -140,7 +219,8 @@ std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
     bool isAlike = true;
     for (; end < this->Pairs.size() && this->Pairs[end][0] == this->Pairs[begin][0]; ++end)
     {
-      isAlike = isAlike && this->Part.haveSameLabels(this->Pairs[begin][1], this->Pairs[end][1]);
+      isAlike = isAlike && this->areAlike(
+                             this->Pairs[begin][1], this->Pairs[end][1], v, this->Pairs[begin][0]);
     }
     curves += end - begin == 1 || !isAlike ? 1 : 0;
   }
@@ -148,7 +228,7 @@ std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
 }
 
 /** Whether an edge of a vertex that was not touched has one triangle, or triangles of different
- * labels; true if both ends may have further triangles elsewhere. */
+ * labels, or is on a seam; true if both ends may have further triangles elsewhere. */
 bool SurfaceTopology::isCurve(std::uint32_t v, std::uint32_t w) const
 {
   if (this->Open[v] != 0 && this->Open[w] != 0)
@@ -162,7 +242,7 @@ bool SurfaceTopology::isCurve(std::uint32_t v, std::uint32_t w) const
     const auto [a, b] = this->others(t, v);
     if (a != b && (a == w || b == w))
     {
-      if (triangles++ > 0 && !this->Part.haveSameLabels(first, t))
+      if (triangles++ > 0 && !this->areAlike(first, t, v, w))
       {
         return true;
       }
@@ -289,7 +369,7 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
   }
   // Their triangles have gone in this pass; or `from` is on the boundary and would leave it.
   if (shared == 0 || ((this->Curves[from] & OnBoundary) != 0 && shared != 1) ||
-      this->crossesBorders(from, to))
+      this->crossesBorders(from, to) || (!this->Part.wedges.empty() && !this->findMoves(from, to)))
   {
     return Change::Impossible;
   }
@@ -470,10 +550,12 @@ std::size_t SurfaceTopology::dropFolded()
       [&isFolded](std::size_t t) { return isFolded[t] != 0; }, this->Polled);
   }
   std::vector<std::uint8_t> isUsed(this->vertices(), 0);
-  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  const std::vector<std::uint32_t>& own =
+    this->Part.wedges.empty() ? this->Corners : this->Part.wedges;
+  for (std::size_t i = 0; i < own.size(); ++i)
   {
     this->Polled.at(i);
-    isUsed[this->Corners[i]] = 1;
+    isUsed[own[i]] = 1;
   }
   this->findStars();
   return static_cast<std::size_t>(std::ranges::count(isUsed, 1));

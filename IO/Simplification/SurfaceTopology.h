@@ -27,7 +27,8 @@ namespace smg
  *
  * Held vertices (SurfacePart::isHeld()) stay, with triangles. Borders between labels are kept as
  * boundaries are, until releaseBorders(): a vertex on one moves along it, and one where several
- * meet does not go. So no label vanishes, and none comes apart.
+ * meet does not go. So no label vanishes, and none comes apart. So are joined seams (joinSeams()):
+ * all vertices at a place of one move together, each along its own side.
  */
 class SurfaceTopology
 {
@@ -52,11 +53,6 @@ public:
   /** Whether borders between labels are kept. */
   bool keepsBorders() const { return this->KeepsBorders; }
   void releaseBorders();
-  /** Whether a vertex certainly has an edge of one triangle. */
-  bool isOnBoundary(std::uint32_t v) const
-  {
-    return this->Open[v] == 0 && (this->Curves[v] & OnBoundary) != 0;
-  }
   /** Whether an edge may have a single triangle; false if it certainly has two. */
   bool mayBeBoundary(std::uint32_t a, std::uint32_t b) const
   {
@@ -98,11 +94,7 @@ public:
     Impossible ///< the vertex may not go there, or nothing would be left of its body
   };
   Change changeBy(std::uint32_t from, std::uint32_t to);
-  void move(std::uint32_t from, std::uint32_t to)
-  {
-    this->Target[from] = to;
-    this->Touched[from] = this->Touched[to] = 1;
-  }
+  void move(std::uint32_t from, std::uint32_t to);
   /** Ends a pass: removes the triangles that have collapsed. */
   void endPass();
 
@@ -123,6 +115,10 @@ private:
   void classify(std::uint32_t v);
   std::size_t curvesAt(std::uint32_t v);
   bool isCurve(std::uint32_t v, std::uint32_t w) const;
+  bool areAlike(std::size_t one, std::size_t other, std::uint32_t v, std::uint32_t w) const;
+  bool isUniform(std::span<const std::uint32_t> star) const;
+  std::uint32_t& wedgeAt(std::size_t triangle, std::uint32_t v) const;
+  bool findMoves(std::uint32_t from, std::uint32_t to);
   bool crossesBorders(std::uint32_t from, std::uint32_t to) const;
   bool isFan();
   bool hasOneTriangle(std::uint32_t v, std::uint32_t w) const;
@@ -132,6 +128,7 @@ private:
   using Triangle = std::array<std::uint32_t, 3>;
   void pairTurned(std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const;
   std::vector<std::uint8_t> foldedTriangles() const;
+  /** Whether a vertex is held, or on a seam that is not joined. */
   bool isHeld(std::uint32_t v) const { return (this->IsFixed[v] & ByHold) != 0; }
   void keepFoldedBodies(std::vector<std::uint8_t>& isFolded) const;
 
@@ -163,7 +160,8 @@ private:
   // Marks of vertices, valid where they are the last one.
   std::uint32_t Mark = 0;
   std::vector<std::uint32_t> Seen, Common;
-  /** The other corners of the triangles of a star; or each with one of its triangles. */
+  /** The other corners of the triangles of a star; or each with one of its triangles; or the
+   * vertices of a seam, each with the one that it moves onto. */
   std::vector<std::array<std::uint32_t, 2>> Pairs;
 };
 

@@ -34,7 +34,7 @@ constexpr double MostCells = 2097151.0;
 class Clusters
 {
 public:
-  Clusters(const SurfacePart& part, const Poll& poll)
+  Clusters(const SurfacePart& part, std::span<const std::uint8_t> held, const Poll& poll)
     : Part(part)
     , Polled(poll)
     , Cluster(part.vertices())
@@ -43,7 +43,7 @@ public:
   {
     if (part.marksHeld)
     {
-      this->keepHeld();
+      this->keepHeld(held);
     }
     std::array<double, 3> high{};
     for (std::size_t i = 0; i < part.points.size(); ++i)
@@ -142,15 +142,14 @@ public:
 private:
   /** A vertex of a triangle with a held corner is a cluster of its own, so that the held one keeps
    * its triangles. */
-  void keepHeld()
+  void keepHeld(std::span<const std::uint8_t> held)
   {
     this->IsOwn.assign(this->Part.vertices(), 0);
     const std::vector<std::uint32_t>& corners = this->Part.corners;
     for (std::size_t i = 0; i < corners.size(); i += 3)
     {
       this->Polled.at(i / 3);
-      const bool isOwn = this->Part.isHeld(corners[i]) || this->Part.isHeld(corners[i + 1]) ||
-                         this->Part.isHeld(corners[i + 2]);
+      const bool isOwn = (held[corners[i]] | held[corners[i + 1]] | held[corners[i + 2]]) != 0;
       for (std::size_t k = i; isOwn && k < i + 3; ++k)
       {
         this->IsOwn[corners[k]] = 1;
@@ -237,13 +236,14 @@ void moveCorners(SurfacePart& part, const std::vector<std::uint32_t>& places, co
 
 } // namespace
 
-void clusterVertices(SurfacePart& part, std::size_t vertices, const Poll& poll)
+void clusterVertices(
+  SurfacePart& part, std::span<const std::uint8_t> held, std::size_t vertices, const Poll& poll)
 {
   if (part.vertices() <= vertices)
   {
     return;
   }
-  Clusters clusters(part, poll);
+  Clusters clusters(part, held, poll);
   // What is held must not take the place of all others.
   clusters.assign(cellsFor(clusters, std::max(vertices, clusters.own() + vertices / 8)));
   const std::vector<std::uint32_t> places = clusters.places();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smg/Simplify.h"
-
+#include "Testing/IO/SimplifyFixture.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/StreamMesh.h"
@@ -51,19 +50,8 @@ std::map<std::int64_t, std::array<double, 3>> pointsOf(const StreamMesh& simple)
   return points;
 }
 
-class SimplifyHold : public ::testing::Test
+class SimplifyHold : public SimplifyFixture
 {
-protected:
-  StreamMesh simplified(const StreamMesh& mesh, const SimplifyTarget& target,
-    const std::vector<Where>& hold, std::int64_t memory = 256, int threads = 0)
-  {
-    this->Report = simplify(MemoryMesh(mesh, 1000), target, this->Folder / "simple.vsm",
-      { .hold = hold, .memoryLimit = memory << 20, .threads = threads });
-    return collect(*VsmReader(this->Folder / "simple.vsm").source());
-  }
-
-  TemporaryFolder Folder;
-  SimplifyReport Report;
 };
 
 } // namespace
@@ -97,8 +85,8 @@ TEST_F(SimplifyHold, HeldPointsAreInTheResult)
       {
         SCOPED_TRACE(
           name + " to " + std::to_string(target.vertices) + " in " + std::to_string(memory));
-        const StreamMesh simple =
-          this->simplified(mesh, target, { part, Region::Vertices{ some } }, memory);
+        const StreamMesh simple = this->simplified(mesh, target,
+          { .hold = { part, Region::Vertices{ some } }, .memoryLimit = memory << 20 });
         const auto points = pointsOf(simple);
         for (const std::int64_t v : held)
         {
@@ -139,8 +127,8 @@ TEST_F(SimplifyHold, LeavesARestOfWhatIsNotHeld)
     held.push_back(v);
   }
   const auto corners = static_cast<std::int64_t>(3 * held.size());
-  const StreamMesh simple =
-    this->simplified(mesh, { .vertices = 2 * corners / 3 }, { Region::Vertices{ held } });
+  const StreamMesh simple = this->simplified(
+    mesh, { .vertices = 2 * corners / 3 }, { .hold = { Region::Vertices{ held } } });
   EXPECT_GT(simple.vertices(), corners + corners / 24);
   EXPECT_LT(simple.vertices(), mesh.vertices() / 2);
 }
@@ -149,8 +137,12 @@ TEST_F(SimplifyHold, DoesNotDependOnThreads)
 {
   const StreamMesh mesh = toStream(torus(220, 150, 0.2));
   const std::vector<Where> hold{ smg::box({ 0, 0, -1 }, { 3, 1, 1 }) };
-  const StreamMesh one = this->simplified(mesh, { .vertices = 4000 }, hold, 16, 1);
-  const StreamMesh several = this->simplified(mesh, { .vertices = 4000 }, hold, 16, 3);
+  const auto with = [&](int threads)
+  {
+    return this->simplified(mesh, { .vertices = 4000 },
+      { .hold = hold, .memoryLimit = std::int64_t(16) << 20, .threads = threads });
+  };
+  const StreamMesh one = with(1), several = with(3);
   EXPECT_EQ(one.corners, several.corners);
   EXPECT_EQ(one.positions, several.positions);
 }
@@ -158,7 +150,8 @@ TEST_F(SimplifyHold, DoesNotDependOnThreads)
 TEST_F(SimplifyHold, PointsOfNoTriangleAreCounted)
 {
   const StreamMesh solid = toStream(tetBox(12, 12, 12));
-  const StreamMesh simple = this->simplified(solid, { .vertices = 900 }, { Everywhere() });
+  const StreamMesh simple =
+    this->simplified(solid, { .vertices = 900 }, { .hold = { Everywhere() } });
   EXPECT_EQ(simple.vertices(), 12 * 12 * 12 - 10 * 10 * 10);
   ASSERT_EQ(this->Report.notes.size(), 1U);
   EXPECT_NE(this->Report.notes[0].find("1000 of the 1728 held points are in no triangle"),
@@ -170,7 +163,7 @@ TEST_F(SimplifyHold, APartWithoutVerticesIsRefused)
   const StreamMesh mesh = toStream(sphere(3));
   expectError(
     [&] {
-      this->simplified(mesh, { .vertices = 100 }, { smg::sphere({ 9, 9, 9 }, 1.0) });
+      this->simplified(mesh, { .vertices = 100 }, { .hold = { smg::sphere({ 9, 9, 9 }, 1.0) } });
     },
     "hold[0]");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smg/Simplify.h"
+#include "Testing/IO/SimplifyFixture.h"
 
 #include "Solver/Core/DisjointSets.h"
 #include "Testing/Support/MemoryMesh.h"
@@ -123,20 +123,8 @@ std::int64_t spotOf(const Eigen::Vector3d& middle)
   return isSpot ? static_cast<std::int64_t>(1000.0 * std::round(x) + std::round(y)) : -1;
 }
 
-class SimplifyLabels : public ::testing::Test
+class SimplifyLabels : public SimplifyFixture
 {
-protected:
-  StreamMesh simplified(const StreamMesh& mesh, std::int64_t vertices, std::int64_t memory = 256)
-  {
-    SimplifyOptions options;
-    options.memoryLimit = memory << 20;
-    this->Report = simplify(
-      MemoryMesh(mesh, 1000), { .vertices = vertices }, this->Folder / "simple.vsm", options);
-    return collect(*VsmReader(this->Folder / "simple.vsm").source());
-  }
-
-  TemporaryFolder Folder;
-  SimplifyReport Report;
 };
 
 } // namespace
@@ -162,7 +150,7 @@ TEST_F(SimplifyLabels, KeepTheirRegionsAndBorders)
       for (const std::int64_t vertices : { 1000, 5000 })
       {
         SCOPED_TRACE(name + " to " + std::to_string(vertices) + " in " + std::to_string(memory));
-        const Cover after = coverOf(this->simplified(mesh, vertices, memory));
+        const Cover after = coverOf(this->simplified(mesh, { .vertices = vertices }, memory));
         EXPECT_LE(this->Report.vertices, vertices);
         EXPECT_TRUE(this->Report.notes.empty());
         EXPECT_EQ(after.regions, before.regions);
@@ -183,7 +171,7 @@ TEST_F(SimplifyLabels, KeepTheirRegionsAndBorders)
 TEST_F(SimplifyLabels, AreGivenUpForTheNumberWhichIsSaid)
 {
   const StreamMesh mesh = labelled<std::int64_t>(plate(), spotOf);
-  EXPECT_LE(this->simplified(mesh, 60).vertices(), 60);
+  EXPECT_LE(this->simplified(mesh, { .vertices = 60 }).vertices(), 60);
   ASSERT_EQ(this->Report.notes.size(), 1U);
   EXPECT_NE(this->Report.notes[0].find("borders between the labels"), std::string::npos);
   // An error gives up none.
@@ -224,7 +212,7 @@ TEST_F(SimplifyLabels, AreNotTheNumbersOfCells)
   mesh.cellColumns = { makeColumn<std::int32_t>("Number", numbers) };
   for (const std::int64_t memory : { 256, 16 })
   {
-    EXPECT_EQ(this->simplified(mesh, 500, memory).vertices(), 500);
+    EXPECT_EQ(this->simplified(mesh, { .vertices = 500 }, memory).vertices(), 500);
     ASSERT_EQ(this->Report.notes.size(), 1U);
     EXPECT_NE(this->Report.notes[0].find("'Number' has too many values"), std::string::npos);
   }

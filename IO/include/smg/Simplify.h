@@ -30,7 +30,7 @@ struct SimplifyTarget
 struct SimplifyOptions
 {
   /** Parts of the mesh whose vertices are all in the result, also if they are more than asked for;
-   * then a note says so. The mesh is read once more to find them. */
+   * then a note says so. */
   std::vector<Where> hold = {};
   /** Memory limit in bytes, at least 16 MiB. */
   std::int64_t memoryLimit = std::int64_t(256) << 20;
@@ -86,6 +86,10 @@ struct SMG_EXPORT SimplifyReport
  * a note says. Boundary curves are kept as such, triangles are wound
  * as they are.
  *
+ * Along seams, where vertices of the boundary coincide, the sides are simplified together, each
+ * with its own vertices, so that they stay closed; patches that meet there are one body. Only if
+ * the memory has no room for so many seams each side is simplified for itself, which a note says.
+ *
  * The topology is that of the mesh: bodies, handles, boundary curves, no edge of more triangles. Of
  * a result that fits into the memory, edges of the smallest error collapse first, wherever they
  * are; of a larger one, in each part of the stream for itself. With `vertices` and without `error`,
@@ -94,7 +98,8 @@ struct SMG_EXPORT SimplifyReport
  * collapses. Then the result has at most 19 vertices fewer than asked for, if the mesh has so many;
  * one that does not fit into the memory may have 2 % fewer.
  *
- * @param mesh the mesh, which is read once
+ * @param mesh the mesh, which is read once, and before that, if it is a surface or something is
+ * held, to find seams and what is held
  * @param target how far to simplify
  * @param path the file to write, in the format of its suffix: any that meshes of triangles are
  * written in, with the columns that it can hold. In the order of the mesh

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/SeamVertices.h"
+
+#include "Solver/Files/Checksum.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+// The vertices of seams, found by one reading of the stream, and joined in parts of it.
+//
+// A vertex is on the boundary if its fan of triangles is open: the differences of a hash of the
+// neighbours, along each of its triangles, add up to zero around a closed fan. So a number for each
+// open vertex suffices. Triangles that are wound against each other do not cancel: such vertices
+// count as those of the boundary, which matters only if they coincide with others.
+//
+// Places are told apart by 64 bits of a hash; which of them are remembered depends neither on the
+// order of the vertices nor on the blocks.
+
+namespace smg
+{
+namespace
+{
+
+std::uint64_t placeOf(const double* point)
+{
+  // + 0.0 makes -0.0 the same place as 0.0.
+  const std::array<double, 3> at{ point[0] + 0.0, point[1] + 0.0, point[2] + 0.0 };
+  return checksum(std::as_bytes(std::span(at)));
+}
+
+/** A number for each vertex, of which no few have the sum zero. */
+std::uint64_t hashOf(std::int64_t vertex)
+{
+  std::uint64_t hash = static_cast<std::uint64_t>(vertex) * 0x9e3779b97f4a7c15u;
+  hash = (hash ^ (hash >> 32)) * 0xd6e8feb86659fd93u;
+  return hash ^ (hash >> 32);
+}
+
+/** A place of a part: the range of its vertices in a list. */
+struct Place
+{
+  std::size_t begin, end;
+  std::size_t first; ///< the one that stands for all: a held one, if there is any
+  bool isJoined;     ///< whether all are in the part and none is open
+};
+
+/** The vertices of a part that are held or on seams, by their places. */
+struct Places
+{
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> vertices;
+  std::vector<Place> places;
+
+  Places(const SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll)
+  {
+    for (std::uint32_t v = 0; v < part.vertices(); ++v)
+    {
+      poll.at(v);
+      if (part.isHeld(v) || part.seamOf(v) > 0)
+      {
+        this->vertices.emplace_back(placeOf(part.points.data() + 3 * std::size_t(v)), v);
+      }
+    }
+    poll.now();
+    std::ranges::sort(this->vertices);
+    for (std::size_t begin = 0, end = 0; begin < this->vertices.size(); begin = end)
+    {
+      poll.at(begin);
+      Place place{ begin, begin, begin, false };
+      std::size_t needed = 0;
+      bool isOpen = false;
+      for (;
+           end < this->vertices.size() && this->vertices[end].first == this->vertices[begin].first;
+           ++end)
+      {
+        const std::uint32_t v = this->vertices[end].second;
+        needed = std::max<std::size_t>(needed, part.seamOf(v));
+        isOpen = isOpen || open[v] != 0;
+        const bool isBetter = part.isHeld(v) && !part.isHeld(this->vertices[place.first].second);
+        place.first = isBetter ? end : place.first;
+      }
+      place.end = end;
+      place.isJoined = needed > 0 && needed < SurfacePart::MostOfSeam && !isOpen &&
+                       end - begin >= std::max<std::size_t>(needed, 2);
+      this->places.push_back(place);
+    }
+  }
+};
+
+} // namespace
+
+SeamVertices::SeamVertices(Pool& pool, std::int64_t memory)
+  : Open(pool, 2)
+  , Reserved(pool)
+  , Most(static_cast<std::size_t>(memory) / sizeof(Point))
+{
+}
+
+void SeamVertices::add(const MeshBlock& block)
+{
+  this->Open.release(this->Final);
+  const std::span<std::uint64_t> added = this->Open.append(block.vertices());
+  for (std::size_t v = 0; 2 * v < added.size(); ++v)
+  {
+    added[2 * v + 1] = placeOf(block.positions.data() + 3 * v);
+  }
+  this->Vertices += block.vertices();
+  const Column* flags = block.flags();
+  for (std::size_t i = 0; i + 2 < block.corners.size(); i += 3)
+  {
+    const std::int64_t* c = block.corners.data() + i;
+    // As for the parts that are simplified.
+    const bool isRepeated = flags && (flags->as<std::uint8_t>()[i / 3] & DuplicateCell) != 0;
+    if (!isRepeated && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
+    {
+      const std::uint64_t hash[3] = { hashOf(c[0]), hashOf(c[1]), hashOf(c[2]) };
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        *this->Open.at(c[k]) += hash[(k + 1) % 3] - hash[(k + 2) % 3];
+      }
+    }
+  }
+  this->close(std::min(block.finalized, this->Vertices));
+}
+
+/** Remembers the vertices of the boundary among those that no later cell has. */
+void SeamVertices::close(std::int64_t final)
+{
+  for (; this->Final < final; ++this->Final)
+  {
+    const std::uint64_t* values = this->Open.at(this->Final);
+    if (values[0] != 0 && this->isChosen(values[1]))
+    {
+      if (this->Boundary.size() == this->Boundary.capacity())
+      {
+        const std::size_t room = std::max<std::size_t>(1024, 2 * this->Boundary.size());
+        this->Reserved.resize(
+          static_cast<std::int64_t>(std::min(room, this->Most) * sizeof(Point)));
+        this->Boundary.reserve(std::min(room, this->Most));
+      }
+      this->Boundary.push_back({ values[1], this->Final });
+      this->thin();
+    }
+  }
+}
+
+/** Until there is room for one more: all vertices may lie at one place. */
+void SeamVertices::thin()
+{
+  constexpr std::int64_t MaxShift = 62;
+  while (this->Boundary.size() >= this->Most && this->Shift < MaxShift)
+  {
+    ++this->Shift;
+    std::erase_if(
+      this->Boundary, [this](const Point& point) { return !this->isChosen(point.place); });
+  }
+  this->Boundary.resize(std::min(this->Boundary.size(), this->Most - 1));
+}
+
+void SeamVertices::finish()
+{
+  this->close(this->Vertices);
+  this->Open.restart();
+  std::ranges::sort(this->Boundary, [](const Point& a, const Point& b)
+    { return a.place != b.place ? a.place < b.place : a.vertex < b.vertex; });
+}
+
+std::int64_t SeamVertices::places() const
+{
+  std::int64_t places = 0;
+  for (std::size_t k = 1; k < this->Boundary.size(); ++k)
+  {
+    // Each place once, at the second of its vertices.
+    const std::uint64_t place = this->Boundary[k].place;
+    const bool isSecond = place == this->Boundary[k - 1].place;
+    places += isSecond && (k == 1 || place != this->Boundary[k - 2].place) ? 1 : 0;
+  }
+  return places << this->Shift;
+}
+
+std::vector<SeamVertices::Seam> SeamVertices::seams() const
+{
+  std::vector<Seam> seams;
+  for (std::size_t begin = 0, end = 0; begin < this->Boundary.size(); begin = end)
+  {
+    while (end < this->Boundary.size() && this->Boundary[end].place == this->Boundary[begin].place)
+    {
+      ++end;
+    }
+    for (std::size_t k = begin; k < end && end - begin > 1; ++k)
+    {
+      seams.push_back({ this->Boundary[k].vertex, static_cast<std::int64_t>(end - begin) });
+    }
+  }
+  std::ranges::sort(seams, {}, &Seam::vertex);
+  return seams;
+}
+
+void joinSeams(SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll)
+{
+  if (!part.marksHeld)
+  {
+    return;
+  }
+  const Places all(part, open, poll);
+  if (std::ranges::none_of(all.places, &Place::isJoined))
+  {
+    return;
+  }
+  std::vector<std::uint32_t> first(part.vertices(), std::numeric_limits<std::uint32_t>::max());
+  part.atPlace.assign(part.vertices(), 1);
+  for (const Place& place : all.places)
+  {
+    if (!place.isJoined)
+    {
+      continue;
+    }
+    const std::uint32_t one = all.vertices[place.first].second;
+    part.atPlace[one] = static_cast<std::uint8_t>(
+      std::min<std::size_t>(place.end - place.begin, SurfacePart::MostOfSeam));
+    for (std::size_t k = place.begin; k < place.end; ++k)
+    {
+      const std::uint32_t v = all.vertices[k].second;
+      first[v] = one;
+      if (v != one && !part.quadrics.empty())
+      {
+        part.quadrics[one].add(std::exchange(part.quadrics[v], {}));
+        part.lacksBoundary[one] |= part.lacksBoundary[v];
+      }
+    }
+  }
+  part.wedges = part.corners;
+  for (std::size_t i = 0; i < part.corners.size(); ++i)
+  {
+    poll.at(i);
+    const std::uint32_t joined = first[part.corners[i]];
+    part.corners[i] = joined < part.vertices() ? joined : part.corners[i];
+  }
+}
+
+void separateSeams(SurfacePart& part)
+{
+  if (!part.wedges.empty())
+  {
+    part.corners = std::move(part.wedges);
+    part.wedges.clear();
+  }
+  part.atPlace.clear();
+}
+
+std::vector<std::uint8_t> heldVertices(
+  const SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll)
+{
+  std::vector<std::uint8_t> held(part.vertices(), 0);
+  if (!part.marksHeld)
+  {
+    return held;
+  }
+  const Places all(part, open, poll);
+  for (const Place& place : all.places)
+  {
+    for (std::size_t k = place.begin; k < place.end; ++k)
+    {
+      const std::uint32_t v = all.vertices[k].second;
+      held[v] = part.isHeld(v) || !place.isJoined ? 1 : 0;
+    }
+  }
+  return held;
+}
+
+void forgetSeams(SurfacePart& part, const Poll& poll)
+{
+  const std::vector<std::uint8_t> none(part.vertices(), 0);
+  const Places all(part, none, poll);
+  for (const Place& place : all.places)
+  {
+    Quadric sum;
+    for (std::size_t k = place.begin; k < place.end; ++k)
+    {
+      sum.add(part.quadrics[all.vertices[k].second]);
+    }
+    for (std::size_t k = place.begin; k < place.end; ++k)
+    {
+      const std::uint32_t v = all.vertices[k].second;
+      if (part.seamOf(v) > 0)
+      {
+        // Each side has that of the place, which one of them had for all.
+        part.quadrics[v] = sum;
+        part.forgetSeam(v);
+      }
+    }
+  }
+}
+
+} // namespace smg
