@@ -63,9 +63,9 @@ void Conversion::checkOptions() const
 {
   if (this->Memory < Workspace::MinMemory)
   {
-    throw Error(this->In.string() + ": a conversion needs a memory limit of at least " +
-                std::to_string(Workspace::MinMemory >> 20) + " MiB, but it is " +
-                std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
+    throw MemoryError(this->In.string() + ": a conversion needs a memory limit of at least " +
+                      std::to_string(Workspace::MinMemory >> 20) + " MiB, but it is " +
+                      std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
   }
   if (this->Options.scratchLimit < 0)
   {
@@ -178,10 +178,10 @@ void Conversion::checkRows(const StreamInfo& mesh) const
   const std::int64_t bytes = rowBytes(mesh.cellColumns, rowBytes(mesh.vertexColumns));
   if (bytes > this->Memory / RowsInUse)
   {
-    throw Error(this->In.string() + ": its columns have " + std::to_string(bytes) +
-                " bytes for a vertex and a cell, which takes " + mebibytes(RowsInUse * bytes) +
-                ", but the memory limit is " + mebibytes(this->Memory) +
-                ": raise it, or leave columns out.");
+    throw MemoryError(this->In.string() + ": its columns have " + std::to_string(bytes) +
+                      " bytes for a vertex and a cell, which takes " +
+                      mebibytes(RowsInUse * bytes) + ", but the memory limit is " +
+                      mebibytes(this->Memory) + ": raise it, or leave columns out.");
   }
 }
 

@@ -4,6 +4,7 @@
 #include "Solver/Problem/ProblemData.h"
 #include "smg/DescriptionFiles.h"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace smg
@@ -161,8 +162,19 @@ std::vector<Where> parsePlaces(const JsonNode& node)
     node.value().is_array() ? node.elements() : std::vector{ node };
   for (const JsonNode& object : objects)
   {
-    object.requireObject(WhereKeys);
-    places.push_back(parseWhere(object));
+    requireWhereAnd(object, { "everywhere" });
+    if (!object.has("everywhere"))
+    {
+      places.push_back(parseWhere(object));
+      continue;
+    }
+    const bool hasOthers =
+      std::ranges::any_of(WhereKeys, [&object](const char* key) { return object.has(key); });
+    if (hasOthers || !object.member("everywhere").isTrue())
+    {
+      object.fail("everywhere can only be true, and stands alone: leave it out for another place");
+    }
+    places.emplace_back(Everywhere{});
   }
   return places;
 }

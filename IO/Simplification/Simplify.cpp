@@ -13,6 +13,7 @@
 #include "Solver/Core/Timer.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
+#include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
@@ -54,8 +55,8 @@ void check(const SimplifyTarget& target, const SimplifyOptions& options)
   }
   if (options.memoryLimit < MinMemory)
   {
-    throw Error("the memory limit of a simplification is " + mebibytes(options.memoryLimit) +
-                "; expected at least " + mebibytes(MinMemory));
+    throw MemoryError("the memory limit of a simplification is " + mebibytes(options.memoryLimit) +
+                      "; expected at least " + mebibytes(MinMemory));
   }
 }
 

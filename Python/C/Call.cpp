@@ -49,7 +49,7 @@ smg_status failed() noexcept
   {
     return failedWith(SMG_CANCELLED, error.what());
   }
-  catch (const MemoryLimitError& error)
+  catch (const MemoryError& error)
   {
     return failedWith(SMG_MEMORY, error.what());
   }

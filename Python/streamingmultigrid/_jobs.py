@@ -24,13 +24,15 @@ _Description = Tuple[Dict[str, Any], List[str]]  # for smg_run(), and the column
 
 
 def _where(added: Columns, regions: Any) -> Any:
-    return None if regions is None else [each.where(added) for each in as_regions(regions)]
+    if regions is None:
+        return None
+    return [each.where(added) or {"everywhere": True} for each in as_regions(regions)]
 
 
 def _where_of_file(added: Columns, region: Region) -> Any:
     """WHERE of a region for a job that takes no columns: of arrays it has the numbers of the vertices."""
     own = Columns(added.mesh)
-    where = region.where(own)
+    where = region.where(own) or {"everywhere": True}
     if not own.added:
         return where
     selected, of_cells = region.selected(added.mesh)

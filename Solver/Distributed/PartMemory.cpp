@@ -2,6 +2,7 @@
 #include "Solver/Distributed/PartMemory.h"
 
 #include "Solver/Core/Text.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
 #include <HYPRE_utilities.h>
@@ -43,10 +44,10 @@ void checkPartMemory(std::int64_t vertices, std::int64_t cells, int columns, std
   const double needed = partMemory(vertices, cells, columns);
   if (needed > static_cast<double>(limit))
   {
-    throw Error("the matrix of a process and its hierarchy need about " +
-                mebibytes(static_cast<std::int64_t>(needed)) + ", more than the memory limit of " +
-                mebibytes(limit) +
-                ": raise the memory limit, use more processes, or use the streaming engine");
+    throw MemoryError("the matrix of a process and its hierarchy need about " +
+                      mebibytes(static_cast<std::int64_t>(needed)) +
+                      ", more than the memory limit of " + mebibytes(limit) +
+                      ": raise the memory limit, use more processes, or use the streaming engine");
   }
 }
 

@@ -70,14 +70,21 @@ private:
 SMG_EXPORT std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed,
   const PoolUse& use = SolveMemory, std::int64_t usual = 0);
 
-/** The error of a memory limit that is too low. */
-class SMG_EXPORT MemoryLimitError : public Error
+/** The kind of all errors of a memory limit that is too low, whatever it limits. */
+class SMG_EXPORT MemoryError : public Error
+{
+public:
+  using Error::Error;
+};
+
+/** That of an operation, which knows the bytes that it needs. */
+class SMG_EXPORT MemoryLimitError : public MemoryError
 {
 public:
   /** `usual`: bytes that suffice as a rule for such an operation, 0 if unknown. */
   MemoryLimitError(std::int64_t needed, std::int64_t allowed, const PoolUse& use = SolveMemory,
     std::int64_t usual = 0)
-    : Error(memoryLimitSentence(needed, allowed, use, usual))
+    : MemoryError(memoryLimitSentence(needed, allowed, use, usual))
     , Needed(needed)
     , Allowed(allowed)
     , Usual(usual)

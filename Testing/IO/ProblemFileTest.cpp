@@ -288,6 +288,11 @@ TEST_F(ProblemFile, PlacesStandAloneOrInAList)
   const auto error = [](const char* text)
   { return messageOf([text] { readPlacesText(text, "--hold"); }); };
   EXPECT_CONTAINS(error("{}"), "--hold: must have exactly one of halfspace");
+  const std::vector<Where> all = readPlacesText(R"([{"everywhere": true}])", "--hold");
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<Everywhere>(all[0]));
+  EXPECT_CONTAINS(error(R"({"everywhere": false})"), "--hold: everywhere can only be true");
+  EXPECT_CONTAINS(error(R"({"everywhere": true, "boundary": true})"), "and stands alone");
   EXPECT_CONTAINS(error("[3]"), "--hold: [0]: must be an object");
   EXPECT_CONTAINS(error(R"({"boundary": true, "value": 3})"), "--hold: value: is not known here");
 }

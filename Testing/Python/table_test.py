@@ -71,6 +71,45 @@ class TableTest(unittest.TestCase):
             for name, job, names in table(kind, mesh):
                 yield self.subTest(mesh=kind, job=name), kind, mesh, job(), names
 
+    def test_a_memory_limit_that_is_too_low_is_of_one_kind(self):
+        """Of every job, of what is opened, and of the default of a mesh."""
+        for kind, arrays in (("surface", sphere(6)), ("solid", cube(32))):
+            mesh = smg.mesh(*arrays)
+            jobs = {name: getattr(mesh, name) for name in ("solve", "deform", "smooth", "blend", "distance", "simplify")}
+            x = mesh.points[:, 0]
+            arguments = {
+                "solve": {"dirichlet": {0: 0.0, 9: 1.0}},
+                "deform": {"handles": [smg.handle([0], fixed=True), smg.handle([9], translate=[0, 0, 0.1])]},
+                "smooth": {"column": {"X": x}},
+                "blend": {"columns": {"X": x}, "patch": (x > 0.3).astype(np.int32)},
+                "distance": {"sources": [0]},
+                "simplify": {"vertices": 100},
+            }
+            for name, job in jobs.items():
+                with self.subTest(mesh=kind, job=name):
+                    self.assertRaises(smg.MemoryLimitError, job, **arguments[name], memory="1MiB")
+            if kind == "solid":
+                with self.subTest(job="wall distance"):
+                    self.assertRaises(smg.MemoryLimitError, mesh.distance, wall=True, memory="1MiB")
+        smg.mesh(*sphere(2)).save("ball.ply")
+        with self.assertRaises(smg.MemoryLimitError):
+            smg.open("ball.ply", memory="1MiB").points
+        os.remove("ball.ply")
+
+    def test_everywhere_is_a_place_as_any_other(self):
+        for kind, arrays in MESHES.items():
+            mesh = smg.mesh(*arrays)
+            for places in (smg.everywhere, [smg.everywhere], [[0], smg.everywhere]):
+                with self.subTest(mesh=kind, places=places):
+                    self.assertTrue((mesh.distance(places).to_numpy() == 0).all())
+                    one = np.cos(9 * mesh.points[:, 1])
+                    np.testing.assert_array_equal(mesh.smooth(column={"One": one}, hold=places).to_numpy(), one)
+                    small = mesh.simplify(20, hold=places)
+                    self.assertEqual(small.n_vertices, mesh.simplify(mesh.n_vertices).n_vertices)
+            if kind == "solid":
+                wall = mesh.distance(wall=True).to_numpy()
+                self.assertEqual(bits(mesh.distance(smg.everywhere, wall=True).to_numpy()), bits(wall))
+
     def test_arrays(self):
         """Whole arrays, arithmetic and blocks have the same numbers."""
         for case, _, mesh, field, names in self.each():

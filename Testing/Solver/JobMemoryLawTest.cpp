@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Memory/Pool.h"
 #include "Testing/Solver/AllJobs.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/ScratchError.h"
@@ -83,7 +84,20 @@ TEST_P(JobLimitLaw, StaysWithinTheLimit)
   {
     ASSERT_LE(way.memoryLimit, 1 << 28) << "no limit is enough";
     Report report;
-    if (messageOf([&] { report = run(way).report; }).empty())
+    bool isOfMemory = false;
+    const auto attempt = [&]
+    {
+      try
+      {
+        report = run(way).report;
+      }
+      catch (const MemoryError&)
+      {
+        isOfMemory = true;
+        throw;
+      }
+    };
+    if (messageOf(attempt).empty())
     {
       ++done;
       EXPECT_LE(report.pool_bytes_peak, way.memoryLimit);
@@ -91,6 +105,7 @@ TEST_P(JobLimitLaw, StaysWithinTheLimit)
     else
     {
       EXPECT_EQ(done, 0) << "more memory is enough, too";
+      EXPECT_TRUE(isOfMemory);
     }
   }
 }

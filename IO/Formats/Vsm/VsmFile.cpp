@@ -8,6 +8,7 @@
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
@@ -97,6 +98,11 @@ VsmFile::VsmFile(
 void VsmFile::fail(const std::string& what) const
 {
   throw Error(oneLine(this->Name + ": " + what));
+}
+
+void VsmFile::failForMemory(const std::string& what) const
+{
+  throw MemoryError(oneLine(this->Name + ": " + what));
 }
 
 namespace

@@ -50,6 +50,8 @@ public:
     const std::string& fingerprint = {});
 
   [[noreturn]] void fail(const std::string& what) const;
+  /** The same of a memory limit that is too low. */
+  [[noreturn]] void failForMemory(const std::string& what) const;
 
   /** Stands for the content of the whole file. */
   std::string fingerprint() const { return std::to_string(this->Blocks.contentChecksum()); }

@@ -135,10 +135,10 @@ void VsmReader::requireBlocksWithin(std::int64_t memory) const
   constexpr std::int64_t Usual = std::int64_t(4) << 20;
   if (needed > std::max(memory, Usual))
   {
-    this->Self->File.fail("its columns are so wide or so many that reading it takes " +
-                          mebibytes(needed) + ", but the memory limit is " + mebibytes(memory) +
-                          ": raise it, or convert the original mesh anew, without columns that "
-                          "are not needed.");
+    this->Self->File.failForMemory(
+      "its columns are so wide or so many that reading it takes " + mebibytes(needed) +
+      ", but the memory limit is " + mebibytes(memory) +
+      ": raise it, or convert the original mesh anew, without columns that are not needed.");
   }
 }
 

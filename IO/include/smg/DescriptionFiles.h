@@ -55,8 +55,8 @@ SMG_EXPORT ProblemDescription readProblemText(
   const std::string& text, const std::string& name, const ProblemDescription& defaults = {});
 
 /**
- * Reads parts of a mesh from JSON: an object with a single key, WHERE of readProblemFile(), or a
- * list of these.
+ * Reads parts of a mesh from JSON: an object with a single key, WHERE of readProblemFile() or
+ * `"everywhere": true`, or a list of these.
  * @param path the file
  * @throws Error naming the file and the place in it
  */

@@ -123,8 +123,8 @@ std::int64_t partLength(std::int64_t triangles, const Pool& pool)
   const std::int64_t most = room / WallPart::TriangleBytes / Block * Block;
   if (most < std::min(triangles, Block))
   {
-    throw Error(memoryLimitSentence(
-      pool.used() + other + Block * WallPart::TriangleBytes, pool.limit(), DistanceMemory));
+    throw MemoryLimitError(
+      pool.used() + other + Block * WallPart::TriangleBytes, pool.limit(), DistanceMemory);
   }
   return std::min(most, triangles);
 }
