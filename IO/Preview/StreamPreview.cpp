@@ -180,7 +180,7 @@ CoarserSurface coarserSurface(std::span<const double> points, std::span<const st
   }
   if (surface.vertices() > wanted + wanted / 4)
   {
-    clusterVertices(surface, wanted); // its edges cannot be collapsed
+    clusterVertices(surface, {}, wanted); // its edges cannot be collapsed
   }
   CoarserSurface coarser;
   std::vector<std::uint32_t> order(surface.vertices());

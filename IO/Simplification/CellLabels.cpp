@@ -2,6 +2,7 @@
 #include "IO/Simplification/CellLabels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 // Labels differ from other integers in that they have few values, which are kept as sorted lists,
@@ -20,9 +21,11 @@ CellLabels::CellLabels(const std::vector<ColumnSpec>& columns, Pool& pool)
     const bool isInteger = spec.type != ScalarType::Float32 && spec.type != ScalarType::Float64;
     if (isInteger && spec.components == 1)
     {
-      pool.acquire(static_cast<std::int64_t>(MostLabels * sizeof(std::uint64_t)));
+      pool.acquire(
+        static_cast<std::int64_t>(MostLabels * (sizeof(std::uint64_t) + 2 * sizeof(double))));
       this->Columns.push_back({ spec.name, { begin, bytes }, {} });
       this->Columns.back().values.reserve(MostLabels);
+      this->Columns.back().areas.reserve(MostLabels);
     }
     begin += bytes;
   }
@@ -60,6 +63,7 @@ void CellLabels::add(const MeshBlock& block)
         integers.hasMore = values.size() == MostLabels;
         if (!integers.hasMore)
         {
+          integers.areas.insert(integers.areas.begin() + (place - values.begin()), { 0.0, 0.0 });
           values.insert(place, value);
         }
       }
@@ -79,6 +83,51 @@ std::vector<LabelPlace> CellLabels::places() const
     }
   }
   return places;
+}
+
+void CellLabels::addArea(Surface surface, const std::byte* row, double area)
+{
+  for (Integers& integers : this->Columns)
+  {
+    std::uint64_t value = 0;
+    std::memcpy(&value, row + integers.place.begin, integers.place.bytes);
+    const auto place = std::ranges::lower_bound(integers.values, value);
+    if (place != integers.values.end() && *place == value)
+    {
+      integers.areas[static_cast<std::size_t>(place - integers.values.begin())][surface] += area;
+    }
+  }
+}
+
+std::vector<CellLabels::Changes> CellLabels::changes() const
+{
+  std::vector<Changes> all;
+  for (const Integers& column : this->Columns)
+  {
+    std::array<double, 2> whole{};
+    for (const auto& [given, simplified] : column.areas)
+    {
+      whole[Given] += given;
+      whole[Simplified] += simplified;
+    }
+    if (!this->areLabels(column) || !(whole[Given] > 0.0) || !(whole[Simplified] > 0.0))
+    {
+      continue;
+    }
+    Changes changes{ column.name, static_cast<std::int64_t>(column.values.size()) };
+    for (const auto& [given, simplified] : column.areas)
+    {
+      const double before = given / whole[Given], after = simplified / whole[Simplified];
+      const bool isLost = before > 0.0 && after == 0.0;
+      changes.lost += isLost ? 1 : 0;
+      changes.changed += !isLost && std::fabs(after - before) > Tolerance * before ? 1 : 0;
+    }
+    if (changes.lost + changes.changed > 0)
+    {
+      all.push_back(changes);
+    }
+  }
+  return all;
 }
 
 std::vector<std::string> CellLabels::others() const

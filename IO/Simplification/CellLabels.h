@@ -4,6 +4,7 @@
 #include "Solver/Memory/Pool.h"
 #include "smg/MeshSource.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -39,14 +40,35 @@ public:
   /** The columns of integers that have too many values, or values that change too often. */
   std::vector<std::string> others() const;
 
+  /** The surfaces whose areas are compared. */
+  enum Surface : std::uint8_t
+  {
+    Given,
+    Simplified
+  };
+  /** Adds a triangle, by its row, to the area that its labels have on a surface. */
+  void addArea(Surface surface, const std::byte* row, double area);
+  /** The labels of a column whose shares of the area the two surfaces do not have in common. */
+  struct Changes
+  {
+    std::string column;
+    std::int64_t labels = 0;
+    std::int64_t lost = 0;    ///< with no triangle of the simplified surface
+    std::int64_t changed = 0; ///< others, by more than Tolerance
+  };
+  /** The columns with such labels. */
+  std::vector<Changes> changes() const;
+  static constexpr double Tolerance = 0.2; ///< of the share on the given surface
+
 private:
   struct Integers
   {
     std::string name;
     LabelPlace place;
-    std::vector<std::uint64_t> values; ///< the bytes of each, ascending
-    bool hasMore = false;              ///< than MostLabels values
-    std::int64_t changes = 0;          ///< from one cell to the next
+    std::vector<std::uint64_t> values;          ///< the bytes of each, ascending
+    std::vector<std::array<double, 2>> areas{}; ///< of each value on the surfaces
+    bool hasMore = false;                       ///< than MostLabels values
+    std::int64_t changes = 0;                   ///< from one cell to the next
   };
 
   bool areLabels(const Integers& column) const

@@ -96,6 +96,24 @@ void noteCellColumns(const StreamInfo& info, std::vector<std::string>& notes)
   }
 }
 
+/** "Of the labels in 'Material', 2 of 9 are not in the result, and ..." */
+std::string textOf(const CellLabels::Changes& changes)
+{
+  std::string text =
+    "Of the " + std::to_string(changes.labels) + " labels in '" + changes.column + "', ";
+  if (changes.lost > 0)
+  {
+    text += std::to_string(changes.lost) + (changes.lost == 1 ? " is" : " are") +
+            " not in the result" + (changes.changed > 0 ? ", and " : "");
+  }
+  if (changes.changed > 0)
+  {
+    text += std::to_string(changes.changed) + (changes.changed == 1 ? " has" : " have") +
+            " a share of the area that differs from that in the mesh by more than 20 %";
+  }
+  return text + '.';
+}
+
 /** Says where borders between labels are not held. */
 void noteBorders(
   const StreamSimplifier& simplifier, const StreamInfo& info, std::vector<std::string>& notes)
@@ -162,6 +180,29 @@ void noteVertices(const SimplifyTarget& target, const SimplifyReport& report,
     (target.error > 0.0 ? " or exceed the error." : "."));
 }
 
+/** Says where labels lose or gain area, after what was said of the number of vertices and of the
+ * borders, if anything was. */
+void noteShares(const CellLabels& labels, std::vector<std::string>& notes)
+{
+  std::string text;
+  for (const CellLabels::Changes& changes : labels.changes())
+  {
+    text += (text.empty() ? "" : " ") + textOf(changes);
+  }
+  if (text.empty())
+  {
+    return;
+  }
+  if (notes.empty())
+  {
+    notes.push_back(text);
+  }
+  else
+  {
+    notes.back() += ' ' + text;
+  }
+}
+
 std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& target,
   const SimplifyReport& report, const StreamSimplifier& simplifier, const HeldMesh& mesh)
 {
@@ -191,6 +232,7 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
       "filter Clean.");
   }
   noteVertices(target, report, counts, mesh.held(), notes);
+  noteShares(simplifier.labels(), notes);
   return notes;
 }
 

@@ -168,6 +168,7 @@ bool StreamSimplifier::next(Result& result)
   if (this->Replayed < this->ResumedResults)
   {
     this->loadResult(this->Replayed++, result);
+    this->Parts.addResult(result.surface);
     return true;
   }
   while (this->Ready.empty() && !this->IsFinished)
@@ -180,6 +181,7 @@ bool StreamSimplifier::next(Result& result)
   }
   result = std::move(this->Ready.front());
   this->Ready.pop_front();
+  this->Parts.addResult(result.surface);
   return true;
 }
 

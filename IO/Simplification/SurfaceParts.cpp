@@ -2,8 +2,10 @@
 #include "IO/Simplification/SurfaceParts.h"
 
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Vector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -351,6 +353,21 @@ void SurfaceParts::localise(SurfacePart& surface)
   {
     this->Polled.at(i);
     surface.corners.push_back(placeOf(this->Corners[i]));
+  }
+  this->addAreas(CellLabels::Given, surface);
+}
+
+void SurfaceParts::addAreas(CellLabels::Surface on, const SurfacePart& surface)
+{
+  const std::size_t stride = surface.cellRowBytes();
+  for (std::size_t t = 0; t < surface.triangles() && stride > 0; ++t)
+  {
+    this->Polled.at(t);
+    const std::uint32_t* c = surface.corners.data() + 3 * t;
+    const double* a = surface.points.data() + 3 * std::size_t(c[0]);
+    const Vector twice = cross(difference(surface.points.data() + 3 * std::size_t(c[1]), a),
+      difference(surface.points.data() + 3 * std::size_t(c[2]), a));
+    this->Labels.addArea(on, surface.cellRows.data() + t * stride, std::sqrt(dot(twice, twice)));
   }
 }
 

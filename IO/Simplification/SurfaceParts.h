@@ -221,8 +221,11 @@ public:
   std::int64_t vertices() const { return this->Vertices; }
   /** The labels of the cells that were read. */
   const CellLabels& labels() const { return this->Labels; }
+  /** Compares the areas of labels with those of this surface, which is a part of the result. */
+  void addResult(const SurfacePart& surface) { this->addAreas(CellLabels::Simplified, surface); }
 
 private:
+  void addAreas(CellLabels::Surface on, const SurfacePart& surface);
   void add(const MeshBlock& block);
   void addCellRow(const MeshBlock& block, std::size_t cell);
   void localise(SurfacePart& surface);

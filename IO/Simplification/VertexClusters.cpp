@@ -41,7 +41,7 @@ public:
     , Keys(std::bit_ceil(2 * part.vertices() + 1))
     , Numbers(this->Keys.size())
   {
-    if (part.marksHeld)
+    if (!held.empty())
     {
       this->keepHeld(held);
     }

@@ -183,6 +183,51 @@ TEST_F(SimplifyLabels, AreGivenUpForTheNumberWhichIsSaid)
   EXPECT_NE(report.notes[0].find("more than 60 vertices"), std::string::npos);
 }
 
+/** Whatever is asked for: labels keep their shares of the area, or a note says that they do not. */
+TEST_F(SimplifyLabels, KeepTheirSharesOfTheAreaOrANoteSaysSo)
+{
+  const auto nine = [](const Eigen::Vector3d& middle)
+  {
+    const auto third = [](double x) { return std::clamp(static_cast<int>(x / 0.36 + 1.5), 0, 2); };
+    return static_cast<std::uint8_t>(3 * third(middle.x()) + third(middle.y()));
+  };
+  const std::vector<std::pair<std::string, StreamMesh>> meshes{
+    { "nine of a plate", labelled<std::uint8_t>(plate(), nine) },
+    { "nine of a ball", labelled<std::uint8_t>(sphere(5), nine) },
+    { "sectors of a ball", labelled<std::int16_t>(sphere(5), sectorOf) },
+    { "spots", labelled<std::int64_t>(plate(), spotOf) }
+  };
+  int said = 0, kept = 0;
+  for (const auto& [name, mesh] : meshes)
+  {
+    const Cover before = coverOf(mesh);
+    for (const std::int64_t memory : { 256, 16 })
+    {
+      for (const std::int64_t vertices : { 4, 8, 12, 20, 40, 100, 400, 2000 })
+      {
+        SCOPED_TRACE(name + " to " + std::to_string(vertices) + " in " + std::to_string(memory));
+        Cover after = coverOf(this->simplified(mesh, { .vertices = vertices }, memory));
+        const auto wholeOf = [](const Cover& cover)
+        {
+          double whole = 0.0;
+          std::ranges::for_each(cover.areas, [&](const auto& each) { whole += each.second; });
+          return whole;
+        };
+        bool isKept = true;
+        for (const auto& [label, area] : before.areas)
+        {
+          const double share = area / wholeOf(before);
+          isKept = isKept && std::fabs(after.areas[label] / wholeOf(after) - share) <= 0.2 * share;
+        }
+        EXPECT_NE(isKept, this->isSaid("labels in 'Label'"));
+        ++(isKept ? kept : said);
+      }
+    }
+  }
+  EXPECT_GT(said, 20);
+  EXPECT_GT(kept, 20);
+}
+
 TEST_F(SimplifyLabels, AreNotValuesThatChangeFromCellToCell)
 {
   StreamMesh mesh = toStream(torus(120, 80, 0.2));
