@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingMeshSimplification.h"
 
 #include "Filters/Pieces/vtkPieceRequest.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Tasks/vtkSolveEstimate.h"
 #include "Filters/vtkRegionChain.h"
@@ -29,6 +30,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkStreamingMeshSimplification);
 
@@ -93,12 +95,15 @@ struct vtkStreamingMeshSimplification::Internals
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
       vtkPointSet& present =
         *vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, false));
+      // Before other pieces are requested, which take its place.
+      const std::vector<smg::Where> hold = this->held(present);
       const smg::StreamFile file = this->fileOf(input, request, present);
       const smg::VsmReader mesh(file.path, nullptr, file.fingerprint);
       mesh.requireBlocksWithin(this->memory());
       const bool isSurface = mesh.info().cellType == smg::CellType::Triangle;
       this->Report = smg::simplify(mesh, this->target(), result,
-        { .memoryLimit = this->memory(),
+        { .hold = hold,
+          .memoryLimit = this->memory(),
           .threads = this->Self.NumberOfThreads,
           .codec = smg::Codec::Lz4,
           .scratch = this->Scratch->path(),
@@ -143,11 +148,11 @@ struct vtkStreamingMeshSimplification::Internals
     places.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
     places.memoryLimit = this->memory();
     return smg::estimateText(this->Self, places,
-      [&](const smg::EstimatedInput& mesh, vtkPointSet&)
+      [&](const smg::EstimatedInput& mesh, vtkPointSet& present)
       {
         this->checkRanges();
-        smg::JobEstimate estimate = smg::simplifyEstimate(
-          mesh, this->target(), "simplified.vsm", { .memoryLimit = this->memory() }, places);
+        smg::JobEstimate estimate = smg::simplifyEstimate(mesh, this->target(), "simplified.vsm",
+          { .hold = this->held(present), .memoryLimit = this->memory() }, places);
         const bool isCopied = smg::unchangedFile(this->Self, AllColumns).path.empty();
         estimate.cpu_seconds += isCopied ? smg::readingSeconds(mesh.info) : 0.0;
         // The copy and the result are compressed less than a file that is saved, see
@@ -164,6 +169,11 @@ struct vtkStreamingMeshSimplification::Internals
   smg::SimplifyTarget target() const
   {
     return { this->Self.NumberOfVertices, this->Self.MaximumError };
+  }
+  /** What Mesh Regions of the input and Hold name. */
+  std::vector<smg::Where> held(vtkPointSet& input) const
+  {
+    return smg::placesOn(input, this->Self.Hold, "Hold");
   }
   std::int64_t memory() const { return std::int64_t(this->Self.MemoryLimit) << 20; }
 
@@ -242,6 +252,7 @@ vtkStreamingMeshSimplification::vtkStreamingMeshSimplification()
 vtkStreamingMeshSimplification::~vtkStreamingMeshSimplification()
 {
   this->SetScratchDirectory(nullptr);
+  this->SetHold(nullptr);
 }
 
 double vtkStreamingMeshSimplification::GetReachedError()
@@ -330,6 +341,7 @@ void vtkStreamingMeshSimplification::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
   os << indent << "MaximumError: " << this->MaximumError << "\n";
+  os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent
      << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")

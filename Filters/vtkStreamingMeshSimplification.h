@@ -9,8 +9,9 @@
  * with its point arrays and with `OriginalId`. Bodies, holes and winding stay. A triangle of
  * the result has the cell arrays of one of the mesh, whose corners have moved, and the borders
  * between labels, arrays of few integers, are held; those of tetrahedra are not in the result,
- * which Outcome says. It is kept in a scratch file until the filter or its
- * input is modified, and delivered as the pieces of a mesh stream, as those of
+ * which Outcome says. Regions that vtkMeshRegion has marked are held, and what Hold names: all of
+ * their points that are on the surface are points of the result. It is kept in a scratch file until
+ * the filter or its input is modified, and delivered as the pieces of a mesh stream, as those of
  * vtkStreamingMeshReader.
  *
  * The input is that of vtkStreamingSolver: pieces, or any vtkPolyData or vtkUnstructuredGrid. With
@@ -46,6 +47,14 @@ public:
    * NumberOfVertices needs. With both, what comes first ends the simplification. */
   vtkSetMacro(MaximumError, double);
   vtkGetMacro(MaximumError, double);
+  ///@}
+
+  ///@{
+  /** The parts whose points all stay, in addition to the regions that vtkMeshRegion has marked:
+   * WHERE of a problem file in JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}.
+   * Columns are arrays of the input. Default: none. */
+  vtkSetStringMacro(Hold);
+  vtkGetStringMacro(Hold);
   ///@}
 
   ///@{
@@ -110,6 +119,7 @@ private:
 
   vtkIdType NumberOfVertices = 100000;
   double MaximumError = 0.0;
+  char* Hold = nullptr;
   int MemoryLimit = 256;
   char* ScratchDirectory = nullptr;
   int NumberOfPieces = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSimplification.h"
+#include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingPoisson.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
@@ -9,6 +10,7 @@
 
 #include "vtkPassThrough.h"
 #include "vtkPolyData.h"
+#include "vtkSphere.h"
 #include "vtkSphereSource.h"
 
 #include <algorithm>
@@ -131,6 +133,64 @@ TEST_F(VtkStreamingMeshSimplification, TakesPiecesAndOrdinaryMeshes)
   EXPECT_EQ(poisson->GetConverged(), 1);
 }
 
+/** As the library holds them; the points of a region before the filter and those that Hold names.
+ */
+TEST_F(VtkStreamingMeshSimplification, HoldsRegionsAndWhatHoldNames)
+{
+  const auto file = this->Folder / "expected.vsm";
+  const std::vector<Where> hold{ smg::sphere({ 3.0, 0.0, 0.0 }, 0.5), Region::Vertices{ { 7 } } };
+  simplify(VsmReader(this->Folder / "mesh.vsm"), { .vertices = 900 }, file,
+    { .hold = hold, .memoryLimit = std::int64_t(256) << 20 });
+  const std::vector<double> expected = collect(*VsmReader(file).source()).positions;
+  const std::vector<double> free = this->collectPieces(1).first;
+  EXPECT_NE(expected, free);
+  this->Filter->SetHold(R"([{"sphere": [3, 0, 0, 0.5]}, {"vertices": [7]}])");
+  EXPECT_EQ(this->collectPieces(1).first, expected);
+  // A region instead of a part in JSON, by pieces and on an ordinary mesh.
+  vtkNew<vtkSphere> part;
+  part->SetCenter(3.0, 0.0, 0.0);
+  part->SetRadius(0.5);
+  vtkNew<vtkMeshRegion> region;
+  region->SetInputConnection(this->Reader->GetOutputPort());
+  region->SetRegion(vtkMeshRegion::FUNCTION);
+  region->SetRegionFunction(part);
+  this->Filter->SetInputConnection(region->GetOutputPort());
+  this->Filter->SetHold(R"({"vertices": [7]})");
+  const auto numberIn = [&](const std::vector<double>& positions)
+  {
+    int points = 0;
+    for (std::size_t i = 0; i < positions.size(); i += 3)
+    {
+      points += part->FunctionValue(positions[i], positions[i + 1], positions[i + 2]) <= 0.0;
+    }
+    return points;
+  };
+  EXPECT_GT(numberIn(this->Mesh.positions), 2 * numberIn(free));
+  EXPECT_EQ(numberIn(this->collectPieces(1).first), numberIn(this->Mesh.positions));
+  EXPECT_FALSE(std::string(this->Filter->GetEstimate()).empty());
+  vtkNew<vtkSphereSource> ball;
+  ball->SetThetaResolution(100);
+  ball->SetPhiResolution(80);
+  part->SetCenter(0.5, 0.0, 0.0);
+  part->SetRadius(0.1);
+  region->SetInputConnection(ball->GetOutputPort());
+  this->Filter->SetHold(nullptr);
+  this->Filter->SetNumberOfVertices(400);
+  ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
+  const auto inPart = [&](vtkPointSet& mesh)
+  {
+    vtkIdType points = 0;
+    for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i)
+    {
+      points += part->FunctionValue(mesh.GetPoint(i)) <= 0.0 ? 1 : 0;
+    }
+    return points;
+  };
+  ball->Update();
+  EXPECT_GT(inPart(*ball->GetOutput()), 50);
+  EXPECT_EQ(inPart(*this->Filter->GetOutput()), inPart(*ball->GetOutput()));
+}
+
 TEST_F(VtkStreamingMeshSimplification, MistakesAreOneErrorEach)
 {
   const auto expect = [this](const std::string& words)
@@ -149,6 +209,11 @@ TEST_F(VtkStreamingMeshSimplification, MistakesAreOneErrorEach)
   expect("MaximumError is -1: set it to at least 0.");
   this->Filter->SetMaximumError(0.0);
   this->Filter->SetNumberOfVertices(900);
+  this->Filter->SetHold(R"({"sphere": [1]})");
+  expect("Hold: sphere: must be");
+  this->Filter->SetHold(R"({"sphere": [9, 9, 9, 1]})");
+  expect("hold[0]: no vertex");
+  this->Filter->SetHold(nullptr);
   ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
 }
 
