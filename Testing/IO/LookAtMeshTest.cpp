@@ -30,9 +30,10 @@ protected:
   }
 };
 
-const std::string Head = "MeshVersionFormatted 2\nDimension 3\n";
-const std::string Vertices = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
-const std::string Triangle = "Triangles\n1\n1 2 3 0\n", Tetrahedron = "Tetrahedra\n1\n1 2 3 4 0\n";
+const std::string MeditHead = "MeshVersionFormatted 2\nDimension 3\n";
+const std::string MeditVertices = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+const std::string OneTriangle = "Triangles\n1\n1 2 3 0\n",
+                  OneTetrahedron = "Tetrahedra\n1\n1 2 3 4 0\n";
 
 } // namespace
 
@@ -78,7 +79,7 @@ TEST_F(LookAtMesh, TellsWhatTheConversionMakesOfEveryFormat)
 /** The first cell decides, since a file with both kinds is refused unless one is chosen. */
 TEST_F(LookAtMesh, TheChoiceOfCellsDecides)
 {
-  const std::string both = Head + Vertices + Triangle + Tetrahedron + "End\n";
+  const std::string both = MeditHead + MeditVertices + OneTriangle + OneTetrahedron + "End\n";
   EXPECT_EQ(this->typeOf("a.mesh", both), CellType::Triangle);
   EXPECT_EQ(this->typeOf("a.mesh", both, CellChoice::Tetrahedra), CellType::Tetrahedron);
   EXPECT_EQ(this->typeOf("a.mesh", both, CellChoice::Triangles), CellType::Triangle);
@@ -88,8 +89,8 @@ TEST_F(LookAtMesh, TheChoiceOfCellsDecides)
 /** Elements that are not cells, sections without any, and vertices that come last. */
 TEST_F(LookAtMesh, WhatIsNoCellIsPassedBy)
 {
-  EXPECT_EQ(this->typeOf("a.mesh",
-              Head + "Triangles\n0\nEdges\n1\n1 2 0\n" + Tetrahedron + Vertices + "End\n"),
+  EXPECT_EQ(this->typeOf("a.mesh", MeditHead + "Triangles\n0\nEdges\n1\n1 2 0\n" + OneTetrahedron +
+                                     MeditVertices + "End\n"),
     CellType::Tetrahedron);
   const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
   EXPECT_EQ(this->typeOf("a.msh",
@@ -160,8 +161,8 @@ TEST_F(LookAtMesh, CanBeCancelled)
   {
     vertices << i << " 0.5 " << i % 7 << " 0\n";
   }
-  const std::string text =
-    Head + "Vertices\n" + std::to_string(Count) + '\n' + vertices.str() + Tetrahedron + "End\n";
+  const std::string text = MeditHead + "Vertices\n" + std::to_string(Count) + '\n' +
+                           vertices.str() + OneTetrahedron + "End\n";
   EXPECT_EQ(this->typeOf("a.mesh", text), CellType::Tetrahedron);
   ConversionOptions options;
   int polls = 0;
