@@ -5,6 +5,7 @@
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Import/Weld.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Progress.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "smg/VsmReader.h"
 
@@ -136,7 +137,9 @@ OriginalOrder::OriginalOrder(const StoredMesh& mesh, const ConversionReport* con
   {
     this->readCells(mesh, partOf(progress, 0.5, 1.0));
   }
-  if (weld && (!conversion || conversion->merged_points > 0))
+  // A point that was merged is a vertex of no cell.
+  const bool mayMerge = this->Vertices.count > this->StreamVertices;
+  if (weld && mayMerge && (!conversion || conversion->merged_points > 0))
   {
     this->findMerged(mesh, *weld, partOf(progress, 1.0, 1.0));
   }
@@ -225,7 +228,9 @@ void OriginalOrder::findMerged(
           vertices.positions.data() + 3 * i);
       }
     });
-  const std::vector<std::uint32_t> kept = mergedWith(std::move(points), weld);
+  Progress polled(progress);
+  const std::vector<std::uint32_t> kept = mergedWith(
+    std::move(points), weld, ConversionOptions::DefaultMemory, [&polled] { polled.update(0.0); });
   for (std::size_t row = 0; row < count; ++row)
   {
     if (!isOfCell[row] && isOfCell[kept[row]])

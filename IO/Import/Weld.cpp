@@ -10,8 +10,6 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <functional>
-#include <limits>
 #include <unordered_map>
 
 namespace smg
@@ -97,9 +95,10 @@ private:
   {
     if (this->Kept.size() == this->Most)
     {
-      throw Error("More than " + std::to_string(this->Most) +
-                  " points lie within the tolerance of each other along x, which is more than the "
-                  "memory holds: choose a smaller tolerance or a larger memory limit.");
+      throw MemoryError(
+        "More than " + std::to_string(this->Most) +
+        " points lie within the tolerance of each other along x, which is more than the "
+        "memory holds: choose a smaller tolerance or a larger memory limit.");
     }
     this->Kept.push_back(this->Grid.emplace(cell, point));
   }
@@ -183,14 +182,37 @@ std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace)
   return merged;
 }
 
-std::vector<std::uint32_t> mergedWith(std::vector<WeldPoint> points, double tolerance)
+std::vector<std::uint32_t> mergedWith(std::vector<WeldPoint> points, double tolerance,
+  std::int64_t memory, const std::function<void()>& poll)
 {
-  std::ranges::sort(points, std::less());
-  NearPoints near(tolerance, std::numeric_limits<std::int64_t>::max());
+  constexpr std::size_t Often = std::size_t(1) << 18;
+  std::size_t compared = 0;
+  std::sort(points.begin(), points.end(),
+    [&](const Point& a, const Point& b)
+    {
+      if (++compared % Often == 0)
+      {
+        poll();
+      }
+      return a < b;
+    });
   std::vector<std::uint32_t> kept(points.size());
-  for (const Point& point : points)
+  NearPoints near(tolerance, memory);
+  const Point* first = nullptr; // of those at the same place
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
-    kept[point.id] = near.findOrKeep(point);
+    const Point& point = points[k];
+    if (k % Often == 0)
+    {
+      poll();
+    }
+    if (tolerance > 0.0)
+    {
+      kept[point.id] = near.findOrKeep(point);
+      continue;
+    }
+    first = first && first->position == point.position ? first : &point;
+    kept[point.id] = first->id;
   }
   return kept;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace smg
@@ -37,7 +38,9 @@ void checkWeldDistance(double tolerance);
 std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace);
 
 /** The points with which weldPoints() merges those of a mesh in memory, themselves where it does
- * not: by their numbers, which are 0, 1, ... in any order. */
-std::vector<std::uint32_t> mergedWith(std::vector<WeldPoint> points, double tolerance);
+ * not: by their numbers, which are 0, 1, ... in any order. `memory`: bytes for points that may be
+ * near later ones, as of Workspace; `poll` may throw, to cancel. */
+std::vector<std::uint32_t> mergedWith(std::vector<WeldPoint> points, double tolerance,
+  std::int64_t memory, const std::function<void()>& poll);
 
 } // namespace smg

@@ -292,6 +292,11 @@ void SurfaceTopology::releaseBorders()
  * each edge. */
 bool SurfaceTopology::isFan()
 {
+  // Of the vertices at a seam, those that stand for no other have no triangles.
+  if (this->Pairs.empty())
+  {
+    return true;
+  }
   // Walks along the fan from the first triangle in both directions; those that were passed are
   // moved to the front.
   std::size_t walked = 1;

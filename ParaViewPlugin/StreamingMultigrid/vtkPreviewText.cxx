@@ -10,6 +10,7 @@
 #include "vtkNew.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkProcessModule.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -100,7 +101,7 @@ struct ViewText
 
   void show(const std::string& text)
   {
-    if (text == this->Shown || (!this->Line && !this->makeLine()))
+    if (this->Line ? text == this->Shown : text.empty() || !this->makeLine())
     {
       return;
     }
@@ -154,6 +155,12 @@ public:
   /** After a view has updated what it shows, before it renders. */
   void Execute(vtkObject* caller, unsigned long, void*) override
   {
+    // Of several processes that run the same script each knows its own part of the data, but all
+    // must have the same proxies.
+    if (vtkProcessModule::GetProcessModule()->GetSymmetricMPIMode())
+    {
+      return;
+    }
     for (ViewText& text : this->Texts)
     {
       if (text.View == caller)

@@ -172,7 +172,7 @@ def json_file(path: Any, what: str) -> Any:
 
 def readable(text: str) -> str:
     """A sentence of the library, with the arguments that it knows as columns called so."""
-    return re.sub(r"(?:the column )?'#([^']+)'+", r"the array given as \1", text)
+    return re.sub(r"(?:the column )?'#([^'\"\n]+)'+", r"the array given as \1", text)
 
 
 def _check(status: int) -> None:

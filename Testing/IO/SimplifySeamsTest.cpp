@@ -299,6 +299,33 @@ TEST_F(SimplifySeams, GoWithWhatIsHeldAndWithLabels)
   }
 }
 
+/** One side of a place may be held alone, whichever has the smaller number. */
+TEST_F(SimplifySeams, OneSideMayBeHeld)
+{
+  // Vertex 0 has several vertices at its place.
+  const StreamMesh mesh = toStream(openedTorus(100, 60), TestOrder::Keep);
+  const Place place = placeOf(mesh.positions, 0);
+  int sides = 0;
+  for (std::int64_t vertex = 0; vertex < mesh.vertices(); ++vertex)
+  {
+    if (placeOf(mesh.positions, vertex) != place)
+    {
+      continue;
+    }
+    ++sides;
+    const StreamMesh simple =
+      this->simplified(mesh, { .vertices = 800 }, { .hold = { Region::Vertices{ { vertex } } } });
+    EXPECT_EQ(welded(simple.positions, simple.corners).boundaryEdges, 0) << vertex;
+    bool isKept = false;
+    for (std::int64_t v = 0; v < simple.vertices(); ++v)
+    {
+      isKept = isKept || placeOf(simple.positions, v) == place;
+    }
+    EXPECT_TRUE(isKept) << vertex;
+  }
+  EXPECT_GE(sides, 2);
+}
+
 /** Of more seams than the memory has room for, the number of places is said. */
 TEST_F(SimplifySeams, AreGivenUpForTheMemoryWhichIsSaid)
 {

@@ -246,6 +246,25 @@ TEST(EllipticFamily, AmbientValuesOfAllSizesHoldABodyFromAnyInitialValues)
   }
 }
 
+/** All of the initial values is error. */
+TEST(EllipticFamily, AmbientValuesOfZeroAreReachedWhateverTheirCoefficients)
+{
+  for (const StreamMesh& mesh : { patch(9, 8), block(4, 4, 5) })
+  {
+    for (int exponent = -13; exponent <= -4; ++exponent)
+    {
+      ElementProblem problem(mesh);
+      problem.Initial = columnsOf(1, [](const Point& p, int) { return 293.0 + wave(p, 0); });
+      problem.RobinConditions.push_back(
+        { above(0, 2.5), [=](const Point&) { return std::pow(10.0, exponent); },
+          columnsOf(1, [](const Point&, int) { return 0.0; }) });
+      const Solved solved = solveMesh(mesh, problem, SolveOptions());
+      EXPECT_TRUE(solved.report.converged) << "1e" << exponent;
+      EXPECT_LT(solved.values.cwiseAbs().maxCoeff(), 1e-3) << "1e" << exponent;
+    }
+  }
+}
+
 TEST(EllipticFamily, BodiesThatAreHeldLooselyDoNotKnowEachOther)
 {
   // One body has a large constant, one a prescribed value, one no condition.

@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Workers.h"
+#include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -134,10 +135,11 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
     // A group of one page cannot be split.
     if (range.size() <= this->Result.pages.pageVertices())
     {
-      throw Error("The mesh needs " + mebibytes(this->Space.pool().limit() - allowed + needed) +
-                  " of memory to be brought into order, since a vertex has " +
-                  std::to_string(links.largest() / (this->Corners - 1)) + " cells, but only " +
-                  mebibytes(this->Space.pool().limit()) + " are allowed: raise the memory limit.");
+      throw MemoryError(
+        "The mesh needs " + mebibytes(this->Space.pool().limit() - allowed + needed) +
+        " of memory to be brought into order, since a vertex has " +
+        std::to_string(links.largest() / (this->Corners - 1)) + " cells, but only " +
+        mebibytes(this->Space.pool().limit()) + " are allowed: raise the memory limit.");
     }
     // Outside of this block the links are released, so that the parts have all of the memory.
     parts = 2 + needed / std::max<std::int64_t>(allowed, 1);

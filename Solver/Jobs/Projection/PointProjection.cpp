@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Projection/PointProjection.h"
 
+#include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -163,11 +164,12 @@ void PointProjection::forget()
   const std::int64_t bytes = this->Window->bytes();
   if (bytes > this->MemoryLimit)
   {
-    throw Error("The " + std::to_string(this->Reach.rings) + " rings around the " +
-                std::to_string(this->Found.size()) + " points of the region need at least " +
-                std::to_string(bytes) + " bytes, " + std::to_string(this->MemoryLimit) +
-                " are allowed: give fewer rings or points, or a radius instead, or convert the "
-                "mesh with the order bfs.");
+    throw MemoryError(
+      "The " + std::to_string(this->Reach.rings) + " rings around the " +
+      std::to_string(this->Found.size()) + " points of the region need at least " +
+      std::to_string(bytes) + " bytes, " + std::to_string(this->MemoryLimit) +
+      " are allowed: give fewer rings or points, or a radius instead, or convert the "
+      "mesh with the order bfs.");
   }
   // Discarding takes time in proportion to the window. With a threshold of twice what remains, it
   // costs a constant amount per vertex that is added.

@@ -129,12 +129,11 @@ bool FreeComponents::project(State& level, Report& report)
       { this->subtract(means, block, x, [](double) { return 1.0; }); });
   }
   const std::vector<double> shifts = this->Parts.rightSideShifts();
-  if (std::ranges::all_of(shifts, [](double shift) { return shift == 0.0; }))
+  if (std::ranges::any_of(shifts, [](double shift) { return shift != 0.0; }))
   {
-    return false;
+    level.rewriteB([&](std::int64_t block, std::span<double> b)
+      { this->subtract(shifts, block, b, [](double weight) { return weight; }); });
   }
-  level.rewriteB([&](std::int64_t block, std::span<double> b)
-    { this->subtract(shifts, block, b, [](double weight) { return weight; }); });
   if (const double share = this->Parts.incompatibility(); share > 0.0)
   {
     report.removed_source = this->Parts.shiftedSums();
