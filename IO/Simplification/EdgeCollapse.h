@@ -35,8 +35,6 @@ struct Collapsed
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */
 inline constexpr std::int64_t CollapseBytes = 110;
-/** Those of them that are needed for a vertex, of which there is half of one for each triangle. */
-inline constexpr std::int64_t CollapseVertexBytes = 60;
 
 /**
  * Collapses edges of a surface onto one of their ends, so that each vertex that is left is where it

@@ -46,22 +46,13 @@ constexpr double Aim = 0.98;
  * simplified. */
 constexpr std::size_t TrianglesPerLocked = 8;
 
-/** The bytes that a triangle of a surface with these columns takes while its edges collapse: of
- * half a vertex, unless triangles share hardly any. */
+/** The bytes that a triangle of a surface with these columns takes while its edges collapse. */
 std::int64_t bytesOfTriangle(const StreamInfo& info)
 {
   const std::int64_t row = rowBytes(info.vertexColumns);
-  // The number, position, row of a vertex and its places in tables.
+  // Corners, and half a vertex: its number, position, row and its places in tables.
   constexpr auto OfVertex = static_cast<std::int64_t>(8 + 24 + 16 + sizeof(Quadric));
-  const std::int64_t usual =
-    CollapseBytes + 12 + (OfVertex + 2 * row) / 2 + 2 * rowBytes(carriedColumns(info));
-  if (info.cells <= 0 || info.vertices <= info.cells)
-  {
-    return usual;
-  }
-  const double more = static_cast<double>(info.vertices) / static_cast<double>(info.cells) - 0.5;
-  return usual + static_cast<std::int64_t>(
-                   more * static_cast<double>(CollapseVertexBytes + OfVertex + 2 * row));
+  return CollapseBytes + 12 + (OfVertex + 2 * row) / 2 + 2 * rowBytes(carriedColumns(info));
 }
 
 /** The triangles of a part. The window, which has those of PartsOfWindow parts, and as many parts

@@ -217,8 +217,9 @@ TEST(DistributedSolve, ComponentsMayBeHeldLoosely)
             { above(1, 2.0), [=](const Point&) { return size; }, columnsOf(WaveColumns, wave) });
         };
         const Solutions both = solveBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), set);
-        const std::string name = std::to_string(size) + (hasSource ? " and a source" : "");
-        EXPECT_TRUE(both.report.converged) << name;
+        const std::string name =
+          std::to_string(std::log10(size)) + (hasSource ? " and a source" : "");
+        EXPECT_TRUE(both.report.converged) << name << ": " << both.report.residuals.back();
         if (rankOfTest() == 0)
         {
           EXPECT_EQ(both.report.free_components, both.ofStream.free_components) << name;

@@ -311,7 +311,7 @@ TEST_F(Conversion, PositionsAreRoundedWithANoteOrRefused)
   {
     const ConversionReport rounded = convert(this->Folder / "round.obj", this->Folder / out);
     ASSERT_EQ(rounded.notes.size(), 1u);
-    EXPECT_NE(rounded.notes[0].find("1 vertices were rounded"), std::string::npos);
+    EXPECT_NE(rounded.notes[0].find("1 vertex were rounded"), std::string::npos);
     EXPECT_TRUE(convert(this->Folder / "exact.obj", this->Folder / out).notes.empty());
     std::filesystem::remove(this->Folder / out);
     const std::string message =

@@ -238,7 +238,7 @@ TEST_F(RestoredMeshTest, SaysThatTheTrianglesOfAPolygonDiffer)
   mesh.cellColumns = { makeColumn<int>("part", std::vector<int>{ 5, 6 }) };
   const FileMesh back = this->restored(mesh, ".off");
   EXPECT_EQ(back.cells, (std::vector<Corners>{ { 10, 11, 12, 13 } }));
-  EXPECT_TRUE(this->isNoted("1 polygons were triangles with different values"));
+  EXPECT_TRUE(this->isNoted("1 polygon was triangles with different values"));
 }
 
 TEST_F(RestoredMeshTest, PolygonsTooLargeForTheMemoryAreTriangles)

@@ -181,7 +181,7 @@ TEST_F(VtkStreamingMeshConverter, ErrorsAreSaidOnce)
   this->Converter->SetMemoryLimit(1);
   this->Converter->SetOrder(vtkStreamingMeshConverter::AXIS);
   EXPECT_FALSE(updatePiece(this->Converter, 0, 1));
-  EXPECT_TRUE(errors.contain("memory")) << errors.text();
+  EXPECT_TRUE(errors.contain("MemoryLimit")) << errors.text();
 }
 
 TEST_F(VtkStreamingMeshConverter, TriesAgainWhenTheOutputHasChanged)

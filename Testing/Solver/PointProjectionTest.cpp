@@ -268,7 +268,7 @@ TEST(PointProjection, RefusesWhatMakesNoSense)
   const auto make = [](const std::vector<double>& points, const Influence& influence)
   { return [=] { PointProjection(points, influence, CellType::Triangle); }; };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expectError(make({ 0.0, 0.0, 0.0, 0.0, nan, 0.0 }, {}), "point 1");
+  expectError(make({ 0.0, 0.0, 0.0, 0.0, nan, 0.0 }, {}), "Point 1");
   expectError(make(point, { nan, 0 }), "radius");
   expectError(make(point, { -1.0, 0 }), "radius");
   expectError(make(point, { 0.0, -1 }), "rings");
