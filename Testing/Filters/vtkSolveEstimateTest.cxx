@@ -110,7 +110,8 @@ TEST_F(VtkSolveEstimate, OfASimplification)
   const auto text = [&filter] { return std::string(filter->GetEstimate()); };
   EXPECT_TRUE(text().starts_with("Not known: the filter before")) << text();
   filter->UpdateInformation();
-  EXPECT_NE(text().find("2 passes over 40,000 points and 80,000 cells"), std::string::npos) << text();
+  EXPECT_NE(text().find("2 passes over 40,000 points and 80,000 cells"), std::string::npos)
+    << text();
   // The filter before changes the mesh, so that it is copied.
   const VsmReader mesh(this->Folder / "mesh.vsm");
   const SimplifyOptions options{ .memoryLimit = std::int64_t(256) << 20 };
