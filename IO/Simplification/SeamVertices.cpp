@@ -15,8 +15,8 @@
 // open vertex suffices. Triangles that are wound against each other do not cancel: such vertices
 // count as those of the boundary, which matters only if they coincide with others.
 //
-// Places are told apart by 64 bits of a hash; which of them are remembered depends neither on the
-// order of the vertices nor on the blocks.
+// Coordinates are compared by their checksums of 64 bits. Where memory has no room for all, a
+// sample is kept that depends on these alone, not on the order of the vertices or on the blocks.
 
 namespace smg
 {

@@ -421,9 +421,9 @@ std::vector<double> Components::constantShifts() const
   {
     return shifts;
   }
-  shifts.resize(this->Summed.size());
-  this->forHeld([&](std::size_t label, int k, std::size_t place)
-    { shifts[place] = -this->sums(label, k).b / this->weighed(label, k).weights; });
+  const std::vector<double> constants = this->rightSideShifts();
+  shifts.resize(constants.size());
+  this->forHeld([&](std::size_t, int, std::size_t place) { shifts[place] = -constants[place]; });
   return shifts;
 }
 

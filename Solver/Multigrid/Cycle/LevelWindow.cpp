@@ -210,8 +210,6 @@ void LevelWindow<Real>::readRightSide(std::span<Real> b)
 template <class Real>
 void LevelWindow<Real>::appendRightSide(std::span<const Real> b)
 {
-  // It comes from Packed, in which readX() no longer finds its block.
-  this->CachedBlock = -1;
   const bool zero = std::all_of(b.begin(), b.end(), [](Real value) { return value == Real{}; });
   this->RightSide->append(std::as_bytes(zero ? std::span<const Real>() : b));
 }
