@@ -5,7 +5,7 @@
 #include "Filters/Tasks/vtkJobTask.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPropertyRange.h"
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "smg/Deform.h"
 #include "smg/Distance.h"
 #include "smg/Error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <cmath>

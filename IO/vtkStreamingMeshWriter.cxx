@@ -19,7 +19,6 @@
 #include "IO/vtkPropertyRange.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/DiskFull.h"
 #include "Solver/Files/ScratchFolder.h"

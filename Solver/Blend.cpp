@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Blend.h"
 
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Jobs/Blending/BlendProblem.h"

@@ -6,7 +6,7 @@
 #include "IO/Description/Sizes.h"
 #include "IO/Files/FileNames.h"
 #include "Solver/Checkpoint/Checkpoint.h"
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "smg/Error.h"

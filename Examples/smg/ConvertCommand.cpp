@@ -6,7 +6,6 @@
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"

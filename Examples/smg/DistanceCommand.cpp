@@ -4,7 +4,7 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Jobs/DistanceJob.h"
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include <cstdio>
 
 namespace

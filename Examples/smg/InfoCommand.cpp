@@ -5,7 +5,6 @@
 
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/VsmFile.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "smg/Describe.h"
 #include "smg/Error.h"

@@ -5,7 +5,6 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 #include "smg/Preview.h"

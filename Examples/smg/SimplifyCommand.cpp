@@ -8,7 +8,6 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Simplification/SimplifiedMesh.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"

@@ -2,7 +2,6 @@
 #include "SolvingCommand.h"
 
 #include "IO/Description/JsonNode.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Text.h"
 
 #include <cmath>

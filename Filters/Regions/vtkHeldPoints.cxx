@@ -13,7 +13,7 @@
 #include "vtkSphere.h"
 #include "vtkUnsignedCharArray.h"
 
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include <array>

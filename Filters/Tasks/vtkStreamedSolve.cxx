@@ -5,7 +5,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"

@@ -2,7 +2,7 @@
 #include "IO/Export/Restorers.h"
 
 #include "IO/Mesh/Columns.h"
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/Error.h"
 

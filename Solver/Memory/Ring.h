@@ -44,12 +44,15 @@ public:
   void clear();
 
 private:
+  void moveInto(std::size_t bytes);
+  void growFile(std::size_t bytes);
   void unmap();
 
   Pool* Owner;
   std::byte* Data = nullptr;
   std::size_t Size = 0;
-  int Descriptor = -1;
+  int Descriptor = -1; // of a large one
+  int Process = 0;     // that mapped a small one
 };
 
 /**

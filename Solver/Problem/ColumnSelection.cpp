@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/ColumnSelection.h"
 
+#include "Solver/Core/Text.h"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -32,10 +33,7 @@ std::string textOf(double value, bool isSingle)
   {
     return std::to_string(static_cast<std::int64_t>(value));
   }
-  char text[32];
-  const auto end = isSingle ? std::to_chars(text, text + sizeof text, static_cast<float>(value))
-                            : std::to_chars(text, text + sizeof text, value);
-  return { text, end.ptr };
+  return isSingle ? shortest(static_cast<float>(value)) : shortest(value);
 }
 
 } // namespace

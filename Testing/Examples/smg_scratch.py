@@ -92,7 +92,8 @@ def test_full_scratch():
                 assert disk in error, error
                 if name != "large.obj":
                     assert "--scratch" in error and "MiB" in error, error
-                    assert time.monotonic() - begin < 2
+                    # A moment on an idle machine.
+                    assert time.monotonic() - begin < 20
                 else:
                     assert "space" in error or "room" in error, error
                 assert os.listdir(disk) == [] and not os.path.exists("o.vsm")

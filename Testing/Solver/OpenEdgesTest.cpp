@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/Edges.h"
-#include "Solver/Core/Timer.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -150,14 +149,14 @@ TEST(OpenEdges, CountTheirMemoryOfVeryManyNeighbours)
     Error);
 }
 
-/** The time per vertex is linear in its number of neighbours, not quadratic. */
+/** The time per vertex is linear in its number of neighbours: with a quadratic one the test would
+ * not end. */
 TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
 {
-  Pool pool(1 << 25);
+  Pool pool(1 << 27);
   OpenEdges edges(pool, 12);
-  constexpr std::int64_t Last = 100000;
+  constexpr std::int64_t Last = 500000;
   edges.extend(Last + 1);
-  const double begin = processSeconds();
   for (int round = 0; round < 2; ++round)
   {
     for (std::int64_t v = 1; v < Last; ++v)
@@ -177,14 +176,13 @@ TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
     }
     row.clear();
     edges.take(from, row);
-    ASSERT_EQ(row.size(), 99999U);
+    ASSERT_EQ(row.size(), static_cast<std::size_t>(Last - 1));
     for (std::int64_t v = 1; v < Last; ++v)
     {
       ASSERT_EQ(row[v - 1].to, v);
       ASSERT_EQ(row[v - 1].weight, 2.0);
     }
   }
-  EXPECT_LT(processSeconds() - begin, 5.0);
 }
 
 } // namespace smg::testing

@@ -9,9 +9,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <numeric>
 #include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 namespace smg::testing
@@ -90,6 +94,57 @@ TEST(Ring, KeepsItsItemsWhenItCannotGrow)
   ring.extend(100000);
   EXPECT_EQ(ring[999], 999.0);
   EXPECT_EQ(ring[99999], 0.0);
+}
+
+TEST(Ring, TakesTheMemoryOfOneThatIsGone)
+{
+  Pool pool(1 << 30);
+  const auto use = [&pool](double value)
+  {
+    Ring<double> ring(pool);
+    for (std::int64_t i = 0; i < 3000; ++i)
+    {
+      ring.extend(i + 1);
+      ASSERT_EQ(ring[i], 0.0);
+      ring[i] = value;
+    }
+    ASSERT_EQ(std::accumulate(ring.at(0), ring.at(0) + 3000, 0.0), 3000 * value);
+  };
+  use(1.0);
+  realMapping = systemCalls().mmap;
+  systemCalls().mmap = failingMapping;
+  mappingsBeforeFailure = 0;
+  use(2.0);
+  systemCalls().mmap = realMapping;
+  EXPECT_EQ(pool.used(), 0);
+}
+
+TEST(Ring, AChildDoesNotTakeThatOfItsParent)
+{
+  Pool pool(1 << 30);
+  auto mine = std::make_unique<Ring<int>>(pool);
+  mine->extend(1000);
+  Ring<int>(pool).extend(1000);
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    // What it gives back is still in use, too.
+    Ring<int> first(pool);
+    first.extend(1000);
+    std::ranges::fill(first.range(0, 1000), 7);
+    mine.reset();
+    Ring<int> second(pool);
+    second.extend(1000);
+    std::ranges::fill(second.range(0, 1000), 8);
+    ::_exit(0);
+  }
+  int status = -1;
+  Ring<int> other(pool);
+  other.extend(1000);
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(std::ranges::count(mine->range(0, 1000), 0), 1000);
+  EXPECT_EQ(std::ranges::count(other.range(0, 1000), 0), 1000);
 }
 
 TEST(Ring, NeedsMemoryForTheWindowOnly)

@@ -8,8 +8,8 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Mesh/Columns.h"
-#include "Solver/Core/Counted.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

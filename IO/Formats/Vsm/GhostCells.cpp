@@ -11,7 +11,7 @@
 namespace smg
 {
 
-GhostCells::GhostCells(VsmFile& file, LastCellReader& lastCells, const CellRange& piece,
+GhostCells::GhostCells(VsmFile& file, LastCellReader& lastCells, const PieceCells& piece,
   std::vector<std::int64_t> vertices, int levels)
   : File(file)
   , LastCells(lastCells)

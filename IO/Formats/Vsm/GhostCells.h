@@ -12,7 +12,7 @@ namespace smg
 class LastCellReader;
 
 /** Consecutive cells of a mesh stream. */
-struct CellRange
+struct PieceCells
 {
   std::int64_t first = 0, end = 0;
   std::int64_t firstVertex = 0; ///< that they introduce
@@ -30,7 +30,7 @@ class GhostCells
 {
 public:
   /** Finds `levels` layers around a piece, whose cells have these vertices, in ascending order. */
-  GhostCells(VsmFile& file, LastCellReader& lastCells, const CellRange& piece,
+  GhostCells(VsmFile& file, LastCellReader& lastCells, const PieceCells& piece,
     std::vector<std::int64_t> vertices, int levels);
 
   /** Stream indices of the cells, ascending, and their corners. */
@@ -45,7 +45,7 @@ private:
 
   VsmFile& File;
   LastCellReader& LastCells;
-  CellRange Piece;
+  PieceCells Piece;
   std::size_t CornersOfCell;
   std::vector<std::int64_t> Cells, Corners;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/PathDistance.h"
 
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/March.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
 
-#include "Solver/Core/Counted.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "smg/Error.h"
