@@ -4,6 +4,7 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/MeshText.h"
+#include "Testing/Support/Combinations.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestFolders.h"
@@ -88,13 +89,18 @@ bool saysNothing(const std::filesystem::path& seed)
   return seed.filename() == "no_keyword.off";
 }
 
-/** Expects a file to be read as the same format under every suffix. */
-void expectItself(const std::filesystem::path& seed, const std::filesystem::path& folder)
+/** Expects a file to be read as the same format under every suffix that is chosen. */
+void expectItself(const std::filesystem::path& seed, const std::filesystem::path& folder,
+  Combinations& chosen)
 {
   const std::string reading = readingOf(seed);
   const std::string size = sizeOf(seed);
   for (const std::string& suffix : allSuffixes())
   {
+    if (!chosen.next())
+    {
+      continue;
+    }
     const std::filesystem::path copy = folder / ("copy" + suffix);
     std::filesystem::copy_file(seed, copy, std::filesystem::copy_options::overwrite_existing);
     if (saysNothing(seed))
@@ -148,6 +154,7 @@ TEST(MeshFile, FoldersThatCannotBeWrittenToAreRefused)
 
 TEST(MeshFile, FilesAreReadAsThemselvesUnderEverySuffix)
 {
+  Combinations chosen;
   const TemporaryFolder folder;
   const auto corpus = sourceFolder() / "Testing" / "Fuzzing" / "corpus";
   for (const char* format :
@@ -161,13 +168,14 @@ TEST(MeshFile, FilesAreReadAsThemselvesUnderEverySuffix)
       {
         continue;
       }
-      expectItself(entry.path(), folder.path());
+      expectItself(entry.path(), folder.path(), chosen);
     }
   }
 }
 
 TEST(MeshFile, TitlesOfStlFilesMakeNoOtherFormat)
 {
+  Combinations chosen;
   const TemporaryFolder folder;
   for (const char first : { '\0', '\1', '\2', '\3', '\4', 's', 'x' })
   {
@@ -179,7 +187,7 @@ TEST(MeshFile, TitlesOfStlFilesMakeNoOtherFormat)
     std::memcpy(&stl[84 + 12 + 24 + 4], &one, sizeof(one));
     writeBytes(folder / "title.stl", stl);
     ASSERT_EQ(sizeOf(folder / "title.stl"), "3 and 1");
-    expectItself(folder / "title.stl", folder.path());
+    expectItself(folder / "title.stl", folder.path(), chosen);
   }
 }
 
