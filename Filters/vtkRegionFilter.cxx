@@ -260,6 +260,7 @@ std::string vtkRegionFilter::UnusedProperty()
   // Panels hide what another chosen region does not use, and keep it.
   const bool isChosen = this->Region != FUNCTION;
   return smg::unusedProperty({
+    { "InsideOut", this->InsideOut, !isChosen, "set Region to Function" },
     { "Selection", this->GetNumberOfInputConnections(1) > 0, isChosen, "set Region to Selection" },
     { "Ids", !this->Internal->Ids.empty(), isChosen, "set Region to Ids" },
     { "IdType", this->IdType != GLOBAL_IDS, isChosen, "set Region to Ids" },

@@ -104,6 +104,11 @@ struct vtkStreamingSolver::Internals
     else if (isOutOfCore)
     {
       values = this->Streamed.valuesOfPoints();
+      if (!values.empty() && static_cast<std::int64_t>(values.size()) !=
+                               present->GetNumberOfPoints() * this->Summary.columns)
+      {
+        throw smg::Error("The input has other points than when it was solved on: apply again.");
+      }
     }
     exchange.together(
       [&]
@@ -167,13 +172,16 @@ struct vtkStreamingSolver::Internals
                       !(this->StreamStamp == smg::stampOf(this->Self, input, inputInfo)));
     if (smg::isPreview(*present) || !mayBe || request.Pieces == 1)
     {
-      return isOrdinary && !smg::isPreview(*present);
+      const bool isWhole = isOrdinary && !smg::isPreview(*present);
+      requireMarks(isWhole && !request.IsStreamed && input.isPreviewed());
+      return isWhole;
     }
     vtkPointSet* whole = vtkPointSet::SafeDownCast(input.update(0, 1, false));
     if (smg::isPreview(*whole))
     {
       return false; // a filter before this one has lost what belongs to the pieces of the mesh
     }
+    requireMarks(input.isPreviewed());
     present = whole;
     if (isOrdinary || smg::isOrdinaryMesh(*whole))
     {
@@ -182,6 +190,18 @@ struct vtkStreamingSolver::Internals
     present = vtkPointSet::SafeDownCast(request.update(input));
     this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
     return false;
+  }
+
+  /** What is made of a preview without what marks it looks like a mesh of its own. */
+  static void requireMarks(bool isUnmarkedPreview)
+  {
+    if (isUnmarkedPreview)
+    {
+      throw smg::Error(
+        "The input is made of a preview, by a filter that does not pass on what says so: put that "
+        "filter (as Pass Arrays, or a Programmable Filter) behind this one, or raise Maximum "
+        "Points In Memory of the reader.");
+    }
   }
 
   /** The processes that process the request collectively; nullptr: this process alone. */

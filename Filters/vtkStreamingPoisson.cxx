@@ -118,11 +118,11 @@ struct vtkStreamingPoisson::Internals
     {
       problem.screening = screening;
     }
-    if (const std::string conductivity = arrays.named(CONDUCTIVITY_ARRAY); !conductivity.empty())
+    if (const std::string conductivity = arrays.any(CONDUCTIVITY_ARRAY); !conductivity.empty())
     {
       problem.conductivity = conductivity;
     }
-    problem.field = arrays.named(FIELD_ARRAY);
+    problem.field = arrays.any(FIELD_ARRAY);
   }
 
   smg::PoissonTask task(vtkPointSet& input) const

@@ -9,6 +9,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationDataObjectKey.h"
 #include "vtkPointData.h"
@@ -17,6 +18,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace smg
 {
@@ -41,8 +43,22 @@ bool hasCells(vtkDataObject* block)
   return mesh && mesh->GetNumberOfCells() > 0;
 }
 
-/** At the single block with cells of `blocks`. */
-BlockIterator singleBlock(vtkCompositeDataSet& blocks)
+/** At the leaf of `blocks` with this index. */
+BlockIterator blockAt(vtkCompositeDataSet& blocks, unsigned int flatIndex)
+{
+  auto at = BlockIterator::Take(blocks.NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    if (at->GetCurrentFlatIndex() == flatIndex)
+    {
+      return at;
+    }
+  }
+  throw Error("The blocks of the input have changed: apply the filter again.");
+}
+
+/** The index of the single block with cells of `blocks`. */
+unsigned int singleBlock(vtkCompositeDataSet& blocks)
 {
   if (blocks.IsA("vtkUniformGridAMR"))
   {
@@ -54,7 +70,7 @@ BlockIterator singleBlock(vtkCompositeDataSet& blocks)
     throw Error("The input consists of blocks, on which several processes cannot work: make them "
                 "one mesh with Merge Blocks, save it as .vsm and open that.");
   }
-  BlockIterator found;
+  std::optional<unsigned int> found;
   std::int64_t count = 0;
   const auto at = BlockIterator::Take(blocks.NewIterator());
   for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
@@ -64,16 +80,8 @@ BlockIterator singleBlock(vtkCompositeDataSet& blocks)
       continue;
     }
     requireNoPreview(at->GetCurrentDataObject());
-    if (++count > 1)
-    {
-      continue; // one of the others may be a preview
-    }
-    found = BlockIterator::Take(blocks.NewIterator());
-    found->InitTraversal();
-    while (found->GetCurrentFlatIndex() != at->GetCurrentFlatIndex())
-    {
-      found->GoToNextItem();
-    }
+    ++count; // one of the others may be a preview
+    found = at->GetCurrentFlatIndex();
   }
   if (count > 1)
   {
@@ -85,7 +93,7 @@ BlockIterator singleBlock(vtkCompositeDataSet& blocks)
     throw Error("The input has blocks, but none with cells: look at what the filter before it "
                 "delivers.");
   }
-  return found;
+  return *found;
 }
 
 /** The mesh of a block, to which nothing refers as to a piece of a mesh stream. */
@@ -138,7 +146,7 @@ vtkSmartPointer<vtkPointSet> meshOf(vtkDataObject* data)
 {
   if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
   {
-    return ordinaryMesh(*singleBlock(*blocks)->GetCurrentDataObject());
+    return ordinaryMesh(*blockAt(*blocks, singleBlock(*blocks))->GetCurrentDataObject());
   }
   return vtkPointSet::SafeDownCast(data);
 }
@@ -153,14 +161,22 @@ void throughSingleBlock(
     work();
     return;
   }
-  const BlockIterator place = singleBlock(*blocks);
+  const unsigned int place = singleBlock(*blocks);
   const auto mesh = vtkSmartPointer<vtkPointSet>::Take(meshOf(input)->NewInstance());
   {
     const MeshAsOutput replaced(output, *mesh);
     work();
   }
-  result->ShallowCopy(blocks);
-  result->SetDataSet(place, mesh);
+  // The work may have asked for the input anew, so no iterator outlives it. Blocks inside blocks
+  // are copied: the input keeps its own.
+  result->CopyStructure(blocks);
+  result->GetFieldData()->ShallowCopy(blocks->GetFieldData());
+  const auto at = BlockIterator::Take(blocks->NewIterator());
+  for (at->InitTraversal(); !at->IsDoneWithTraversal(); at->GoToNextItem())
+  {
+    result->SetDataSet(at, at->GetCurrentDataObject());
+  }
+  result->SetDataSet(blockAt(*blocks, place), mesh);
 }
 
 } // namespace smg

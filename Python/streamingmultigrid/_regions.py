@@ -37,6 +37,9 @@ class Region:
     def __repr__(self) -> str:
         return "smg.%s(%r)" % (self._kind, self._value)
 
+    def __bool__(self) -> bool:
+        raise TypeError("A region is neither true nor false: combine regions with &, | and ~, not with and, or and not.")
+
     def __and__(self, other: Any) -> "Region":
         return _Combined("&", self, as_region(other))
 

@@ -94,6 +94,20 @@ TEST_F(VtkMeshHandle, SaysThatAPropertyHasNoEffect)
         back([&] { handle.SetRadius(-1.0); }) },
       { "Rings", [&] { handle.SetRings(2); }, region(vtkMeshHandle::IDS),
         back([&] { handle.SetRings(0); }) },
+      { "InsideOut",
+        [&]
+        {
+          handle.SetRegion(vtkMeshHandle::POINTS);
+          handle.AddPoint(2.0, 0.0, 0.0);
+          handle.SetInsideOut(true);
+        },
+        region(vtkMeshHandle::FUNCTION),
+        back(
+          [&]
+          {
+            handle.RemoveAllPoints();
+            handle.SetInsideOut(false);
+          }) },
     });
   handle.SetRegion(vtkMeshHandle::POINTS);
   handle.AddPoint(2.0, 0.0, 0.0);

@@ -4,6 +4,7 @@ the same structure, and of others it says in a sentence how to go on. No filter 
 
 blocks.py PLUGIN"""
 
+import os
 import sys
 
 import numpy as np
@@ -233,6 +234,23 @@ for name, make in FILTERS.items():
             wrong.append((name, kind, "says: " + text[-300:]))
         elif sum(leaf.GetNumberOfCells() for leaf in leaves(found).values()) > 0:
             wrong.append((name, kind, "has cells"))
+
+# Blocks that a filter makes anew for each piece of a result that is saved, also inside others.
+sphere = TrivialProducer()
+sphere.GetClientSideObject().SetOutput(BALL)
+nested = GroupDatasets(Input=[GroupDatasets(Input=[sphere])])
+for name, make in FILTERS.items():
+    if name in ("StreamingMeshPreview", "StreamingMeshSimplification"):
+        continue
+    made = make(nested)
+    made.UpdatePipeline()
+    SaveData("nested.vsm", proxy=made)
+    read = StreamingMeshReader(FileName=os.path.abspath("nested.vsm"))
+    read.UpdatePipeline()
+    if t.client_object(read).GetOutputDataObject(0).GetNumberOfPoints() != BALL.GetNumberOfPoints():
+        wrong.append((name, "saved blocks of blocks"))
+    os.remove("nested.vsm")
+    Delete(read)
 for row in wrong:
     print(row)
 assert not wrong

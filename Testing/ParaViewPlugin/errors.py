@@ -171,5 +171,22 @@ poisson.MemoryLimit = 1024
 poisson.UpdatePipeline()
 text = said()
 assert "Solution" in poisson.PointData.keys(), text
+
+# A preview without its marks is not the mesh; seldom do filters take these away.
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 2000
+passed = PassArrays(Input=reader, PointDataArrays=["Normals"])
+for make in (StreamingMeshSmoothing, lambda Input: StreamingDistance(Input=MeshRegion(Input=Input, Region="Ids", Ids=[0]))):
+    make(Input=passed).UpdatePipeline()
+    text = said()
+    assert "is made of a preview" in text, text
+
+# Of one name for points and cells it is not known which is meant.
+both = Calculator(Input=Calculator(Input=Sphere(), ResultArrayName="Twice", Function="1"), AttributeType="Cell Data",
+                  ResultArrayName="Twice", Function="2")
+held = MeshCondition(Input=both, Region="Ids", Ids=[0])
+for name in ("Source", "ScreeningArray", "ConductivityArray", "FieldArray"):
+    StreamingPoisson(Input=held, **{name: ["POINTS", "Twice"]}).UpdatePipeline()
+    text = said()
+    assert "the cells of the input both have an array Twice" in text, (name, text)
 # Output of Python would go to the window that collects the messages.
 os.write(1, b"passed\n")

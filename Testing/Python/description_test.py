@@ -144,6 +144,12 @@ class ProblemTest(unittest.TestCase):
                         mesh.solve(dirichlet={0: 0}, source=1, conductivity=[1, smg.mask(mask) >> 5]),
                     )
 
+    def test_words_do_not_combine_regions(self):
+        one, two = smg.above(z=0), smg.below(x=0)
+        for combined in (lambda: one and two, lambda: one or two, lambda: not one):
+            with self.assertRaisesRegex(TypeError, "combine regions with &"):
+                combined()
+
     def test_a_plane_has_a_tolerance(self):
         written, _ = said(dirichlet=[smg.plane(y=3) >> 0, smg.plane(x=1, tolerance=0.5) >> 1])
         one, two = (entry["box"] for entry in written["dirichlet"])
