@@ -90,8 +90,8 @@ bool saysNothing(const std::filesystem::path& seed)
 }
 
 /** Expects a file to be read as the same format under every suffix that is chosen. */
-void expectItself(const std::filesystem::path& seed, const std::filesystem::path& folder,
-  Combinations& chosen)
+void expectItself(
+  const std::filesystem::path& seed, const std::filesystem::path& folder, Combinations& chosen)
 {
   const std::string reading = readingOf(seed);
   const std::string size = sizeOf(seed);
