@@ -136,7 +136,7 @@ public:
 
 private:
   static constexpr std::size_t Page = MirroredMemory::PageBytes;
-  static constexpr std::size_t Most = std::size_t(4) << 20; ///< bytes, of all that are kept
+  static constexpr std::size_t Most = std::size_t(1) << 20; ///< bytes, of all that are kept
 
   SpareMappings()
   {
