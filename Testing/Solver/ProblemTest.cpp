@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -229,6 +230,29 @@ TEST(Problem, EdgeTargetsThatAreNoGradientAgreeWithTheDirectSolution)
     EXPECT_LT(relativeError(solved.values, expected), 1e-7);
     EXPECT_GT(relativeError(expected, positionsOf(mesh)), 0.05);
   }
+}
+
+/** Their solution may be another altogether; that of a mesh with a few is nearly its own. */
+TEST(Problem, ManyCellsThatAreTooFlatAreAWarning)
+{
+  const auto warned = [](std::int64_t flatColumns)
+  {
+    IndexedTestMesh indexed = grid(200, 20);
+    for (std::size_t i = 0; i < indexed.positions.size(); i += 3)
+    {
+      double& x = indexed.positions[i];
+      x = x <= static_cast<double>(flatColumns) ? 1e-7 * x : x;
+    }
+    const StreamMesh mesh = toStream(indexed);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    const Report report = solveMesh(mesh, problem, accurate()).report;
+    const auto isOfThem = [](const std::string& sentence)
+    { return sentence.find("so flat that rounding") != std::string::npos; };
+    EXPECT_EQ(std::ranges::count_if(report.notes, isOfThem), 1) << flatColumns;
+    return std::ranges::count_if(report.warnings, isOfThem);
+  };
+  EXPECT_EQ(warned(1), 0);
+  EXPECT_EQ(warned(100), 1);
 }
 
 TEST(Problem, TheMaximumPrincipleHolds)

@@ -38,6 +38,18 @@ void warnOfCoincidentPoints(const AssemblyCounts& counts, Report& report)
               "Clean; in C++ ConversionOptions::weld)");
 }
 
+/** Of a defect of `part` of all cells or vertices: from one in a hundred on, the solution may be
+ * another altogether. */
+void noteOfPart(std::int64_t part, std::int64_t all, const std::string& sentence, Report& report)
+{
+  if (part >= all / 100)
+  {
+    report.warn(sentence);
+    return;
+  }
+  report.notes.push_back(sentence);
+}
+
 } // namespace
 
 void reportAssembly(const AssemblyCounts& counts, Report& report)
@@ -52,18 +64,22 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   noteUnwelded(counts.type, counts.vertices, counts.cells, report);
   if (counts.limitedCells > 0)
   {
-    report.notes.push_back(counted(counts.limitedCells, "cell is", "cells are") +
-                           " so flat that rounding would drown the others: their "
-                           "stiffness was scaled down, by a factor of " +
-                           scientific(counts.minFlatness) +
-                           " at the least; there the operator is not that of finite elements");
+    noteOfPart(counts.limitedCells, counts.cells,
+      counted(counts.limitedCells, "cell is", "cells are") +
+        " so flat that rounding would drown the others: their "
+        "stiffness was scaled down, by a factor of " +
+        scientific(counts.minFlatness) +
+        " at the least; there the operator is not that of finite elements",
+      report);
   }
   if (counts.raisedRows > 0)
   {
-    report.notes.push_back(counted(counts.raisedRows, "vertex has", "vertices have") +
-                           " weights whose sum is lost in rounding: 1e-8 of "
-                           "their magnitudes holds them near their initial values; there the "
-                           "operator is not that of finite elements");
+    noteOfPart(counts.raisedRows, counts.vertices,
+      counted(counts.raisedRows, "vertex has", "vertices have") +
+        " weights whose sum is lost in rounding: 1e-8 of "
+        "their magnitudes holds them near their initial values; there the "
+        "operator is not that of finite elements",
+      report);
   }
   report.components = counts.components;
   report.free_components = counts.freeComponents;
