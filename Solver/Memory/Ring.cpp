@@ -140,11 +140,16 @@ private:
 
   SpareMappings()
   {
+    // As many as there may be: to give one back, which destructors do, allocates nothing.
+    for (std::size_t i = 0; i < Pages; ++i)
+    {
+      this->Spare[i].reserve(Most / ((i + 1) * Page));
+    }
     ForkedObjects::all().add(
       this, { [this] { this->Mutex.lock(); }, [this] { this->Mutex.unlock(); },
               [this]
               {
-                this->Spare = {};
+                std::ranges::for_each(this->Spare, [](auto& each) { each.clear(); });
                 this->Kept = 0;
                 ++this->Number;
                 this->Mutex.unlock();
