@@ -72,14 +72,18 @@ bool hasCoincidentCorners(const double* const* corners, int count)
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
 {
   constexpr double Limit = 1e5;
-  double largest = 0.0;
+  double largest = 0.0, least = 0.0;
   for (int e = 0; e < edgesOf(type); ++e)
   {
     largest = std::max(largest, std::fabs(cell.weight[e]));
+    least = std::min(least, cell.weight[e]);
   }
   if (type == CellType::Triangle)
   {
-    return largest > Limit ? Limit / largest : 1.0;
+    // A needle couples the two ends of its short edge and cancels nothing.
+    constexpr double NeedleLimit = 1e7, Cap = 1e3;
+    const double limit = -least * Cap >= Limit ? Limit : NeedleLimit;
+    return largest > limit ? limit / largest : 1.0;
   }
   // The weights of a tetrahedron have the unit of length: the limit is relative to its longest
   // edge. Every edge bounds that from below, so most cells return at the first one.

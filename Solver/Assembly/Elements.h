@@ -73,10 +73,11 @@ SMG_EXPORT bool hasCoincidentCorners(const double* const* corners, int count);
  * 1e5 (tetrahedra: times the longest edge), is 1 for nearly all cells, and depends neither on the
  * unit of length nor on that of a conductivity.
  *
- * Since large weights are kept in double precision, a higher limit would still be exact on chains
- * of needles. But where cells lie flat on the edges of others, as in polygons with collinear
- * corners, the number of V-cycles grows with it: one such surface took 13 with 1e5, 51 with 1e6,
- * 170 with 1e7.
+ * Needles, triangles with one short edge and no angle near 180 degrees, have no large negative
+ * weight that could cancel, and large weights are kept in double precision: they may have 1e7:
+ * beyond, a mesh of them alone has no digit left. For caps a higher limit would be exact, too. But
+ * where they lie flat on the edges of others, as in polygons with collinear corners, the number of
+ * V-cycles grows with it: one such surface took 13 with 1e5, 51 with 1e6, 170 with 1e7.
  */
 SMG_EXPORT double flatnessFactor(
   CellType type, const double* const* corners, const CellWeights& cell);

@@ -135,7 +135,7 @@ Report::Step DistributedRun::iterate(const std::string& what, double begin, doub
     const std::vector<double>& residuals = convergence.residuals();
     r.residuals.insert(r.residuals.end(), residuals.begin(), residuals.end());
     this->Costs.iterations.push_back(convergence.cycles());
-    convergence.addNotes(r.notes, what + column);
+    convergence.addNotes(r, what + column);
     step.cycles += convergence.cycles();
     // A step is as good as the worst of its right-hand sides. One whose initial values solve it
     // needs no iteration.

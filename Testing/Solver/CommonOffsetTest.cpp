@@ -188,10 +188,29 @@ TEST(CommonOffset, NeverTakesConvergenceAway)
       convergence.add(norm, 0.0, 1e-3);
     }
     EXPECT_TRUE(convergence.done() && convergence.converged());
-    std::vector<std::string> notes;
-    convergence.addNotes(notes, "");
-    ASSERT_EQ(notes.size(), 1U);
-    EXPECT_NE(notes.front().find("initial values nearer to it"), std::string::npos);
+    Report report;
+    convergence.addNotes(report, "");
+    ASSERT_EQ(report.notes.size(), 1U);
+    EXPECT_TRUE(report.warnings.empty());
+    EXPECT_NE(report.notes.front().find("initial values nearer to it"), std::string::npos);
+  }
+}
+
+TEST(CommonOffset, AnEndByRoundingAboveTheFirstResidualIsAWarning)
+{
+  for (const double factor : { 0.5, 2.0 })
+  {
+    Convergence convergence({ 1e-8, 50 }, { 1.0, 0.0 });
+    convergence.begin(5.0);
+    while (!convergence.done())
+    {
+      convergence.add(factor, 10.0);
+    }
+    EXPECT_TRUE(convergence.converged());
+    Report report;
+    convergence.addNotes(report, "");
+    EXPECT_EQ(report.notes.size(), 1U);
+    EXPECT_EQ(report.warnings.size(), factor < 1.0 ? 0U : 1U);
   }
 }
 

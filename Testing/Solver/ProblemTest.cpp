@@ -241,7 +241,7 @@ TEST(Problem, ManyCellsThatAreTooFlatAreAWarning)
     for (std::size_t i = 0; i < indexed.positions.size(); i += 3)
     {
       double& x = indexed.positions[i];
-      x = x <= static_cast<double>(flatColumns) ? 1e-7 * x : x;
+      x = x <= static_cast<double>(flatColumns) ? 1e-9 * x : x;
     }
     const StreamMesh mesh = toStream(indexed);
     ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);

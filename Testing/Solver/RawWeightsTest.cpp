@@ -222,6 +222,39 @@ TEST(RawWeights, OfFlatCellsAreScaledDown)
   EXPECT_NEAR(flatnessFactor(CellType::Triangle, corners, cell), 1.0, 1e-12);
 }
 
+TEST(RawWeights, NeedlesKeepTheirs)
+{
+  // Rows of needles, as of a thin layer: -u'' = 1 along it, held at its lower end.
+  const int rows = 21;
+  IndexedTestMesh indexed = grid(21, rows);
+  const double height = indexed.positions.end()[-2];
+  for (std::size_t k = 0; k < indexed.positions.size(); k += 3)
+  {
+    indexed.positions[k] *= 3e-7;
+  }
+  const StreamMesh mesh = toStream(indexed);
+  ArrayProblem problem;
+  problem.EdgeWeights = Weights::Cotangent;
+  problem.Value.resize(mesh.vertices(), 0.0);
+  problem.Source.resize(mesh.vertices(), 1.0);
+  problem.Prescribed.resize(mesh.vertices());
+  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  {
+    problem.Prescribed[v] = mesh.positions[3 * v + 1] < 0.5 ? 1 : 0;
+  }
+  const Solved solved = solveMesh(mesh, problem, accurate());
+  EXPECT_TRUE(solved.report.converged);
+  for (const std::string& note : solved.report.notes)
+  {
+    EXPECT_EQ(note.find("not that of finite elements"), std::string::npos) << note;
+  }
+  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  {
+    const double y = mesh.positions[3 * v + 1];
+    EXPECT_NEAR(solved.values(v, 0), height * y - 0.5 * y * y, 1e-3 * height * height);
+  }
+}
+
 TEST(RawWeights, FlatCellsDoNotSpoilTheRest)
 {
   auto [mesh, problem] = obtuseGrid();

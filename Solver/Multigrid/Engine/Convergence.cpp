@@ -177,12 +177,21 @@ double Convergence::cyclesLeft(double factor) const
            : 0.0;
 }
 
-void Convergence::addNotes(std::vector<std::string>& notes, const std::string& what) const
+void Convergence::addNotes(Report& report, const std::string& what) const
 {
-  if (!this->Note.empty())
+  if (this->Note.empty())
   {
-    notes.push_back(what + this->Note);
+    return;
   }
+  // Rounding has ended the solve, with a residual that is no measure of its error.
+  if (this->Converged && this->Residuals.back() >= 1.0)
+  {
+    report.warn(what + this->Note +
+                ", so that the solution may be wrong in all digits: cells are very thin, or "
+                "conductivities, screening or coefficients differ by many orders of magnitude");
+    return;
+  }
+  report.notes.push_back(what + this->Note);
 }
 
 void Convergence::addStep(Report& report, const std::string& name, const std::string& what) const
@@ -191,7 +200,7 @@ void Convergence::addStep(Report& report, const std::string& name, const std::st
   report.residuals.insert(report.residuals.end(), this->Residuals.begin(), this->Residuals.end());
   report.steps.push_back({ name, this->cycles(),
     this->Residuals.empty() ? 0.0 : this->Residuals.back(), this->Converged });
-  this->addNotes(report.notes, what);
+  this->addNotes(report, what);
 }
 
 } // namespace smg

@@ -85,7 +85,7 @@ public:
       this->Norm, this->Residuals, this->Note, this->Done, this->Converged);
   }
   /** Adds notes for the user that begin with `what`. */
-  void addNotes(std::vector<std::string>& notes, const std::string& what) const;
+  void addNotes(Report& report, const std::string& what) const;
   /** Adds the V-cycles of one of several problems to the report; its notes begin with `what`. */
   void addStep(Report& report, const std::string& name, const std::string& what) const;
 

@@ -62,7 +62,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
   r.cycles = convergence.cycles();
   r.residuals = convergence.residuals();
   r.converged = convergence.converged();
-  convergence.addNotes(r.notes, "");
+  convergence.addNotes(r, "");
   if (balance)
   {
     balance->report(r);
