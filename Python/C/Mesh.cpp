@@ -159,6 +159,19 @@ smg_status smg_remove_column(smg_mesh* mesh, const char* name, int cells)
     { smg::removeColumn(smg::required(mesh, "mesh"), &smg::required(name, "name"), cells != 0); });
 }
 
+smg_status smg_conversion(smg_mesh* mesh, const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg_mesh& given = smg::required(mesh, "mesh");
+      const char*& text = smg::required(json, "json");
+      const smg::ConversionReport* const conversion = given.shared->mesh().conversion();
+      given.text = conversion ? conversion->json() : "null";
+      text = given.text.c_str();
+    });
+}
+
 smg_status smg_counts(const smg_mesh* mesh, int64_t* vertices, int64_t* cells)
 {
   return smg::guarded(

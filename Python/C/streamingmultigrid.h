@@ -127,6 +127,11 @@ extern "C"
   SMG_C_EXPORT smg_status smg_info(
     smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json);
 
+  /* The report of the conversion with which smg_open() or smg_open_arrays() has read the mesh: the
+   * JSON of `smg convert --report`, or "null" if there was none, as of a .vsm file. The text is
+   * valid until the next call with this mesh. */
+  SMG_C_EXPORT smg_status smg_conversion(smg_mesh* mesh, const char** json);
+
   /* Marks the vertices of a part of the mesh with 1, others with 0: `selected` has room for all
    * vertices, in the original order. `where` is a WHERE of docs/problem.md, as
    * {"sphere": [0, 0, 0, 1]}; a column of the cells selects their vertices. */

@@ -41,7 +41,7 @@ class NotConvergedWarning(UserWarning):
 
 
 class ReportWarning(UserWarning):
-    """A warning of a report: the result may not be what was meant."""
+    """A warning of a report, or of the reader of a mesh: the result may not be what was meant."""
 
 
 def warn(sentence: str, category: type) -> None:

@@ -35,6 +35,7 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_select": [c_void_p, c_char_p, *_REPORTED, c_void_p],
     "smg_info": [c_void_p, c_int, *_REPORTED, POINTER(c_char_p)],
     "smg_counts": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
+    "smg_conversion": [c_void_p, POINTER(c_char_p)],
     "smg_elements": [c_void_p, *_REPORTED, POINTER(c_int64)],
     "smg_files": [c_char_p, POINTER(c_char_p)],
     "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],

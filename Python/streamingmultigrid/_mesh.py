@@ -27,7 +27,14 @@ from ._process import HandleLock, require_no_call
 from ._solver import Solver
 from .progress import part, reporting
 from ._regions import as_region
-from ._report import Estimate, Report, not_converged, warn_of, warn_of_notes
+from ._report import (
+    Estimate,
+    Report,
+    not_converged,
+    sentences_of_conversion,
+    warn_of,
+    warn_of_notes,
+)
 
 #: Meshes up to this size show a picture of themselves in notebooks, which reads them.
 _PICTURE_VERTICES = 2_000_000
@@ -82,12 +89,23 @@ class Mesh:
         require_no_call()
         with self._opening:
             opened: Any = self._opened
-            if opened is None:
+            is_first = opened is None
+            if is_first:
                 with contextlib.ExitStack() as stack:
                     if report is None:
                         report = stack.enter_context(reporting(self._progress, "opening"))
                     opened = self._opened = self._opener(report)
-            return opened
+        if is_first:
+            self._warn_of_conversion(opened)
+        return opened
+
+    def _warn_of_conversion(self, opened: NativeHandle) -> None:
+        result = c_char_p()
+        with opened as mesh:
+            call("smg_conversion", mesh, byref(result))
+            conversion: Any = parse(result)
+        for sentence in sentences_of_conversion(conversion or {}):
+            warn("%s: %s" % (self.name, sentence), ReportWarning)
 
     def _arrays(self) -> List[Any]:
         """What the library uses of the mesh as it is now: arrays, and its folder."""

@@ -213,6 +213,47 @@ def warn_of_notes(report: Report) -> None:
         warn(sentence, ReportWarning)
 
 
+#: What the reader has left out or changed, by the name of its count in the report of a conversion.
+_CHANGED = {
+    "dropped_cells": (
+        "1 cell of another type is left out.",
+        "{:,} cells of other types are left out.",
+    ),
+    "higher_order_cells": (
+        "Of 1 higher-order cell only the corners are used.",
+        "Of {:,} higher-order cells only the corners are used.",
+    ),
+    "isolated_vertices": (
+        "1 vertex belongs to no cell: no job computes with it.",
+        "{:,} vertices belong to no cell: no job computes with them.",
+    ),
+    "degenerate_cells": (
+        "1 cell is degenerate, without area or volume.",
+        "{:,} cells are degenerate, without area or volume.",
+    ),
+    "duplicate_cells": (
+        "1 cell has the corners of an earlier one.",
+        "{:,} cells have the corners of an earlier one.",
+    ),
+}
+
+
+def sentences_of_conversion(conversion: Dict[str, Any]) -> List[str]:
+    """What a conversion has left out or changed, where rows may not be those of the file, and its notes."""
+    sentences = []
+    for name, (one, several) in _CHANGED.items():
+        count = conversion.get(name, 0)
+        if count > 0:
+            sentences.append(one if count == 1 else several.format(count))
+    if conversion.get("keeps_numbers"):
+        sentences.append(
+            "The file has a column OriginalId or OriginalCellId of its own: rows are in the order of its numbers, or "
+            "where these are not 0, 1, ... in stream order, perhaps not in that of the file. Give arrays in the "
+            "order of `points` and `cells` of the mesh, or rename the column in the file."
+        )
+    return sentences + list(conversion.get("notes") or [])
+
+
 def not_converged(report: Report) -> str:
     """The sentence of a job that did not converge."""
     residuals = report.get("residuals") or []

@@ -5,6 +5,7 @@ import os
 import shutil
 import time
 import unittest
+import warnings
 
 from testing import np, run, smg, sphere, write_off
 
@@ -69,6 +70,81 @@ class ReplacedTest(unittest.TestCase):
                 moved.save("after.ply")
             self.assertFalse(os.path.exists("after.ply"))
             moved.save("after.vsm")  # of the mesh that was opened, which is kept
+
+
+VTK = """# vtk DataFile Version 3.0
+mesh
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS {points} double
+{coordinates}
+CELLS {cells} {size}
+{corners}
+CELL_TYPES {cells}
+{types}
+"""
+
+
+def write_vtk(name, points, cells, more=""):
+    """Legacy VTK of cells, each a type and its corners."""
+    with open(name, "w") as file:
+        file.write(VTK.format(
+            points=len(points), cells=len(cells), size=sum(len(cell) for cell in cells),
+            coordinates="\n".join("%r %r %r" % tuple(map(float, point)) for point in points),
+            corners="\n".join(" ".join(map(str, (len(cell) - 1, *cell[1:]))) for cell in cells),
+            types="\n".join(str(cell[0]) for cell in cells)) + more)
+
+
+class LeftOutTest(unittest.TestCase):
+    """What the reader of a mesh leaves out or changes is said when the mesh is opened, once."""
+
+    SQUARE = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
+    HALVES = [(5, 0, 1, 2), (5, 1, 3, 2)]
+
+    def sentences(self, opened):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            mesh = opened()
+            _ = mesh.n_vertices
+            _ = mesh.points
+        for each in caught:
+            self.assertIs(each.category, smg.ReportWarning)
+            self.assertEqual(each.filename, __file__)
+        return [str(each.message) for each in caught]
+
+    def test_each_kind(self):
+        middles = [(0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0)]
+        ids = "POINT_DATA 4\nSCALARS OriginalId vtktypeint64 1\nLOOKUP_TABLE default\n3 2 1 0\n"
+        other = "POINT_DATA 4\nSCALARS OriginalId double 1\nLOOKUP_TABLE default\n3 2 1 0\n"
+        for what, points, cells, more, words in (
+            ("nothing", self.SQUARE, self.HALVES, "", None),
+            ("line", self.SQUARE, [*self.HALVES, (3, 0, 1)], "", "1 cell of another type"),
+            ("lines", self.SQUARE, [*self.HALVES, (3, 0, 1), (3, 1, 2)], "", "2 cells of other types"),
+            ("unused", [*self.SQUARE, (9, 9, 9)], self.HALVES, "", "1 vertex belongs to no cell"),
+            ("degenerate", self.SQUARE, [*self.HALVES, (5, 0, 0, 1)], "", "1 cell is degenerate"),
+            ("duplicate", self.SQUARE, [*self.HALVES, (5, 2, 0, 1)], "", "1 cell has the corners"),
+            ("quadratic", self.SQUARE[:3] + middles, [(22, 0, 1, 2, 3, 4, 5)], "", "1 higher-order cell"),
+            ("numbers", self.SQUARE, self.HALVES, ids, "of its own: rows are in the order of its numbers"),
+            ("note", self.SQUARE, self.HALVES, other, "is called"),
+        ):
+            with self.subTest(what):
+                write_vtk("left.vtk", points, cells, more)
+                with smg.open("left.vtk") as mesh:
+                    found = self.sentences(lambda: mesh)
+                    self.assertEqual(self.sentences(lambda: mesh), [])
+                if words is None:
+                    self.assertEqual(found, [])
+                else:
+                    self.assertRegex("".join(found), words)
+                    self.assertTrue(all("left.vtk: " in sentence for sentence in found))
+
+    def test_arrays(self):
+        triangles = [cell[1:] for cell in self.HALVES]
+        self.assertEqual(self.sentences(lambda: smg.mesh(self.SQUARE, triangles)), [])
+        found = self.sentences(
+            lambda: smg.mesh([*self.SQUARE, (9, 9, 9)], [*triangles, (0, 0, 1)]))
+        self.assertRegex("".join(found), "1 vertex belongs to no cell")
+        self.assertRegex("".join(found), "1 cell is degenerate")
 
 
 class OverwrittenTest(unittest.TestCase):

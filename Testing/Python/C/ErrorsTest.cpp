@@ -67,6 +67,8 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   expectInvalid(smg_counts(nullptr, &number, &number), null);
   expectInvalid(smg_counts(m, nullptr, &number), null);
   expectInvalid(smg_counts(m, &number, nullptr), null);
+  expectInvalid(smg_conversion(nullptr, &text), null);
+  expectInvalid(smg_conversion(m, nullptr), null);
   expectInvalid(smg_elements(nullptr, nullptr, nullptr, &number), null);
   expectInvalid(smg_elements(m, nullptr, nullptr, nullptr), null);
   expectInvalid(smg_estimate(nullptr, "solve", nullptr, nullptr, &text), null);
