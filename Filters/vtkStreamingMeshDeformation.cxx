@@ -74,7 +74,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
 {
   if (input.GetNumberOfPoints() > 0)
   {
-    smg::HandleArrays::require(*input.GetPointData());
+    smg::HandleArrays::require(input);
   }
   auto task = std::make_unique<smg::DeformationTask>();
   task->options = this->Internal->options();
@@ -148,6 +148,7 @@ void vtkStreamingMeshDeformation::Deliver(
       .columns = this->GetSummary().columns,
       .needsCellNormals = this->Normals == RECOMPUTE },
     output);
+  smg::HandleArrays::forgetPlaces(*output.GetPointData());
   if (!this->KeepHandleArrays)
   {
     for (const std::string& name : smg::HandleArrays::names())

@@ -22,11 +22,13 @@ namespace
 
 constexpr std::array<int, 4> Components{ 1, 3, 3, 1 }; // of HandleArrays::names()
 
-/** Copies the array of the input with index `place` in names() to `array`, or fills it with 0. */
-void begin(vtkDataArray& array, std::size_t place, vtkPointData& input, vtkIdType points)
+/** Three numbers a point: where the last handle held it. */
+constexpr const char* PlaceName = "HandlePlace";
+
+/** Copies the array of the input with this name to `array`, or fills it with 0. */
+void begin(vtkDataArray& array, const std::string& name, int components, vtkPointData& input,
+  vtkIdType points)
 {
-  const std::string& name = HandleArrays::names()[place];
-  const int components = Components[place];
   vtkDataArray* present = input.GetArray(name.c_str());
   if (!present)
   {
@@ -56,8 +58,44 @@ const std::array<std::string, 4>& HandleArrays::names()
   return names;
 }
 
-void HandleArrays::require(vtkPointData& points)
+namespace
 {
+
+/** Throws Error if held points are not where they were held. */
+void requirePlaces(vtkPointSet& mesh)
+{
+  vtkPointData& points = *mesh.GetPointData();
+  vtkDataArray* places = points.GetArray(PlaceName);
+  vtkDataArray* mask = points.GetArray(HandleMaskName);
+  if (!places || places->GetNumberOfComponents() != 3)
+  {
+    return; // the arrays are those of a script
+  }
+  // Of filters that compute in single precision.
+  constexpr double Rounding = 1e-5;
+  const double tolerance = Rounding * mesh.GetLength();
+  for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> point, place;
+    mesh.GetPoint(i, point.data());
+    places->GetTuple(i, place.data());
+    const double size = std::max({ std::fabs(place[0]), std::fabs(place[1]), std::fabs(place[2]) });
+    const double distance =
+      std::hypot(point[0] - place[0], point[1] - place[1], point[2] - place[2]);
+    if (mask->GetTuple1(i) != 0.0 && distance > std::max(tolerance, Rounding * size))
+    {
+      throw Error(
+        "Points that a Mesh Handle holds are no longer where it held them, as its targets are: a "
+        "filter behind it moves points or makes new ones. Put that filter before the Mesh Handle.");
+    }
+  }
+}
+
+} // namespace
+
+void HandleArrays::require(vtkPointSet& mesh)
+{
+  vtkPointData& points = *mesh.GetPointData();
   for (std::size_t i = 0; i < Components.size(); ++i)
   {
     const std::string& name = names()[i];
@@ -74,21 +112,31 @@ void HandleArrays::require(vtkPointData& points)
                   ": let a Mesh Handle make it.");
     }
   }
+  requirePlaces(mesh);
+}
+
+void HandleArrays::forgetPlaces(vtkPointData& points)
+{
+  points.RemoveArray(PlaceName);
 }
 
 HandleArrays::HandleArrays(vtkPointData& input, vtkIdType points)
 {
-  begin(*this->Mask, 0, input, points);
-  begin(*this->Target, 1, input, points);
-  begin(*this->Rotation, 2, input, points);
-  begin(*this->LogScale, 3, input, points);
+  const std::array<vtkDataArray*, 4> arrays{ this->Mask, this->Target, this->Rotation,
+    this->LogScale };
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    begin(*arrays[i], names()[i], Components[i], input, points);
+  }
+  begin(*this->Place, PlaceName, 3, input, points);
 }
 
 HandleArrays::~HandleArrays() = default;
 
-void HandleArrays::hold(vtkIdType point, const std::array<double, 3>& target,
-  const std::array<double, 3>& rotation, double logScale)
+void HandleArrays::hold(vtkIdType point, const std::array<double, 3>& place,
+  const std::array<double, 3>& target, const std::array<double, 3>& rotation, double logScale)
 {
+  this->Place->SetTypedTuple(point, place.data());
   const unsigned char handles = this->Mask->GetValue(point);
   if (handles < std::numeric_limits<unsigned char>::max())
   {
@@ -105,6 +153,7 @@ void HandleArrays::addTo(vtkPointData& output) const
   output.AddArray(this->Target);
   output.AddArray(this->Rotation);
   output.AddArray(this->LogScale);
+  output.AddArray(this->Place);
 }
 
 namespace
@@ -157,7 +206,7 @@ void deliverHandle(
     const double* anchor = held.anchors.empty() ? point.data() : &held.anchors[3 * holder];
     const std::array<double, 3> target =
       ofHolders.empty() ? motion.apply(point) : moved(point, anchor, &ofHolders[3 * holder]);
-    arrays.hold(static_cast<vtkIdType>(i), target, motion.rotation(), motion.logScale());
+    arrays.hold(static_cast<vtkIdType>(i), point, target, motion.rotation(), motion.logScale());
   }
   output.ShallowCopy(&piece);
   arrays.addTo(*output.GetPointData());

@@ -19,14 +19,18 @@ class vtkUnsignedCharArray;
 namespace smg
 {
 
-/** The point arrays of a piece that store handles (see smg/Deform.h). */
+/** The point arrays of a piece that store handles (see smg/Deform.h), and where held points were.
+ */
 class HandleArrays
 {
 public:
-  /** The names of the four arrays. */
+  /** The names of the four arrays that a deformation reads. */
   static const std::array<std::string, 4>& names();
-  /** Throws Error unless the points have all four with the correct number of components. */
-  static void require(vtkPointData& points);
+  /** Throws Error unless the points have all four with the correct number of components, and are
+   * where the handles held them. */
+  static void require(vtkPointSet& mesh);
+  /** Takes away where held points were, as they will move. */
+  static void forgetPlaces(vtkPointData& points);
 
   /** Starts from the arrays of the points, or from free points if there are none. Throws Error if
    * an array has a wrong number of components. */
@@ -36,16 +40,16 @@ public:
   HandleArrays(const HandleArrays&) = delete;
   HandleArrays& operator=(const HandleArrays&) = delete;
 
-  /** Adds a handle to the point; the last one counts. */
-  void hold(vtkIdType point, const std::array<double, 3>& target,
-    const std::array<double, 3>& rotation, double logScale);
+  /** Adds a handle to the point, which is at `place`; the last one counts. */
+  void hold(vtkIdType point, const std::array<double, 3>& place,
+    const std::array<double, 3>& target, const std::array<double, 3>& rotation, double logScale);
 
   /** Adds the arrays to the points. */
   void addTo(vtkPointData& output) const;
 
 private:
   vtkNew<vtkUnsignedCharArray> Mask;
-  vtkNew<vtkDoubleArray> Target, Rotation, LogScale;
+  vtkNew<vtkDoubleArray> Target, Rotation, LogScale, Place;
 };
 
 /** The targets of the points that a handle holds. */

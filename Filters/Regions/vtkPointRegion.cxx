@@ -13,6 +13,7 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -71,12 +72,12 @@ HeldPoints DisplayedRegion::holdSelected(vtkPointSet& mesh, const RegionContext&
 HeldPoints DisplayedRegion::holdIds(vtkPointSet& mesh, const RegionContext& context) const
 {
   const std::vector<std::int64_t> ids = idsOf(mesh, this->Asked);
+  PlacesOfIds places(this->Asked.ids, this->Ids);
+  places.seek(mesh, ids);
   if (this->Asked.isSoughtById())
   {
     return heldByIds(ids, this->Ids);
   }
-  PlacesOfIds places(this->Asked.ids, this->Ids);
-  places.seek(mesh, ids);
   checkIds(this->Ids, places.isFound());
   return this->holdNear(mesh, places.positions(), context);
 }
@@ -257,7 +258,9 @@ vtkPointSet& PointRegion::fetchPiece(
   }
   else if (this->Asked.isSoughtById())
   {
-    held = heldByIds(idsOf(*piece, this->Asked), this->Ids);
+    const std::vector<std::int64_t> ids = idsOf(*piece, this->Asked);
+    PlacesOfIds(this->Asked.ids, this->Ids).seek(*piece, ids);
+    held = heldByIds(ids, this->Ids);
   }
   else
   {
@@ -290,11 +293,23 @@ void PlacesOfIds::seek(vtkPointSet& piece, std::span<const std::int64_t> idsOfPo
   for (std::size_t i = 0; i < idsOfPoints.size(); ++i)
   {
     const std::int64_t number = this->Sought.numberOf(idsOfPoints[i]);
-    if (number >= 0)
+    if (number < 0)
     {
-      piece.GetPoint(static_cast<vtkIdType>(i), this->Positions.data() + 3 * number);
-      this->IsFound[number] = 1;
+      continue;
     }
+    std::array<double, 3> point;
+    piece.GetPoint(static_cast<vtkIdType>(i), point.data());
+    const auto place = this->Positions.begin() + 3 * number;
+    // Copies of a point, as at the border of a piece or at a sharp edge, are where it is.
+    if (this->IsFound[number] && !std::equal(point.begin(), point.end(), place))
+    {
+      throw Error("Points at several places have the id " + std::to_string(idsOfPoints[i]) +
+                  ": a filter before this one has made points of its own (as Clip or Subdivide, "
+                  "which give them the numbers of others) or joined meshes. Put the region before "
+                  "that filter, or choose points by their places.");
+    }
+    std::ranges::copy(point, place);
+    this->IsFound[number] = 1;
   }
 }
 

@@ -120,10 +120,11 @@ public:
   /** `sought` are the `ids`; both must outlive *this. */
   PlacesOfIds(const std::vector<std::int64_t>& ids, const IdList& sought);
 
-  /** Searches the points of a piece, whose ids are `idsOfPoints`. */
+  /** Searches the points of a piece, whose ids are `idsOfPoints`. Throws Error if one of the ids is
+   * at several places. */
   void seek(vtkPointSet& piece, std::span<const std::int64_t> idsOfPoints);
 
-  /** The ids found; of duplicate ids only the first one is marked. */
+  /** The ids found; of equal ids in the list only the first one is marked. */
   const std::vector<char>& isFound() const { return this->IsFound; }
 
   /** x, y, z of each id, all of which must have been found. */

@@ -45,7 +45,7 @@ private:
 /** The handles that the arrays of the mesh define at the points, in their order. */
 VertexHandles handlesAt(vtkPointSet& mesh, const std::vector<std::int64_t>& points)
 {
-  HandleArrays::require(*mesh.GetPointData());
+  HandleArrays::require(mesh);
   StreamInfo info;
   info.vertexColumns = columnSpecs(*mesh.GetPointData());
   DescribedHandles described(DeformationDescription::byColumns(), info, "The input");

@@ -5,6 +5,7 @@ import os
 import re
 import sys
 
+import numpy as np
 import smg_testing as t
 from paraview.simple import *
 from paraview.vtk import vtkObject, vtkStringOutputWindow, vtkOutputWindow
@@ -175,10 +176,36 @@ assert "Solution" in poisson.PointData.keys(), text
 # A preview without its marks is not the mesh; seldom do filters take these away.
 reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 2000
 passed = PassArrays(Input=reader, PointDataArrays=["Normals"])
-for make in (StreamingMeshSmoothing, lambda Input: StreamingDistance(Input=MeshRegion(Input=Input, Region="Ids", Ids=[0]))):
+for make in (StreamingMeshSmoothing, StreamingMeshSimplification,
+             lambda Input: StreamingDistance(Input=MeshRegion(Input=Input, Region="Ids", Ids=[0]))):
     make(Input=passed).UpdatePipeline()
     text = said()
     assert "is made of a preview" in text, text
+
+# A filter behind a handle moves the points that it holds.
+sphere = Sphere(ThetaResolution=40, PhiResolution=40)
+handle = MeshHandle(Input=sphere, Region="Ids", Ids=[0])
+for by in 0, 10:
+    moved = Transform(Input=handle)
+    moved.Transform.Translate = [by, 0, 0]
+    StreamingMeshDeformation(Input=moved).UpdatePipeline()
+    text = said()
+    assert ("no longer where it held them" in text) == (by > 0), (by, text)
+
+# A filter before a region gives points that it makes the ids of others.
+numbered = ProgrammableFilter(Input=sphere, Script="""
+import numpy
+output.ShallowCopy(inputs[0].VTKObject)
+output.PointData.append(numpy.arange(output.GetNumberOfPoints()), "OriginalId")
+""")
+for change in (lambda: numbered), (lambda: Subdivide(Input=numbered)):
+    changed = change()
+    several, counts = np.unique(t.points_of(changed, "OriginalId"), return_counts=True)
+    last = several[counts == counts.max()][0]
+    MeshRegion(Input=changed, Region="Ids", IdType="Original Ids", Ids=[int(last)]).UpdatePipeline()
+    text = said()
+    assert ("Points at several places have the id %d" % last in text) == (counts.max() > 1), (last, text)
+    assert (counts.max() > 1) == (changed is not numbered), counts.max()
 
 # Of one name for points and cells it is not known which is meant.
 both = Calculator(Input=Calculator(Input=Sphere(), ResultArrayName="Twice", Function="1"), AttributeType="Cell Data",
