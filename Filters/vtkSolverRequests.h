@@ -173,7 +173,10 @@ struct vtkStreamingSolver::Internals
     if (smg::isPreview(*present) || !mayBe || request.Pieces == 1)
     {
       const bool isWhole = isOrdinary && !smg::isPreview(*present);
-      requireMarks(isWhole && !request.IsStreamed && input.isPreviewed());
+      if (isWhole && !request.IsStreamed)
+      {
+        input.requireWhole();
+      }
       return isWhole;
     }
     vtkPointSet* whole = vtkPointSet::SafeDownCast(input.update(0, 1, false));
@@ -181,7 +184,7 @@ struct vtkStreamingSolver::Internals
     {
       return false; // a filter before this one has lost what belongs to the pieces of the mesh
     }
-    requireMarks(input.isPreviewed());
+    input.requireWhole();
     present = whole;
     if (isOrdinary || smg::isOrdinaryMesh(*whole))
     {
@@ -190,18 +193,6 @@ struct vtkStreamingSolver::Internals
     present = vtkPointSet::SafeDownCast(request.update(input));
     this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
     return false;
-  }
-
-  /** What is made of a preview without what marks it looks like a mesh of its own. */
-  static void requireMarks(bool isUnmarkedPreview)
-  {
-    if (isUnmarkedPreview)
-    {
-      throw smg::Error(
-        "The input is made of a preview, by a filter that does not pass on what says so: put that "
-        "filter (as Pass Arrays, or a Programmable Filter) behind this one, or raise Maximum "
-        "Points In Memory of the reader.");
-    }
   }
 
   /** The processes that process the request collectively; nullptr: this process alone. */

@@ -23,10 +23,13 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -43,6 +46,38 @@ constexpr double ReadShare = 0.5;
 constexpr const char* Copy = "mesh.vsm";
 /** Of the input: all that it has. */
 const smg::PieceColumns AllColumns{ .all = true, .required = {}, .optional = {} };
+
+/** Which point arrays are the normals, the scalars by which views colour, and the like. */
+class ActiveAttributes
+{
+public:
+  void take(vtkPointData& points)
+  {
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      vtkAbstractArray* array = points.GetAbstractAttribute(type);
+      this->Names[static_cast<std::size_t>(type)] =
+        array && array->GetName() ? array->GetName() : "";
+    }
+  }
+
+  void giveTo(vtkPointData& points) const
+  {
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      const std::string& name = this->Names[static_cast<std::size_t>(type)];
+      const bool isOfNumbers =
+        type == vtkDataSetAttributes::GLOBALIDS || type == vtkDataSetAttributes::PEDIGREEIDS;
+      if (!isOfNumbers && points.HasArray(name.c_str()))
+      {
+        points.SetActiveAttribute(name.c_str(), type);
+      }
+    }
+  }
+
+private:
+  std::array<std::string, vtkDataSetAttributes::NUM_ATTRIBUTES> Names;
+};
 
 std::string sentence(
   const smg::SimplifyReport& report, const smg::SimplifyTarget& target, bool isSurface)
@@ -96,6 +131,7 @@ struct vtkStreamingMeshSimplification::Internals
       vtkPointSet& present =
         *vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, false));
       // Before other pieces are requested, which take its place.
+      this->Attributes.take(*present.GetPointData());
       const std::vector<smg::Where> hold = this->held(present);
       const smg::StreamFile file = this->fileOf(input, request, present);
       const smg::VsmReader mesh(file.path, nullptr, file.fingerprint);
@@ -199,6 +235,7 @@ struct vtkStreamingMeshSimplification::Internals
     const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, ReadShare);
     if (!smg::hasSeveralProcesses() && smg::isOrdinaryMesh(present) && !smg::isPreview(present))
     {
+      input.requireWhole();
       vtkDataObject* mesh = request.Pieces > 1 ? input.update(0, 1, false) : &present;
       smg::ConversionOptions options;
       options.memoryLimit = this->memory();
@@ -232,6 +269,7 @@ struct vtkStreamingMeshSimplification::Internals
     smg::MeshPiece found;
     this->Result->readPiece(firstOf(part), firstOf(part + 1), found, request.GhostLevels);
     smg::setPiece(output, found, this->Result->info());
+    this->Attributes.giveTo(*output.GetPointData());
   }
 
   vtkStreamingMeshSimplification& Self;
@@ -242,6 +280,7 @@ struct vtkStreamingMeshSimplification::Internals
   std::string Outcome;
   std::string Shown, Json, Estimate; ///< storage of the strings that are returned
   smg::InputStamp MadeFor;
+  ActiveAttributes Attributes;
 };
 
 vtkStreamingMeshSimplification::vtkStreamingMeshSimplification()

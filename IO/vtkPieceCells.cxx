@@ -135,8 +135,11 @@ std::vector<std::int64_t> keepOwnCells(
   std::iota(kept.begin(), kept.end(), 0);
   if (vtkUnsignedCharArray* ghosts = piece.GetCellGhostArray())
   {
-    std::erase_if(kept, [ghosts](std::int64_t cell)
-      { return (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; });
+    // As in files: see isOwnVtkCell().
+    constexpr int Others = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+                           vtkDataSetAttributes::HIDDENCELL;
+    std::erase_if(
+      kept, [ghosts](std::int64_t cell) { return (ghosts->GetValue(cell) & Others) != 0; });
     for (std::size_t k = 0; k < kept.size(); ++k)
     {
       std::copy_n(corners.begin() + kept[k] * cornersOfCell, cornersOfCell,

@@ -69,9 +69,16 @@ std::string nameInPipeline(vtkAlgorithm& filter)
 {
   std::string words;
   const std::string name = filter.GetClassName();
-  for (std::size_t k = name.starts_with("vtk") ? 3 : 0; k < name.size(); ++k)
+  const auto isCapitalAt = [&name](std::size_t k)
+  { return k < name.size() && std::isupper(static_cast<unsigned char>(name[k])) != 0; };
+  const std::string ofParaView = "vtkPV";
+  const std::size_t begin = name.starts_with(ofParaView) && isCapitalAt(ofParaView.size())
+                              ? ofParaView.size()
+                            : name.starts_with("vtk") ? 3
+                                                      : 0;
+  for (std::size_t k = begin; k < name.size(); ++k)
   {
-    const bool isCapital = std::isupper(static_cast<unsigned char>(name[k])) != 0;
+    const bool isCapital = isCapitalAt(k);
     const bool endsWord = !words.empty() && std::islower(static_cast<unsigned char>(name[k - 1]));
     words += isCapital && endsWord ? " " : "";
     words += name[k];
@@ -285,6 +292,17 @@ bool PieceInput::isPreviewed() const
 {
   vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
   return !this->Block && info->Get(vtkStreamingMeshKeys::PREVIEWED());
+}
+
+void PieceInput::requireWhole() const
+{
+  if (this->isPreviewed())
+  {
+    throw Error(
+      "The input is made of a preview, by a filter that does not pass on what says so: put that "
+      "filter (as Pass Arrays, or a Programmable Filter) behind this one, or raise Maximum "
+      "Points In Memory of the reader.");
+  }
 }
 
 unsigned long long PieceInput::modifiedTime()

@@ -71,6 +71,10 @@ public:
   /** The value of vtkStreamingMeshKeys::PREVIEWED(), after a piece was requested. */
   bool isPreviewed() const;
 
+  /** Throws Error if isPreviewed(): a mesh that nothing marks as a preview is then made of one, and
+   * only looks like a mesh of its own. */
+  void requireWhole() const;
+
   /** Whether a reader of this library says, after a piece was requested, that the mesh is shown as
    * a whole. Then it is to be requested as one: filters between may compute something of all of the
    * data that they have, or renumber it. */

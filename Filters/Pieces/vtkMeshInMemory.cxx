@@ -30,8 +30,9 @@ MeshInMemory::MeshInMemory(vtkPointSet& mesh)
   }
   if (this->Corners.empty())
   {
-    throw Error("The input has no cells, or all of them are marked as duplicates: give it a mesh "
-                "of triangles or tetrahedra.");
+    throw Error(
+      "The input has no cells, or all of them are marked as duplicates or hidden: give it "
+      "a mesh of triangles or tetrahedra.");
   }
   this->numberVertices(mesh.GetNumberOfPoints());
   this->copyPositions(mesh);

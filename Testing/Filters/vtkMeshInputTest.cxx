@@ -127,17 +127,23 @@ TEST_F(VtkMeshInput, OfAPreviewAmongBlocksIsRefused)
   this->expectError(this->Handle, nothing, "none with cells");
 }
 
-TEST_F(VtkMeshInput, OfDuplicatesHasNothingToWorkOn)
+TEST_F(VtkMeshInput, OfDuplicatesOrHiddenCellsHasNothingToWorkOn)
 {
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName("vtkGhostType");
-  ghosts->SetNumberOfTuples(this->Held->GetNumberOfCells());
-  ghosts->Fill(vtkDataSetAttributes::DUPLICATECELL);
-  this->Held->GetCellData()->AddArray(ghosts);
-  this->Handle->SetRegion(vtkMeshHandle::POINTS);
-  this->Handle->AddPoint(3.0, 0.0, 0.0);
-  this->expectError(this->Handle, this->Held, "all of them are marked as duplicates");
-  this->expectError(this->Deformation, this->Held, "all of them are marked as duplicates");
+  for (const int mark : { vtkDataSetAttributes::DUPLICATECELL, vtkDataSetAttributes::REFINEDCELL,
+         vtkDataSetAttributes::HIDDENCELL })
+  {
+    vtkNew<vtkUnsignedCharArray> ghosts;
+    ghosts->SetName("vtkGhostType");
+    ghosts->SetNumberOfTuples(this->Held->GetNumberOfCells());
+    ghosts->Fill(mark);
+    this->Held->GetCellData()->AddArray(ghosts);
+    this->Handle->SetRegion(vtkMeshHandle::POINTS);
+    this->Handle->RemoveAllPoints();
+    this->Handle->AddPoint(3.0, 0.0, 0.0);
+    this->expectError(this->Handle, this->Held, "all of them are marked as duplicates or hidden");
+    this->expectError(
+      this->Deformation, this->Held, "all of them are marked as duplicates or hidden");
+  }
 }
 
 } // namespace

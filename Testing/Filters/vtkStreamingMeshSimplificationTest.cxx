@@ -120,6 +120,7 @@ TEST_F(VtkStreamingMeshSimplification, TakesPiecesAndOrdinaryMeshes)
   EXPECT_LT(output->GetNumberOfPoints(), 1500);
   EXPECT_GT(output->GetNumberOfPoints(), 50);
   EXPECT_LE(this->Filter->GetReachedError(), 0.005);
+  EXPECT_TRUE(output->GetPointData()->GetNormals());
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     const double* p = output->GetPoint(i);
