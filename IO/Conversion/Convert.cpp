@@ -44,7 +44,7 @@ void copyStream(Conversion& conversion);
 
 /** Renames a column of the mesh that has the name of the original indices but another type (as in
  * formats without such integers), with a sentence in `notes`. */
-void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes);
+void freeNumberNames(RawMesh& mesh, Numbering numbering, std::vector<std::string>& notes);
 
 /** Whether the mesh already has columns of original indices. */
 bool isNumbered(const RawMesh& mesh);
@@ -261,7 +261,7 @@ void importInput(Conversion& conversion, RawMesh& mesh)
   const std::optional<double>& weld = conversion.options().weld;
   // Merged points no longer belong to a cell.
   report.isolated_vertices -= weld ? weldPoints(mesh, *weld, space) : 0;
-  freeNumberNames(mesh, report.notes);
+  freeNumberNames(mesh, conversion.options().numbering, report.notes);
   report.keeps_numbers = isNumbered(mesh);
   report.seconds.import = conversion.lap();
 }
@@ -423,9 +423,10 @@ void copyStream(Conversion& conversion)
 namespace
 {
 
-void freeName(
-  std::vector<RawColumn>& columns, const std::string& name, std::vector<std::string>& notes)
+void freeName(std::vector<RawColumn>& columns, const ColumnSpec& numbers, Numbering numbering,
+  std::vector<std::string>& notes)
 {
+  const std::string& name = numbers.name;
   const auto isNamed = [&columns](const std::string& candidate)
   {
     return std::ranges::any_of(
@@ -433,7 +434,7 @@ void freeName(
   };
   for (RawColumn& column : columns)
   {
-    if (column.spec.name == name && column.spec != ColumnSpec{ name, ScalarType::Int64, 1 })
+    if (column.spec.name == name && (numbering == Numbering::OfRows || column.spec != numbers))
     {
       int number = 1;
       while (isNamed(name + ('_' + std::to_string(number))))
@@ -450,10 +451,10 @@ void freeName(
 
 } // namespace
 
-void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes)
+void freeNumberNames(RawMesh& mesh, Numbering numbering, std::vector<std::string>& notes)
 {
-  freeName(mesh.vertexColumns, OriginalIdName, notes);
-  freeName(mesh.elementColumns, OriginalCellIdName, notes);
+  freeName(mesh.vertexColumns, OriginalIdSpec, numbering, notes);
+  freeName(mesh.elementColumns, OriginalCellIdSpec, numbering, notes);
 }
 
 bool isNumbered(const RawMesh& mesh)

@@ -144,7 +144,7 @@ ConversionOptions conversionIn(
   keys.insert(keys.end(), LimitKeys);
   if (isFile)
   {
-    keys.insert(keys.end(), { "cells", "time_step", "partition", "checkpoint" });
+    keys.insert(keys.end(), { "cells", "time_step", "partition", "checkpoint", "numbering" });
   }
   keys.insert(keys.end(), more);
   object.requireObject(keys);
@@ -173,6 +173,11 @@ ConversionOptions conversionIn(
   if (object.has("partition"))
   {
     options.partition = object.member("partition").integer(0, Most);
+  }
+  if (object.has("numbering"))
+  {
+    options.numbering =
+      static_cast<Numbering>(choiceIn(object.member("numbering"), { "columns", "rows" }));
   }
   if (object.has("checkpoint"))
   {

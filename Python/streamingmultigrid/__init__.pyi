@@ -439,7 +439,8 @@ def open(
     scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
     cells: Optional[types.Cells] = None, weld: Optional[float] = None, time_step: Optional[int] = None,
     partition: Optional[int] = None, order: Optional[types.Order] = None,
-    cache: Union[bool, types.Path, None] = None, progress: Optional[types.Progress] = None
+    numbering: Optional[types.Numbering] = None, cache: Union[bool, types.Path, None] = None,
+    progress: Optional[types.Progress] = None
 ) -> Mesh: ...
 
 def plane(

@@ -36,7 +36,11 @@ def _where_of_file(added: Columns, region: Region) -> Any:
     if not own.added:
         return where
     selected, of_cells = region.selected(added.mesh)
-    rows = np.unique(added.mesh.cells[selected]) if of_cells else np.flatnonzero(selected)
+    cells = added.mesh.cells
+    # Rows of merged points and of points of no cell are no vertices.
+    rows = np.unique(cells[selected] if of_cells else cells[np.asarray(selected)[cells]])
+    if not len(rows):
+        raise InputError("hold: %r selects no vertex of the mesh." % region)
     return vertices_of(rows).where(own)
 
 

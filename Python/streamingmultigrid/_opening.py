@@ -57,6 +57,7 @@ def open(  # noqa: A001, the word of the trade
     time_step: Optional[int] = None,
     partition: Optional[int] = None,
     order: Optional[types.Order] = None,
+    numbering: Optional[types.Numbering] = None,
     cache: Union[bool, types.Path, None] = None,
     progress: Optional[types.Progress] = None,
 ) -> Mesh:
@@ -78,6 +79,10 @@ def open(  # noqa: A001, the word of the trade
             finds at the one that stayed.
         time_step, partition: which of a VTKHDF file, from 0.
         order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
+        numbering: "columns" (default): rows of arrays are those that `int64` columns OriginalId and
+            OriginalCellId of the file name, if it has them, as results in the order of the stream do; which is
+            a `ReportWarning`. "rows": rows are those of the file, and such columns are called OriginalId_1 and
+            OriginalCellId_1.
         cache: a folder for conversions; True: ~/.cache/streamingmultigrid; "beside": the folder of the
             file. From a cached conversion, results are written in the order of the file, but with
             polygons cut into triangles; with `weld` it has an order of its own.
@@ -95,6 +100,7 @@ def open(  # noqa: A001, the word of the trade
         "time_step": time_step,
         "partition": partition,
         "order": order,
+        "numbering": numbering,
     }
     own = {key: value for key, value in given.items() if value is not None}
     defaults: Dict[str, Any] = {

@@ -239,7 +239,7 @@ _CHANGED = {
 
 
 def sentences_of_conversion(conversion: Dict[str, Any]) -> List[str]:
-    """What a conversion has left out or changed, where rows may not be those of the file, and its notes."""
+    """What a conversion has left out or changed, and its notes."""
     sentences = []
     for name, (one, several) in _CHANGED.items():
         count = conversion.get(name, 0)
@@ -248,8 +248,8 @@ def sentences_of_conversion(conversion: Dict[str, Any]) -> List[str]:
     if conversion.get("keeps_numbers"):
         sentences.append(
             "The file has a column OriginalId or OriginalCellId of its own: rows are in the order of its numbers, or "
-            "where these are not 0, 1, ... in stream order, perhaps not in that of the file. Give arrays in the "
-            "order of `points` and `cells` of the mesh, or rename the column in the file."
+            "where these are not 0, 1, ... in stream order, perhaps not in that of the file. Open it with "
+            'numbering="rows" to have those of the file.'
         )
     return sentences + list(conversion.get("notes") or [])
 

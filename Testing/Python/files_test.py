@@ -125,7 +125,7 @@ class LeftOutTest(unittest.TestCase):
             ("duplicate", self.SQUARE, [*self.HALVES, (5, 2, 0, 1)], "", "1 cell has the corners"),
             ("quadratic", self.SQUARE[:3] + middles, [(22, 0, 1, 2, 3, 4, 5)], "", "1 higher-order cell"),
             ("numbers", self.SQUARE, self.HALVES, ids, "of its own: rows are in the order of its numbers"),
-            ("note", self.SQUARE, self.HALVES, other, "is called"),
+            ("other numbers", self.SQUARE, self.HALVES, other, "is called 'OriginalId_1'"),
         ):
             with self.subTest(what):
                 write_vtk("left.vtk", points, cells, more)
@@ -145,6 +145,35 @@ class LeftOutTest(unittest.TestCase):
             lambda: smg.mesh([*self.SQUARE, (9, 9, 9)], [*triangles, (0, 0, 1)]))
         self.assertRegex("".join(found), "1 vertex belongs to no cell")
         self.assertRegex("".join(found), "1 cell is degenerate")
+
+
+class RowsTest(unittest.TestCase):
+    def test_rows_are_those_of_the_file(self):
+        """With numbering="rows", whatever numbers of another file or order it has."""
+        points, triangles = sphere(3)
+        chance = np.random.default_rng(2)
+        for name, most in (("permutation", 1), ("part of a larger mesh", 9)):
+            ids = most * chance.permutation(len(points))
+            cell_ids = most * chance.permutation(len(triangles))
+            more = "".join(
+                "%s %d\nSCALARS %s vtktypeint64 1\nLOOKUP_TABLE default\n%s\n"
+                % (where, len(numbers), column, " ".join(map(str, numbers)))
+                for where, column, numbers in (("POINT_DATA", "OriginalId", ids),
+                                               ("CELL_DATA", "OriginalCellId", cell_ids)))
+            write_vtk("rows.vtk", points, [(5, *corners) for corners in triangles], more)
+            for cache in (None, "kept", "kept"):
+                with self.subTest(name, cache=cache), warnings.catch_warnings():
+                    warnings.simplefilter("ignore", smg.ReportWarning)
+                    mesh = smg.open("rows.vtk", numbering="rows", cache=cache)
+                    np.testing.assert_array_equal(mesh.points, points)
+                    np.testing.assert_array_equal(mesh.cells, triangles)
+                    np.testing.assert_array_equal(mesh["OriginalId_1"], ids)
+                    np.testing.assert_array_equal(mesh["OriginalCellId_1"], cell_ids)
+                    held = points[:, 2] > 0.9
+                    there = mesh.solve(dirichlet=smg.mask(held) >> 1, screening=1, source=points[:, 0])
+                    plain = smg.mesh(points, triangles).solve(
+                        dirichlet=smg.mask(held) >> 1, screening=1, source=points[:, 0])
+                    np.testing.assert_allclose(there.to_numpy(), plain.to_numpy(), atol=1e-6)
 
 
 class OverwrittenTest(unittest.TestCase):

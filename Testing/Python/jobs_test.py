@@ -148,6 +148,13 @@ class CommandLineTest(unittest.TestCase):
             self.assertEqual(set(small.columns["vertices"]), {"OriginalId"})
         with self.assertWarnsRegex(smg.ReportWarning, "%d are held" % high.sum()):
             self.assertGreaterEqual(ball.simplify(50, hold=high).n_vertices, high.sum())
+        with self.assertWarnsRegex(smg.ReportWarning, "1 vertex belongs to no cell"):
+            loose = smg.mesh(np.vstack([points, [[9, 9, 9]]]), cells)
+        kept = loose.simplify(len(points) // 2, hold=np.append(high, True))["OriginalId"]
+        self.assertTrue(set(np.flatnonzero(high)) <= set(kept.tolist()))
+        for nothing in (np.zeros(len(points) + 1, bool), np.arange(len(points) + 1) == len(points)):
+            with self.assertRaisesRegex(smg.InputError, "hold: .*selects no vertex"):
+                loose.simplify(50, hold=nothing)
         few, _ = smg.simplify(points, cells, 2000, hold=last)
         self.assertTrue(set(map(tuple, points[last])) <= set(map(tuple, few)))
 

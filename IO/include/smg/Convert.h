@@ -46,6 +46,14 @@ enum class CellChoice
 };
 
 /** How to convert. */
+/** What numbers the vertices and cells of a mesh file. */
+enum class Numbering
+{
+  OfColumns, ///< its int64 columns OriginalId and OriginalCellId if it has them: it is a part of
+             ///< another file, or has another order; else its rows
+  OfRows     ///< its rows; columns of these names are renamed
+};
+
 struct ConversionOptions
 {
   /** The order of the stream. */
@@ -63,6 +71,8 @@ struct ConversionOptions
   std::int64_t timeStep = 0; ///< of a file with time steps (VTKHDF): which one, from 0
   /** Which partition of a file with partitions (VTKHDF) to read, from 0; none: all, joined. */
   std::optional<std::int64_t> partition;
+  /** What numbers the vertices and cells of a file. */
+  Numbering numbering = Numbering::OfColumns;
   /** Write vertices and cells in the order of the original file; the input must be a .vsm file. */
   bool restoreOrder = false;
   /** Compression of a .vsm file. */
