@@ -42,20 +42,17 @@ void CellLabels::add(const MeshBlock& block)
     {
       continue;
     }
-    std::uint64_t last = 0;
-    bool isFirst = true;
     for (std::size_t at = 0; at < column->bytes.size() && !integers.hasMore;
          at += integers.place.bytes)
     {
       std::uint64_t value = 0;
       std::memcpy(&value, column->bytes.data() + at, integers.place.bytes);
-      if (value == last && !isFirst)
+      if (integers.last == value)
       {
         continue;
       }
-      integers.changes += isFirst ? 0 : 1;
-      last = value;
-      isFirst = false;
+      integers.changes += integers.last ? 1 : 0;
+      integers.last = value;
       std::vector<std::uint64_t>& values = integers.values;
       const auto place = std::ranges::lower_bound(values, value);
       if (place == values.end() || *place != value)

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ private:
     std::vector<std::uint64_t> values;          ///< the bytes of each, ascending
     std::vector<std::array<double, 2>> areas{}; ///< of each value on the surfaces
     bool hasMore = false;                       ///< than MostLabels values
+    std::optional<std::uint64_t> last{};        ///< of the last cell
     std::int64_t changes = 0;                   ///< from one cell to the next
   };
 

@@ -259,9 +259,18 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
     simplified.simplifier().keepIn(*checkpoint, subjectOf(mesh, target, options));
   }
   VsmWriter writer(vsm, simplified.info(), { .codec = options.codec, .scratch = options.scratch });
-  for (MeshBlock block; simplified.next(block);)
+  try
   {
-    writer.append(block);
+    for (MeshBlock block; simplified.next(block);)
+    {
+      writer.append(block);
+    }
+  }
+  catch (const MemoryLimitError& error)
+  {
+    // In terms of the limit that was given, of which seams have their share.
+    const std::int64_t own = seams == 0 ? 0 : (error.needed() + kept) / (ShareOfSeams - 1);
+    throw error.inside(kept + own, options.memoryLimit);
   }
   const StreamInfo written = writer.finish();
   const SimplificationCounts& counts = simplified.simplifier().counts();

@@ -115,6 +115,8 @@ public:
     return { plus(this->Needed, own), allowed, this->Use, usual };
   }
 
+  std::int64_t needed() const { return this->Needed; }
+
 private:
   /** The sum, at most the largest number. */
   static std::int64_t plus(std::int64_t a, std::int64_t b)
