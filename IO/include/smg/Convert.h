@@ -45,7 +45,6 @@ enum class CellChoice
   Tetrahedra ///< the volume cells; surface cells are left out
 };
 
-/** How to convert. */
 /** What numbers the vertices and cells of a mesh file. */
 enum class Numbering
 {
@@ -54,6 +53,7 @@ enum class Numbering
   OfRows     ///< its rows; columns of these names are renamed
 };
 
+/** How to convert. */
 struct ConversionOptions
 {
   /** The order of the stream. */
