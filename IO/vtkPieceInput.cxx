@@ -288,10 +288,43 @@ bool PieceInput::isInMemory() const
   return this->Block || (info->Has(vtkStreamingMeshKeys::PREVIEWED()) && !this->isPreviewed());
 }
 
+namespace
+{
+
+/** Whether a reader or Streaming Mesh Preview above says so: other filters between may still have
+ * the key of an earlier input. */
+bool isPreviewedAt(vtkAlgorithm& producer, int port)
+{
+  vtkInformation* info = producer.GetExecutive()->GetOutputInformation(port);
+  if (!info->Get(vtkStreamingMeshKeys::PREVIEWED()))
+  {
+    return false;
+  }
+  if (producer.IsA("vtkStreamingMeshPreview"))
+  {
+    return true;
+  }
+  bool hasInput = false;
+  for (int in = 0; in < producer.GetNumberOfInputPorts(); ++in)
+  {
+    for (int k = 0; k < producer.GetNumberOfInputConnections(in); ++k)
+    {
+      vtkAlgorithmOutput* output = producer.GetInputConnection(in, k);
+      hasInput = true;
+      if (isPreviewedAt(*output->GetProducer(), output->GetIndex()))
+      {
+        return true;
+      }
+    }
+  }
+  return !hasInput;
+}
+
+} // namespace
+
 bool PieceInput::isPreviewed() const
 {
-  vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
-  return !this->Block && info->Get(vtkStreamingMeshKeys::PREVIEWED());
+  return !this->Block && isPreviewedAt(*this->Producer, this->ProducerPort);
 }
 
 void PieceInput::requireWhole() const
