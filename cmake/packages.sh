@@ -17,11 +17,13 @@ smg_paraview_packages=(
   "qt6-svg-plugins|libqt5svg5"
   qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools) # the help of the plugin, with Qt 5
 smg_test_packages=(
-  libgtest-dev libbenchmark-dev lld clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev xz-utils
+  libgtest-dev libbenchmark-dev libmeshoptimizer-dev lld clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev
+  xz-utils
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-pip
   python3-venv python3-tqdm mypy)
 smg_benchmark_packages=(
-  libbenchmark-dev libhypre-dev libpetsc-real-dev libopenmpi-dev python3 python3-matplotlib python3-scipy)
+  libbenchmark-dev libhypre-dev libmeshoptimizer-dev libpetsc-real-dev libopenmpi-dev
+  python3 python3-matplotlib python3-scipy)
 smg_verification_packages=(
   libbenchmark-dev libhypre-dev libopenmpi-dev
   python3 python3-numpy python3-scipy python3-getfem python3-matplotlib)
