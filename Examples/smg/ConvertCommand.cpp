@@ -156,7 +156,7 @@ struct ConvertCommand : CommonOptions
     html::PageFacts facts{ this->in };
     if (this->reportsPage() && smg::kindOfOutput(this->out) == smg::MeshFileKind::Vsm)
     {
-      facts.surface = surfaceOf(smg::VsmReader(this->out), this->memoryBytes(DrawingMemory));
+      facts.surface = surfaceOf(smg::VsmReader(this->out), this->out, *this);
     }
     this->writeReport(report.json(), facts);
     if (!this->quiet)

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DrawMesh.h"
 
+#include "ProgressBar.h"
+
+#include "IO/Files/PartialProgress.h"
 #include "smg/Error.h"
 
-html::ResultSurface drawnBy(const std::function<html::ResultSurface()>& draw)
+#include <cstdio>
+
+html::ResultSurface drawnBy(
+  const std::filesystem::path& written, const std::function<html::ResultSurface()>& draw)
 {
   try
   {
@@ -11,6 +17,10 @@ html::ResultSurface drawnBy(const std::function<html::ResultSurface()>& draw)
   }
   catch (const smg::Cancelled&)
   {
+    if (!written.empty())
+    {
+      std::fprintf(stderr, "smg: %s is written, its report is not\n", written.c_str());
+    }
     throw;
   }
   catch (const smg::Error& error)
@@ -21,21 +31,29 @@ html::ResultSurface drawnBy(const std::function<html::ResultSurface()>& draw)
   }
 }
 
-html::ResultSurface surfaceOf(const smg::VsmReader& mesh, std::int64_t memory)
+html::ResultSurface surfaceOf(
+  const smg::VsmReader& mesh, const std::filesystem::path& written, const CommonOptions& common)
 {
-  return drawnBy([&] { return html::resultSurface(*mesh.source(), {}, memory, {}); });
+  ProgressBar bar("drawing", common.quiet);
+  return drawnBy(written,
+    [&]
+    {
+      return html::resultSurface(
+        *mesh.source(), {}, common.memoryBytes(DrawingMemory), bar.function());
+    });
 }
 
 html::ResultSurface surfaceOf(const std::filesystem::path& written, const CommonOptions& common)
 {
-  return drawnBy(
+  ProgressBar bar("drawing", common.quiet);
+  return drawnBy(written,
     [&]
     {
       CommonOptions opening = common;
       opening.checkpoint.clear();
       opening.input = {};
-      const auto mesh = opening.openInput(written, {});
-      return html::resultSurface(
-        *mesh->reader().source(), {}, common.memoryBytes(DrawingMemory), {});
+      const auto mesh = opening.openInput(written, smg::partOf(bar.function(), 0.0, 0.5));
+      return html::resultSurface(*mesh->reader().source(), {}, common.memoryBytes(DrawingMemory),
+        smg::partOf(bar.function(), 0.5, 1.0));
     });
 }

@@ -13,10 +13,13 @@
 inline constexpr std::int64_t DrawingMemory = std::int64_t(256) << 20;
 
 /** What `draw` returns, for a report as a page. The command has done its work, so that an error is
- * told there, in place of the surface. */
-html::ResultSurface drawnBy(const std::function<html::ResultSurface()>& draw);
+ * told there, in place of the surface; who cancels is told that the result is `written`, if there
+ * is one. */
+html::ResultSurface drawnBy(
+  const std::filesystem::path& written, const std::function<html::ResultSurface()>& draw);
 
 /** The surface of a mesh, likewise. */
-html::ResultSurface surfaceOf(const smg::VsmReader& mesh, std::int64_t memory);
+html::ResultSurface surfaceOf(
+  const smg::VsmReader& mesh, const std::filesystem::path& written, const CommonOptions& common);
 /** The same of the mesh that a command has written, in any format. */
 html::ResultSurface surfaceOf(const std::filesystem::path& written, const CommonOptions& common);

@@ -290,7 +290,7 @@ html::ResultSurface MeshCommand::draw(
     names.push_back(column.name);
   }
   const std::int64_t memory = std::max(this->job().memoryLimit(), smg::Workspace::MinMemory);
-  return drawnBy(
+  return drawnBy(this->Out,
     [&]
     {
       html::ResultSurface drawn;
