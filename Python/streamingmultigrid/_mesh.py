@@ -292,8 +292,8 @@ class Mesh:
             copy: False: the array is used where it is. Do not change it while the mesh or a field of it
                 is used.
         """
-        if not isinstance(name, str):
-            raise InputError("%r: the name of a column is a text." % (name,))
+        if not isinstance(name, str) or not name:
+            raise InputError("%r: the name of a column is a text, of one character at least." % (name,))
         column = Columns(self).add(values, name, cells, name=name)
         if copy:  # also of what only lends its memory, as other libraries' arrays do
             column = column._replace(values=np.array(column.values))

@@ -124,6 +124,7 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh["Light"], smg.InputError, "Light"),
             (lambda: mesh.add("a\0b", np.ones(162)), smg.InputError, "character 0"),
             (lambda: mesh.add(7, np.ones(162)), smg.InputError, "text"),
+            (lambda: mesh.add("", np.ones(162)), smg.InputError, "text"),
             (lambda: mesh.solve(source="a\0b"), smg.InputError, "character 0"),
             (lambda: mesh.save("a.vsm\0b"), smg.InputError, "character 0"),
             (lambda: smg.open("a.vsm\0b"), smg.InputError, "character 0"),
