@@ -329,6 +329,8 @@ void vtkStreamingPoisson::Deliver(
   vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
 {
   output.ShallowCopy(&piece);
+  // Before the solution comes, which may have the name of one of their arrays.
+  smg::removeConditions(output);
   vtkNew<vtkDoubleArray> solution;
   solution->SetName(this->Internal->resultName());
   solution->SetNumberOfComponents(this->GetSummary().columns);
@@ -341,7 +343,6 @@ void vtkStreamingPoisson::Deliver(
   {
     this->Internal->addCellResults(piece, values, output);
   }
-  smg::removeConditions(output);
 }
 
 void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)

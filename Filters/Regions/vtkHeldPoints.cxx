@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkHeldPoints.h"
 
+#include "vtkAbstractTransform.h"
 #include "vtkBox.h"
 #include "vtkCylinder.h"
 #include "vtkDataSetAttributes.h"
@@ -18,6 +19,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace smg
@@ -142,6 +144,36 @@ void check(vtkImplicitFunction* function)
   }
 }
 
+double lengthOf(const double* vector)
+{
+  return std::hypot(vector[0], vector[1], vector[2]);
+}
+
+/** How far from the origin the place is that the function measures from. */
+double placeOf(vtkImplicitFunction& function)
+{
+  double place = 0.0;
+  if (auto* plane = vtkPlane::SafeDownCast(&function))
+  {
+    place = lengthOf(plane->GetOrigin());
+  }
+  if (auto* sphere = vtkSphere::SafeDownCast(&function))
+  {
+    place = lengthOf(sphere->GetCenter()) + sphere->GetRadius();
+  }
+  if (auto* cylinder = vtkCylinder::SafeDownCast(&function))
+  {
+    place = lengthOf(cylinder->GetCenter()) + cylinder->GetRadius();
+  }
+  if (vtkAbstractTransform* transform = function.GetTransform())
+  {
+    double origin[3] = { 0.0, 0.0, 0.0 };
+    transform->GetInverse()->TransformPoint(origin, origin);
+    place += lengthOf(origin);
+  }
+  return place;
+}
+
 } // namespace
 
 HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPointSet& piece)
@@ -149,6 +181,12 @@ HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPo
   check(function);
   HeldPoints held;
   held.holders = 1;
+  // Points on the surface are inside, although rounding, of their coordinates or of the function,
+  // may put them beyond it.
+  constexpr double OfFunctions = 1e-13;
+  const bool isSingle = piece.GetPoints() && piece.GetPoints()->GetDataType() == VTK_FLOAT;
+  const double rounding = isSingle ? std::numeric_limits<float>::epsilon() : OfFunctions;
+  const double place = placeOf(*function);
   held.by.resize(static_cast<std::size_t>(piece.GetNumberOfPoints()));
   for (std::size_t i = 0; i < held.by.size(); ++i)
   {
@@ -162,7 +200,13 @@ HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPo
                   "): update the input first, so that the function can be fitted to it, or correct "
                   "its numbers.");
     }
-    held.by[i] = (isInsideOut ? value > 0.0 : value <= 0.0) ? 0 : -1;
+    double gradient[3] = { 0.0, 0.0, 0.0 };
+    if (value > 0.0)
+    {
+      function->FunctionGradient(point, gradient);
+    }
+    const bool isInside = value <= lengthOf(gradient) * rounding * (lengthOf(point) + place);
+    held.by[i] = isInside != isInsideOut ? 0 : -1;
   }
   return held;
 }

@@ -167,6 +167,20 @@ for mesh, count in ((plane, 18), (Triangulate(Input=plane), 18), (TriangleStrips
 ids = GenerateIds(Input=plane, CellIdsArrayName="Number", PointIdsArrayName="Other")
 tagged = MeshRegion(Input=ids, Region="Tag", TagArray="Number", Tag=7)
 assert shown(tagged, "RegionMask").sum() == 4
+# Points on the surface of a shape are inside, also where it is turned.
+grid = Tetrahedralize(Input=Wavelet(WholeExtent=[0, 20, 0, 20, 0, 20]))
+for corner, turned in (([10, 0, 0], [0, 0, 90]), ([10, 10, 0], [0, 0, 180]), ([0, 10, 0], [90, 0, 0]), ([0, 0, 10], [0, 90, 0])):
+    box = MeshRegion(Input=grid, RegionFunction="Box")
+    box.RegionFunction.Position, box.RegionFunction.Length, box.RegionFunction.Rotation = corner, [10] * 3, turned
+    assert shown(box, "RegionMask").sum() == 11**3, turned
+for axis in ([1, 0, 0], [0, 1, 0], [0, 0, 1]):
+    cylinder = MeshRegion(Input=grid, RegionFunction="Cylinder")
+    cylinder.RegionFunction.Center, cylinder.RegionFunction.Radius, cylinder.RegionFunction.Axis = [10] * 3, 10, axis
+    inside = sum((y - 10) ** 2 + (z - 10) ** 2 <= 100 for y in range(21) for z in range(21))
+    assert shown(cylinder, "RegionMask").sum() == 21 * inside, axis
+held_at_one = MeshCondition(Input=grid, Region="Ids", Ids=[0], Value=3)
+solved = StreamingPoisson(Input=held_at_one, ResultArrayName="Condition1")
+assert np.allclose(shown(solved, "Condition1"), 3), "a result with the name of what a condition adds"
 saved_as_pieces = os.path.join(folder, "ordinary.vsm")
 SaveData(saved_as_pieces, proxy=MeshHandle(Input=half, Region="Boundary"))
 assert shown(StreamingMeshReader(FileName=saved_as_pieces), "HandleMask").sum() == 58
