@@ -19,7 +19,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace smg
@@ -181,11 +180,9 @@ HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPo
   check(function);
   HeldPoints held;
   held.holders = 1;
-  // Points on the surface are inside, although rounding, of their coordinates or of the function,
-  // may put them beyond it.
-  constexpr double OfFunctions = 1e-13;
-  const bool isSingle = piece.GetPoints() && piece.GetPoints()->GetDataType() == VTK_FLOAT;
-  const double rounding = isSingle ? std::numeric_limits<float>::epsilon() : OfFunctions;
+  // Points on the surface are inside, although rounding in the function, as of a turned shape, may
+  // put them beyond it.
+  constexpr double Rounding = 1e-13;
   const double place = placeOf(*function);
   held.by.resize(static_cast<std::size_t>(piece.GetNumberOfPoints()));
   for (std::size_t i = 0; i < held.by.size(); ++i)
@@ -205,7 +202,7 @@ HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPo
     {
       function->FunctionGradient(point, gradient);
     }
-    const bool isInside = value <= lengthOf(gradient) * rounding * (lengthOf(point) + place);
+    const bool isInside = value <= lengthOf(gradient) * Rounding * (lengthOf(point) + place);
     held.by[i] = isInside != isInsideOut ? 0 : -1;
   }
   return held;
