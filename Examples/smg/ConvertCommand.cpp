@@ -9,7 +9,6 @@
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
-#include "smg/VsmReader.h"
 
 #include <cstdio>
 
@@ -156,7 +155,7 @@ struct ConvertCommand : CommonOptions
     html::PageFacts facts{ this->in };
     if (this->reportsPage() && smg::kindOfOutput(this->out) == smg::MeshFileKind::Vsm)
     {
-      facts.surface = surfaceOf(smg::VsmReader(this->out), this->out, *this);
+      facts.surface = surfaceOf(this->out, *this);
     }
     this->writeReport(report.json(), facts);
     if (!this->quiet)

@@ -31,13 +31,12 @@ html::ResultSurface drawnBy(
   }
 }
 
-html::ResultSurface surfaceOf(
-  const smg::VsmReader& mesh, const std::filesystem::path& written, const CommonOptions& common)
+html::ResultSurface surfaceOf(const smg::VsmReader& mesh, const CommonOptions& common)
 {
-  ProgressBar bar("drawing", common.quiet);
-  return drawnBy(written,
+  return drawnBy({},
     [&]
     {
+      ProgressBar bar("drawing", common.quiet);
       return html::resultSurface(
         *mesh.source(), {}, common.memoryBytes(DrawingMemory), bar.function());
     });
@@ -45,10 +44,10 @@ html::ResultSurface surfaceOf(
 
 html::ResultSurface surfaceOf(const std::filesystem::path& written, const CommonOptions& common)
 {
-  ProgressBar bar("drawing", common.quiet);
   return drawnBy(written,
     [&]
     {
+      ProgressBar bar("drawing", common.quiet);
       CommonOptions opening = common;
       opening.checkpoint.clear();
       opening.input = {};

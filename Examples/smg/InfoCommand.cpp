@@ -295,7 +295,7 @@ struct InfoCommand : CommonOptions
     html::PageFacts facts{ this->file };
     if (this->reportsPage())
     {
-      facts.surface = surfaceOf(mesh->reader(), {}, *this);
+      facts.surface = surfaceOf(mesh->reader(), *this);
     }
     this->writeReport(report.dump(2), facts);
     if (this->quiet)

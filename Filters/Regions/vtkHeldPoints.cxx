@@ -143,32 +143,27 @@ void check(vtkImplicitFunction* function)
   }
 }
 
-double lengthOf(const double* vector)
-{
-  return std::hypot(vector[0], vector[1], vector[2]);
-}
-
 /** How far from the origin the place is that the function measures from. */
 double placeOf(vtkImplicitFunction& function)
 {
   double place = 0.0;
   if (auto* plane = vtkPlane::SafeDownCast(&function))
   {
-    place = lengthOf(plane->GetOrigin());
+    place = vtkMath::Norm(plane->GetOrigin());
   }
   if (auto* sphere = vtkSphere::SafeDownCast(&function))
   {
-    place = lengthOf(sphere->GetCenter()) + sphere->GetRadius();
+    place = vtkMath::Norm(sphere->GetCenter()) + sphere->GetRadius();
   }
   if (auto* cylinder = vtkCylinder::SafeDownCast(&function))
   {
-    place = lengthOf(cylinder->GetCenter()) + cylinder->GetRadius();
+    place = vtkMath::Norm(cylinder->GetCenter()) + cylinder->GetRadius();
   }
   if (vtkAbstractTransform* transform = function.GetTransform())
   {
     double origin[3] = { 0.0, 0.0, 0.0 };
     transform->GetInverse()->TransformPoint(origin, origin);
-    place += lengthOf(origin);
+    place += vtkMath::Norm(origin);
   }
   return place;
 }
@@ -202,7 +197,8 @@ HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPo
     {
       function->FunctionGradient(point, gradient);
     }
-    const bool isInside = value <= lengthOf(gradient) * Rounding * (lengthOf(point) + place);
+    const bool isInside =
+      value <= vtkMath::Norm(gradient) * Rounding * (vtkMath::Norm(point) + place);
     held.by[i] = isInside != isInsideOut ? 0 : -1;
   }
   return held;
