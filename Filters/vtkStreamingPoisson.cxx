@@ -22,6 +22,7 @@
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVariantKey.h"
@@ -36,6 +37,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkStreamingPoisson);
 
@@ -274,11 +276,20 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
     task->notes.push_back("the full mesh was solved on, since the preview does not do: " +
                           this->Internal->WhyNotOnPreview);
   }
-  if (input.GetPointData()->HasArray(name.c_str()))
+  if (input.GetPointData()->HasArray(name.c_str()) && !smg::isOfCondition(input, name))
   {
     task->notes.push_back("the array " + name +
                           " of the input is replaced by the solution: choose another "
                           "ResultArrayName to keep both");
+  }
+  for (const auto& [isWanted, array] : { std::pair(task->problem.gradientOutput, smg::GradientName),
+         std::pair(task->problem.fluxOutput, smg::FluxName) })
+  {
+    if (isWanted && input.GetCellData()->HasArray(array))
+    {
+      task->notes.push_back(std::string("the array ") + array +
+                            " of the cells of the input is replaced by that of the solution");
+    }
   }
   if (!this->GetEngineNote().empty())
   {

@@ -86,6 +86,7 @@ void requirePlaces(vtkPointSet& mesh)
     const double size = std::max({ std::fabs(place[0]), std::fabs(place[1]), std::fabs(place[2]) });
     const double distance =
       std::hypot(point[0] - place[0], point[1] - place[1], point[2] - place[2]);
+    // Not so without a place.
     if (distance > std::max(tolerance, Rounding * size))
     {
       throw Error(
@@ -132,7 +133,19 @@ HandleArrays::HandleArrays(vtkPointData& input, vtkIdType points)
   {
     begin(*arrays[i], names()[i], Components[i], input, points);
   }
+  const bool hasPlaces = input.HasArray(PlaceName);
   begin(*this->Place, PlaceName, 3, input, points);
+  // Points that a script holds have no place.
+  for (vtkIdType i = 0; !hasPlaces && i < points; ++i)
+  {
+    if (this->Mask->GetValue(i) != 0)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        this->Place->SetTypedComponent(i, k, std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+  }
 }
 
 HandleArrays::~HandleArrays() = default;

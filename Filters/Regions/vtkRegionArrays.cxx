@@ -38,8 +38,10 @@ void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& h
   {
     if (!isRegion(mesh, name) || !vtkUnsignedCharArray::SafeDownCast(present))
     {
-      throw Error("The input has a point array " + name +
-                  ", which no Mesh Region has made: choose another RegionName.");
+      throw Error(
+        "The input has a point array " + name +
+        ", which is not that of a Mesh Region before this one: choose another RegionName, "
+        "or take the array away with Pass Arrays.");
     }
     region->DeepCopy(present);
   }
@@ -146,6 +148,12 @@ std::string addMask(vtkPointSet& mesh)
 void addCondition(vtkPointSet& mesh, const std::string& text)
 {
   appendFieldText(mesh, MeshConditionsName, text);
+}
+
+bool isOfCondition(vtkPointSet& mesh, const std::string& array)
+{
+  vtkStringArray* masks = fieldTexts(mesh, MeshConditionArraysName);
+  return masks && masks->LookupValue(array) >= 0;
 }
 
 void removeConditions(vtkPointSet& mesh)

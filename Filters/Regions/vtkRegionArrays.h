@@ -43,6 +43,9 @@ std::string addMask(vtkPointSet& mesh);
 /** Appends a condition to those of the mesh. */
 void addCondition(vtkPointSet& mesh, const std::string& text);
 
+/** Whether the point array is one that a condition has added. */
+bool isOfCondition(vtkPointSet& mesh, const std::string& array);
+
 /** Removes all conditions and the arrays that they have added. */
 void removeConditions(vtkPointSet& mesh);
 

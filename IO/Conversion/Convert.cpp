@@ -10,6 +10,7 @@
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Formats/WriteFiles.h"
+#include "IO/Import/Polygons.h"
 #include "IO/Import/RawMesh.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Import/Weld.h"
@@ -258,6 +259,7 @@ void importInput(Conversion& conversion, RawMesh& mesh)
   checkOutput(conversion.out(), mesh.cellType);
   checkScratchRoom(conversion.scratch(), scratchBytes(infoOf(mesh), conversion.options()),
     space.traffic().bytesWritten);
+  cutPolygons(mesh, space);
   const std::optional<double>& weld = conversion.options().weld;
   // Merged points no longer belong to a cell.
   report.isolated_vertices -= weld ? weldPoints(mesh, *weld, space) : 0;

@@ -13,168 +13,11 @@
 // Vertices and elements in the order of the original file, by external sorts with the original
 // numbers as keys, in the memory of the workspace.
 //
-// Polygons were split into fans of triangles that have the number of their polygon. The last two
-// corners of these triangles are edges of a graph, and the polygon is an Euler trail of it:
-// Hierholzer's algorithm finds it whatever the order of the triangles, and even if corners are
-// repeated. Elements that are not such a fan are written cell by cell, which a note says.
+// Polygons were cut into triangles that have the number of their polygon, from which they are
+// restored (TriangleChains.h). Other elements are written cell by cell, which a note says.
 
 namespace smg
 {
-
-bool FanChain::build(std::span<const std::uint32_t> triangles)
-{
-  const std::size_t count = triangles.size() / 3;
-  this->Edges.clear();
-  this->Ends.clear();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const std::span<const std::uint32_t> triangle = triangles.subspan(3 * i, 3);
-    // A fan has one corner in all of its triangles, and it is the first one.
-    if (triangle[0] != triangles[0])
-    {
-      return false;
-    }
-    this->Edges.emplace_back(triangle[1], triangle[2]);
-    this->Ends.push_back(triangle[2]);
-  }
-  std::uint32_t start = this->Edges[0].first;
-  std::stable_sort(this->Edges.begin(), this->Edges.end(),
-    [](const Edge& a, const Edge& b) { return a.first < b.first; });
-  std::sort(this->Ends.begin(), this->Ends.end());
-  if (!this->findStart(start))
-  {
-    return false;
-  }
-  this->walk(start);
-  // The edges fall into several pieces.
-  if (this->Trail.size() != count + 1)
-  {
-    return false;
-  }
-  this->Corners.assign(1, triangles[0]);
-  this->Corners.insert(this->Corners.end(), this->Trail.rbegin(), this->Trail.rend());
-  return true;
-}
-
-/** Finds the start of the trail: the corner at which one more edge begins than ends. A closed trail
- * has none; `start` does not change then. Returns false if no trail can use all edges. */
-bool FanChain::findStart(std::uint32_t& start) const
-{
-  std::size_t begins = 0;
-  std::size_t excess = 0;
-  std::size_t end = 0;
-  while (begins < this->Edges.size())
-  {
-    const std::uint32_t corner = this->Edges[begins].first;
-    const std::size_t before = begins;
-    while (begins < this->Edges.size() && this->Edges[begins].first == corner)
-    {
-      ++begins;
-    }
-    while (end < this->Ends.size() && this->Ends[end] < corner)
-    {
-      ++end;
-    }
-    const std::size_t firstEnd = end;
-    while (end < this->Ends.size() && this->Ends[end] == corner)
-    {
-      ++end;
-    }
-    const std::size_t out = begins - before;
-    const std::size_t in = end - firstEnd;
-    if (out > in)
-    {
-      start = corner;
-      excess += out - in;
-    }
-  }
-  // The degrees allow a trail; whether the edges are connected shows when it is walked.
-  return excess <= 1;
-}
-
-/** Hierholzer's algorithm: follows unused edges until there is none, and inserts detours on the way
- * back. The trail comes out from its end to its start. */
-void FanChain::walk(std::uint32_t start)
-{
-  this->Taken.assign(this->Edges.size(), 0);
-  this->Trail.clear();
-  this->Stack.assign(1, start);
-  while (!this->Stack.empty())
-  {
-    const std::uint32_t corner = this->Stack.back();
-    const auto first = std::lower_bound(this->Edges.begin(), this->Edges.end(), corner,
-      [](const Edge& edge, std::uint32_t c) { return edge.first < c; });
-    // Edges are sorted by their first corner: those of a corner follow each other, and Taken counts
-    // how many were used.
-    const auto place = static_cast<std::size_t>(first - this->Edges.begin());
-    const std::size_t edge =
-      place < this->Edges.size() ? place + this->Taken[place] : this->Edges.size();
-    if (edge < this->Edges.size() && this->Edges[edge].first == corner)
-    {
-      ++this->Taken[place];
-      this->Stack.push_back(this->Edges[edge].second);
-    }
-    else
-    {
-      this->Trail.push_back(corner);
-      this->Stack.pop_back();
-    }
-  }
-}
-
-bool StripChain::build(std::span<const std::uint32_t> triangles)
-{
-  const std::size_t count = triangles.size() / 3;
-  const auto triangle = [&triangles](std::uint32_t place)
-  { return triangles.subspan(3 * std::size_t(place), 3); };
-  this->Begins.clear();
-  for (std::uint32_t place = 0; place < count; ++place)
-  {
-    const std::span<const std::uint32_t> corners = triangle(place);
-    this->Begins.push_back({ { corners[0], corners[1] }, place });
-  }
-  std::ranges::sort(this->Begins);
-  const auto sameBegin = [](const auto& a, const auto& b) { return a.first == b.first; };
-  if (std::ranges::adjacent_find(this->Begins, sameBegin) != this->Begins.end())
-  {
-    return false;
-  }
-
-  std::vector<bool> follows(count);
-  for (std::uint32_t place = 0; place < count; ++place)
-  {
-    for (const bool isEven : { false, true })
-    {
-      if (const std::uint32_t next = this->after(triangle(place), isEven); next != None)
-      {
-        follows[next] = true;
-      }
-    }
-  }
-  const auto first = std::ranges::find(follows, false);
-  if (first == follows.end())
-  {
-    return false;
-  }
-  this->Order.clear();
-  std::vector<bool> taken(count);
-  for (auto next = static_cast<std::uint32_t>(first - follows.begin());
-       next != None && !taken[next];
-       next = this->after(triangle(next), this->Order.size() % 2 == 1))
-  {
-    taken[next] = true;
-    this->Order.push_back(next);
-  }
-  return this->Order.size() == count;
-}
-
-std::uint32_t StripChain::after(std::span<const std::uint32_t> triangle, bool isEven) const
-{
-  const Edge begin = isEven ? Edge{ triangle[2], triangle[1] } : Edge{ triangle[0], triangle[2] };
-  const auto found = std::ranges::lower_bound(
-    this->Begins, begin, {}, [](const auto& entry) { return entry.first; });
-  return found != this->Begins.end() && found->first == begin ? found->second : None;
-}
 
 namespace
 {
@@ -259,11 +102,25 @@ void ElementRestorer::take(const RowSort::Row& row)
   this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
 }
 
-/** Writes the last collected cells of one element, as a polygon if they are its fan. */
+/** The polygon that became the collected cells; empty if they are none. */
+std::span<const std::uint32_t> ElementRestorer::polygon()
+{
+  if (this->MayBeFan && this->Fan.build(this->Corners))
+  {
+    return this->Fan.polygon();
+  }
+  return this->CornersOfCell == 3 && this->Tree.build(this->Corners)
+           ? this->Tree.polygon()
+           : std::span<const std::uint32_t>();
+}
+
+/** Writes the last collected cells of one element, as a polygon if they are its triangles. */
 void ElementRestorer::endGroup()
 {
   const bool isOne = this->Corners.size() <= this->CornersOfCell && !this->TooLarge;
-  if (!isOne && this->MayBeFan && !this->TooLarge && this->Fan.build(this->Corners))
+  if (const std::span<const std::uint32_t> polygon =
+        isOne || this->TooLarge ? std::span<const std::uint32_t>() : this->polygon();
+      !polygon.empty())
   {
     const std::span<const std::byte> tuples = this->Tuples;
     const std::size_t bytes = this->Columns.bytes();
@@ -271,7 +128,7 @@ void ElementRestorer::endGroup()
     const bool same =
       std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
     this->Different += same ? 0 : 1;
-    this->write(this->Fan.polygon(), tuples.first(bytes));
+    this->write(polygon, tuples.first(bytes));
     this->Corners.clear();
     this->Tuples.clear();
     return;
@@ -282,6 +139,7 @@ void ElementRestorer::endGroup()
   if (!isOne && !this->TooLarge && this->CornersOfCell == 3)
   {
     this->Fan = {}; // whose memory serves for the strip
+    this->Tree = {};
     if (this->Strip.build(this->Corners))
     {
       for (const std::uint32_t cell : this->Strip.order())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Export/MeshFileWriter.h"
+#include "IO/Export/TriangleChains.h"
 #include "IO/External/ExternalSort.h"
 #include "IO/Mesh/Columns.h"
 #include "smg/Column.h"
@@ -63,62 +64,9 @@ private:
 };
 
 /**
- * Restores a polygon from its triangles. The polygon c0 c1 c2 ... was split into the fan of
- * triangles c0 c1 c2, c0 c2 c3 ..., which may come in any order: from c1 on, the corners are the
- * trail that uses the last two corners of each triangle once, as an edge. If corners of the polygon
- * are repeated, several polygons may have the same triangles; the result is one of these.
- */
-class FanChain
-{
-public:
-  /** Whether the triangles, 3 corners each, are such a fan; then polygon() returns its corners. */
-  bool build(std::span<const std::uint32_t> triangles);
-
-  std::span<const std::uint32_t> polygon() const { return this->Corners; }
-
-private:
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
-  bool findStart(std::uint32_t& start) const;
-  void walk(std::uint32_t start);
-
-  std::vector<std::uint32_t> Corners;
-  std::vector<Edge> Edges;                 ///< by their first corner
-  std::vector<std::uint32_t> Ends;         ///< the edges' last corners, ascending
-  std::vector<std::size_t> Taken;          ///< by the first edge of a corner: how many of its edges
-  std::vector<std::uint32_t> Stack, Trail; ///< the trail from its end to its start
-};
-
-/**
- * Restores the order of the triangles of a strip. The strip v0 v1 v2 ... was split into the
- * triangles v0 v1 v2, v2 v1 v3, v2 v3 v4, v4 v3 v5 ..., which may come in any order: a b c in an
- * even place is followed by c b d, in an odd place by a c d.
- */
-class StripChain
-{
-public:
-  /** Whether the triangles, 3 corners each, are such a strip in one order only, which is then
-   * order(). A strip that ends where it begins has several. */
-  bool build(std::span<const std::uint32_t> triangles);
-
-  /** The triangles from the first to the last, by their places. */
-  std::span<const std::uint32_t> order() const { return this->Order; }
-
-private:
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  static constexpr std::uint32_t None = UINT32_MAX;
-
-  /** The triangle that follows one in an even or an odd place. */
-  std::uint32_t after(std::span<const std::uint32_t> triangle, bool isEven) const;
-
-  std::vector<std::pair<Edge, std::uint32_t>> Begins; ///< the first two corners of each triangle
-  std::vector<std::uint32_t> Order;
-};
-
-/**
  * Restores the elements of the original file, in its order, from the cells of a mesh stream, out of
  * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
- * element that are the fan of a polygon become this polygon; those of a strip are written along it;
+ * element that are those of a polygon become this polygon; those of a strip are written along it;
  * other cells of one element stay as they are, in their order.
  */
 class ElementRestorer
@@ -146,6 +94,7 @@ public:
 
 private:
   void take(const RowSort::Row& row);
+  std::span<const std::uint32_t> polygon();
   void endGroup();
   void writeCells();
   void writeCell(std::size_t cell);
@@ -167,6 +116,7 @@ private:
   bool MayBeFan = false;  ///< all its cells are triangles that begin with
   std::uint32_t Apex = 0; ///< this corner
   FanChain Fan;
+  PolygonTree Tree;
   StripChain Strip;
   std::int64_t Split = 0, Large = 0, Different = 0; ///< elements of that kind
 

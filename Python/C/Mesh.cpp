@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Arrays/TriangulateArrays.h"
 #include "IO/Conversion/OpenArrays.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Mesh/Columns.h"
@@ -128,6 +129,18 @@ smg_status smg_open_arrays(const smg_array* points, const smg_array* cells, cons
       smg::ConversionOptions opening = given;
       opening.progress = smg::progressOf(progress, user);
       *mesh = smg::handleOf(smg::openArrays(ofPoints, ofCells, opening), {}, {}, given);
+    });
+}
+
+smg_status smg_triangulate(const smg_array* points, const smg_array* corners,
+  const smg_array* offsets, smg_progress progress, void* user, int64_t* triangles)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::triangulateArrays(smg::viewOf(points, "points"), smg::viewOf(corners, "corners"),
+        smg::viewOf(offsets, "offsets"), smg::progressOf(progress, user),
+        &smg::required(triangles, "triangles"));
     });
 }
 

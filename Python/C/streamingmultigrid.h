@@ -104,6 +104,13 @@ extern "C"
   SMG_C_EXPORT smg_status smg_open_arrays(const smg_array* points, const smg_array* cells,
     const char* options, smg_progress progress, void* user, smg_mesh** mesh);
 
+  /* Cuts polygons into triangles, as those of a file are cut: points (n x 3); corners, the rows of
+   * `points` of all polygons; offsets, where those of each polygon begin and, last, where all end.
+   * `triangles` has room for three rows of `points` for each triangle: a polygon of n corners
+   * becomes n - 2. */
+  SMG_C_EXPORT smg_status smg_triangulate(const smg_array* points, const smg_array* corners,
+    const smg_array* offsets, smg_progress progress, void* user, int64_t* triangles);
+
   /* Adds a column to the vertices (cells = 0) or cells (1), a row for each in the original order,
    * in place of one of this name. The array is not copied: it must not change or go as long as the
    * mesh has it, and fields, blocks and solvers are open that were made until then. The first time,

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from ctypes import byref
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._arrays import numbers
+from ._arrays import numbers, points_and_cells, table
 from ._errors import Error, InputError
+from ._library import call_reporting
 from ._mesh import Mesh
 from ._opening import mesh
 
@@ -18,16 +20,20 @@ _OWN = ("OriginalId", "OriginalCellId", "CellFlags")
 _FLAT = {"triangle": 3, "quad": 4, "polygon": None}  # of meshio
 
 
-def _fans(corners: np.ndarray, offsets: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-    """Polygons as triangles around their first corners, and the polygon of each triangle."""
+def _triangles(points: Any, corners: np.ndarray, offsets: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """Polygons as triangles, cut as those of a file, and the polygon of each triangle."""
     sizes = np.diff(offsets)
     if (sizes < 3).any():
         raise InputError("cells: a polygon has less than three corners.")
     polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
-    within = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
-    first = offsets[:-1][polygon]
-    rows = np.stack([first, first + within + 1, first + within + 2], axis=1)
-    return corners[rows], polygon
+    if len(polygon) == len(sizes):
+        return corners.reshape(-1, 3), polygon
+    simplices = np.empty((len(polygon), 3), np.int64)
+    points, _ = points_and_cells(points, simplices)
+    arrays = points, numbers(corners, "cells"), numbers(offsets, "cells")
+    tables = tuple(byref(table(array)) for array in arrays)
+    call_reporting("smg_triangulate", tables, None, simplices.ctypes.data)
+    return simplices, polygon
 
 
 def _counted(flat: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
@@ -46,7 +52,7 @@ def _counted(flat: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
     return np.delete(flat, starts), np.concatenate([[0], np.cumsum(sizes)])
 
 
-def _of_vtk(dataset: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
+def _of_vtk(dataset: Any, points: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
     """Simplices of a dataset of PyVista, and the cell of each; None: they are its cells."""
     if hasattr(dataset, "celltypes"):  # UnstructuredGrid
         types = np.asarray(dataset.celltypes)
@@ -57,19 +63,19 @@ def _of_vtk(dataset: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
         if (types == _TRIANGLE).all():
             return corners.reshape(-1, 3), None
         if np.isin(types, (_TRIANGLE, _POLYGON, _QUAD)).all():
-            return _fans(corners, offsets)
+            return _triangles(points, corners, offsets)
         raise InputError(
             "The cells are neither all tetrahedra nor all polygons: give dataset.triangulate(), or "
             "save it as .vtu and open that."
         )
     if getattr(dataset, "n_strips", 0):
         raise InputError("The cells have triangle strips: give dataset.triangulate().")
-    simplices, polygon = _fans(*_counted(numbers(dataset.faces, "faces")))
+    simplices, polygon = _triangles(points, *_counted(numbers(dataset.faces, "faces")))
     # VTK numbers vertices and lines of a PolyData before its polygons.
     return simplices, polygon + getattr(dataset, "n_verts", 0) + getattr(dataset, "n_lines", 0)
 
 
-def _of_blocks(blocks: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
+def _of_blocks(blocks: Any, points: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
     """Simplices of meshio's list of cell blocks, tetrahedra if there are any, and the cell of each."""
     solid = any(block.type == "tetra" for block in blocks)
     chosen: List[np.ndarray] = []
@@ -82,7 +88,7 @@ def _of_blocks(blocks: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
                 simplices, of = data, np.arange(len(data))
             else:
                 width = data.shape[1]
-                simplices, of = _fans(data.reshape(-1), np.arange(len(data) + 1) * width)
+                simplices, of = _triangles(points, data.reshape(-1), np.arange(len(data) + 1) * width)
             chosen.append(simplices)
             cells.append(first + of)
         elif block.type not in ("vertex", "line", *(_FLAT if solid else ())):
@@ -106,17 +112,17 @@ def _parts(thing: Any) -> Tuple[Any, np.ndarray, Optional[np.ndarray]]:
     if points is None:
         raise InputError("%r has neither points nor vertices." % type(thing).__name__)
     if hasattr(thing, "celltypes") or hasattr(thing, "GetPolys"):
-        return points, *_of_vtk(thing)
+        return points, *_of_vtk(thing, points)
     cells = getattr(thing, "cells", None)
     if cells is None:
         cells = getattr(thing, "faces", None)
     if cells is None:
         raise InputError("%r has neither cells nor faces." % type(thing).__name__)
     if isinstance(cells, (list, tuple)) and all(hasattr(block, "type") for block in cells):
-        return points, *_of_blocks(cells)
+        return points, *_of_blocks(cells, points)
     cells = numbers(cells, "cells")
     if cells.ndim == 1:
-        return points, *_fans(*_counted(cells))
+        return points, *_triangles(points, *_counted(cells))
     return points, cells, None
 
 

@@ -29,6 +29,7 @@ _REPORTED = [PROGRESS, c_void_p]  # progress and its data
 _FUNCTIONS = {  # their arguments; they return a status
     "smg_open": [c_char_p, c_char_p, *_REPORTED, POINTER(c_void_p)],
     "smg_open_arrays": [POINTER(Array), POINTER(Array), c_char_p, *_REPORTED, POINTER(c_void_p)],
+    "smg_triangulate": [POINTER(Array)] * 3 + [*_REPORTED, c_void_p],
     "smg_add_column": [c_void_p, c_char_p, c_int, POINTER(Array), *_REPORTED],
     "smg_add_argument": [c_void_p, c_char_p, c_int, POINTER(Array), *_REPORTED],
     "smg_remove_column": [c_void_p, c_char_p, c_int],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Export/Restorers.h"
+#include "IO/Export/TriangleChains.h"
 
 #include "Testing/Support/TestMeshes.h"
 

@@ -131,6 +131,18 @@ assert abs(target - (1.5 * turned + [1, 0, 0]))[later].max() < 1e-12
 first = (mask == 1) & ~later
 assert (target[first] == points[first]).all()
 
+# Arrays of a script, such as those of a file, are handles too, beside those of a filter.
+marked = Calculator(Input=reader, ResultArrayName="HandleMask", Function="coordsY < %r" % middle[1])
+targeted = Calculator(Input=marked, ResultArrayName="HandleTarget", Function="coords")
+both = MeshHandle(Input=targeted)
+both.RegionFunction.Center = list(middle)
+both.RegionFunction.Radius = 0.03
+deformed = StreamingMeshDeformation(Input=both)
+both.UpdatePipeline()
+assert t.servermanager.Fetch(deformed).GetNumberOfPoints() == 2000
+for proxy in (deformed, both, targeted, marked):
+    Delete(proxy)
+
 # The same motion by a transform, which can turn by 180 degrees at most.
 second.Motion = "Transform"
 second.Transform.Translate = [1, 0, 0]

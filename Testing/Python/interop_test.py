@@ -5,6 +5,7 @@ PyVista itself is used where it is installed; else the small part of it that the
 imitated below, and the test says so.
 """
 
+import pathlib
 import sys
 import types
 import unittest
@@ -88,6 +89,20 @@ class PyVistaTest(unittest.TestCase):
         self.assertEqual(mesh["part"].tolist(), [5, 5, 6, 7, 7])
         u = mesh.solve(dirichlet=smg.plane(x=0) >> 0, flux=smg.tag("part", 7) >> 1)
         self.assertTrue(np.isfinite(u.to_numpy()).all())
+
+    def test_concave_polygons_are_those_of_a_file(self):
+        corners = [(0.5, 0.5), (0.5, 1), (0, 1), (0, 0), (1, 0), (1, 0.5)]
+        points = np.array([(x, y, 2) for x, y in corners], float)
+        text = "OFF\n6 1 0\n" + "\n".join("%r %r 2" % corner for corner in corners) + "\n6 %s\n"
+        for first in range(6):
+            cell = [(first + k) % 6 for k in range(6)]
+            pathlib.Path("l.off").write_text(text % " ".join(map(str, cell)))
+            mesh = smg.from_pyvista(pyvista.PolyData(points, counted([cell])))
+            self.assertEqual(sorted(mesh.cells.tolist()), sorted(smg.open("l.off").cells.tolist()))
+            a, b, c = np.moveaxis(points[mesh.cells], 1, 0)
+            self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, 0.75)
+        wrong = pyvista.PolyData(points, counted([[0, 1, 2, 9]]))
+        self.assertRaisesRegex(smg.InputError, "the corner 9", smg.from_pyvista, wrong)
 
     def test_lines_come_before_polygons(self):
         points, cells = sphere(2)

@@ -54,6 +54,12 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   expectInvalid(smg_open_arrays(nullptr, &points, nullptr, nullptr, nullptr, &mesh), null);
   expectInvalid(smg_open_arrays(&points, nullptr, nullptr, nullptr, nullptr, &mesh), null);
   expectInvalid(smg_open_arrays(&points, &points, nullptr, nullptr, nullptr, nullptr), null);
+  std::int64_t triangle[3] = {};
+  expectInvalid(smg_triangulate(nullptr, &points, &points, nullptr, nullptr, triangle), null);
+  expectInvalid(smg_triangulate(&points, nullptr, &points, nullptr, nullptr, triangle), null);
+  expectInvalid(smg_triangulate(&points, &points, nullptr, nullptr, nullptr, triangle), null);
+  expectInvalid(smg_triangulate(&points, &points, &points, nullptr, nullptr, nullptr), null);
+  expectInvalid(smg_triangulate(&points, &points, &points, nullptr, nullptr, triangle), "columns");
   for (const auto add : { smg_add_column, smg_add_argument })
   {
     expectInvalid(add(nullptr, "a", 0, &points, nullptr, nullptr), null);
