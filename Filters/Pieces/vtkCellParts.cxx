@@ -32,8 +32,14 @@ CellParts::CellParts(vtkPointSet& mesh, const std::filesystem::path& scratch)
     points.assign(ids->begin(), ids->end());
     return mesh.GetCellType(cell);
   };
-  VtkCellParts parts = cutVtkCells(
-    mesh.GetNumberOfPoints(), mesh.GetNumberOfCells(), countingCells(mesh), cellAt, scratch);
+  const auto pointAt = [&mesh](std::int64_t point)
+  {
+    std::array<double, 3> position;
+    mesh.GetPoint(point, position.data());
+    return position;
+  };
+  VtkCellParts parts = cutVtkCells(mesh.GetNumberOfPoints(), pointAt, mesh.GetNumberOfCells(),
+    countingCells(mesh), cellAt, scratch);
   this->Corners = std::move(parts.corners);
   this->CellOf = std::move(parts.cellOf);
   this->CornersOfPart = static_cast<std::size_t>(cornersOf(parts.type));

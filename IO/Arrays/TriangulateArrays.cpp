@@ -45,7 +45,7 @@ void triangulateArrays(const ArrayView& points, const ArrayView& corners, const 
     }
     const auto begin = offsets.value<std::int64_t>(k, 0);
     const auto end = offsets.value<std::int64_t>(k + 1, 0);
-    if (begin < 0 || end - begin < 3 || end > corners.rows)
+    if (begin < 0 || end > corners.rows || end < begin || end - begin < 3)
     {
       throw ArgumentError("cells: the polygon " + std::to_string(k) +
                           " has less than three corners, or some that are not there.");

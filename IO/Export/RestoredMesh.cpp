@@ -48,7 +48,8 @@ std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
   return own;
 }
 
-RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace)
+RestoredMesh::RestoredMesh(
+  const std::filesystem::path& vsm, Workspace& workspace, std::int64_t maxCorners)
   : Space(workspace)
   , Name(vsm.string())
 {
@@ -58,7 +59,7 @@ RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspac
   // as well.
   const std::int64_t memory = workspace.available();
   this->Vertices = std::make_unique<VertexRestorer>(workspace, memory / 4, this->Info, this->Name);
-  this->Elements = std::make_unique<ElementRestorer>(workspace, memory / 3, this->Info);
+  this->Elements = std::make_unique<ElementRestorer>(workspace, memory / 3, this->Info, maxCorners);
   {
     Relabelling ids(workspace, reader.info().vertices, memory / 4);
     RecordFile<std::uint32_t> corners(workspace);

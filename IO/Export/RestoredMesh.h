@@ -30,10 +30,11 @@ class RestoredMesh
 public:
   /**
    * Reads the stream and sorts it. Reports the workspace's progress up to SortedShare.
+   * `maxCorners`: of the polygons that the writer holds, see ElementRestorer.
    * @throws Error if the file has no OriginalId, its vertices are not all of the original ones, or
    * it cannot be read; Cancelled.
    */
-  RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace);
+  RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace, std::int64_t maxCorners);
   RestoredMesh(const RestoredMesh&) = delete;
   RestoredMesh& operator=(const RestoredMesh&) = delete;
 

@@ -39,12 +39,13 @@ std::int64_t elementBytes(Workspace& workspace)
 } // namespace
 
 ElementRestorer::ElementRestorer(
-  Workspace& workspace, std::int64_t memory, const MeshFileInfo& info)
+  Workspace& workspace, std::int64_t memory, const MeshFileInfo& info, std::int64_t maxCorners)
   : Space(workspace)
   , CornersOfCell(static_cast<std::size_t>(cornersOf(info.cellType)))
   , Columns(info.elementColumns)
   , Sorted(workspace, memory, this->CornersOfCell * sizeof(std::uint32_t) + this->Columns.bytes())
   , Elements(workspace)
+  , MaxCorners(maxCorners)
   , MaxCells(static_cast<std::size_t>(elementBytes(workspace)) /
              (BytesOfFanTriangle + this->Columns.bytes()))
 {
@@ -102,52 +103,49 @@ void ElementRestorer::take(const RowSort::Row& row)
   this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
 }
 
-/** The polygon that became the collected cells; empty if they are none. */
-std::span<const std::uint32_t> ElementRestorer::polygon()
+/** Writes the polygon that became the collected cells. */
+void ElementRestorer::writePolygon(bool isFan)
 {
-  if (this->MayBeFan && this->Fan.build(this->Corners))
+  const std::span<const std::uint32_t> polygon = isFan ? this->Fan.polygon() : this->Tree.polygon();
+  if (!isFan && std::ssize(polygon) > this->MaxCorners)
   {
-    return this->Fan.polygon();
+    this->Counts.maxCorners = std::max<std::int64_t>(this->Counts.maxCorners, std::ssize(polygon));
+    this->writeInOrder(this->Tree.order());
+    return;
   }
-  return this->CornersOfCell == 3 && this->Tree.build(this->Corners)
-           ? this->Tree.polygon()
-           : std::span<const std::uint32_t>();
+  const std::span<const std::byte> tuples = this->Tuples;
+  const std::size_t bytes = this->Columns.bytes();
+  // All tuples are equal if each equals the one before it.
+  const bool same =
+    std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
+  this->Different += same ? 0 : 1;
+  this->write(polygon, tuples.first(bytes));
+  this->Corners.clear();
+  this->Tuples.clear();
 }
 
 /** Writes the last collected cells of one element, as a polygon if they are its triangles. */
 void ElementRestorer::endGroup()
 {
   const bool isOne = this->Corners.size() <= this->CornersOfCell && !this->TooLarge;
-  if (const std::span<const std::uint32_t> polygon =
-        isOne || this->TooLarge ? std::span<const std::uint32_t>() : this->polygon();
-      !polygon.empty())
+  const bool mayBePolygon = !isOne && !this->TooLarge && this->CornersOfCell == 3;
+  const bool isFan = mayBePolygon && this->MayBeFan && this->Fan.build(this->Corners);
+  const bool isTree = mayBePolygon && !isFan && this->Tree.build(this->Corners);
+  if (isFan || isTree)
   {
-    const std::span<const std::byte> tuples = this->Tuples;
-    const std::size_t bytes = this->Columns.bytes();
-    // All tuples are equal if each equals the one before it.
-    const bool same =
-      std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
-    this->Different += same ? 0 : 1;
-    this->write(polygon, tuples.first(bytes));
-    this->Corners.clear();
-    this->Tuples.clear();
+    this->writePolygon(isFan);
     return;
   }
-  // More memory would only help a polygon: other elements of several cells stay these cells anyway.
-  this->Large += this->TooLarge && this->MayBeFan ? 1 : 0;
-  this->Split += isOne || (this->TooLarge && this->MayBeFan) ? 0 : 1;
-  if (!isOne && !this->TooLarge && this->CornersOfCell == 3)
+  const bool isLargePolygon = this->TooLarge && this->MayBeFan;
+  this->Large += isLargePolygon ? 1 : 0;
+  this->Split += isOne || isLargePolygon ? 0 : 1;
+  if (mayBePolygon)
   {
     this->Fan = {}; // whose memory serves for the strip
     this->Tree = {};
     if (this->Strip.build(this->Corners))
     {
-      for (const std::uint32_t cell : this->Strip.order())
-      {
-        this->writeCell(cell);
-      }
-      this->Corners.clear();
-      this->Tuples.clear();
+      this->writeInOrder(this->Strip.order());
     }
   }
   this->writeCells();
@@ -158,6 +156,17 @@ void ElementRestorer::writeCell(std::size_t cell)
   const std::size_t bytes = this->Columns.bytes();
   this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
     std::span(this->Tuples).subspan(cell * bytes, bytes));
+}
+
+/** Writes the collected cells in this order of their places. */
+void ElementRestorer::writeInOrder(std::span<const std::uint32_t> cells)
+{
+  for (const std::uint32_t cell : cells)
+  {
+    this->writeCell(cell);
+  }
+  this->Corners.clear();
+  this->Tuples.clear();
 }
 
 /** Writes the collected cells as they are. */

@@ -72,8 +72,11 @@ private:
 class ElementRestorer
 {
 public:
-  /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. */
-  ElementRestorer(Workspace& workspace, std::int64_t memory, const MeshFileInfo& info);
+  /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. Of
+   * polygons with more than `maxCorners` corners, those that are no fan stay triangles, since the
+   * writer would make them one. */
+  ElementRestorer(
+    Workspace& workspace, std::int64_t memory, const MeshFileInfo& info, std::int64_t maxCorners);
 
   /** Adds a cell with tuple `tuple` of the columns, the first of which are the columns of the
    * info. */
@@ -94,7 +97,8 @@ public:
 
 private:
   void take(const RowSort::Row& row);
-  std::span<const std::uint32_t> polygon();
+  void writePolygon(bool isFan);
+  void writeInOrder(std::span<const std::uint32_t> cells);
   void endGroup();
   void writeCells();
   void writeCell(std::size_t cell);
@@ -106,6 +110,7 @@ private:
   RowSort Sorted;      ///< a row is the corners, then the columns
   BucketFile Elements; ///< number of corners, corners, columns
   MeshFileInfo Counts;
+  std::int64_t MaxCorners;
   std::size_t MaxCells; ///< of an element that is processed as a whole
 
   // The cells of one element.

@@ -2,6 +2,7 @@
 #include "IO/Export/TriangleChains.h"
 
 #include <algorithm>
+#include <iterator>
 
 // The last two corners of the triangles of a fan are edges of a graph, and the polygon is an Euler
 // trail of it: Hierholzer's algorithm finds it whatever the order of the triangles, and even if
@@ -169,66 +170,97 @@ bool PolygonTree::build(std::span<const std::uint32_t> triangles)
 {
   const std::size_t count = triangles.size() / 3;
   this->Bases.clear();
+  this->Sides.clear();
   for (std::uint32_t place = 0; place < count; ++place)
   {
-    this->Bases.push_back({ { triangles[3 * place], triangles[3 * place + 2] }, place });
+    const std::span<const std::uint32_t> corners = triangles.subspan(3 * std::size_t(place), 3);
+    this->Bases.push_back({ { corners[0], corners[2] }, place });
+    this->Sides.insert(
+      this->Sides.end(), { { corners[0], corners[1] }, { corners[1], corners[2] } });
   }
   std::ranges::sort(this->Bases);
-  const auto sameBase = [](const auto& a, const auto& b) { return a.first == b.first; };
-  if (std::ranges::adjacent_find(this->Bases, sameBase) != this->Bases.end())
+  std::ranges::sort(this->Sides);
+  // Each triangle but the root has a side of another one as its base. Where corners are repeated,
+  // the base of the root may be such a side, too: then any may be the root.
+  const std::size_t surplus = this->findRoots();
+  const bool mayBeAny = surplus == 0 && count <= MostRoots;
+  if (mayBeAny)
   {
-    return false;
+    std::ranges::transform(
+      this->Bases, std::back_inserter(this->Roots), [](const auto& base) { return base.second; });
   }
-
-  // Each triangle but the root lies behind a side of one other triangle.
-  std::vector<bool> isBehind(count);
-  std::size_t behind = 0;
-  for (std::size_t k = 0; k < triangles.size(); k += 3)
-  {
-    for (const Edge& side :
-      { Edge{ triangles[k], triangles[k + 1] }, Edge{ triangles[k + 1], triangles[k + 2] } })
-    {
-      if (const std::uint32_t next = this->behind(side); next != None && !isBehind[next])
-      {
-        isBehind[next] = true;
-        ++behind;
-      }
-    }
-  }
-  if (behind + 1 != count)
-  {
-    return false;
-  }
-
-  const auto root = static_cast<std::size_t>(std::ranges::find(isBehind, false) - isBehind.begin());
-  this->Corners.assign(1, triangles[3 * root]);
-  this->Stack.assign(1, { triangles[3 * root], triangles[3 * root + 2] });
-  while (!this->Stack.empty())
-  {
-    const Edge side = this->Stack.back();
-    this->Stack.pop_back();
-    const std::uint32_t next = this->behind(side);
-    if (next == None)
-    {
-      this->Corners.push_back(side.second);
-      if (this->Corners.size() > count + 2)
-      {
-        return false;
-      }
-      continue;
-    }
-    const std::uint32_t middle = triangles[3 * std::size_t(next) + 1];
-    this->Stack.push_back({ middle, side.second });
-    this->Stack.push_back({ side.first, middle });
-  }
-  return this->Corners.size() == count + 2;
+  return (surplus == 1 || mayBeAny) && std::ranges::any_of(this->Roots, [&](std::uint32_t root)
+                                         { return this->unfold(triangles, root); });
 }
 
-std::uint32_t PolygonTree::behind(const Edge& edge) const
+/** Collects triangles whose base is the side of none. Returns by how many there are more of them
+ * than sides. */
+std::size_t PolygonTree::findRoots()
 {
-  const auto found =
+  this->Roots.clear();
+  std::size_t surplus = 0;
+  for (auto base = this->Bases.begin(); base != this->Bases.end();)
+  {
+    const Edge& edge = base->first;
+    const auto end = std::find_if(
+      base, this->Bases.end(), [&edge](const auto& other) { return other.first != edge; });
+    const auto here = static_cast<std::size_t>(end - base);
+    const std::size_t sides = std::ranges::equal_range(this->Sides, edge).size();
+    if (here > sides)
+    {
+      this->Roots.push_back(base->second);
+      surplus += here - sides;
+    }
+    base = end;
+  }
+  return surplus;
+}
+
+/** Replaces the base of the root by its sides, and these by those of the triangles whose bases they
+ * are; returns whether all triangles have been used. */
+bool PolygonTree::unfold(std::span<const std::uint32_t> triangles, std::uint32_t root)
+{
+  const std::size_t count = triangles.size() / 3;
+  this->Taken.assign(count, 0);
+  this->Order.clear();
+  const Edge whole{ triangles[3 * std::size_t(root)], triangles[3 * std::size_t(root) + 2] };
+  this->Corners.assign(1, whole.first);
+  this->Stack.assign(1, whole);
+  while (!this->Stack.empty())
+  {
+    const Edge edge = this->Stack.back();
+    this->Stack.pop_back();
+    const std::uint32_t next = this->take(edge);
+    if (next == None)
+    {
+      this->Corners.push_back(edge.second);
+      continue;
+    }
+    this->Order.push_back(next);
+    const std::uint32_t middle = triangles[3 * std::size_t(next) + 1];
+    this->Stack.push_back({ middle, edge.second });
+    this->Stack.push_back({ edge.first, middle });
+  }
+  return this->Order.size() == count;
+}
+
+/** The next triangle with this base, each once. */
+std::uint32_t PolygonTree::take(const Edge& edge)
+{
+  const auto first =
     std::ranges::lower_bound(this->Bases, edge, {}, [](const auto& entry) { return entry.first; });
-  return found != this->Bases.end() && found->first == edge ? found->second : None;
+  const auto place = static_cast<std::size_t>(first - this->Bases.begin());
+  if (place == this->Bases.size() || first->first != edge)
+  {
+    return None;
+  }
+  const std::size_t next = place + this->Taken[place];
+  if (next == this->Bases.size() || this->Bases[next].first != edge)
+  {
+    return None;
+  }
+  ++this->Taken[place];
+  return this->Bases[next].second;
 }
 
 } // namespace smg

@@ -67,26 +67,35 @@ private:
  * Restores a polygon from the triangles of a PolygonTriangulation, which may come in any order. Its
  * triangles have ascending places a b c in the polygon: a c is a side of the triangle before, or
  * the side from the last corner to the first; a b and b c are those of other triangles, or sides
- * of the polygon.
+ * of the polygon. If corners of the polygon are repeated, several polygons may have the same
+ * triangles; the result is one of these.
  */
 class PolygonTree
 {
 public:
-  /** Whether the triangles, 3 corners each, are those of such a polygon whose corners are all
-   * different; then polygon() returns these. */
+  /** Whether the triangles, 3 corners each, are those of such a polygon; then polygon() returns its
+   * corners. */
   bool build(std::span<const std::uint32_t> triangles);
 
   std::span<const std::uint32_t> polygon() const { return this->Corners; }
+  /** The triangles by their places, in an order that does not depend on that in which they came. */
+  std::span<const std::uint32_t> order() const { return this->Order; }
 
 private:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   static constexpr std::uint32_t None = UINT32_MAX;
 
-  /** The triangle whose first and last corner are these. */
-  std::uint32_t behind(const Edge& edge) const;
+  /** Triangles that are tried as root where none must be it. */
+  static constexpr std::size_t MostRoots = 64;
+
+  std::size_t findRoots();
+  bool unfold(std::span<const std::uint32_t> triangles, std::uint32_t root);
+  std::uint32_t take(const Edge& edge);
 
   std::vector<std::pair<Edge, std::uint32_t>> Bases; ///< first and last corner of each triangle
-  std::vector<std::uint32_t> Corners;
+  std::vector<Edge> Sides;                           ///< the two others
+  std::vector<std::size_t> Taken; ///< by the first base of an edge: how many of its triangles
+  std::vector<std::uint32_t> Roots, Corners, Order;
   std::vector<Edge> Stack;
 };
 

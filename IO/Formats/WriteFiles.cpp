@@ -224,7 +224,7 @@ std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
 {
   checkRestoredPath(out, VsmReader(vsm).info().cellType);
   checkForm(out, text);
-  RestoredMesh mesh(vsm, workspace);
+  RestoredMesh mesh(vsm, workspace, formatOfName(out)->maxCorners);
   std::vector<std::string> notes = mesh.notes();
   const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace, text);
   notes.insert(notes.end(), more.begin(), more.end());

@@ -50,16 +50,19 @@ public:
   /** The number of points. */
   std::size_t size() const { return this->Numbers.size(); }
 
-  /** Whether `isFound` is true for the number of a point: it is called for all in the triangle or
-   * on its sides, and for others near it, until it is true. */
+  using Triangle = std::array<Point, 3>;
+
+  /** Whether `isFound` is true for the number of a point: it is called for all within `reach` of
+   * the triangle, and for others near it, until it is true. */
   template <class IsFound>
-  bool anyOf(const Point& a, const Point& b, const Point& c, IsFound&& isFound) const
+  bool anyOf(const Triangle& triangle, double reach, IsFound&& isFound) const
   {
-    const auto [low, high] = std::minmax({ a[1], b[1], c[1] });
-    const std::size_t last = this->stripOf(high);
-    for (std::size_t strip = this->stripOf(low); strip <= last; ++strip)
+    const auto [low, high] = std::minmax({ triangle[0][1], triangle[1][1], triangle[2][1] });
+    reach += Margin * this->Height;
+    const std::size_t last = this->stripOf(high + reach);
+    for (std::size_t strip = this->stripOf(low - reach); strip <= last; ++strip)
     {
-      const auto [left, right] = this->across(a, b, c, strip);
+      const auto [left, right] = this->across(triangle, reach, strip);
       const auto end = this->Numbers.begin() + this->Begins[strip + 1];
       auto at = std::lower_bound(this->Numbers.begin() + this->Begins[strip], end, left,
         [this](std::uint32_t k, double x) { return this->Points[k][0] < x; });
@@ -75,43 +78,43 @@ public:
   }
 
 private:
+  /** By which triangles are taken larger than they are, relative to the height of a strip. */
+  static constexpr double Margin = 1e-6;
+
   std::size_t stripOf(double y) const
   {
     const double strip = this->Height > 0.0 ? (y - this->Low) / this->Height : 0.0;
     return std::min(static_cast<std::size_t>(std::max(strip, 0.0)), this->Count - 1);
   }
 
-  /** The least and the largest x of a triangle in a strip, or somewhat more. */
-  std::array<double, 2> across(
-    const Point& a, const Point& b, const Point& c, std::size_t strip) const
+  /** The least and the largest x of what is within `reach` of a triangle in a strip, or somewhat
+   * more. */
+  std::array<double, 2> across(const Triangle& triangle, double reach, std::size_t strip) const
   {
-    const double margin = 1e-6 * this->Height;
-    const double low = this->Low + double(strip) * this->Height - margin;
-    const double high = low + this->Height + 2 * margin;
+    const double low = this->Low + double(strip) * this->Height - reach;
+    const double high = low + this->Height + 2 * reach;
     double left = std::numeric_limits<double>::infinity();
     double right = -left;
-    const std::array<std::array<const Point*, 2>, 3> sides{ { { &a, &b }, { &b, &c },
-      { &c, &a } } };
-    for (const auto& [p, q] : sides)
+    for (std::size_t side = 0; side < 3; ++side)
     {
-      const double rise = (*q)[1] - (*p)[1];
-      const auto [first, second] = std::minmax((*p)[1], (*q)[1]);
+      const Point& p = triangle[side];
+      const Point& q = triangle[(side + 1) % 3];
+      const double rise = q[1] - p[1];
+      const auto [first, second] = std::minmax(p[1], q[1]);
       if (second < low || first > high)
       {
         continue;
       }
-      for (const Point* const end : { p, q })
+      for (const Point& end : { p, q })
       {
         // An almost level side is taken whole.
-        const double y = std::clamp((*end)[1], low, high);
-        const double x = std::abs(rise) > margin
-                           ? (*p)[0] + (y - (*p)[1]) / rise * ((*q)[0] - (*p)[0])
-                           : (*end)[0];
+        const double y = std::clamp(end[1], low, high);
+        const double x = std::abs(rise) > reach ? p[0] + (y - p[1]) / rise * (q[0] - p[0]) : end[0];
         left = std::min(left, x);
         right = std::max(right, x);
       }
     }
-    const double more = 1e-9 * (right - left) + margin;
+    const double more = 1e-9 * (right - left) + 2 * reach;
     return { left - more, right + more };
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 // Triangulation of a polygon by ears (Meisters, Polygons have ears, 1975), the best-shaped first.
 //
@@ -18,7 +19,8 @@
 // off, and overlaps() tells that the areas of the triangles do not add up to that of the polygon.
 //
 // Cost: ears are in a heap, and corners in strips (PointStrips.h), so that an ear is compared only
-// with corners near it: about O(n log n) where ears are small, O(n^1.5) where they are long.
+// with corners near it: about O(n log n) where ears are small, O(n^1.5) where they are long, O(n^2)
+// at worst, as where all corners are at a few places.
 
 namespace smg
 {
@@ -28,9 +30,9 @@ namespace
 
 constexpr std::uint32_t Gone = std::numeric_limits<std::uint32_t>::max();
 
-/** A triangle of less area, relative to its longest side, is none: the corners lie on a line, up to
- * the rounding of single precision. */
-constexpr double FlatQuality = 1e-7;
+/** A triangle of less area, relative to its longest side, is flat: the corners lie on a line, up to
+ * the tolerance of a drawing. The second one is the rounding of single precision. */
+constexpr double FlatQuality = 1e-4, LineQuality = 1e-7;
 /** Areas beyond this one, or their squares, may be no numbers. */
 constexpr double Most = 1e150;
 constexpr double Any = -std::numeric_limits<double>::infinity();
@@ -50,12 +52,21 @@ double squareOf(const std::array<double, 2>& a, const std::array<double, 2>& b)
 void PolygonTriangulation::cut(std::span<const double> corners, const std::function<void()>& poll)
 {
   this->Triangles.clear();
+  this->Poll = &poll;
   this->project(corners);
   this->IsFan = this->cutFan();
   if (!this->IsFan)
   {
-    this->cutEars(poll);
+    const double worst = this->worstQuality();
+    std::vector<Triangle> fan = this->Triangles;
+    this->cutEars();
+    this->IsFan = worst > 0.0 && worst >= this->worstQuality();
+    if (this->IsFan)
+    {
+      this->Triangles.swap(fan);
+    }
   }
+  this->Winds = this->IsFan && !this->windsOnce();
 }
 
 /** Sets the points to the corners as seen along the normal of the polygon (Newell). */
@@ -96,20 +107,55 @@ void PolygonTriangulation::project(std::span<const double> corners)
   }
 }
 
-/** Cuts the fan of the first corner; returns whether all its triangles have area, and the sign of
- * that of the polygon, so that it covers the polygon. */
+/** Of the triangles of the current cut; those with corners at one place do not count, since no cut
+ * is without them. */
+double PolygonTriangulation::worstQuality() const
+{
+  double worst = 1.0;
+  for (const Triangle& t : this->Triangles)
+  {
+    const Point &a = this->Points[t[0]], &b = this->Points[t[1]], &c = this->Points[t[2]];
+    const bool isOfThree = a != b && b != c && c != a;
+    worst = isOfThree ? std::min(worst, this->qualityOf(t[0], t[1], t[2])) : worst;
+  }
+  return worst;
+}
+
+/** Cuts the fan of the first corner; returns whether none of its triangles is flat or turned, so
+ * that it covers the polygon well. */
 bool PolygonTriangulation::cutFan()
 {
   const auto count = static_cast<std::uint32_t>(this->Points.size());
-  bool covers = true;
   for (std::uint32_t k = 1; k + 1 < count; ++k)
   {
     this->Triangles.push_back({ 0, k, k + 1 });
-    covers = covers && this->qualityOf(0, k, k + 1) > FlatQuality;
   }
   // Without a normal, or with squares that are no numbers, no cut is better than another.
   const bool isMeasured = this->TwiceArea > 0.0 && this->TwiceArea < Most && this->Extent < Most;
-  return covers || count == 3 || !isMeasured;
+  return count == 3 || !isMeasured || this->worstQuality() > FlatQuality;
+}
+
+/** Whether the triangles of the fan, all of which turn in one sense, do so once around the first
+ * corner. Two angles are always less than a turn. */
+bool PolygonTriangulation::windsOnce() const
+{
+  double angle = 0.0;
+  for (std::size_t k = 1; this->Points.size() > 4 && k + 1 < this->Points.size(); ++k)
+  {
+    const Point &p = this->Points[k], &q = this->Points[k + 1];
+    angle += std::atan2(std::abs(turn(p, q)), p[0] * q[0] + p[1] * q[1]);
+  }
+  return angle < 2.0 * std::numbers::pi * (1.0 + 1e-9);
+}
+
+/** Counts a step of a loop that may be long. */
+void PolygonTriangulation::count()
+{
+  constexpr std::uint64_t Often = 1 << 16;
+  if (++this->Steps % Often == 0)
+  {
+    (*this->Poll)();
+  }
 }
 
 bool PolygonTriangulation::overlaps() const
@@ -119,10 +165,11 @@ bool PolygonTriangulation::overlaps() const
   {
     sum += std::abs(this->twiceArea(t[0], t[1], t[2]));
   }
-  return sum - this->TwiceArea > 1e-6 * std::max(this->TwiceArea, 1e-3 * this->Extent);
+  return this->Winds ||
+         sum - this->TwiceArea > 1e-6 * std::max(this->TwiceArea, 1e-3 * this->Extent);
 }
 
-void PolygonTriangulation::cutEars(const std::function<void()>& poll)
+void PolygonTriangulation::cutEars()
 {
   const auto count = static_cast<std::uint32_t>(this->Points.size());
   this->Triangles.clear();
@@ -137,10 +184,10 @@ void PolygonTriangulation::cutEars(const std::function<void()>& poll)
   this->buildStrips();
   // An ear that holds a corner may be free later: it is looked at again when no other is left. Then
   // flat ones come, and at last any corner.
-  for (const double least : { FlatQuality, 0.0, Any })
+  for (const double least : { FlatQuality, LineQuality, 0.0, Any })
   {
     this->LeastQuality = least;
-    while (this->cutRound(poll))
+    while (this->cutRound())
     {
     }
   }
@@ -148,7 +195,7 @@ void PolygonTriangulation::cutEars(const std::function<void()>& poll)
 
 /** Cuts off ears until none of those is left that there were, or that came; returns whether there
  * were any. */
-bool PolygonTriangulation::cutRound(const std::function<void()>& poll)
+bool PolygonTriangulation::cutRound()
 {
   const std::size_t before = this->Triangles.size();
   const std::size_t all = this->Points.size() - 2;
@@ -163,10 +210,7 @@ bool PolygonTriangulation::cutRound(const std::function<void()>& poll)
     {
       this->cutOff(ear.corner);
     }
-    if (this->Ears.size() % 64 == 0)
-    {
-      poll();
-    }
+    this->count();
   }
   return this->Triangles.size() > before && this->Triangles.size() < all;
 }
@@ -211,24 +255,29 @@ void PolygonTriangulation::addEar(std::uint32_t corner)
 }
 
 /** Whether another corner that is not convex lies in the triangle of an ear or on its sides. */
-bool PolygonTriangulation::containsCorner(std::uint32_t ear) const
+bool PolygonTriangulation::containsCorner(std::uint32_t ear)
 {
   const std::array<std::uint32_t, 3> corners{ this->Previous[ear], ear, this->Next[ear] };
   const Point& a = this->Points[corners[0]];
   const Point& b = this->Points[corners[1]];
   const Point& c = this->Points[corners[2]];
-  return this->Strips.anyOf(a, b, c,
+  // A corner beside a side, nearer than what counts as flat, would leave a flat triangle.
+  const double square = std::max({ squareOf(a, b), squareOf(b, c), squareOf(c, a) });
+  const double margin = this->LeastQuality * square;
+  return this->Strips.anyOf({ a, b, c }, this->LeastQuality * std::sqrt(square),
     [&](std::uint32_t k)
     {
+      this->count();
       const Point& p = this->Points[k];
       // Not corners at the same place, as of a hole that is joined to the outline by two sides.
       if (this->Version[k] == Gone || p == a || p == b || p == c)
       {
         return false;
       }
-      const auto isLeft = [&p](const Point& from, const Point& to) {
+      const auto isLeft = [&p, margin](const Point& from, const Point& to)
+      {
         return turn({ to[0] - from[0], to[1] - from[1] }, { p[0] - from[0], p[1] - from[1] }) >=
-               0.0;
+               -margin;
       };
       return isLeft(a, b) && isLeft(b, c) && isLeft(c, a) &&
              this->qualityOf(this->Previous[k], k, this->Next[k]) <= this->LeastQuality;

@@ -14,8 +14,8 @@ namespace smg
 {
 
 /**
- * Cuts a polygon in space into triangles: into the fan of its first corner if that covers it, else
- * by ears. The polygon is seen along the mean of its normals.
+ * Cuts a polygon in space into triangles: into the fan of its first corner if that covers it
+ * without flat triangles, else by ears. The polygon is seen along the mean of its normals.
  *
  * A polygon of n corners has n - 2 triangles, three places in the polygon each. The places of a
  * triangle ascend, so that the triangles have the orientation of the polygon, and the polygon can
@@ -32,7 +32,8 @@ public:
   /** `corners`: x, y, z of each, at least three corners. `poll` may throw, to cancel. */
   void cut(std::span<const double> corners, const std::function<void()>& poll);
 
-  std::span<const Triangle> triangles() const { return this->Triangles; }
+  std::span<const Triangle> triangles() const& { return this->Triangles; }
+  std::span<const Triangle> triangles() const&& = delete; ///< it would dangle
   /** Whether the triangles are the fan of the first corner. */
   bool isFan() const { return this->IsFan; }
   /** Whether they overlap, since the sides of the polygon cross. */
@@ -56,13 +57,16 @@ private:
   };
 
   void project(std::span<const double> corners);
+  double worstQuality() const;
   bool cutFan();
-  void cutEars(const std::function<void()>& poll);
-  bool cutRound(const std::function<void()>& poll);
+  bool windsOnce() const;
+  void cutEars();
+  bool cutRound();
   void buildStrips();
   void collectEars();
   void addEar(std::uint32_t corner);
-  bool containsCorner(std::uint32_t ear) const;
+  bool containsCorner(std::uint32_t ear);
+  void count();
   void cutOff(std::uint32_t ear);
   double twiceArea(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   double qualityOf(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
@@ -70,7 +74,9 @@ private:
   std::vector<Point> Points;
   double TwiceArea = 0.0, Extent = 0.0; ///< of the polygon; the largest square of a distance in it
   std::vector<Triangle> Triangles;
-  bool IsFan = true;
+  bool IsFan = true, Winds = false; ///< more than once around the first corner
+  const std::function<void()>* Poll = nullptr;
+  std::uint64_t Steps = 0;
 
   std::vector<std::uint32_t> Next, Previous, Version; ///< by corner; `Version` is Gone if cut off
   PointStrips Strips;                                 ///< of the corners that are left, and more

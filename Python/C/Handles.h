@@ -115,6 +115,9 @@ struct smg_mesh
   /** The same without columns that are arguments. */
   smg_mesh withoutArguments() const
   {
-    return { this->shared, this->added ? this->added->withoutArguments() : nullptr, {} };
+    smg_mesh own;
+    own.shared = this->shared;
+    own.added = this->added ? this->added->withoutArguments() : nullptr;
+    return own;
   }
 };

@@ -27,7 +27,7 @@ def _triangles(points: Any, corners: np.ndarray, offsets: np.ndarray) -> Tuple[n
         raise InputError("cells: a polygon has less than three corners.")
     polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
     if len(polygon) == len(sizes):
-        return corners.reshape(-1, 3), polygon
+        return corners[offsets[0] : offsets[-1]].reshape(-1, 3), polygon
     simplices = np.empty((len(polygon), 3), np.int64)
     points, _ = points_and_cells(points, simplices)
     arrays = points, numbers(corners, "cells"), numbers(offsets, "cells")
@@ -114,7 +114,8 @@ def _parts(thing: Any) -> Tuple[Any, np.ndarray, Optional[np.ndarray]]:
     if hasattr(thing, "celltypes") or hasattr(thing, "GetPolys"):
         return points, *_of_vtk(thing, points)
     cells = getattr(thing, "cells", None)
-    if cells is None:
+    are_faces = cells is None
+    if are_faces:
         cells = getattr(thing, "faces", None)
     if cells is None:
         raise InputError("%r has neither cells nor faces." % type(thing).__name__)
@@ -123,6 +124,8 @@ def _parts(thing: Any) -> Tuple[Any, np.ndarray, Optional[np.ndarray]]:
     cells = numbers(cells, "cells")
     if cells.ndim == 1:
         return points, *_triangles(points, *_counted(cells))
+    if are_faces and cells.ndim == 2 and cells.shape[1] > 3:  # as of quadrilaterals
+        return points, *_triangles(points, cells.reshape(-1), np.arange(len(cells) + 1) * cells.shape[1])
     return points, cells, None
 
 
@@ -149,8 +152,8 @@ def from_pyvista(dataset: Any, **options: Any) -> Mesh:
 
     Args:
         dataset: a pyvista.PolyData or UnstructuredGrid, a mesh of meshio or trimesh, or any object with
-            `points` (or `vertices`), (n, 3), and `cells` or `faces`: (m, 3) triangles, (m, 4)
-            tetrahedra, or counted as in VTK. Polygons are cut into triangles, whose cell data are
+            `points` (or `vertices`), (n, 3), and `cells`: (m, 3) triangles, (m, 4) tetrahedra, or
+            `faces`: (m, k) polygons; either may be counted as in VTK. Polygons are cut into triangles, whose cell data are
             those of the polygon; of meshio's meshes with tetrahedra these count. Columns with which
             this package numbers and marks meshes (OriginalId, OriginalCellId, CellFlags), and
             those of VTK itself (vtk...), stay behind.

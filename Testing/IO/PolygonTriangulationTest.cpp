@@ -52,13 +52,13 @@ TEST(PolygonTriangulation, CoversAPolygonOnceAndGivesItBack)
 {
   Random random(1);
   int fans = 0;
-  for (int k = 0; k < 4000; ++k)
+  for (int k = 0; k < 50'000; ++k)
   {
     SCOPED_TRACE(k);
     const RandomPolygon polygon = randomPolygon(random, k);
     const PolygonTriangulation cut = cutOf(polygon.corners);
     ASSERT_EQ(cut.triangles().size(), polygon.size() - 2);
-    EXPECT_FALSE(cut.overlaps());
+    ASSERT_FALSE(cut.overlaps());
     fans += cut.isFan() ? 1 : 0;
     // The areas of the triangles, as vectors and as numbers, add up to that of the polygon: all
     // have its orientation.
@@ -78,25 +78,83 @@ TEST(PolygonTriangulation, CoversAPolygonOnceAndGivesItBack)
     std::iota(places.begin(), places.end(), 0);
     EXPECT_EQ(restored({ cut.triangles().begin(), cut.triangles().end() }, random), places);
   }
-  EXPECT_GT(fans, 40);
-  EXPECT_LT(fans, 2000);
+  EXPECT_GT(fans, 500);
+  EXPECT_LT(fans, 25'000);
 }
 
 TEST(PolygonTriangulation, CornersOnASideMakeNoFlatTriangles)
 {
   // The first two corners of the second one are on a line with the third one, as of a coarse cell
-  // beside finer ones.
-  const std::vector<double> polygons[] = { { 0, 0, 5, 1, 0, 5, 2, 0, 5, 2, 2, 5, 0, 2, 5 },
-    { 0, 0, 0, 3, 0.3, 0, 9, 0.9, 0, 10, 1, 0, 5, 7, 0 } };
-  for (const std::vector<double>& corners : polygons)
+  // beside finer ones; the third one is an L, with corners on all sides. Up to the noise of a
+  // drawing.
+  std::vector<double> L;
+  for (const auto& [x, y, dx, dy] : { std::array{ 0, 0, 2, 0 }, { 10, 0, 0, 1 }, { 10, 5, -1, 0 },
+         { 5, 5, 0, 1 }, { 5, 10, -1, 0 }, { 0, 10, 0, -2 } })
   {
-    const PolygonTriangulation cut = cutOf(corners);
-    EXPECT_FALSE(cut.isFan());
-    for (const Triangle& triangle : cut.triangles())
+    for (int k = 0; k < 5; ++k)
     {
-      const Vector area = areaOf(corners, triangle);
-      EXPECT_GT(std::sqrt(dot(area, area)), 0.5);
+      L.insert(L.end(), { double(x + k * dx), double(y + k * dy), 1.0 });
     }
+  }
+  Random random(3);
+  for (const std::vector<double>& corners :
+    { std::vector<double>{ 0, 0, 5, 1, 0, 5, 2, 0, 5, 2, 2, 5, 0, 2, 5 },
+      { 0, 0, 0, 3, 0.3, 0, 9, 0.9, 0, 10, 1, 0, 5, 7, 0 }, L })
+  {
+    for (const double noise : { 0.0, 1e-12, 1e-9, 1e-6, 1e-5 })
+    {
+      std::vector<double> noisy = corners;
+      std::ranges::for_each(noisy, [&](double& x) { x += random.uniform(-noise, noise); });
+      const PolygonTriangulation cut = cutOf(noisy);
+      EXPECT_FALSE(cut.isFan());
+      for (const Triangle& triangle : cut.triangles())
+      {
+        const Vector area = areaOf(noisy, triangle);
+        EXPECT_GT(std::sqrt(dot(area, area)), 0.3) << noise;
+      }
+    }
+  }
+}
+
+/** A polygon that may name a vertex several times, as its triangles and restored from them. */
+std::size_t cornersOfRestored(
+  const std::vector<std::uint32_t>& polygon, const std::vector<double>& places, Random& random)
+{
+  std::vector<double> corners;
+  for (const std::uint32_t corner : polygon)
+  {
+    corners.insert(corners.end(), places.begin() + 3 * corner, places.begin() + 3 * corner + 3);
+  }
+  const PolygonTriangulation cut = cutOf(corners);
+  std::vector<Triangle> triangles;
+  for (const Triangle& triangle : cut.triangles())
+  {
+    triangles.push_back({ polygon[triangle[0]], polygon[triangle[1]], polygon[triangle[2]] });
+  }
+  return restored(triangles, random).size();
+}
+
+TEST(PolygonTriangulation, OfRepeatedCornersIsRestored)
+{
+  // Of few numbers, as of a triangle that is written as a quadrilateral: restoring ends.
+  Random random(4);
+  for (int k = 0; k < 20'000; ++k)
+  {
+    std::vector<std::uint32_t> polygon(static_cast<std::size_t>(4 + random.below(5)));
+    std::ranges::generate(polygon, [&] { return static_cast<std::uint32_t>(random.below(9)); });
+    std::vector<double> places(3 * 9);
+    std::ranges::generate(places, [&] { return double(random.below(4)); });
+    const std::size_t back = cornersOfRestored(polygon, places, random);
+    EXPECT_TRUE(back == 0 || back == polygon.size()) << k;
+  }
+  // A hole that is joined to the outline at one vertex comes back.
+  std::vector<std::uint32_t> frame{ 0, 1, 2, 3, 0, 4, 5, 6, 7, 4 };
+  const std::vector<double> places{ 0, 0, 0, 6, 0, 0, 6, 6, 0, 0, 6, 0, 2, 2, 0, 2, 4, 0, 4, 4, 0,
+    4, 2, 0 };
+  for (std::size_t first = 0; first < frame.size(); ++first)
+  {
+    std::rotate(frame.begin(), frame.begin() + 1, frame.end());
+    EXPECT_EQ(cornersOfRestored(frame, places, random), frame.size()) << first;
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -92,29 +93,41 @@ private:
 
 } // namespace
 
+namespace
+{
+
+/** The area of each element. */
+std::vector<double> areasOf(const ReadMesh& mesh)
+{
+  std::vector<double> areas(static_cast<std::size_t>(mesh.elementCount));
+  for (std::size_t cell = 0; cell < mesh.elements.size(); ++cell)
+  {
+    const auto position = [&](std::size_t k)
+    { return &mesh.positions[3 * std::size_t(mesh.corners[3 * cell + k])]; };
+    const Vector area =
+      cross(difference(position(1), position(0)), difference(position(2), position(0)));
+    areas[std::size_t(mesh.elements[cell])] += std::sqrt(dot(area, area)) / 2;
+  }
+  return areas;
+}
+
+} // namespace
+
 TEST(Polygons, HaveTheirAreaInEveryFormatAndComeBackTheSame)
 {
   const TemporaryFolder folder;
   const PolygonMesh mesh(300);
+  const double all = std::accumulate(mesh.areas.begin(), mesh.areas.end(), 0.0);
+  Workspace workspace(folder.path(), Workspace::MinMemory);
   for (const char* suffix : { ".obj", ".off", ".ply", ".vtk" })
   {
     SCOPED_TRACE(suffix);
     const std::filesystem::path in = folder / ("in" + std::string(suffix));
     writeBytes(in, mesh.text(suffix));
-    Workspace workspace(folder.path(), Workspace::MinMemory);
     RawMesh raw = importMesh(in, workspace);
     cutPolygons(raw, workspace);
     EXPECT_TRUE(raw.counts.notes.empty());
-    const ReadMesh read = readRaw(raw);
-    std::vector<double> areas(mesh.areas.size());
-    for (std::size_t cell = 0; cell < read.elements.size(); ++cell)
-    {
-      const auto position = [&](std::size_t k)
-      { return &read.positions[3 * std::size_t(read.corners[3 * cell + k])]; };
-      const Vector area =
-        cross(difference(position(1), position(0)), difference(position(2), position(0)));
-      areas[std::size_t(read.elements[cell])] += std::sqrt(dot(area, area)) / 2;
-    }
+    const std::vector<double> areas = areasOf(readRaw(raw));
     for (std::size_t cell = 0; cell < areas.size(); ++cell)
     {
       EXPECT_NEAR(areas[cell], mesh.areas[cell], 1e-9 * (1 + mesh.areas[cell])) << cell;
@@ -123,6 +136,18 @@ TEST(Polygons, HaveTheirAreaInEveryFormatAndComeBackTheSame)
     convert(in, folder / "mesh.vsm");
     writeRestored(folder / "mesh.vsm", folder / ("out" + std::string(suffix)), workspace);
     EXPECT_EQ(readFileMesh(folder / ("out" + std::string(suffix))).cells, mesh.cells);
+  }
+  // Formats without polygons have their triangles; those with quadrilaterals have these.
+  for (const char* suffix : { ".stl", ".mesh", ".msh", ".node" })
+  {
+    SCOPED_TRACE(suffix);
+    const std::filesystem::path out = folder / ("out" + std::string(suffix));
+    writeRestored(folder / "mesh.vsm", out, workspace);
+    RawMesh raw = importMesh(out, workspace);
+    cutPolygons(raw, workspace);
+    const std::vector<double> areas = areasOf(readRaw(raw));
+    // STL is in single precision.
+    EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), all, 1e-4 * all);
   }
 }
 

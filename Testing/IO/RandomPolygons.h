@@ -32,13 +32,15 @@ inline double twiceArea(const Point& a, const Point& b, const Point& c)
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/** Random points, joined along a closed way whose crossings are removed by turning parts around. */
-inline std::vector<Point> uncrossed(Random& random, int count)
+/** Random points, with integer coordinates below `grid` unless that is 0, joined along a closed way
+ * whose crossings are removed by turning parts around. */
+inline std::vector<Point> uncrossed(Random& random, int count, int grid = 0)
 {
   std::vector<Point> way(static_cast<std::size_t>(count));
   for (Point& point : way)
   {
-    point = { random.uniform(), random.uniform() };
+    point = grid > 0 ? Point{ double(random.below(grid)), double(random.below(grid)) }
+                     : Point{ random.uniform(), random.uniform() };
   }
   const auto cross = [&way](std::size_t i, std::size_t j)
   {
@@ -97,6 +99,30 @@ inline std::vector<Point> frame()
     { 2, 2 } };
 }
 
+/** A simple polygon of integer coordinates, of which many lie on lines through others. */
+inline std::vector<Point> ofGrid(Random& random, int count)
+{
+  for (;;)
+  {
+    std::vector<Point> corners = uncrossed(random, count, 4);
+    bool isSimple = true;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      const Point &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      for (std::size_t k = 0; k < corners.size() && isSimple; ++k)
+      {
+        const Point& p = corners[k];
+        const double along = (p[0] - a[0]) * (p[0] - b[0]) + (p[1] - a[1]) * (p[1] - b[1]);
+        isSimple = k == i || k == (i + 1) % corners.size() || twiceArea(a, b, p) != 0 || along > 0;
+      }
+    }
+    if (isSimple)
+    {
+      return corners;
+    }
+  }
+}
+
 } // namespace randompolygon
 
 /** A polygon of one of several kinds, in any place and plane, with any first corner and either
@@ -106,9 +132,10 @@ inline RandomPolygon randomPolygon(Random& random, int kind)
   using namespace randompolygon;
   const auto between = [&random](int least, int most)
   { return least + static_cast<int>(random.below(most - least + 1)); };
-  std::vector<Point> flat = kind % 4 == 0   ? uncrossed(random, between(4, 14))
-                            : kind % 4 == 1 ? star(random, between(4, 40))
-                            : kind % 4 == 2 ? comb(between(1, 9))
+  std::vector<Point> flat = kind % 5 == 0   ? uncrossed(random, between(4, 14))
+                            : kind % 5 == 1 ? star(random, between(4, 40))
+                            : kind % 5 == 2 ? comb(between(1, 9))
+                            : kind % 5 == 3 ? ofGrid(random, between(4, 8))
                                             : frame();
   RandomPolygon polygon;
   for (std::size_t k = 1; k + 1 < flat.size(); ++k)

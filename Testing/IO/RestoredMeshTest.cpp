@@ -427,7 +427,8 @@ protected:
 TEST_F(LargeRestoredMesh, IsRestoredInLittleMemory)
 {
   Workspace workspace(this->Folder.path(), Workspace::MinMemory);
-  RestoredMesh restored(this->Folder / "mesh.vsm", workspace);
+  RestoredMesh restored(
+    this->Folder / "mesh.vsm", workspace, std::numeric_limits<std::int64_t>::max());
   EXPECT_EQ(restored.info().vertices, Vertices);
   EXPECT_EQ(restored.info().isolated, Vertices / 3);
   std::vector<double> points;

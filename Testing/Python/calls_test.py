@@ -91,6 +91,9 @@ class CancelTest(unittest.TestCase):
             lambda: mesh.distance([0], progress=enough),
             lambda: mesh.save("cancelled.vtu", progress=enough),
             lambda: mesh.solver(**PROBLEM, progress=enough),
+            lambda: mesh.info(full=True, progress=enough),
+            lambda: mesh.simplify(9, progress=enough),
+            lambda: mesh.select(smg.boundary, progress=enough),
         ):  # fmt: skip
             self.assertRaises(Enough, call)
         self.assertFalse(os.path.exists("cancelled.vtu"))

@@ -150,6 +150,12 @@ class OthersTest(unittest.TestCase):
         mesh = smg.from_pyvista(types.SimpleNamespace(vertices=points, faces=cells))
         np.testing.assert_array_equal(mesh.cells, cells)
 
+    def test_faces_of_four_corners_are_quadrilaterals(self):
+        points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]], float)
+        faces = np.array([[0, 1, 2, 3], [1, 4, 5, 2]])
+        mesh = smg.from_pyvista(types.SimpleNamespace(vertices=points, faces=faces))
+        self.assertEqual(sorted(mesh.cells.tolist()), [[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]])
+
     def test_meshio(self):
         points, cells = cube(2)
 

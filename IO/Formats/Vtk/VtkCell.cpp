@@ -3,6 +3,7 @@
 
 #include "IO/External/Workspace.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Import/Polygons.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -207,15 +208,16 @@ std::vector<std::int64_t> numbersIn(RecordFile<std::uint32_t>& file)
 
 } // namespace
 
-VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, CellChoice choice,
-  const VtkCellAt& at, const std::filesystem::path& scratch)
+VtkCellParts cutVtkCells(std::int64_t points, const VtkPointAt& pointAt, std::int64_t cells,
+  CellChoice choice, const VtkCellAt& at, const std::filesystem::path& scratch)
 {
   std::vector<std::int64_t> ofCell;
   Workspace space(scratch, Memory);
   RawMeshBuilder builder(space, choice);
   for (std::int64_t point = 0; point < points; ++point)
   {
-    builder.vertex(0.0, 0.0, 0.0);
+    const auto [x, y, z] = pointAt(point);
+    builder.vertex(x, y, z);
   }
   builder.numberVertices(0, points);
   for (std::int64_t cell = 0; cell < cells; ++cell)
@@ -233,6 +235,7 @@ VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, CellChoice cho
   try
   {
     RawMesh mesh = builder.finish();
+    cutPolygons(mesh, space);
     VtkCellParts parts{ mesh.cellType, numbersIn(mesh.corners), numbersIn(mesh.elements) };
     if (parts.cellOf.empty())
     {

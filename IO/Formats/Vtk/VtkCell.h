@@ -6,6 +6,7 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -40,17 +41,20 @@ struct VtkCellParts
 /** Returns the type of a cell of VTK, and its points. */
 using VtkCellAt = std::function<int(std::int64_t cell, std::vector<std::int64_t>& points)>;
 
+using VtkPointAt = std::function<std::array<double, 3>(std::int64_t point)>;
+
 /**
  * Cuts cells in memory into triangles or tetrahedra. Cells of the other kind, points and lines have
  * no parts.
  * @param points number of points
+ * @param pointAt their positions
  * @param cells number of cells
  * @param choice which cells are cut
  * @param at the cells
  * @param scratch folder for scratch files; empty: the system's temporary folder
  * @throws Error if a cell is of a type that is not supported, or there are no parts
  */
-SMG_EXPORT VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, CellChoice choice,
-  const VtkCellAt& at, const std::filesystem::path& scratch);
+SMG_EXPORT VtkCellParts cutVtkCells(std::int64_t points, const VtkPointAt& pointAt,
+  std::int64_t cells, CellChoice choice, const VtkCellAt& at, const std::filesystem::path& scratch);
 
 } // namespace smg
