@@ -54,3 +54,31 @@ def shuffled(points, cells, chance):
 def fans(cells):
     """The polygons as triangles."""
     return [(cell[0], cell[k], cell[k + 1]) for cell in cells for k in range(1, len(cell) - 1)]
+
+
+def area_of(triangles):
+    """The sum of the areas of triangles of points, as vectors: that of a polygon, however it is cut."""
+    total = [0.0, 0.0, 0.0]
+    for a, b, c in triangles:
+        e, f = ([p - q for p, q in zip(other, a)] for other in (b, c))
+        for k in range(3):
+            total[k] += (e[(k + 1) % 3] * f[(k + 2) % 3] - e[(k + 2) % 3] * f[(k + 1) % 3]) / 2
+    return total
+
+
+def are_triangles_of(cells, points, corners):
+    """Whether the corners are those of the triangles into which the polygons are cut, one after the other:
+    points of each polygon, which together have its area."""
+    if len(corners) != 3 * len(fans(cells)):
+        return False
+    begin = 0
+    for cell in cells:
+        triangles = corners[begin:begin + 3 * (len(cell) - 2)]
+        begin += len(triangles)
+        found = area_of(zip(triangles[0::3], triangles[1::3], triangles[2::3]))
+        expected = area_of([points[k] for k in triangle] for triangle in fans([cell]))
+        size = max(map(abs, expected)) + 1e-12
+        if not {points[k] for k in cell} >= set(triangles) or any(
+                abs(a - b) > 1e-5 * size for a, b in zip(found, expected)):
+            return False
+    return True

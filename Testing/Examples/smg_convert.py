@@ -8,7 +8,7 @@ import os
 import sys
 
 from mesh_files import ply_vertices, read_mesh, same_points
-from odd_mesh import fans, odd_solid, odd_surface
+from odd_mesh import are_triangles_of, fans, odd_solid, odd_surface
 from program import load, run, write_medit, write_ply, write_torus
 from tetrahedra import tetrahedra
 
@@ -38,10 +38,10 @@ def check_restored(vsm, suffix, points, cells):
     """Expects the given points and cells."""
     mesh = restore(vsm, suffix)
     if suffix == ".stl":
-        points = [points[corner] for cell in fans(cells) for corner in cell]
+        assert are_triangles_of(cells, points, mesh.points), (vsm, suffix)
     else:
         assert mesh.cells == cells, (vsm, suffix)
-    assert same_points(mesh.points, points), (vsm, suffix)
+        assert same_points(mesh.points, points), (vsm, suffix)
 
 
 def test_restored_order():
