@@ -126,12 +126,14 @@ smg::DistanceDescription vtkStreamingDistance::Description() const
   description.wall = this->Wall;
   description.source = this->Source;
   description.direction = this->Direction;
+  description.accuracy = static_cast<smg::PathAccuracy>(this->Accuracy);
   return description;
 }
 
 void vtkStreamingDistance::CheckRanges() const
 {
   this->Superclass::CheckRanges();
+  smg::requireInRange({ { "Accuracy", this->Accuracy, AUTOMATIC, APPROXIMATE } });
   smg::requireInRange({ { "MaximumPasses", this->MaximumPasses, 1 } });
 }
 
@@ -195,5 +197,10 @@ void vtkStreamingDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Wall: " << this->Wall << "\n";
   os << indent << "Source: " << this->Source << "\n";
   os << indent << "Direction: " << this->Direction << "\n";
+  os << indent << "Accuracy: "
+     << (this->Accuracy == EXACT        ? "exact"
+          : this->Accuracy == AUTOMATIC ? "automatic"
+                                        : "approximate")
+     << "\n";
   os << indent << "MaximumPasses: " << this->MaximumPasses << "\n";
 }

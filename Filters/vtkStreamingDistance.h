@@ -69,6 +69,20 @@ public:
   vtkBooleanMacro(Direction, bool);
   ///@}
 
+  /** How the lengths of paths on a surface are computed. */
+  enum AccuracyType
+  {
+    AUTOMATIC,  ///< exact up to 1,000,000 points
+    EXACT,      ///< up to rounding, in 10 to 40 us a point
+    APPROXIMATE ///< too long on long thin triangles, in about 1 us a point
+  };
+  ///@{
+  /** How the lengths of paths on a surface are computed; those through a solid are approximate.
+   * Default: AUTOMATIC. */
+  vtkSetMacro(Accuracy, int);
+  vtkGetMacro(Accuracy, int);
+  ///@}
+
   ///@{
   /** The maximum number of passes over the mesh, at least 1. Default: 200. */
   vtkSetMacro(MaximumPasses, int);
@@ -95,6 +109,7 @@ private:
   bool Wall = false;
   bool Source = false;
   bool Direction = false;
+  int Accuracy = AUTOMATIC;
   int MaximumPasses = 200;
 };
 

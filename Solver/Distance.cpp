@@ -44,6 +44,14 @@ std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
   return columns;
 }
 
+bool isExactDistance(const StreamInfo& mesh, const DistanceDescription& description)
+{
+  const bool isSmall = mesh.vertices >= 0 && mesh.vertices <= MaxExactVertices;
+  return description.wall || (mesh.cellType == CellType::Triangle &&
+                               (description.accuracy == PathAccuracy::Exact ||
+                                 (description.accuracy == PathAccuracy::Automatic && isSmall)));
+}
+
 /** The options are checked before anything is created or read. */
 std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescription& description,
   const DistanceOptions& options, const std::string& name)
@@ -52,6 +60,8 @@ std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescrip
   require(options.scratchLimit >= 0, "the limit of scratch files must not be negative");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.maxPasses >= 1, "at least one pass must be allowed");
+  require(description.accuracy != PathAccuracy::Exact || isExactDistance(mesh.info(), description),
+    "distances through a solid are approximate: there are no exact ones");
   // The scratch folder is created here, before the mesh is read: an error of the folder comes
   // first.
   auto run = std::make_unique<DistanceRun>(options);

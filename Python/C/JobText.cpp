@@ -210,7 +210,7 @@ std::unique_ptr<MeshJob> blendJob(const JsonNode& node)
 
 std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
 {
-  requireKeys(node, { "from", "wall", "source", "direction", "max_passes" }, false);
+  requireKeys(node, { "from", "wall", "source", "direction", "accuracy", "max_passes" }, false);
   auto job = std::make_unique<DistanceJob>();
   job->name = "from";
   DistanceDescription& distance = job->description;
@@ -219,6 +219,11 @@ std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
   distance.wall = flag("wall");
   distance.source = flag("source");
   distance.direction = flag("direction");
+  if (node.has("accuracy"))
+  {
+    distance.accuracy = static_cast<PathAccuracy>(
+      choiceIn(node.member("accuracy"), { "auto", "exact", "approximate" }));
+  }
   if (distance.from.empty() && !distance.wall)
   {
     node.fail("needs \"from\", or \"wall\"");

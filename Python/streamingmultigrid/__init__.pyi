@@ -118,7 +118,8 @@ class Mesh:
     ) -> Field: ...
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
-        source: Optional[bool] = None, direction: Optional[bool] = None, max_passes: Optional[int] = None,
+        source: Optional[bool] = None, direction: Optional[bool] = None,
+        accuracy: Optional[types.Accuracy] = None, max_passes: Optional[int] = None,
         memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
@@ -260,7 +261,8 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Field: ...
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
-        source: Optional[bool] = None, direction: Optional[bool] = None, max_passes: Optional[int] = None,
+        source: Optional[bool] = None, direction: Optional[bool] = None,
+        accuracy: Optional[types.Accuracy] = None, max_passes: Optional[int] = None,
         memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
@@ -398,9 +400,10 @@ def dirichlet(region: types.Where, value: types.Value) -> Placed: ...
 def distance(
     points: npt.ArrayLike, cells: npt.ArrayLike, sources: Optional[types.Places] = None, *,
     wall: Optional[bool] = None, source: Optional[bool] = None, direction: Optional[bool] = None,
-    max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-    progress: Optional[types.Progress] = None, strict: bool = False
+    accuracy: Optional[types.Accuracy] = None, max_passes: Optional[int] = None,
+    memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
+    strict: bool = False
 ) -> Any: ...
 
 everywhere: Region

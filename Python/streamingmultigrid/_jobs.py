@@ -306,6 +306,7 @@ def distance(
     wall: Optional[bool] = None,
     source: Optional[bool] = None,
     direction: Optional[bool] = None,
+    accuracy: Optional[types.Accuracy] = None,
     max_passes: Optional[int] = None,
     memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
@@ -321,6 +322,8 @@ def distance(
             `sources`. Default False.
         source: adds the column DistanceSource (int64), the number of the nearest source, -1: none.
         direction: adds the column DistanceDirection (n, 3), the unit gradient.
+        accuracy: of paths on a surface: "exact", "approximate" (ten times as fast, too long on long
+            thin triangles) or "auto", exact up to 1,000,000 vertices. Default "auto".
         max_passes: the most passes over the mesh; default 200.
         memory, threads, scratch, scratch_limit, progress, strict: as of `solve`.
 

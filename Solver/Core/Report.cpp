@@ -65,8 +65,9 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
   }
   if (report.distance)
   {
-    out["distance"] = { { "sources", report.distance->sources },
-      { "unreached", report.distance->unreached }, { "unsettled", report.distance->unsettled },
+    out["distance"] = { { "exact", report.distance->exact },
+      { "sources", report.distance->sources }, { "unreached", report.distance->unreached },
+      { "unsettled", report.distance->unsettled },
       { "mesh_readings", report.distance->mesh_readings }, { "maximum", report.distance->maximum },
       { "mean", report.distance->mean } };
   }

@@ -197,6 +197,8 @@ TEST_F(VtkPropertyRange, OfSolvers)
   expectRange<Blend, int>(
     blend, { "SeamGradient", &Blend::SetSeamGradient, &Blend::GetSeamGradient, 0, 1 });
   expectRange<Distance, int>(
+    distance, { "Accuracy", &Distance::SetAccuracy, &Distance::GetAccuracy, 0, 2 });
+  expectRange<Distance, int>(
     distance, { "MaximumPasses", &Distance::SetMaximumPasses, &Distance::GetMaximumPasses, 1 });
   expectRange<Deformation, int>(
     deformation, { "Cycles", &Deformation::SetCycles, &Deformation::GetCycles, 0 });

@@ -143,7 +143,10 @@ inline JobRun measuring(const StreamMesh& mesh, bool wall)
 /** A distance in chunks, whose number of vertices follows from the span. */
 inline JobRun measuringInChunks(const StreamMesh& mesh)
 {
-  return [description = distanceOf(mesh, false)](const StoredMesh& stored, const Way& way)
+  DistanceDescription description = distanceOf(mesh, false);
+  // The number of intervals of an exact front has no law.
+  description.accuracy = PathAccuracy::Approximate;
+  return [description](const StoredMesh& stored, const Way& way)
   {
     return pathDistance(stored, description,
       std::make_unique<DistanceRun>(way.with(DistanceOptions())), "distance",

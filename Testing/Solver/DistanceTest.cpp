@@ -77,7 +77,9 @@ TEST(Distance, OnASphereIsTheGreatCircle)
   const MemoryMesh mesh(toStream(sphere(6)));
   ASSERT_EQ(mesh.mesh().vertices(), 40962);
   const auto straight = straightFrom(mesh.mesh(), 1000);
-  const RelativeErrors errors = errorsOf(measure(mesh, fromVertices({ 1000 })), mesh.mesh(),
+  DistanceDescription description = fromVertices({ 1000 });
+  description.accuracy = PathAccuracy::Approximate;
+  const RelativeErrors errors = errorsOf(measure(mesh, description), mesh.mesh(),
     [&](const double* p) { return 2 * std::asin(std::min(1.0, straight(p) / 2)); });
   EXPECT_LT(errors.mean, 1e-3);
   EXPECT_LT(errors.largest, 5e-3);
@@ -299,6 +301,31 @@ TEST(Distance, HasTheUnitGradient)
           const double exact = v == source ? 0 : (p[k] - s[k]) / solved.values(v, 0);
           EXPECT_NEAR(solved.values(v, 1 + k), exact, 1e-5);
         }
+      }
+    }
+  }
+}
+
+TEST(Distance, OfALineHasItsNormalAsGradient)
+{
+  // Exactly and approximately, with and without numbers of sources, which differ along the line.
+  // Along the sides, paths from its ends are as short, so that the front is taken for round there.
+  const MemoryMesh mesh(toStream(unitSquare(40)));
+  DistanceDescription description;
+  description.from.emplace_back(Region(Region::HalfSpace{ { -1, 0, 0 }, 0 }));
+  description.direction = true;
+  for (const PathAccuracy accuracy : { PathAccuracy::Exact, PathAccuracy::Approximate })
+  {
+    for (const bool source : { false, true })
+    {
+      description.accuracy = accuracy;
+      description.source = source;
+      SCOPED_TRACE(std::to_string(int(accuracy)) + (source ? " with sources" : ""));
+      const Solved solved = measure(mesh, description);
+      for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+      {
+        const bool isSource = mesh.mesh().positions[3 * std::size_t(v)] == 0.0;
+        EXPECT_NEAR(solved.values(v, source ? 2 : 1), isSource ? 0.0 : 1.0, 1e-2);
       }
     }
   }

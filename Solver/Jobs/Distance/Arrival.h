@@ -51,6 +51,7 @@ struct FrontCorner
   const double* point;
   double distance;
   bool isStraight;
+  std::int64_t source = 0; ///< corners of one facet show one source only if this is the same
 };
 
 /** The path from a corner along the edge to w. */

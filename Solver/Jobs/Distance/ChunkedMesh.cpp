@@ -129,7 +129,7 @@ void ChunkWriter::addVertices(const MeshBlock& block)
     const std::int64_t vertex = first + static_cast<std::int64_t>(i);
     if (isSource[i])
     {
-      this->Marks[vertex] = Dirty;
+      this->Marks[vertex] = isSource[i] == RegionSource ? Dirty | OfRegion : Dirty;
       ++this->SourceCount;
     }
     if (this->To.plan.sources)
@@ -157,16 +157,15 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   for (int k = 0; k < count; ++k)
   {
     local[k] = plan.local(corners[k]);
-    sources += this->Marks[corners[k]] & Dirty;
+    sources += (this->Marks[corners[k]] & OfRegion) != 0;
   }
   const std::int64_t chunk = *high / plan.length;
   const bool crosses = *low / plan.length != chunk;
-  // Before the march, the dirty vertices are the sources. Two in one cell are the ends of an edge
-  // of a curve or surface of sources.
+  // Two sources of regions in one cell are the ends of an edge of a curve or surface of sources.
   for (int k = 0; k < count && (crosses || sources > 1); ++k)
   {
     std::uint8_t& mark = this->Marks[corners[k]];
-    mark |= sources > 1 && (mark & Dirty) != 0 ? Straight : 0;
+    mark |= sources > 1 && (mark & OfRegion) != 0 ? Straight : 0;
     mark |= !crosses ? 0 : corners[k] / plan.length == chunk ? ReachesBack : ReachesOn;
   }
   // Chunks before To.count() are written already.

@@ -54,7 +54,10 @@ enum VertexFlag : std::uint8_t
   Straight = 2,    ///< the front is straight; otherwise round, with the distance as its radius
   Changed = 4,     ///< differs from what the file has
   ReachesBack = 8, ///< is a corner of a crossing cell of its own chunk
-  ReachesOn = 16   ///< is a corner of a crossing cell of the next chunk
+  ReachesOn = 16,  ///< is a corner of a crossing cell of the next chunk
+  Passed = 32,     ///< paths do not turn at it: see GeodesicMarch
+  Turning = 64,    ///< paths may turn at it
+  OfRegion = 128   ///< is a source of a region, or has been reached from one
 };
 
 /** A mesh in chunks, with the distances so far, on scratch files. */
@@ -74,12 +77,13 @@ struct ChunkedMesh
     Flags,
     Distances, ///< a block without bytes: all are infinite
     Sources,   ///< a block without bytes: all are -1
+    Fronts,    ///< MarchWindow::waiting()
     StateParts
   };
   struct Chunk
   {
     std::int64_t innerCells = 0, crossingCells = 0;
-    std::int64_t dirty = 0; ///< number of dirty vertices
+    std::int64_t dirty = 0; ///< number of dirty vertices, and of waiting intervals
   };
 
   ChunkedMesh(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <variant>
 
 // The sources of a distance, as selections of the mesh (Solver/Problem/Selection.h), evaluated
 // while the mesh is cut into chunks or its walls are collected. The mesh is read once more
@@ -11,6 +12,16 @@
 
 namespace smg
 {
+
+std::size_t pointsOf(const Where& place)
+{
+  if (const auto* region = std::get_if<Region>(&place))
+  {
+    return region->vertices() ? region->vertices()->ids.size() : 0;
+  }
+  const auto* nearest = std::get_if<NearestVertices>(&place);
+  return nearest ? nearest->points.size() : 0;
+}
 
 DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place,
   const StreamInfo& mesh, const std::string& name, Pool& memory)
@@ -23,6 +34,7 @@ DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place
   {
     this->Parts.push_back(
       this->All.add(from[k], place, ColumnOwner::Vertices, "from[" + std::to_string(k) + "]"));
+    this->Kinds.push_back(pointsOf(from[k]) > 0 ? PointSource : RegionSource);
   }
 }
 
@@ -61,15 +73,17 @@ std::span<const std::uint8_t> DistanceSources::verticesAt(const MeshBlock& block
 {
   this->start(block);
   this->Selected.assign(static_cast<std::size_t>(block.vertices()), 0);
-  for (const Selection* part : this->Parts)
+  for (std::size_t k = 0; k < this->Parts.size(); ++k)
   {
-    if (!part)
+    const SourceKind kind = this->Kinds[k];
+    if (!this->Parts[k])
     {
-      std::ranges::fill(this->Selected, 1);
+      std::ranges::fill(this->Selected, kind);
       continue;
     }
-    std::ranges::transform(
-      this->Selected, part->atVertices(), this->Selected.begin(), std::bit_or<>());
+    std::ranges::transform(this->Selected, this->Parts[k]->atVertices(), this->Selected.begin(),
+      [kind](std::uint8_t before, std::uint8_t isHere) -> std::uint8_t
+      { return isHere ? before | kind : before; });
   }
   return this->Selected;
 }

@@ -15,6 +15,18 @@
 namespace smg
 {
 
+/** What a vertex is for a distance. Points are sources of their own; between vertices of regions
+ * that share a cell, the edge or face is a source, too. */
+enum SourceKind : std::uint8_t
+{
+  NoSource = 0,
+  PointSource = 1,
+  RegionSource = 3
+};
+
+/** The number of points of a place that names points one by one; 0 if it is a region. */
+std::size_t pointsOf(const Where& place);
+
 /** The sources of a distance: vertices or facets that are selected on a mesh. */
 class DistanceSources
 {
@@ -29,7 +41,7 @@ public:
 
   /** Reads the mesh, if a selection needs a reading beforehand. */
   void prepare(const StoredMesh& mesh, const std::filesystem::path& scratch);
-  /** For the vertices of the next block of the stream: 1 at sources, else 0. */
+  /** For the vertices of the next block of the stream, their SourceKind. */
   std::span<const std::uint8_t> verticesAt(const MeshBlock& block);
   /** For the cells of the next block: bit k is 1 if the facet opposite to corner k is selected. */
   std::span<const std::uint8_t> facetsAt(const MeshBlock& block);
@@ -45,6 +57,7 @@ private:
   MeshColumns Columns;
   Selections All;
   std::vector<const Selection*> Parts; ///< null: everywhere
+  std::vector<SourceKind> Kinds;       ///< of the parts
   bool Prepared = false;
   std::vector<std::uint8_t> Selected; ///< of the block
   std::vector<std::uint8_t> More;     ///< of one of the selections

@@ -36,58 +36,6 @@ constexpr double Perpendicular = 1e-6;
 
 } // namespace
 
-int March::run(int maxPasses, Progress& progress, double begin,
-  const std::function<void(std::int64_t unsettled)>& passed)
-{
-  int passes = 0;
-  for (std::int64_t left = this->unsettled(); passes < maxPasses && left > 0; ++passes)
-  {
-    // The number of passes to come is not known: each gets half of what is left of the progress.
-    const double end = begin + 0.5 * (1 - begin);
-    this->pass(passes % 2 == 0, progress, begin, end);
-    begin = end;
-    left = this->unsettled();
-    passed(left);
-  }
-  this->Window.flush();
-  return passes;
-}
-
-/** Each chunk counts its dirty vertices, so that this needs no reading. */
-std::int64_t March::unsettled() const
-{
-  std::int64_t dirty = 0;
-  for (const ChunkedMesh::Chunk& chunk : this->Window.mesh().chunks)
-  {
-    dirty += chunk.dirty;
-  }
-  return dirty;
-}
-
-/** Moves the window over the stream, by one chunk at a time, and settles each position that has
- * dirty vertices. A path that leaves the window on the side of the direction is picked up by the
- * next position, one on the other side by the next pass. */
-void March::pass(bool forwards, Progress& progress, double begin, double end)
-{
-  ChunkedMesh& mesh = this->Window.mesh();
-  const std::int64_t shown = std::min(ChunkPlan::WindowChunks, mesh.count());
-  const std::int64_t positions = mesh.count() - shown + 1;
-  for (std::int64_t p = 0; p < positions; ++p)
-  {
-    const std::int64_t first = forwards ? p : positions - 1 - p;
-    const std::int64_t last = first + shown - 1;
-    const auto isDirty = [](const ChunkedMesh::Chunk& chunk) { return chunk.dirty > 0; };
-    if (std::any_of(mesh.chunks.begin() + first, mesh.chunks.begin() + last + 1, isDirty))
-    {
-      this->Window.show(first, last);
-      const bool triangles = mesh.plan.cellType == CellType::Triangle;
-      triangles ? this->settle<3>(first, last) : this->settle<4>(first, last);
-    }
-    progress.update(
-      begin + (end - begin) * static_cast<double>(p + 1) / static_cast<double>(positions));
-  }
-}
-
 template <int Corners>
 void March::settle(std::int64_t first, std::int64_t last)
 {
@@ -112,6 +60,7 @@ void March::settle(std::int64_t first, std::int64_t last)
   {
     // Some position of the window has all cells of v: these are in its chunk and the two beside it.
     const std::uint32_t v = this->Queue.take();
+    this->count();
     const bool hasAll = this->Window.hasAllCellsOf(v);
     if (!hasAll && distances[v] == 0)
     {
@@ -150,6 +99,20 @@ void March::settle(std::int64_t first, std::int64_t last)
   }
 }
 
+void March::count()
+{
+  constexpr std::int64_t Often = 1 << 14;
+  if (++this->Taken % Often == 0)
+  {
+    this->poll();
+  }
+  if (this->Taken > MostTaken * std::max(this->Window.mesh().vertices, Often))
+  {
+    this->Tolerance *= 10;
+    this->Taken = 0;
+  }
+}
+
 FrontCorner March::corner(std::uint32_t vertex) const
 {
   return { this->Window.point(vertex), this->Window.distance()[vertex],
@@ -161,8 +124,8 @@ bool March::isNews(std::uint32_t w, const Arrival& arrival) const
   const double distance = this->Window.distance()[w];
   // Of two fronts that arrive at the same time, within the tolerance, the straight one wins.
   const bool isStraighter = arrival.isStraight && (this->Window.flags()[w] & Straight) == 0 &&
-                            arrival.distance < distance * (1 + Tolerance);
-  return arrival.distance < distance * (1 - Tolerance) || isStraighter;
+                            arrival.distance < distance * (1 + this->Tolerance);
+  return arrival.distance < distance * (1 - this->Tolerance) || isStraighter;
 }
 
 template <std::size_t N>
@@ -190,7 +153,8 @@ bool March::offer(
   // not grow.
   distance = std::min(distance, arrival.distance);
   flags = static_cast<std::uint8_t>(
-    (flags & ~Straight) | Dirty | Changed | (arrival.isStraight ? Straight : 0));
+    (flags & ~(Straight | OfRegion)) | Dirty | Changed | (arrival.isStraight ? Straight : 0) |
+    (this->Window.flags()[corners[static_cast<std::size_t>(arrival.nearestCorner())]] & OfRegion));
   auto& via = this->Window.via()[w];
   std::fill(
     std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
@@ -257,7 +221,7 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
     {
       continue;
     }
-    if (passed.distance < Infinite)
+    if (passed.distance < Infinite && this->haveOneSource(v, b))
     {
       const Arrival across = acrossEdge({ square[1 - k], product, square[k] }, from, passed);
       // A path across the edge is at most as long as the paths along the edges from v and b to w,
@@ -301,7 +265,8 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
     {
       continue;
     }
-    if (std::max(b.distance, c.distance) < Infinite)
+    if (std::max(b.distance, c.distance) < Infinite && this->haveOneSource(v, others[i]) &&
+        this->haveOneSource(v, others[j]))
     {
       const Arrival across = acrossFace({ product[i][i], product[i][j], product[j][j],
                                           product[k][i], product[k][j], product[k][k] },
@@ -317,7 +282,7 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
     for (const int n : { i, j })
     {
       const FrontCorner& passed = n == i ? b : c;
-      if (passed.distance < Infinite)
+      if (passed.distance < Infinite && this->haveOneSource(v, others[n]))
       {
         const Arrival across =
           acrossEdge({ product[n][n], product[k][n], product[k][k] }, from, passed);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Progress.h"
 #include "Solver/Jobs/Distance/Arrival.h"
-#include "Solver/Jobs/Distance/MarchWindow.h"
+#include "Solver/Jobs/Distance/ChunkMarch.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
@@ -128,21 +127,18 @@ private:
 };
 
 /**
- * Marches the front of a distance through a mesh in chunks, in passes over the stream in
- * alternating directions. At each position of the window a pass settles what it can, in the order
- * of the distances (a *label-correcting* form of Dijkstra's method and of fast marching, Tsitsiklis
- * 1995, Sethian 1996): a vertex passes its distance on to its cells, and does so again whenever a
- * shorter path to it is found. What crosses an end of the window is left to a later position. A
- * position without dirty vertices is not read.
+ * Marches the front of a distance in the order of the distances (a *label-correcting* form of
+ * Dijkstra's method and of fast marching, Tsitsiklis 1995, Sethian 1996): a vertex passes its
+ * distance on to its cells, and does so again whenever a shorter path to it is found.
  *
  * Every update keeps the smaller distance, so that the window and the order of updates change the
  * result by no more than rounding and the tolerance.
  */
-class March
+class March final : public ChunkMarch
 {
 public:
   March(ChunkedMesh& mesh, Pool& pool)
-    : Window(mesh, pool)
+    : ChunkMarch(mesh, pool)
     , Queue(pool, std::min(mesh.plan.window(), mesh.vertices))
   {
   }
@@ -155,31 +151,20 @@ public:
            MarchQueue::bytes(std::min(plan.window(), vertices));
   }
 
-  /** Makes passes until nothing changes, but at most `maxPasses`, and returns their number. Reports
-   * progress from `begin` to 1, and calls `passed` after each pass with the number of vertices that
-   * are not settled. */
-  int run(int maxPasses, Progress& progress, double begin,
-    const std::function<void(std::int64_t unsettled)>& passed);
-
-  /** How often the mesh was read: the number of chunks that were read, over the number of chunks.
-   */
-  double meshReadings() const
-  {
-    return static_cast<double>(this->Window.chunksRead()) /
-           static_cast<double>(this->Window.mesh().count());
-  }
-  /** The number of dirty vertices: those that had changes to pass on when the last pass ended. */
-  std::int64_t unsettled() const;
-
-  MarchWindow& window() { return this->Window; }
-
 private:
-  /** Smaller relative changes of a distance are dropped, since each would be passed on through the
-   * whole mesh. */
-  static constexpr double Tolerance = 1e-7;
+  /** How often the vertices of the mesh may be taken on average before the tolerance grows. */
+  static constexpr std::int64_t MostTaken = 100;
 
-  void pass(bool forwards, Progress& progress, double begin, double end);
-  /** Settles the chunks [first, last], which the window shows, until its queue is empty. */
+  /** Counts a vertex that is taken: polls now and then, and lets the tolerance grow if the march
+   * would not end. */
+  void count();
+
+  void settle(std::int64_t first, std::int64_t last) override
+  {
+    const bool triangles = this->Window.mesh().plan.cellType == CellType::Triangle;
+    triangles ? this->settle<3>(first, last) : this->settle<4>(first, last);
+  }
+  /** Settles until its queue is empty. */
   template <int Corners>
   void settle(std::int64_t first, std::int64_t last);
   /** Passes the distance of vertex v on to the other corners of a triangle; the last element of
@@ -208,8 +193,18 @@ private:
   template <std::size_t N>
   bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
 
-  MarchWindow Window;
+  /** Whether the front has come to two vertices from the same source, so that they have one image
+   * of it. */
+  bool haveOneSource(std::uint32_t a, std::uint32_t b) const
+  {
+    return this->Window.frontSource(a) == this->Window.frontSource(b);
+  }
+
   MarchQueue Queue;
+  /** Smaller relative changes of a distance are dropped, since each would be passed on through the
+   * whole mesh. */
+  double Tolerance = 1e-7;
+  std::int64_t Taken = 0; ///< vertices since the tolerance grew
 };
 
 } // namespace smg

@@ -77,7 +77,10 @@ Path through(const double* w, const FrontCorner* const* corners)
 {
   const auto isReached = [](const FrontCorner* corner) { return std::isfinite(corner->distance); };
   Path path;
-  if (std::all_of(corners, corners + N, isReached))
+  const auto isOfOneSource = [&](const FrontCorner* corner)
+  { return corner->source == corners[0]->source; };
+  if (std::all_of(corners, corners + N, isReached) &&
+      std::all_of(corners, corners + N, isOfOneSource))
   {
     path = throughInside<N>(w, corners);
   }
@@ -125,7 +128,7 @@ void MarchDirections::addCells(std::span<const std::uint32_t> corners)
     for (int k = 0; k < Corners; ++k)
     {
       all[k] = { this->Window.point(corners[k]), this->Window.distance()[corners[k]],
-        (this->Window.flags()[corners[k]] & Straight) != 0 };
+        (this->Window.flags()[corners[k]] & Straight) != 0, this->Window.frontSource(corners[k]) };
     }
     for (int k = 0; k < Corners; ++k)
     {

@@ -81,6 +81,8 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
     inner = std::max(inner, chunk.innerCells);
     crossing = std::max(crossing, chunk.crossingCells);
   }
+  this->MostInner = static_cast<std::uint32_t>(inner);
+  this->MostCrossing = static_cast<std::uint32_t>(crossing);
   for (std::int64_t s = 0; s < std::min(ChunkPlan::WindowChunks, mesh.count()); ++s)
   {
     this->Slots[static_cast<std::size_t>(s)].memory =
@@ -141,6 +143,9 @@ void MarchWindow::load(Slot& slot, std::int64_t chunk)
   this->loadPositions(chunk);
   this->loadCells(slot, chunk);
   this->loadState(chunk);
+  const std::int64_t fronts = chunk * ChunkedMesh::StateParts + ChunkedMesh::Fronts;
+  slot.waiting.resize(this->Mesh.state.bytes(fronts) / sizeof(FrontInterval));
+  this->Mesh.state.read(fronts, std::as_writable_bytes(std::span(slot.waiting)));
   ++this->Read;
 }
 
@@ -261,6 +266,8 @@ void MarchWindow::write(std::int64_t chunk)
   store(this->Flag, ChunkedMesh::Flags);
   store(this->Distance, ChunkedMesh::Distances);
   store(this->Source, ChunkedMesh::Sources);
+  this->Mesh.state.write(
+    index + ChunkedMesh::Fronts, std::as_bytes(std::span(this->waiting(chunk))));
 }
 
 std::span<const std::uint32_t> MarchWindow::innerCells(std::int64_t chunk) const

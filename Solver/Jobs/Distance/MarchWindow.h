@@ -2,12 +2,14 @@
 #pragma once
 
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
+#include "Solver/Jobs/Distance/FrontInterval.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace smg
 {
@@ -83,25 +85,39 @@ public:
     return this->Mesh.plan.local(this->Mesh.firstOf(chunk));
   }
 
+  /** The chunk of a vertex. */
+  std::int64_t chunkOf(std::uint32_t vertex) const
+  {
+    return this->Slots[vertex / this->Length].chunk;
+  }
+
   /** Calls visit(corners) for each cell of a vertex that has all its corners in the window: inner
    * cells of the chunk, and cells that cross to the chunk before it or after it, if that is shown.
-   * A cell that crosses to the next chunk is stored with that one. */
+   * A cell that crosses to the next chunk is stored with that one. Or calls visit(corners, number),
+   * with a number of the cell below cellNumbers(). */
   template <int Corners>
   void forCellsOf(std::uint32_t vertex, auto visit) const
   {
     const std::uint32_t slot = vertex / this->Length;
     const std::uint32_t i = vertex - slot * this->Length;
-    this->visitCells<Corners>(this->Slots[slot].inner, i, visit);
+    const std::uint32_t first = slot * (this->MostInner + this->MostCrossing);
+    this->visitCells<Corners>(this->Slots[slot].inner, i, first, visit);
     const std::uint8_t flags = this->Flag[vertex];
     if ((flags & ReachesBack) != 0 && this->Slots[slot].hasPrevious)
     {
-      this->visitCells<Corners>(this->Slots[slot].crossing, this->Span + i, visit);
+      this->visitCells<Corners>(
+        this->Slots[slot].crossing, this->Span + i, first + this->MostInner, visit);
     }
     if ((flags & ReachesOn) != 0 && this->Slots[slot].hasNext)
     {
-      this->visitCells<Corners>(this->Slots[(slot + 1) % this->Slots.size()].crossing,
-        i + this->Span - this->Length, visit);
+      const std::uint32_t next = (slot + 1) % static_cast<std::uint32_t>(this->Slots.size());
+      this->visitCells<Corners>(this->Slots[next].crossing, i + this->Span - this->Length,
+        next * (this->MostInner + this->MostCrossing) + this->MostInner, visit);
     }
+  }
+  std::int64_t cellNumbers() const
+  {
+    return std::int64_t(this->Slots.size()) * (this->MostInner + this->MostCrossing);
   }
   /** Whether all cells of a vertex are in the window. */
   bool hasAllCellsOf(std::uint32_t vertex) const
@@ -123,8 +139,21 @@ public:
   const double* point(std::uint32_t vertex) const { return this->Point + 3 * std::size_t(vertex); }
   double* distance() const { return this->Distance; }
   std::uint8_t* flags() const { return this->Flag; }
+  /** Intervals of a shown chunk that wait for cells to be shown: edges belong to the chunk of their
+   * higher corner. Whoever changes them sets the flag Changed of a vertex of the chunk. */
+  std::vector<FrontInterval>& waiting(std::int64_t chunk)
+  {
+    return this->Slots[static_cast<std::size_t>(chunk % ChunkPlan::WindowChunks)].waiting;
+  }
   /** Null if they are not wanted. */
   std::int64_t* source() const { return this->Source; }
+  /** What the front of a vertex shows: the number of its source. All regions are one source, and
+   * all sources are where numbers are not wanted. */
+  std::int64_t frontSource(std::uint32_t vertex) const
+  {
+    const bool isRegion = !this->Source || (this->Flag[vertex] & OfRegion) != 0;
+    return isRegion ? -1 : this->Source[vertex];
+  }
   /** The corners of the facet across which the front came to a vertex, padded with NoVertex; all
    * NoVertex if that is not known, as after the chunk has been read again. */
   std::array<std::uint32_t, 3>* via() const { return this->Via; }
@@ -135,16 +164,26 @@ private:
   {
     Buffer memory;
     CellStars inner, crossing; ///< `crossing` numbers vertices from `Span` before the chunk on
+    std::vector<FrontInterval> waiting;
     std::int64_t chunk = -1;
     bool hasPrevious = false, hasNext = false; ///< whether the neighbours are shown
   };
 
   template <int Corners>
-  static void visitCells(const CellStars& stars, std::uint32_t vertex, auto& visit)
+  static void visitCells(
+    const CellStars& stars, std::uint32_t vertex, std::uint32_t firstNumber, auto& visit)
   {
     for (const std::uint32_t cell : stars.of(vertex))
     {
-      visit(stars.corners + Corners * std::size_t(cell));
+      const std::uint32_t* const corners = stars.corners + Corners * std::size_t(cell);
+      if constexpr (requires { visit(corners, cell); })
+      {
+        visit(corners, firstNumber + cell);
+      }
+      else
+      {
+        visit(corners);
+      }
     }
   }
 
@@ -164,6 +203,7 @@ private:
 
   ChunkedMesh& Mesh;
   std::uint32_t Length, Span;
+  std::uint32_t MostInner = 0, MostCrossing = 0; ///< cells of a chunk
   std::array<Slot, ChunkPlan::WindowChunks> Slots;
   Buffer Memory; ///< of the vertices
   double *Point, *Distance;

@@ -4,6 +4,7 @@
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 #include "Solver/Jobs/Distance/DistanceRun.h"
+#include "Solver/Jobs/Distance/GeodesicMarch.h"
 #include "Solver/Jobs/Distance/March.h"
 #include "Solver/Jobs/Distance/MarchDirections.h"
 #include "Solver/Mesh/StreamCheck.h"
@@ -15,8 +16,9 @@
 #include <vector>
 
 // Distances along paths in the mesh: sources are found, the mesh is cut into chunks on scratch
-// files (ChunkedMesh), the front marches through them until nothing changes (March), directions are
-// found in one further pass (MarchDirections). The solution reads the scratch files.
+// files (ChunkedMesh), the front marches through them until nothing changes (GeodesicMarch,
+// exactly, or March), directions are found in one further pass (MarchDirections). The solution
+// reads the scratch files.
 //
 // The memory is checked twice: before the mesh is read, with the mean number of cells in a chunk,
 // so that a limit that is far too low is reported at once; and before the march, with the exact
@@ -63,13 +65,48 @@ std::int64_t measuredSpan(const StoredMesh& mesh)
 
 /** The bytes of the march and of the pass for the directions, which follow each other, for chunks
  * with at most this many cells. */
-std::int64_t neededBytes(const ChunkPlan& plan, std::int64_t vertices, bool directions,
-  std::int64_t innerCells, std::int64_t crossingCells)
+std::int64_t neededBytes(const ChunkPlan& plan, bool isExact, std::int64_t vertices,
+  bool directions, std::int64_t innerCells, std::int64_t crossingCells)
 {
-  const std::int64_t march = March::bytes(plan, vertices, innerCells, crossingCells);
+  const std::int64_t march = isExact
+                               ? GeodesicMarch::bytes(plan, vertices, innerCells, crossingCells)
+                               : March::bytes(plan, vertices, innerCells, crossingCells);
   return directions
            ? std::max(march, MarchDirections::bytes(plan, vertices, innerCells, crossingCells))
            : march;
+}
+
+/** Tells of distances that are approximate since the mesh is large: nobody has asked for that. */
+void noteAccuracy(
+  const StreamInfo& mesh, const DistanceDescription& description, bool isExact, Report& report)
+{
+  if (!isExact && mesh.cellType == CellType::Triangle &&
+      description.accuracy == PathAccuracy::Automatic)
+  {
+    constexpr double ExactSeconds = 14e-6;
+    const auto seconds =
+      static_cast<std::int64_t>(std::ceil(ExactSeconds * static_cast<double>(mesh.vertices)));
+    report.notes.push_back(
+      "The distances are approximate, since the surface has more than " +
+      groupedDigits(MaxExactVertices) +
+      " vertices: too long, by less than 1 % on scans, by more where triangles "
+      "are long and thin. Exact ones (accuracy) take about " +
+      std::to_string(seconds) + " s.");
+  }
+}
+
+/** Whether there may be several points, or points and regions. */
+bool haveSeveralFronts(const DistanceDescription& description)
+{
+  std::size_t points = 0;
+  bool isRegion = false;
+  for (const Where& place : description.from)
+  {
+    const std::size_t here = pointsOf(place);
+    points += here;
+    isRegion = isRegion || here == 0;
+  }
+  return points > (isRegion ? 0 : 1);
 }
 
 /** Throws Error before the work, rather than in the middle of it. */
@@ -147,18 +184,28 @@ void readMesh(
   noteUnwelded(chunks.plan.cellType, check.vertices(), check.cells(), run.report);
 }
 
-/** Marches, and reports the passes. */
-void march(ChunkedMesh& chunks, DistanceRun& run)
+/** What marches. */
+std::unique_ptr<ChunkMarch> marchOf(ChunkedMesh& chunks, bool isExact, Pool& pool)
 {
-  March march(chunks, run.pool);
+  if (isExact)
+  {
+    return std::make_unique<GeodesicMarch>(chunks, pool);
+  }
+  return std::make_unique<March>(chunks, pool);
+}
+
+/** Marches, and reports the passes. */
+void march(ChunkedMesh& chunks, bool isExact, DistanceRun& run)
+{
+  const std::unique_ptr<ChunkMarch> marching = marchOf(chunks, isExact, run.pool);
   Report& report = run.report;
   run.beginPasses();
-  report.passes = march.run(run.options.maxPasses, run.progress, FirstReading,
+  report.passes = marching->run(run.options.maxPasses, run.progress, FirstReading,
     [&](std::int64_t unsettled)
     { run.endPass(static_cast<double>(unsettled) / static_cast<double>(chunks.vertices)); });
   report.peak_nodes = std::min(chunks.plan.window(), chunks.vertices);
-  report.distance->mesh_readings = march.meshReadings();
-  report.distance->unsettled = march.unsettled();
+  report.distance->mesh_readings = marching->meshReadings();
+  report.distance->unsettled = marching->unsettled();
   report.converged = report.distance->unsettled == 0;
   if (!report.converged)
   {
@@ -201,8 +248,11 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   }
   std::optional<DistanceSources> sources(
     std::in_place, description.from, DataPlace::Vertices, info, name, run->pool);
+  const bool isExact = isExactDistance(info, description);
+  // Where the fronts of several points meet, each cell must know which ones.
+  const bool needSources = description.source || (!isExact && haveSeveralFronts(description));
   ChunkPlan plan =
-    ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), description.source);
+    ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources);
   if (chunkVertices > 0)
   {
     // Tests take short chunks, so that small meshes have many.
@@ -215,11 +265,14 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     // With the mean number of cells in a chunk, taken as inner ones.
     const double share = std::min(1.0, double(plan.length) / double(info.vertices));
     const auto cells = static_cast<std::int64_t>(std::ceil(share * double(info.cells)));
-    checkMemory(neededBytes(plan, info.vertices, description.direction, cells, 0), run->pool);
+    checkMemory(
+      neededBytes(plan, isExact, info.vertices, description.direction, cells, 0), run->pool);
   }
   run->report.distance = Report::Distance{};
+  run->report.distance->exact = isExact;
   auto files = std::make_shared<DistanceFiles>(plan, *run);
   ChunkedMesh& chunks = files->chunks;
+  noteAccuracy(info, description, isExact, run->report);
   const Timer building;
   sources->prepare(mesh, run->scratch.path());
   readMesh(mesh, *sources, chunks, *run);
@@ -227,10 +280,10 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   sources.reset();
   run->report.seconds.build = building.seconds();
   const ChunkedMesh::Chunk largest = largestOf(chunks);
-  checkMemory(neededBytes(plan, chunks.vertices, description.direction, largest.innerCells,
+  checkMemory(neededBytes(plan, isExact, chunks.vertices, description.direction, largest.innerCells,
                 largest.crossingCells),
     run->pool);
-  march(chunks, *run);
+  march(chunks, isExact, *run);
   if (description.direction)
   {
     // The march has given its memory back: the pass needs about as much.

@@ -182,6 +182,7 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
     readWall(mesh, description, *sources, files->triangles, *run, name);
   // Gives its memory back to the triangles.
   sources.reset();
+  report.distance->exact = true;
   report.distance->sources = triangles;
   report.seconds.build = building.seconds();
   Workers threads(run->options.threads);

@@ -235,6 +235,15 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   costs.passes =
     std::max(1, static_cast<int>(std::lround(1.0 + Growth * std::log(vertices / OnePass))));
   costs.seconds = vertices * ratesOf(info.cellType).marchSeconds;
+  if (isExactDistance(info, description))
+  {
+    // See GeodesicMarch::bytes() and ChunkPlan: about half of what is allowed for intervals.
+    constexpr std::int64_t LeastBytes = 2 << 20, BytesOfVertex = 120, ChunkVertices = 16384;
+    constexpr double ExactSeconds = 14e-6;
+    const std::int64_t window = 4 * std::max(16 * info.span, ChunkVertices);
+    costs.memory += LeastBytes + BytesOfVertex * std::min(info.vertices, window);
+    costs.seconds = vertices * ExactSeconds;
+  }
   return costs;
 }
 

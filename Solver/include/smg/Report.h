@@ -99,6 +99,7 @@ struct SMG_EXPORT Report
     /** Vertices that had changes to pass on when the last pass ended: 0 unless it was the last one
      * allowed. */
     std::int64_t unsettled = 0;
+    bool exact = false; ///< up to rounding, if the passes were not ended
     /** How often the passes read the mesh, the parts of it that they skip left out. */
     double mesh_readings = 0;
     double maximum = 0; ///< of the distances that are finite

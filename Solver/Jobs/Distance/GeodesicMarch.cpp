@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/GeodesicMarch.h"
+
+#include "Solver/Core/Vector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+// Exact distances on a surface of triangles (Mitchell, Mount and Papadimitriou, The discrete
+// geodesic problem, 1987), in the order of the distance, in a window of the stream. A shortest path
+// is straight through unfolded triangles, and turns at vertices with an angle of at least 2 pi
+// around them or on the boundary alone. So the front is a set of intervals of edges
+// (FrontInterval.h), each of which sees one source or such a vertex. An interval passes on what the
+// third corner of the next triangle leaves of it to one or both of the other edges; what an edge
+// has is disjoint (EdgeFronts); a vertex that paths may turn at sends intervals to the edges
+// opposite to it.
+//
+// Most intervals are left out since a path by way of a corner is shorter, before they are compared
+// with others (Xin and Wang, Improving Chen and Han's algorithm, 2009).
+//
+// Invariants. Every distance is that of a path, so that what is left out is not part of a shortest
+// one, whatever the order is: a window, and its passes, cost work, but no accuracy. The order
+// depends on neither the memory limit nor the blocks of the stream, so that the result has the same
+// bits.
+
+namespace smg
+{
+
+namespace
+{
+
+/** Numbers of vertices in the queue have this bit, those of intervals have not. */
+constexpr std::uint32_t VertexBit = 0x80000000;
+/** How far from the end of an interval, relative to the edge, its paths still see a corner. The
+ * distance is wrong by the square of that. */
+constexpr double Margin = 1e-9;
+/** Distances that differ by less are equal, relative to them. */
+constexpr double Same = 1e-14;
+/** What vertices keep of the front that has reached them, for the directions. */
+constexpr std::uint8_t FrontFlags = Straight | OfRegion;
+
+} // namespace
+
+GeodesicMarch::GeodesicMarch(ChunkedMesh& mesh, Pool& pool)
+  : ChunkMarch(mesh, pool)
+  , Fronts(pool, 3 * this->Window.cellNumbers())
+  , Queue(pool)
+{
+}
+
+std::int64_t GeodesicMarch::bytes(
+  const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells, std::int64_t crossingCells)
+{
+  return MarchWindow::bytes(plan, vertices, innerCells, crossingCells) +
+         ChunkPlan::WindowChunks * 3 * (innerCells + crossingCells) *
+           std::int64_t(sizeof(std::uint32_t)) +
+         LeastFrontBytes + FrontBytes * std::min(plan.window(), vertices);
+}
+
+double GeodesicMarch::lengthOf(std::uint32_t a, std::uint32_t b) const
+{
+  const Vector edge = difference(this->Window.point(b), this->Window.point(a));
+  return std::sqrt(dot(edge, edge));
+}
+
+void GeodesicMarch::settle(std::int64_t first, std::int64_t last)
+{
+  constexpr std::size_t Often = 1 << 16;
+  this->begin(first, last);
+  for (std::size_t taken = 0; !this->Queue.isEmpty(); ++taken)
+  {
+    if (taken % Often == 0)
+    {
+      this->poll();
+    }
+    const FrontQueue::Entry next = this->Queue.take();
+    if ((next.number & VertexBit) != 0)
+    {
+      this->leave(next.number & ~VertexBit);
+    }
+    else if (this->Fronts.isWaiting(next.number))
+    {
+      this->passOn(next.number);
+    }
+    if (this->Fronts.isFull())
+    {
+      const double front = FrontQueue::distanceOf(next.key);
+      this->Fronts.forget(
+        [this, front](const FrontInterval& interval)
+        {
+          const double* const distance = this->Window.distance();
+          return distance[interval.first] + distance[interval.second] +
+                   this->lengthOf(interval.first, interval.second) <
+                 2 * front;
+        });
+    }
+  }
+  this->end(first, last);
+}
+
+/** Takes up what the chunks have left. */
+void GeodesicMarch::begin(std::int64_t first, std::int64_t last)
+{
+  const std::uint8_t* const flags = this->Window.flags();
+  const double* const distances = this->Window.distance();
+  for (std::int64_t chunk = first; chunk <= last; ++chunk)
+  {
+    const std::uint32_t from = this->Window.placeOf(chunk);
+    const auto to = from + static_cast<std::uint32_t>(this->Window.mesh().countOf(chunk));
+    for (std::uint32_t v = from; v < to; ++v)
+    {
+      if ((flags[v] & Dirty) != 0)
+      {
+        this->Queue.put(v | VertexBit, distances[v]);
+      }
+    }
+    std::vector<FrontInterval> waiting;
+    std::swap(waiting, this->Window.waiting(chunk));
+    for (const FrontInterval& interval : waiting)
+    {
+      this->Window.flags()[interval.first] |= Changed;
+      this->add(interval, this->lengthOf(interval.first, interval.second));
+    }
+  }
+}
+
+void GeodesicMarch::end(std::int64_t first, std::int64_t last)
+{
+  this->Fronts.clear();
+  ChunkedMesh& mesh = this->Window.mesh();
+  for (std::int64_t chunk = first; chunk <= last; ++chunk)
+  {
+    const std::uint8_t* const flags = this->Window.flags() + this->Window.placeOf(chunk);
+    const auto dirty = std::count_if(
+      flags, flags + mesh.countOf(chunk), [](std::uint8_t bits) { return (bits & Dirty) != 0; });
+    mesh.chunks[std::size_t(chunk)].dirty = dirty + std::ssize(this->Window.waiting(chunk));
+  }
+}
+
+void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source, std::uint8_t front)
+{
+  double& known = this->Window.distance()[v];
+  if (distance < known - Same * known || known == HUGE_VAL)
+  {
+    known = distance;
+    std::uint8_t& flags = this->Window.flags()[v];
+    flags = static_cast<std::uint8_t>((flags & ~FrontFlags) | Dirty | Changed | front);
+    if (std::int64_t* const sources = this->Window.source())
+    {
+      sources[v] = source;
+    }
+    this->Queue.put(v | VertexBit, distance);
+  }
+  else if ((front & Straight) != 0 && distance <= known + Same * known && known > 0)
+  {
+    // Of two fronts that arrive at the same time, the straight one counts.
+    this->Window.flags()[v] |= front | Changed;
+  }
+}
+
+void GeodesicMarch::leave(std::uint32_t v)
+{
+  std::uint8_t& flags = this->Window.flags()[v];
+  if ((flags & Dirty) == 0)
+  {
+    return;
+  }
+  const bool hasAll = this->Window.hasAllCellsOf(v);
+  const bool turns = hasAll && this->mayTurnAt(v);
+  flags |= Changed;
+  if (hasAll)
+  {
+    flags &= static_cast<std::uint8_t>(~Dirty);
+  }
+  const double distance = this->Window.distance()[v];
+  this->Window.forCellsOf<3>(v,
+    [&](const std::uint32_t* cell)
+    {
+      const int k = cell[0] == v ? 0 : cell[1] == v ? 1 : 2;
+      const std::uint32_t p = cell[(k + 1) % 3], q = cell[(k + 2) % 3];
+      for (const std::uint32_t w : { p, q })
+      {
+        this->offer(w, distance + this->lengthOf(v, w), this->sourceOf(v), flags & OfRegion);
+        const bool isCurve = (flags & this->Window.flags()[w] & Straight) != 0 && distance == 0 &&
+                             this->Window.distance()[w] == 0;
+        if (isCurve && hasAll)
+        {
+          this->leaveCurve(v, w);
+        }
+      }
+      if (turns)
+      {
+        this->leaveThrough(v, p, q);
+      }
+    });
+}
+
+bool GeodesicMarch::mayTurnAt(std::uint32_t v)
+{
+  std::uint8_t& flags = this->Window.flags()[v];
+  if (this->Window.distance()[v] == 0)
+  {
+    return true;
+  }
+  if ((flags & (Passed | Turning)) == 0)
+  {
+    std::vector<std::uint32_t>& around = this->Around;
+    around.clear();
+    double angle = 0;
+    bool isFlat = false;
+    this->Window.forCellsOf<3>(v,
+      [&](const std::uint32_t* cell)
+      {
+        const int k = cell[0] == v ? 0 : cell[1] == v ? 1 : 2;
+        const std::uint32_t p = cell[(k + 1) % 3], q = cell[(k + 2) % 3];
+        around.insert(around.end(), { p, q });
+        const Vector e = difference(this->Window.point(p), this->Window.point(v));
+        const Vector f = difference(this->Window.point(q), this->Window.point(v));
+        const Vector normal = smg::cross(e, f);
+        const double area = std::sqrt(dot(normal, normal));
+        isFlat = isFlat || !(area > 0);
+        angle += std::atan2(area, dot(e, f));
+      });
+    // Around a vertex inside of a surface, each neighbour is in two triangles.
+    std::ranges::sort(around);
+    bool isInside = true;
+    for (std::size_t i = 0; i < around.size() && isInside; i += 2)
+    {
+      isInside = i + 1 < around.size() && around[i] == around[i + 1] &&
+                 (i + 2 >= around.size() || around[i + 2] != around[i]);
+    }
+    const bool turns = isFlat || !isInside || angle > 2 * std::numbers::pi + Margin;
+    flags |= turns ? Turning : Passed;
+  }
+  return (flags & Turning) != 0;
+}
+
+void GeodesicMarch::leaveThrough(std::uint32_t v, std::uint32_t p, std::uint32_t q)
+{
+  const std::uint32_t a = std::min(p, q), b = std::max(p, q);
+  const Vector edge = difference(this->Window.point(b), this->Window.point(a));
+  const Vector to = difference(this->Window.point(v), this->Window.point(a));
+  const double length = std::sqrt(dot(edge, edge));
+  if (length > 0)
+  {
+    const Vector normal = smg::cross(edge, to);
+    const FrontImage image{ dot(edge, to) / length, std::sqrt(dot(normal, normal)) / length,
+      this->Window.distance()[v], false };
+    this->add({ 0, length, image, this->sourceOf(v), a, b, v, this->isOfRegion(v) }, length);
+  }
+}
+
+/** The edge between two sources is a source: each half of it that of the nearer end. */
+void GeodesicMarch::leaveCurve(std::uint32_t v, std::uint32_t w)
+{
+  const std::uint32_t a = std::min(v, w), b = std::max(v, w);
+  const double length = this->lengthOf(a, b);
+  const FrontImage image{ 0, 1, 0, true };
+  this->add({ 0, 0.5 * length, image, this->sourceOf(a), a, b, FrontInterval::None, true }, length);
+  this->add(
+    { 0.5 * length, length, image, this->sourceOf(b), a, b, FrontInterval::None, true }, length);
+}
+
+void GeodesicMarch::add(FrontInterval interval, double length)
+{
+  const double* const distances = this->Window.distance();
+  const double atFirst = distances[interval.first], atSecond = distances[interval.second];
+  const FrontImage& image = interval.image;
+  // Paths by way of the corners of the edge are shorter.
+  const double least = image.least(interval.begin, interval.end);
+  if (interval.from != FrontInterval::None &&
+      (image.at(interval.end) >= atFirst + interval.end ||
+        image.at(interval.begin) >= atSecond + (length - interval.begin) ||
+        2 * least >= atFirst + atSecond + length))
+  {
+    return;
+  }
+  std::uint32_t edge = FrontInterval::None;
+  this->Window.forCellsOf<3>(interval.first,
+    [&](const std::uint32_t* cell, std::uint32_t number)
+    {
+      for (std::uint32_t k = 0; k < 3 && edge == FrontInterval::None; ++k)
+      {
+        if (cell[k] == interval.second)
+        {
+          // The edge from there to the first corner: opposite to the third one.
+          const std::uint32_t other =
+            cell[(k + 1) % 3] == interval.first ? (k + 2) % 3 : (k + 1) % 3;
+          edge = 3 * number + other;
+        }
+      }
+    });
+  if (edge == FrontInterval::None)
+  {
+    this->wait(interval);
+    return;
+  }
+  for (const std::uint32_t number : this->Fronts.insert(edge, interval))
+  {
+    const FrontInterval& part = this->Fronts.at(number);
+    this->Queue.put(number, part.image.least(part.begin, part.end));
+  }
+}
+
+/** Leaves an interval to a position of the window that has all triangles of its edge. */
+void GeodesicMarch::wait(const FrontInterval& interval)
+{
+  const std::int64_t chunk =
+    std::max(this->Window.chunkOf(interval.first), this->Window.chunkOf(interval.second));
+  this->Window.waiting(chunk).push_back(interval);
+  for (const std::uint32_t v : { interval.first, interval.second })
+  {
+    this->Window.flags()[v] |= Changed;
+  }
+}
+
+void GeodesicMarch::passOn(std::uint32_t number)
+{
+  const FrontInterval interval = this->Fronts.at(number);
+  this->Fronts.take(number);
+  const std::uint32_t a = interval.first, b = interval.second;
+  if (!this->Window.hasAllCellsOf(a) && !this->Window.hasAllCellsOf(b))
+  {
+    this->wait(interval);
+    return;
+  }
+  const double* const origin = this->Window.point(a);
+  const Vector edge = difference(this->Window.point(b), origin);
+  const double length = std::sqrt(dot(edge, edge));
+  this->Window.forCellsOf<3>(this->Window.hasAllCellsOf(a) ? a : b,
+    [&](const std::uint32_t* cell)
+    {
+      std::uint32_t corner = FrontInterval::None;
+      int found = 0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const bool isOfEdge = cell[k] == a || cell[k] == b;
+        found += isOfEdge ? 1 : 0;
+        corner = isOfEdge ? corner : cell[k];
+      }
+      if (found == 2 && corner != interval.from)
+      {
+        const Vector to = difference(this->Window.point(corner), origin);
+        const Vector normal = smg::cross(edge, to);
+        this->enter(interval, length,
+          { corner, dot(edge, to) / length, std::sqrt(dot(normal, normal)) / length });
+      }
+    });
+}
+
+void GeodesicMarch::enter(const FrontInterval& interval, double length, const Triangle& triangle)
+{
+  const FrontImage& image = interval.image;
+  if (!(image.depth > 0))
+  {
+    return; // along the edge
+  }
+  const double x = triangle.x, y = triangle.y, margin = Margin * length;
+  const double crossing = image.crossing(x, y);
+  const bool isLeft = crossing > interval.begin + margin,
+             isRight = crossing < interval.end - margin;
+  if (crossing >= interval.begin - margin && crossing <= interval.end + margin)
+  {
+    const int front = (image.isStraight ? Straight : 0) | (interval.isOfRegion ? OfRegion : 0);
+    this->offer(triangle.corner, image.at(x, y), interval.source, static_cast<std::uint8_t>(front));
+  }
+  const double known = this->Window.distance()[triangle.corner];
+  const std::uint32_t a = interval.first, b = interval.second, c = triangle.corner;
+  // Paths to the one side of the third corner, unless those by way of it are shorter.
+  if (isLeft && image.at(interval.begin) < known + norm(x - interval.begin, y))
+  {
+    const double all = norm(x, y);
+    const double begin = image.shareBeyond(x, y, interval.begin);
+    const double end =
+      isRight || crossing <= interval.end + margin ? 1 : image.shareBeyond(x, y, interval.end);
+    this->cross({ begin * all, end * all, image.beyond(x, y, all), interval.source, a, c, b,
+                  interval.isOfRegion },
+      all);
+  }
+  if (isRight && image.at(interval.end) < known + norm(x - interval.end, y))
+  {
+    const FrontImage mirrored = image.reversed(length);
+    const double mx = length - x, all = norm(mx, y);
+    const double begin = mirrored.shareBeyond(mx, y, length - interval.end);
+    const double end = isLeft || crossing >= interval.begin - margin
+                         ? 1
+                         : mirrored.shareBeyond(mx, y, length - interval.begin);
+    this->cross({ begin * all, end * all, mirrored.beyond(mx, y, all), interval.source, b, c, a,
+                  interval.isOfRegion },
+      all);
+  }
+}
+
+/** Adds an interval whose corners may be in the other order. */
+void GeodesicMarch::cross(FrontInterval interval, double length)
+{
+  if (interval.second < interval.first)
+  {
+    std::swap(interval.first, interval.second);
+    interval.image = interval.image.reversed(length);
+    interval.begin = std::exchange(interval.end, length - interval.begin);
+    interval.begin = length - interval.begin;
+  }
+  if (length > 0 && interval.end > interval.begin)
+  {
+    this->add(interval, length);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Jobs/Distance/ChunkMarch.h"
+#include "Solver/Jobs/Distance/EdgeFronts.h"
+#include "Solver/Jobs/Distance/FrontQueue.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** Marches the exact front of a distance on a surface of triangles: see GeodesicMarch.cpp. */
+class GeodesicMarch final : public ChunkMarch
+{
+public:
+  GeodesicMarch(ChunkedMesh& mesh, Pool& pool);
+
+  /** The bytes of a march over chunks with at most this many inner and crossing cells. Those of the
+   * intervals are not known in advance: this is twice what they take on scans. */
+  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
+    std::int64_t crossingCells);
+
+  /** Of intervals, and for each vertex of the window. */
+  static constexpr std::int64_t LeastFrontBytes = 3 << 20, FrontBytes = 300;
+
+private:
+  /** The triangle of an edge that an interval's paths enter, in the frame of the edge. */
+  struct Triangle
+  {
+    std::uint32_t corner; ///< opposite to the edge
+    double x, y;
+  };
+
+  void settle(std::int64_t first, std::int64_t last) override;
+  void begin(std::int64_t first, std::int64_t last);
+  void end(std::int64_t first, std::int64_t last);
+  /** Offers the paths from a vertex along its edges, and through its triangles if paths may turn at
+   * it. */
+  void leave(std::uint32_t v);
+  bool mayTurnAt(std::uint32_t v);
+  void leaveThrough(std::uint32_t v, std::uint32_t p, std::uint32_t q);
+  void leaveCurve(std::uint32_t v, std::uint32_t w);
+  /** Passes an interval on to the triangles of its edge. */
+  void passOn(std::uint32_t number);
+  void enter(const FrontInterval& interval, double length, const Triangle& triangle);
+  void cross(FrontInterval interval, double length);
+  /** Adds an interval to its edge, if it may be part of a shortest path. */
+  void add(FrontInterval interval, double length);
+  void wait(const FrontInterval& interval);
+  /** `front`: flags Straight and OfRegion. */
+  void offer(std::uint32_t v, double distance, std::int64_t source, std::uint8_t front);
+  bool isOfRegion(std::uint32_t v) const { return (this->Window.flags()[v] & OfRegion) != 0; }
+  std::int64_t sourceOf(std::uint32_t v) const
+  {
+    return this->Window.source() ? this->Window.source()[v] : 0;
+  }
+  double lengthOf(std::uint32_t a, std::uint32_t b) const;
+
+  EdgeFronts Fronts;
+  FrontQueue Queue;
+  std::vector<std::uint32_t> Around; ///< neighbours of a vertex
+};
+
+} // namespace smg

@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/DistanceTesting.h"
+
+#include "Solver/Core/Vector.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+// Laws of distances on surfaces of random triangles, up to 1 : 10,000, flat, folded, in cones of
+// any angle, with holes and in several bodies, from one and many points. Where the surface unfolds
+// into the plane, exact distances are known without any method.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** A surface, and the exact distance between two of its vertices, where that is known. */
+struct KnownSurface
+{
+  std::string name;
+  StreamMesh mesh;
+  std::function<double(std::int64_t, std::int64_t)> exact; ///< empty: not known
+};
+
+/** The stream, and for each of its vertices the point of `plane`, of the mesh before. */
+KnownSurface unfolding(std::string name, const IndexedTestMesh& mesh,
+  std::vector<std::array<double, 2>> plane,
+  std::function<double(const std::array<double, 2>&, const std::array<double, 2>&)> distance)
+{
+  StreamMesh stream = toStream(mesh);
+  std::vector<std::array<double, 2>> points;
+  for (const std::int64_t id : stream.originalIds)
+  {
+    points.push_back(plane[static_cast<std::size_t>(id)]);
+  }
+  return { std::move(name), std::move(stream),
+    [points = std::move(points), distance = std::move(distance)](std::int64_t a, std::int64_t b) {
+      return distance(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
+    } };
+}
+
+double straight(const std::array<double, 2>& a, const std::array<double, 2>& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+/** A rectangle of random triangles, y divided by `flatness`. */
+KnownSurface flatSurface(double flatness, double jitter)
+{
+  IndexedTestMesh mesh = unitSquare(22, jitter);
+  std::vector<std::array<double, 2>> plane;
+  for (std::size_t k = 0; k < mesh.positions.size(); k += 3)
+  {
+    mesh.positions[k + 1] /= flatness;
+    plane.push_back({ mesh.positions[k], mesh.positions[k + 1] });
+  }
+  return unfolding("flat, 1 : " + std::to_string(flatness), mesh, std::move(plane), &straight);
+}
+
+/** A sheet that is folded along lines of constant x to and fro. */
+KnownSurface foldedSurface(double angle, double flatness)
+{
+  constexpr int n = 20;
+  IndexedTestMesh mesh = unitSquare(n, 0);
+  Random random(3);
+  std::vector<std::array<double, 2>> plane;
+  for (std::size_t k = 0; k < mesh.positions.size(); k += 3)
+  {
+    double& x = mesh.positions[k];
+    double& y = mesh.positions[k + 1];
+    y += y > 0 && y < 1 ? random.uniform(-0.4, 0.4) / n : 0.0;
+    y /= flatness;
+    plane.push_back({ x, y });
+    const int line = static_cast<int>(std::lround(x * n));
+    mesh.positions[k + 2] = line % 2 * std::sin(angle) / n;
+    x *= std::cos(angle);
+  }
+  return unfolding("folded by " + std::to_string(angle), mesh, std::move(plane), &straight);
+}
+
+/** Rings of random triangles around the tip of a cone with this angle around it: of a spherical
+ * kind below 2 pi, of a saddle above it. Points of the plane are radius and angle. */
+KnownSurface coneSurface(double whole)
+{
+  constexpr int Rings = 12, Sides = 30;
+  Random random(9);
+  IndexedTestMesh mesh;
+  std::vector<std::array<double, 2>> polar{ { 0, 0 } };
+  mesh.positions = { 0, 0, 0 };
+  const double side = whole / Sides;
+  for (int ring = 1; ring <= Rings; ++ring)
+  {
+    for (int k = 0; k < Sides; ++k)
+    {
+      const bool isInside = ring < Rings;
+      const double r = (ring + (isInside ? random.uniform(-0.3, 0.3) : 0.0)) / Rings;
+      // Sectors of the unfolded cone are flat; one leans against the next as the cone needs.
+      polar.push_back({ r, side * k });
+      const std::int64_t a = 1 + (ring - 1) * Sides + k,
+                         b = 1 + (ring - 1) * Sides + (k + 1) % Sides;
+      if (ring == 1)
+      {
+        mesh.corners.insert(mesh.corners.end(), { 0, a, b });
+      }
+      else
+      {
+        const bool rising = (ring + k) % 2 == 0;
+        mesh.corners.insert(mesh.corners.end(),
+          { a - Sides, a, rising ? b : b - Sides, rising ? a - Sides : a, b, b - Sides });
+      }
+    }
+  }
+  // In space: a chord of each sector, with heights to and fro where the angle is too large, so that
+  // neighbouring rays have the angle `side` between them.
+  for (std::size_t v = 1; v < polar.size(); ++v)
+  {
+    const int k = (static_cast<int>(v) - 1) % Sides;
+    const double turn = 2 * std::numbers::pi * k / Sides;
+    const double flat = 2 * std::numbers::pi / Sides;
+    // Rays (c cos turn, c sin turn, +-s): for a cone the same sign, for a saddle in turn.
+    const bool isSaddle = whole > 2 * std::numbers::pi;
+    // cos(side) = c^2 cos(flat) +- s^2, with c^2 + s^2 = 1.
+    const double square = isSaddle ? (std::cos(side) + 1) / (std::cos(flat) + 1)
+                                   : (1 - std::cos(side)) / (1 - std::cos(flat));
+    const double c = std::sqrt(std::min(square, 1.0)), s = std::sqrt(std::max(1 - square, 0.0));
+    const double r = polar[v][0];
+    mesh.positions.insert(mesh.positions.end(),
+      { r * c * std::cos(turn), r * c * std::sin(turn), r * (isSaddle && k % 2 == 1 ? -s : s) });
+  }
+  return unfolding("cone of " + std::to_string(whole), mesh, std::move(polar),
+    [whole](const std::array<double, 2>& a, const std::array<double, 2>& b)
+    {
+      const double between = std::abs(a[1] - b[1]), angle = std::min(between, whole - between);
+      const double x = a[0] - b[0] * std::cos(angle), y = b[0] * std::sin(angle);
+      return angle < std::numbers::pi ? std::hypot(x, y) : a[0] + b[0];
+    });
+}
+
+/** A curved surface with holes, of several bodies. */
+KnownSurface tornSurface(std::uint64_t seed, int n = 24)
+{
+  Random random(seed);
+  IndexedTestMesh mesh = unitSquare(n);
+  for (std::size_t k = 0; k < mesh.positions.size(); k += 3)
+  {
+    mesh.positions[k + 2] =
+      0.2 * std::sin(7 * mesh.positions[k]) * std::cos(5 * mesh.positions[k + 1]) +
+      random.uniform(-0.01, 0.01);
+  }
+  std::vector<std::int64_t> kept;
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 3)
+  {
+    if (random.below(6) > 0)
+    {
+      kept.insert(kept.end(), mesh.corners.begin() + std::ptrdiff_t(c),
+        mesh.corners.begin() + std::ptrdiff_t(c) + 3);
+    }
+  }
+  mesh.corners = std::move(kept);
+  return { "torn", toStream(mesh), {} };
+}
+
+std::vector<KnownSurface> surfaces()
+{
+  std::vector<KnownSurface> all;
+  for (const double flatness : { 1.0, 10.0, 100.0, 10'000.0 })
+  {
+    all.push_back(flatSurface(flatness, 0.24));
+  }
+  all.push_back(flatSurface(100.0, 0.0));
+  for (const double angle : { 0.3, 1.2, 1.5 })
+  {
+    all.push_back(foldedSurface(angle, 1.0));
+    all.push_back(foldedSurface(angle, 50.0));
+  }
+  for (const double whole : { 1.0, 3.0, 5.5, 6.6, 8.0, 12.0 })
+  {
+    all.push_back(coneSurface(whole));
+  }
+  all.push_back(tornSurface(1));
+  all.push_back(tornSurface(2));
+  return all;
+}
+
+DistanceDescription fromPoints(std::vector<std::int64_t> ids, PathAccuracy accuracy)
+{
+  DistanceDescription description = fromVertices(std::move(ids));
+  description.accuracy = accuracy;
+  description.source = true;
+  return description;
+}
+
+std::vector<std::int64_t> someVertices(const StreamMesh& mesh, int count, Random& random)
+{
+  std::vector<std::int64_t> ids;
+  for (int k = 0; k < count; ++k)
+  {
+    ids.push_back(random.below(mesh.vertices()));
+  }
+  // Neighbours, too: the corners of a triangle.
+  ids.insert(ids.end(), mesh.corners.begin(), mesh.corners.begin() + 2);
+  return ids;
+}
+
+/** The shortest paths along edges, by relaxing all edges until nothing changes. */
+Eigen::VectorXd alongEdges(const StreamMesh& mesh, const std::vector<std::int64_t>& sources)
+{
+  Eigen::VectorXd distance = Eigen::VectorXd::Constant(mesh.vertices(), HUGE_VAL);
+  for (const std::int64_t source : sources)
+  {
+    distance[source] = 0;
+  }
+  for (bool isChanged = true; isChanged;)
+  {
+    isChanged = false;
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c)
+    {
+      const std::int64_t a = mesh.corners[c], b = mesh.corners[c % 3 == 2 ? c - 2 : c + 1];
+      const double length = straightFrom(mesh, a)(mesh.positions.data() + 3 * b);
+      for (const auto& [from, to] : { std::pair(a, b), std::pair(b, a) })
+      {
+        isChanged = isChanged || distance[from] + length < distance[to];
+        distance[to] = std::min(distance[to], distance[from] + length);
+      }
+    }
+  }
+  return distance;
+}
+
+} // namespace
+
+TEST(DistanceLaws, ExactOnesAreThoseOfTheUnfoldedSurface)
+{
+  for (const KnownSurface& surface : surfaces())
+  {
+    if (!surface.exact)
+    {
+      continue;
+    }
+    SCOPED_TRACE(surface.name);
+    const MemoryMesh mesh(surface.mesh);
+    Random random(11);
+    for (int run = 0; run < 6; ++run)
+    {
+      const std::int64_t source = run == 0 ? 0 : random.below(surface.mesh.vertices());
+      const Solved solved = measure(mesh, fromPoints({ source }, PathAccuracy::Exact));
+      EXPECT_TRUE(solved.report.distance->exact);
+      double worst = 0;
+      for (std::int64_t v = 0; v < surface.mesh.vertices(); ++v)
+      {
+        const double exact = surface.exact(source, v);
+        worst = std::max(worst, std::abs(solved.values(v, 0) - exact) / (exact + 1e-300));
+      }
+      EXPECT_LT(worst, 1e-9) << "from " << source;
+    }
+  }
+}
+
+TEST(DistanceLaws, ExactOnesAreSymmetric)
+{
+  for (const KnownSurface& surface : surfaces())
+  {
+    SCOPED_TRACE(surface.name);
+    const MemoryMesh mesh(surface.mesh);
+    Random random(13);
+    std::vector<std::int64_t> ids = someVertices(surface.mesh, 5, random);
+    std::vector<Eigen::VectorXd> from;
+    for (const std::int64_t id : ids)
+    {
+      from.emplace_back(measure(mesh, fromPoints({ id }, PathAccuracy::Exact)).values.col(0));
+    }
+    for (std::size_t a = 0; a < ids.size(); ++a)
+    {
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        const double there = from[a][ids[b]], back = from[b][ids[a]];
+        EXPECT_TRUE(there == back || std::abs(there - back) <= 1e-12 * there)
+          << there << " and " << back;
+      }
+    }
+  }
+}
+
+TEST(DistanceLaws, ThoseOfSeveralPointsAreTheLeastOfTheSingleOnes)
+{
+  for (const KnownSurface& surface : surfaces())
+  {
+    SCOPED_TRACE(surface.name);
+    const MemoryMesh mesh(surface.mesh);
+    Random random(17);
+    const std::vector<std::int64_t> ids = someVertices(surface.mesh, 6, random);
+    const Eigen::MatrixXd together = measure(mesh, fromPoints(ids, PathAccuracy::Exact)).values;
+    Eigen::VectorXd least = Eigen::VectorXd::Constant(surface.mesh.vertices(), HUGE_VAL);
+    Eigen::VectorXd ofSource = least;
+    for (const std::int64_t id : ids)
+    {
+      const Eigen::VectorXd alone =
+        measure(mesh, fromPoints({ id }, PathAccuracy::Exact)).values.col(0);
+      least = least.cwiseMin(alone);
+      for (Eigen::Index v = 0; v < alone.size(); ++v)
+      {
+        ofSource[v] = together(v, 1) == static_cast<double>(id) ? alone[v] : ofSource[v];
+      }
+    }
+    for (Eigen::Index v = 0; v < least.size(); ++v)
+    {
+      const double found = together(v, 0);
+      EXPECT_TRUE(found == least[v] || std::abs(found - least[v]) <= 1e-12 * least[v])
+        << found << " instead of " << least[v];
+      EXPECT_TRUE(found == ofSource[v] || std::abs(found - ofSource[v]) <= 1e-12 * found);
+    }
+  }
+}
+
+TEST(DistanceLaws, AllLieBetweenTheStraightLineAndTheEdges)
+{
+  for (const KnownSurface& surface : surfaces())
+  {
+    for (const PathAccuracy accuracy : { PathAccuracy::Exact, PathAccuracy::Approximate })
+    {
+      SCOPED_TRACE(surface.name + (accuracy == PathAccuracy::Exact ? ", exact" : ", approximate"));
+      const MemoryMesh mesh(surface.mesh);
+      const double slack = accuracy == PathAccuracy::Exact ? 1e-12 : 1e-6;
+      for (const int count : { 0, 1, 8, 40 })
+      {
+        Random random(19);
+        const std::vector<std::int64_t> ids = someVertices(surface.mesh, count, random);
+        const Eigen::MatrixXd found = measure(mesh, fromPoints(ids, accuracy)).values;
+        const Eigen::VectorXd edges = alongEdges(surface.mesh, ids);
+        for (std::int64_t v = 0; v < surface.mesh.vertices(); ++v)
+        {
+          double line = HUGE_VAL;
+          for (const std::int64_t id : ids)
+          {
+            line =
+              std::min(line, straightFrom(surface.mesh, id)(surface.mesh.positions.data() + 3 * v));
+          }
+          const double distance = found(v, 0);
+          EXPECT_TRUE(distance <= edges[v] * (1 + slack)) << distance << " > " << edges[v];
+          EXPECT_TRUE(distance >= line * (1 - slack)) << distance << " < " << line;
+          EXPECT_EQ(distance == HUGE_VAL, edges[v] == HUGE_VAL);
+        }
+      }
+    }
+  }
+}
+
+/** Between the vertices of a region, the edges of the mesh are sources, too; points beside it are
+ * none of it. */
+TEST(DistanceLaws, ExactOnesOfARegionAreThoseOfItsEdges)
+{
+  for (const double flatness : { 1.0, 20.0, 1000.0 })
+  {
+    const KnownSurface surface = flatSurface(flatness, 0.24);
+    const StreamMesh& stream = surface.mesh;
+    const MemoryMesh mesh(stream);
+    const auto point = [&](std::int64_t v) { return &stream.positions[3 * std::size_t(v)]; };
+    using Box = Region::Box;
+    for (const Region& region : { Region(Region::Sphere{ { 0.4, 0.3 / flatness, 0 }, 0.2 }),
+           Region(Box{ { 0.5, 0, -1 }, { 0.56, 1, 1 } }),
+           Region(Box{ { 0.1, 0.2 / flatness, -1 }, { 0.8, 0.25 / flatness, 1 } }),
+           Region(Region::HalfSpace{ { -1, 0, 0 }, 0 }) })
+    {
+      DistanceDescription description =
+        fromPoints({ 5, stream.vertices() - 2 }, PathAccuracy::Exact);
+      std::vector<bool> isSource(static_cast<std::size_t>(stream.vertices()));
+      for (std::int64_t v = 0; v < stream.vertices(); ++v)
+      {
+        isSource[std::size_t(v)] = region.contains(std::span<const double, 3>(point(v), 3), v);
+      }
+      ASSERT_GT(std::ranges::count(isSource, true), 0);
+      description.from.emplace_back(region);
+      const Eigen::VectorXd found = measure(mesh, description).values.col(0);
+      for (std::int64_t v = 0; v < stream.vertices(); ++v)
+      {
+        const double* p = point(v);
+        double least =
+          std::min(straightFrom(stream, 5)(p), straightFrom(stream, stream.vertices() - 2)(p));
+        for (std::size_t c = 0; c < stream.corners.size(); ++c)
+        {
+          const std::int64_t a = stream.corners[c];
+          const std::int64_t b = stream.corners[c % 3 == 2 ? c - 2 : c + 1];
+          if (!isSource[std::size_t(a)])
+          {
+            continue;
+          }
+          least = std::min(least, straightFrom(stream, a)(p));
+          if (isSource[std::size_t(b)])
+          {
+            const Vector edge = difference(point(b), point(a)), to = difference(p, point(a));
+            const double share = std::clamp(dot(edge, to) / dot(edge, edge), 0.0, 1.0);
+            const Vector foot = scaled(share, edge);
+            const Vector rest = difference(to.data(), foot.data());
+            least = std::min(least, std::sqrt(dot(rest, rest)));
+          }
+        }
+        // The triangles between three vertices of the region have no vertex inside.
+        EXPECT_NEAR(found[v], least, 1e-9 * least + 1e-15) << flatness << ", vertex " << v;
+      }
+    }
+  }
+}
+
+/** Chunks and windows cost work, but no accuracy. */
+TEST(DistanceLaws, ExactOnesDoNotDependOnTheWindow)
+{
+  const KnownSurface surface = tornSurface(3, 80);
+  const MemoryMesh mesh(surface.mesh);
+  Random random(23);
+  const DistanceDescription description =
+    fromPoints(someVertices(surface.mesh, 4, random), PathAccuracy::Exact);
+  const Eigen::VectorXd whole = measure(mesh, description).values.col(0);
+  for (const std::int64_t chunk : { 1, 400, 1000 })
+  {
+    const Solved parts = measureInChunks(mesh, description, chunk);
+    EXPECT_GT(parts.report.passes, chunk < 1000 ? 1 : 0);
+    for (Eigen::Index v = 0; v < whole.size(); ++v)
+    {
+      const double found = parts.values(v, 0);
+      EXPECT_TRUE(found == whole[v] || std::abs(found - whole[v]) <= 1e-12 * whole[v])
+        << found << " instead of " << whole[v];
+    }
+  }
+}
+
+} // namespace smg::testing
