@@ -9,6 +9,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkModeProperty.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Smooth.h"
@@ -158,8 +159,11 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointS
   {
     task->arrays = { description.column };
   }
-  task->needsNormals = description.column.empty() && this->Normals == RECOMPUTE &&
-                       vtkPolyData::SafeDownCast(&input) && smg::findNormals(*input.GetPointData());
+  const bool isSurface =
+    vtkPolyData::SafeDownCast(&input) ||
+    (smg::isOrdinaryMesh(input) && smg::countingCells(input) == smg::CellChoice::Triangles);
+  task->needsNormals = description.column.empty() && this->Normals == RECOMPUTE && isSurface &&
+                       smg::findNormals(*input.GetPointData());
   return task;
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
@@ -74,7 +75,22 @@ void select(
     });
   const auto vertices = static_cast<std::size_t>(mesh.shared->vertices());
   std::fill_n(selected, vertices, std::uint8_t(0));
-  markFixed(mesh, description, partOf(progress, 0.1, 1.0), { selected, vertices });
+  try
+  {
+    markFixed(mesh, description, partOf(progress, 0.1, 1.0), { selected, vertices });
+  }
+  catch (const Error& error)
+  {
+    // The condition that stands for the region is nothing that the caller knows.
+    constexpr std::string_view Condition = "dirichlet[0].";
+    std::string message = error.what();
+    const std::size_t place = message.find(Condition);
+    if (place == std::string::npos)
+    {
+      throw;
+    }
+    throw ArgumentError(message.erase(place, Condition.size()));
+  }
 }
 
 } // namespace

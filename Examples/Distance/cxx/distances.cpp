@@ -20,7 +20,7 @@ Run it:
     distances ../../Data/bunny.smb bunny-distance.vsm
 
     34834 vertices: settled in 1 pass
-      the largest distance is 0.238477 m, the mean 0.142921 m
+      the largest distance is 0.237836 m, the mean 0.142573 m
 */
 
 #include <smg/Convert.h>
