@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/DistanceTesting.h"
+#include "Testing/Support/Refinement.h"
 
 #include "Solver/Core/Vector.h"
 
@@ -349,6 +350,95 @@ TEST(DistanceLaws, AllLieBetweenTheStraightLineAndTheEdges)
         }
       }
     }
+  }
+}
+
+/** A vertex of a little more than a full turn leaves a gap behind it, which grows with the
+ * distance: what lies in it is seen all the same. */
+TEST(DistanceLaws, ExactOnesAreRightOnNearlyFlatSurfaces)
+{
+  constexpr int n = 40;
+  for (const double noise : { 1e-9, 1e-7, 1e-6, 3e-6, 1e-5 })
+  {
+    IndexedTestMesh square = unitSquare(n, 0.2);
+    Random random(5);
+    for (std::size_t k = 2; k < square.positions.size(); k += 3)
+    {
+      square.positions[k] = random.uniform(-noise, noise) / n;
+    }
+    const MemoryMesh mesh(toStream(square));
+    for (const std::int64_t source : { mesh.mesh().vertices() / 2, std::int64_t(40) })
+    {
+      const Eigen::VectorXd found =
+        measure(mesh, fromPoints({ source }, PathAccuracy::Exact)).values.col(0);
+      const auto straight = straightFrom(mesh.mesh(), source);
+      for (Eigen::Index v = 0; v < found.size(); ++v)
+      {
+        const double line = straight(mesh.mesh().positions.data() + 3 * v);
+        EXPECT_NEAR(found[v], line, (100 * noise * noise + 1e-11) * line) << noise;
+      }
+    }
+  }
+}
+
+TEST(DistanceLaws, ExactOnesPassVerticesOfSeveralFans)
+{
+  // Two regular tetrahedra with one vertex in common, around which the angles add up to a full
+  // turn: a path from one to the other goes through it, and there is no other one.
+  IndexedTestMesh mesh;
+  mesh.positions = { 0, 0, 0, 1, 1, 0, 1, 0, 1, 0, 1, 1, -1, -1, 0, -1, 0, -1, 0, -1, -1 };
+  for (const std::int64_t first : { 1, 4 })
+  {
+    const std::int64_t a = first, b = first + 1, c = first + 2;
+    mesh.corners.insert(mesh.corners.end(), { 0, a, b, 0, b, c, 0, c, a, a, c, b });
+  }
+  // Finer, so that paths to the tip do not all run along edges.
+  mesh = refined(refined(mesh));
+  const MemoryMesh stored(toStream(mesh));
+  const StreamMesh& stream = stored.mesh();
+  const std::int64_t tip = nearestTo(stream, 0, 0, 0);
+  const Eigen::VectorXd fromTip =
+    measure(stored, fromPoints({ tip }, PathAccuracy::Exact)).values.col(0);
+  const std::int64_t source = nearestTo(stream, 0.75, 0.25, 0.5);
+  const Eigen::VectorXd found =
+    measure(stored, fromPoints({ source }, PathAccuracy::Exact)).values.col(0);
+  for (std::int64_t v = 0; v < stream.vertices(); ++v)
+  {
+    const double* p = &stream.positions[3 * std::size_t(v)];
+    if (p[0] + p[1] + p[2] < 0)
+    {
+      EXPECT_NEAR(found[v], fromTip[source] + fromTip[v], 1e-12);
+    }
+  }
+}
+
+/** Across a hub, each edge around it passes an interval of its own on from spoke to spoke. */
+TEST(DistanceLaws, ExactOnesPassAHubOfManyTriangles)
+{
+  constexpr int n = 2000;
+  IndexedTestMesh hub;
+  hub.positions = { 0, 0, 0 };
+  for (int ring = 1; ring <= 2; ++ring)
+  {
+    for (int k = 0; k < n; ++k)
+    {
+      const double angle = 2 * std::numbers::pi * k / n;
+      hub.positions.insert(
+        hub.positions.end(), { ring * std::cos(angle), ring * std::sin(angle), 0.0 });
+      const std::int64_t a = 1 + (ring - 1) * n + k, b = 1 + (ring - 1) * n + (k + 1) % n;
+      ring == 1 ? hub.corners.insert(hub.corners.end(), { 0, a, b })
+                : hub.corners.insert(hub.corners.end(), { a - n, a, b, a - n, b, b - n });
+    }
+  }
+  const MemoryMesh mesh(toStream(hub));
+  const std::int64_t source = nearestTo(mesh.mesh(), 2, 0, 0);
+  const Eigen::VectorXd found =
+    measure(mesh, fromPoints({ source }, PathAccuracy::Exact)).values.col(0);
+  const auto straight = straightFrom(mesh.mesh(), source);
+  for (Eigen::Index v = 0; v < found.size(); v += 97)
+  {
+    const double line = straight(mesh.mesh().positions.data() + 3 * v);
+    EXPECT_NEAR(found[v], line, 1e-9 * line);
   }
 }
 

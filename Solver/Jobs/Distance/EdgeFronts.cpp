@@ -284,11 +284,12 @@ private:
 std::span<const std::uint32_t> EdgeFronts::insert(std::uint32_t edge, const FrontInterval& interval)
 {
   this->Added.clear();
-  if (this->Heads[edge] == None)
+  const bool isFirst = this->Heads[edge] == None;
+  Insertion(*this, edge, interval).run();
+  if (isFirst && this->Heads[edge] != None)
   {
     this->Edges.push_back(edge);
   }
-  Insertion(*this, edge, interval).run();
   return this->Added;
 }
 

@@ -11,8 +11,8 @@
 
 // Exact distances on a surface of triangles (Mitchell, Mount and Papadimitriou, The discrete
 // geodesic problem, 1987), in the order of the distance, in a window of the stream. A shortest path
-// is straight through unfolded triangles, and turns at vertices with an angle of at least 2 pi
-// around them or on the boundary alone. So the front is a set of intervals of edges
+// is straight through unfolded triangles, and turns at vertices with an angle of more than 2 pi
+// around them, or pi on the boundary, alone. So the front is a set of intervals of edges
 // (FrontInterval.h), each of which sees one source or such a vertex. An interval passes on what the
 // third corner of the next triangle leaves of it to one or both of the other edges; what an edge
 // has is disjoint (EdgeFronts); a vertex that paths may turn at sends intervals to the edges
@@ -34,9 +34,15 @@ namespace
 
 /** Numbers of vertices in the queue have this bit, those of intervals have not. */
 constexpr std::uint32_t VertexBit = 0x80000000;
-/** How far from the end of an interval, relative to the edge, its paths still see a corner. The
- * distance is wrong by the square of that. */
+/** How far from the end of an interval, relative to the edge, its paths count as those of a corner.
+ */
 constexpr double Margin = 1e-9;
+/** Angles around a vertex above a full turn by more than this let paths turn there. */
+constexpr double Excess = 1e-9;
+/** How far from the end of an interval, relative to the distance from its image, its paths still
+ * see a corner: more than what the gap behind a vertex of a smaller excess hides. Distances are
+ * wrong by the square of that. */
+constexpr double Reach = 1e-8;
 /** Distances that differ by less are equal, relative to them. */
 constexpr double Same = 1e-14;
 /** What vertices keep of the front that has reached them, for the directions. */
@@ -49,6 +55,10 @@ GeodesicMarch::GeodesicMarch(ChunkedMesh& mesh, Pool& pool)
   , Fronts(pool, 3 * this->Window.cellNumbers())
   , Queue(pool)
 {
+  if (3 * this->Window.cellNumbers() >= std::int64_t(FrontInterval::None))
+  {
+    throw Error("the stream is too wide for exact distances: choose approximate ones (accuracy)");
+  }
 }
 
 std::int64_t GeodesicMarch::bytes(
@@ -68,7 +78,7 @@ double GeodesicMarch::lengthOf(std::uint32_t a, std::uint32_t b) const
 
 void GeodesicMarch::settle(std::int64_t first, std::int64_t last)
 {
-  constexpr std::size_t Often = 1 << 16;
+  constexpr std::size_t Often = 1 << 12;
   this->begin(first, last);
   for (std::size_t taken = 0; !this->Queue.isEmpty(); ++taken)
   {
@@ -207,7 +217,7 @@ bool GeodesicMarch::mayTurnAt(std::uint32_t v)
   }
   if ((flags & (Passed | Turning)) == 0)
   {
-    std::vector<std::uint32_t>& around = this->Around;
+    auto& around = this->Around;
     around.clear();
     double angle = 0;
     bool isFlat = false;
@@ -216,7 +226,7 @@ bool GeodesicMarch::mayTurnAt(std::uint32_t v)
       {
         const int k = cell[0] == v ? 0 : cell[1] == v ? 1 : 2;
         const std::uint32_t p = cell[(k + 1) % 3], q = cell[(k + 2) % 3];
-        around.insert(around.end(), { p, q });
+        around.insert(around.end(), { { p, q }, { q, p } });
         const Vector e = difference(this->Window.point(p), this->Window.point(v));
         const Vector f = difference(this->Window.point(q), this->Window.point(v));
         const Vector normal = smg::cross(e, f);
@@ -224,18 +234,54 @@ bool GeodesicMarch::mayTurnAt(std::uint32_t v)
         isFlat = isFlat || !(area > 0);
         angle += std::atan2(area, dot(e, f));
       });
-    // Around a vertex inside of a surface, each neighbour is in two triangles.
-    std::ranges::sort(around);
-    bool isInside = true;
-    for (std::size_t i = 0; i < around.size() && isInside; i += 2)
-    {
-      isInside = i + 1 < around.size() && around[i] == around[i + 1] &&
-                 (i + 2 >= around.size() || around[i + 2] != around[i]);
-    }
-    const bool turns = isFlat || !isInside || angle > 2 * std::numbers::pi + Margin;
+    const double straight = this->straightAngle();
+    const bool turns = isFlat || angle > straight + Excess;
     flags |= turns ? Turning : Passed;
   }
   return (flags & Turning) != 0;
+}
+
+/** The angle around a vertex above which paths may turn there: of a closed ring of triangles a full
+ * turn, of an open fan, at the boundary, half a turn, of anything else none. Each neighbour is in
+ * two triangles, but the two ends of a fan, and one walk from neighbour to neighbour comes to all.
+ */
+double GeodesicMarch::straightAngle()
+{
+  auto& around = this->Around;
+  std::ranges::sort(around);
+  const std::size_t triangles = around.size() / 2;
+  std::uint32_t first = around.empty() ? 0 : around[0].first;
+  int ends = 0;
+  for (std::size_t i = 0; i < around.size();)
+  {
+    std::size_t next = i + 1;
+    while (next < around.size() && around[next].first == around[i].first)
+    {
+      ++next;
+    }
+    if (next - i > 2)
+    {
+      return 0.0;
+    }
+    first = next - i == 1 ? around[i].first : first;
+    ends += next - i == 1 ? 1 : 0;
+    i = next;
+  }
+  std::uint32_t before = FrontInterval::None, at = first;
+  std::size_t steps = 0;
+  while (steps < triangles && (steps == 0 || at != first))
+  {
+    auto place = std::ranges::lower_bound(
+      around, at, {}, [](const auto& neighbours) { return neighbours.first; });
+    place += place->second == before ? 1 : 0;
+    if (place == around.end() || place->first != at)
+    {
+      break; // the other end
+    }
+    before = std::exchange(at, place->second);
+    ++steps;
+  }
+  return steps < triangles ? 0.0 : ends == 0 ? 2 * std::numbers::pi : std::numbers::pi;
 }
 
 void GeodesicMarch::leaveThrough(std::uint32_t v, std::uint32_t p, std::uint32_t q)
@@ -279,16 +325,20 @@ void GeodesicMarch::add(FrontInterval interval, double length)
     return;
   }
   std::uint32_t edge = FrontInterval::None;
-  this->Window.forCellsOf<3>(interval.first,
+  // Of a vertex of few cells, where the other one is the hub of many.
+  const bool isFirst =
+    this->Window.cellsOf(interval.first) <= this->Window.cellsOf(interval.second);
+  const std::uint32_t one = isFirst ? interval.first : interval.second;
+  const std::uint32_t two = isFirst ? interval.second : interval.first;
+  this->Window.forCellsOf<3>(one,
     [&](const std::uint32_t* cell, std::uint32_t number)
     {
       for (std::uint32_t k = 0; k < 3 && edge == FrontInterval::None; ++k)
       {
-        if (cell[k] == interval.second)
+        if (cell[k] == two)
         {
-          // The edge from there to the first corner: opposite to the third one.
-          const std::uint32_t other =
-            cell[(k + 1) % 3] == interval.first ? (k + 2) % 3 : (k + 1) % 3;
+          // The edge between them is opposite to the third corner.
+          const std::uint32_t other = cell[(k + 1) % 3] == one ? (k + 2) % 3 : (k + 1) % 3;
           edge = 3 * number + other;
         }
       }
@@ -330,7 +380,10 @@ void GeodesicMarch::passOn(std::uint32_t number)
   const double* const origin = this->Window.point(a);
   const Vector edge = difference(this->Window.point(b), origin);
   const double length = std::sqrt(dot(edge, edge));
-  this->Window.forCellsOf<3>(this->Window.hasAllCellsOf(a) ? a : b,
+  const bool isFirst =
+    this->Window.hasAllCellsOf(a) &&
+    (!this->Window.hasAllCellsOf(b) || this->Window.cellsOf(a) <= this->Window.cellsOf(b));
+  this->Window.forCellsOf<3>(isFirst ? a : b,
     [&](const std::uint32_t* cell)
     {
       std::uint32_t corner = FrontInterval::None;
@@ -362,7 +415,8 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
   const double crossing = image.crossing(x, y);
   const bool isLeft = crossing > interval.begin + margin,
              isRight = crossing < interval.end - margin;
-  if (crossing >= interval.begin - margin && crossing <= interval.end + margin)
+  const double reach = margin + Reach * (image.at(x, y) - (image.isStraight ? 0.0 : image.offset));
+  if (crossing >= interval.begin - reach && crossing <= interval.end + reach)
   {
     const int front = (image.isStraight ? Straight : 0) | (interval.isOfRegion ? OfRegion : 0);
     this->offer(triangle.corner, image.at(x, y), interval.source, static_cast<std::uint8_t>(front));

@@ -6,6 +6,7 @@
 #include "Solver/Jobs/Distance/FrontQueue.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -40,6 +41,7 @@ private:
    * it. */
   void leave(std::uint32_t v);
   bool mayTurnAt(std::uint32_t v);
+  double straightAngle();
   void leaveThrough(std::uint32_t v, std::uint32_t p, std::uint32_t q);
   void leaveCurve(std::uint32_t v, std::uint32_t w);
   /** Passes an interval on to the triangles of its edge. */
@@ -60,7 +62,8 @@ private:
 
   EdgeFronts Fronts;
   FrontQueue Queue;
-  std::vector<std::uint32_t> Around; ///< neighbours of a vertex
+  /** The pairs of neighbours of a vertex that a triangle joins, in both orders. */
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> Around;
 };
 
 } // namespace smg

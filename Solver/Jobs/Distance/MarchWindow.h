@@ -115,6 +115,12 @@ public:
         next * (this->MostInner + this->MostCrossing) + this->MostInner, visit);
     }
   }
+  /** About the number of cells of a vertex. */
+  std::size_t cellsOf(std::uint32_t vertex) const
+  {
+    const std::uint32_t slot = vertex / this->Length;
+    return this->Slots[slot].inner.of(vertex - slot * this->Length).size();
+  }
   std::int64_t cellNumbers() const
   {
     return std::int64_t(this->Slots.size()) * (this->MostInner + this->MostCrossing);

@@ -130,11 +130,11 @@ ChunkedMesh::Chunk largestOf(const ChunkedMesh& mesh)
   return largest;
 }
 
-/** The formulas of the front multiply up to four lengths: their products must neither overflow nor
+/** The formulas of the front multiply up to six lengths: their products must neither overflow nor
  * underflow. */
 void checkExtent(const std::vector<double>& low, const std::vector<double>& high)
 {
-  constexpr double Least = 1e-60, Most = 1e70;
+  constexpr double Least = 1e-47, Most = 1e47;
   double extent = 0;
   for (std::size_t k = 0; k < low.size(); ++k)
   {
@@ -142,7 +142,7 @@ void checkExtent(const std::vector<double>& low, const std::vector<double>& high
   }
   if (extent > Most || (extent > 0 && extent < Least))
   {
-    throw Error("the extent of the mesh must lie between 1e-60 and 1e70 for distances: scale it");
+    throw Error("the extent of the mesh must lie between 1e-47 and 1e47 for distances: scale it");
   }
 }
 
@@ -250,7 +250,8 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     std::in_place, description.from, DataPlace::Vertices, info, name, run->pool);
   const bool isExact = isExactDistance(info, description);
   // Where the fronts of several points meet, each cell must know which ones.
-  const bool needSources = description.source || (!isExact && haveSeveralFronts(description));
+  const bool needSources =
+    description.source || ((!isExact || description.direction) && haveSeveralFronts(description));
   ChunkPlan plan =
     ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources);
   if (chunkVertices > 0)
