@@ -3,6 +3,7 @@
 #include "Filters/vtkMeshHandle.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/DescribedMesh.h"
@@ -18,6 +19,9 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -97,6 +101,22 @@ protected:
     }
   }
 
+  /** The point with this number in the original file. */
+  std::array<double, 3> pointOf(std::int64_t id) const
+  {
+    std::size_t place = static_cast<std::size_t>(id);
+    for (const Column& column : this->Mesh.vertexColumns)
+    {
+      if (column.spec.name == OriginalIdName)
+      {
+        const auto ids = column.as<std::int64_t>();
+        place = static_cast<std::size_t>(std::ranges::find(ids, id) - ids.begin());
+      }
+    }
+    const double* p = &this->Mesh.positions[3 * place];
+    return { p[0], p[1], p[2] };
+  }
+
   TemporaryFolder Folder;
   StreamMesh Mesh;
   vtkNew<vtkStreamingMeshReader> Reader;
@@ -151,8 +171,22 @@ TEST_F(VtkMeshRegion, OneNameIsAUnionOfRegions)
   third->SetRegion(vtkMeshRegion::POINTS);
   third->AddPoint(6, 5, 4);
   this->Last = third;
-  const std::vector<Where> where{ smg::Region(smg::Region::Vertices{ { 3 } }),
-    ColumnTag{ "tag", 3 }, NearestVertices{ { { 6, 5, 4 } } } };
+  // What filters mark are regions, also of single points: as balls, not as points by their names.
+  const auto ballAround = [this](const std::array<double, 3>& p)
+  {
+    std::array<double, 3> nearest{};
+    double least = HUGE_VAL;
+    for (std::size_t k = 0; k < this->Mesh.positions.size(); k += 3)
+    {
+      const double* q = &this->Mesh.positions[k];
+      const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+      nearest = distance < least ? std::array{ q[0], q[1], q[2] } : nearest;
+      least = std::min(least, distance);
+    }
+    return smg::Region(smg::Region::Sphere{ nearest, 1e-9 });
+  };
+  const std::vector<Where> where{ ballAround(this->pointOf(3)), ColumnTag{ "tag", 3 },
+    ballAround({ 6, 5, 4 }) };
   this->expectRegion(where);
 
   // With other names, each is a region by itself, and the distance is that from all.
@@ -240,7 +274,7 @@ TEST_F(VtkMeshRegion, MistakesAreOneErrorEach)
   expect("has 3 components", [&] { this->Region->SetMaskArray("three"); });
   expect("not a number", [&] { this->Region->SetMaskArray("nan"); });
   set(vtkMeshRegion::EVERYWHERE);
-  expect("no Mesh Region has made", [&] { this->Region->SetRegionName("mask"); });
+  expect("not that of a Mesh Region before this one", [&] { this->Region->SetRegionName("mask"); });
   expect("has no name", [&] { this->Region->SetRegionName(""); });
   this->Region->SetRegionName("RegionMask");
   expect("holds nothing",
