@@ -224,9 +224,10 @@ std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
 {
   checkRestoredPath(out, VsmReader(vsm).info().cellType);
   checkForm(out, text);
-  RestoredMesh mesh(vsm, workspace, formatOfName(out)->maxCorners);
+  const Format& format = *formatOfName(out);
+  RestoredMesh mesh(vsm, workspace, format.maxCorners);
   std::vector<std::string> notes = mesh.notes();
-  const WriteNotes more = writeParts(mesh, *formatOfName(out), out, workspace, text);
+  const WriteNotes more = writeParts(mesh, format, out, workspace, text);
   notes.insert(notes.end(), more.begin(), more.end());
   return notes;
 }

@@ -115,9 +115,6 @@ struct smg_mesh
   /** The same without columns that are arguments. */
   smg_mesh withoutArguments() const
   {
-    smg_mesh own;
-    own.shared = this->shared;
-    own.added = this->added ? this->added->withoutArguments() : nullptr;
-    return own;
+    return { this->shared, this->added ? this->added->withoutArguments() : nullptr, {} };
   }
 };

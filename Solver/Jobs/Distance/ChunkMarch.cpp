@@ -34,6 +34,20 @@ std::int64_t ChunkMarch::unsettled() const
   return dirty;
 }
 
+/** Counts anew what is left to pass on: vertices of any shown chunk may have become dirty or clean.
+ */
+void ChunkMarch::countDirty(std::int64_t first, std::int64_t last)
+{
+  ChunkedMesh& mesh = this->Window.mesh();
+  for (std::int64_t chunk = first; chunk <= last; ++chunk)
+  {
+    const std::uint8_t* const flags = this->Window.flags() + this->Window.placeOf(chunk);
+    const auto dirty = std::count_if(
+      flags, flags + mesh.countOf(chunk), [](std::uint8_t bits) { return (bits & Dirty) != 0; });
+    mesh.chunks[std::size_t(chunk)].dirty = dirty + std::ssize(this->Window.waiting(chunk));
+  }
+}
+
 /** Moves the window over the stream, by one chunk at a time, and settles each position that has
  * dirty vertices. A path that leaves the window on the side of the direction is picked up by the
  * next position, one on the other side by the next pass. */
@@ -52,6 +66,7 @@ void ChunkMarch::pass(bool forwards, Progress& progress, double begin, double en
     {
       this->Window.show(first, last);
       this->settle(first, last);
+      this->countDirty(first, last);
     }
     this->Done =
       begin + (end - begin) * static_cast<double>(p + 1) / static_cast<double>(positions);

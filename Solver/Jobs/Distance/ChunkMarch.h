@@ -40,10 +40,8 @@ public:
   /** The number of dirty vertices: those that had changes to pass on when the last pass ended. */
   std::int64_t unsettled() const;
 
-  MarchWindow& window() { return this->Window; }
-
 protected:
-  /** Settles the chunks [first, last], which the window shows, and counts what is left dirty. */
+  /** Settles the chunks [first, last], which the window shows. */
   virtual void settle(std::int64_t first, std::int64_t last) = 0;
   /** To be called now and then while settling. Throws Cancelled. */
   void poll() { this->Reported->update(this->Done); }
@@ -51,6 +49,7 @@ protected:
   MarchWindow Window;
 
 private:
+  void countDirty(std::int64_t first, std::int64_t last);
   void pass(bool forwards, Progress& progress, double begin, double end);
 
   Progress* Reported = nullptr;

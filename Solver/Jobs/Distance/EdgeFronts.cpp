@@ -2,9 +2,7 @@
 #include "Solver/Jobs/Distance/EdgeFronts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 
 // The lower envelope of the distances of intervals on an edge. Each insertion walks along the
 // intervals of the edge that the new one meets; where two meet, the border between them is a root

@@ -108,7 +108,7 @@ void GeodesicMarch::settle(std::int64_t first, std::int64_t last)
         });
     }
   }
-  this->end(first, last);
+  this->Fronts.clear();
 }
 
 /** Takes up what the chunks have left. */
@@ -134,19 +134,6 @@ void GeodesicMarch::begin(std::int64_t first, std::int64_t last)
       this->Window.flags()[interval.first] |= Changed;
       this->add(interval, this->lengthOf(interval.first, interval.second));
     }
-  }
-}
-
-void GeodesicMarch::end(std::int64_t first, std::int64_t last)
-{
-  this->Fronts.clear();
-  ChunkedMesh& mesh = this->Window.mesh();
-  for (std::int64_t chunk = first; chunk <= last; ++chunk)
-  {
-    const std::uint8_t* const flags = this->Window.flags() + this->Window.placeOf(chunk);
-    const auto dirty = std::count_if(
-      flags, flags + mesh.countOf(chunk), [](std::uint8_t bits) { return (bits & Dirty) != 0; });
-    mesh.chunks[std::size_t(chunk)].dirty = dirty + std::ssize(this->Window.waiting(chunk));
   }
 }
 

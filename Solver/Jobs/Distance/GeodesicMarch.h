@@ -36,7 +36,6 @@ private:
 
   void settle(std::int64_t first, std::int64_t last) override;
   void begin(std::int64_t first, std::int64_t last);
-  void end(std::int64_t first, std::int64_t last);
   /** Offers the paths from a vertex along its edges, and through its triangles if paths may turn at
    * it. */
   void leave(std::uint32_t v);

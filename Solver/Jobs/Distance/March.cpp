@@ -39,7 +39,7 @@ constexpr double Perpendicular = 1e-6;
 template <int Corners>
 void March::settle(std::int64_t first, std::int64_t last)
 {
-  ChunkedMesh& mesh = this->Window.mesh();
+  const ChunkedMesh& mesh = this->Window.mesh();
   std::uint8_t* flags = this->Window.flags();
   const double* distances = this->Window.distance();
   // All dirty vertices at once, so that fronts that enter from different sides meet in the order of
@@ -89,13 +89,6 @@ void March::settle(std::int64_t first, std::int64_t last)
         }
         this->passOn(v, others);
       });
-  }
-  // Counted anew: vertices of any shown chunk may have become dirty or clean.
-  for (std::int64_t chunk = first; chunk <= last; ++chunk)
-  {
-    const std::uint8_t* begin = flags + this->Window.placeOf(chunk);
-    mesh.chunks[std::size_t(chunk)].dirty = std::count_if(
-      begin, begin + mesh.countOf(chunk), [](std::uint8_t bits) { return (bits & Dirty) != 0; });
   }
 }
 

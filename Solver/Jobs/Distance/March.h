@@ -3,6 +3,7 @@
 
 #include "Solver/Jobs/Distance/Arrival.h"
 #include "Solver/Jobs/Distance/ChunkMarch.h"
+#include "Solver/Jobs/Distance/FrontQueue.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ public:
   /** Adds the vertex, or moves it forward if it is in the queue. */
   void put(std::uint32_t vertex, double distance)
   {
-    const Entry entry{ keyOf(distance), vertex };
+    const Entry entry{ FrontQueue::keyOf(distance), vertex };
     std::uint32_t place = this->Places[vertex];
     if (place == 0)
     {
@@ -79,14 +80,6 @@ private:
     std::uint32_t key;
     std::uint32_t vertex;
   };
-
-  /** The exponent and the leading digits of a distance, which order non-negative numbers of any
-   * size. Single precision would not do: its range excludes the distances of tiny and huge meshes.
-   */
-  static std::uint32_t keyOf(double distance)
-  {
-    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(distance) >> 31);
-  }
 
   void set(std::uint32_t place, const Entry& entry)
   {

@@ -7,6 +7,7 @@
 #include "Solver/Jobs/Distance/GeodesicMarch.h"
 #include "Solver/Jobs/Distance/March.h"
 #include "Solver/Jobs/Distance/MarchDirections.h"
+#include "Solver/Jobs/Estimate/Costs.h"
 #include "Solver/Mesh/StreamCheck.h"
 
 #include <algorithm>
@@ -83,9 +84,9 @@ void noteAccuracy(
   if (!isExact && mesh.cellType == CellType::Triangle &&
       description.accuracy == PathAccuracy::Automatic)
   {
-    constexpr double ExactSeconds = 14e-6;
-    const auto seconds =
-      static_cast<std::int64_t>(std::ceil(ExactSeconds * static_cast<double>(mesh.vertices)));
+    DistanceDescription exact = description;
+    exact.accuracy = PathAccuracy::Exact;
+    const auto seconds = static_cast<std::int64_t>(std::ceil(distanceCosts(mesh, exact).seconds));
     report.notes.push_back(
       "The distances are approximate, since the surface has more than " +
       groupedDigits(MaxExactVertices) +
