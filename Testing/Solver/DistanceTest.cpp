@@ -331,6 +331,56 @@ TEST(Distance, OfALineHasItsNormalAsGradient)
   }
 }
 
+TEST(Distance, DirectionsPointAwayFromTheNearestSource)
+{
+  // In convex sets: of a side, and of several points.
+  for (const bool solid : { false, true })
+  {
+    for (const double jitter : { 0.0, 0.2 })
+    {
+      const MemoryMesh mesh(toStream(solid ? unitCube(8, jitter) : unitSquare(30, jitter)));
+      const auto place = [&mesh](std::int64_t v)
+      { return Eigen::Vector3d(Eigen::Vector3d::Map(&mesh.mesh().positions[3 * v])); };
+      const std::vector<std::int64_t> points{ nearestTo(mesh.mesh(), 0.2, 0.3, 0.2),
+        nearestTo(mesh.mesh(), 0.7, 0.4, 0.9), nearestTo(mesh.mesh(), 0.5, 0.9, 0.1) };
+      for (int axis = 0; axis < (solid ? 4 : 3); ++axis)
+      {
+        const bool ofPoints = axis == (solid ? 3 : 2);
+        DistanceDescription description = fromVertices(points);
+        if (!ofPoints)
+        {
+          Region::HalfSpace side{ {}, 0 };
+          side.normal[static_cast<std::size_t>(axis)] = -1;
+          description.from.assign(1, Region(side));
+        }
+        description.direction = true;
+        SCOPED_TRACE(
+          std::to_string(solid) + ' ' + std::to_string(jitter) + ' ' + std::to_string(axis));
+        const Solved solved = measure(mesh, description);
+        for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+        {
+          Eigen::Vector3d foot = place(v);
+          foot[ofPoints ? 0 : axis] = 0;
+          double nearest = HUGE_VAL, second = HUGE_VAL;
+          for (std::size_t p = 0; ofPoints && p < points.size(); ++p)
+          {
+            const double distance = (place(points[p]) - place(v)).norm();
+            second = std::min(second, std::max(distance, nearest));
+            foot = distance < nearest ? place(points[p]) : foot;
+            nearest = std::min(nearest, distance);
+          }
+          const double distance = (place(v) - foot).norm();
+          if (distance > 0 && (!ofPoints || second > (solid ? 1.5 : 1 + 1e-9) * nearest))
+          {
+            const Eigen::Vector3d direction = solved.values.row(v).tail<3>();
+            EXPECT_LE((direction - (place(v) - foot) / distance).norm(), 1e-5) << v;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Distance, AcrossASeamOfThreeSheetsIsExact)
 {
   // Each two of the sheets unfold to a plane.

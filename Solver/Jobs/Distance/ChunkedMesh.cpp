@@ -20,7 +20,7 @@
 namespace smg
 {
 
-ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
+ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources, bool directions)
 {
   // A longer window takes fewer passes, a shorter one less memory. Tetrahedral meshes have long
   // spans, so that fewer of them suffice.
@@ -37,6 +37,7 @@ ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
   }
   plan.singlePositions = !mesh.doublePositions;
   plan.sources = sources;
+  plan.directions = directions;
   // Places are stored with 32 bits.
   if (plan.window() > INT32_MAX)
   {

@@ -33,9 +33,10 @@ struct ChunkPlan
   std::int64_t length = 0;      ///< vertices of a chunk; the last one may have fewer
   bool singlePositions = false; ///< whether the files have positions in single precision
   bool sources = false;         ///< whether the numbers of sources are stored
+  bool directions = false;      ///< whether directions are stored
 
   /** The plan for a stream whose span is known. */
-  static ChunkPlan of(const StreamInfo& mesh, std::int64_t span, bool sources);
+  static ChunkPlan of(const StreamInfo& mesh, std::int64_t span, bool sources, bool directions);
 
   /** Vertices of the window. */
   std::int64_t window() const { return WindowChunks * this->length; }
@@ -75,9 +76,10 @@ struct ChunkedMesh
   enum StatePart
   {
     Flags,
-    Distances, ///< a block without bytes: all are infinite
-    Sources,   ///< a block without bytes: all are -1
-    Fronts,    ///< MarchWindow::waiting()
+    Distances,  ///< a block without bytes: all are infinite
+    Sources,    ///< a block without bytes: all are -1
+    Directions, ///< a block without bytes: all are 0
+    Fronts,     ///< MarchWindow::waiting()
     StateParts
   };
   struct Chunk

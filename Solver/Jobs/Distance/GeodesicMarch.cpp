@@ -137,7 +137,15 @@ void GeodesicMarch::begin(std::int64_t first, std::int64_t last)
   }
 }
 
-void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source, std::uint8_t front)
+Vector GeodesicMarch::pointOf(std::uint32_t first, std::uint32_t second, double share) const
+{
+  const double* from = this->Window.point(first);
+  const Vector edge = difference(this->Window.point(second), from);
+  return { from[0] + share * edge[0], from[1] + share * edge[1], from[2] + share * edge[2] };
+}
+
+void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source, std::uint8_t front,
+  const Vector& crossing, std::uint32_t via)
 {
   double& known = this->Window.distance()[v];
   if (distance < known - Same * known || known == HUGE_VAL)
@@ -149,6 +157,7 @@ void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source,
     {
       sources[v] = source;
     }
+    this->Window.arrive(v, crossing, via);
     this->Queue.put(v | VertexBit, distance);
   }
   else if ((front & Straight) != 0 && distance <= known + Same * known && known > 0)
@@ -180,7 +189,8 @@ void GeodesicMarch::leave(std::uint32_t v)
       const std::uint32_t p = cell[(k + 1) % 3], q = cell[(k + 2) % 3];
       for (const std::uint32_t w : { p, q })
       {
-        this->offer(w, distance + this->lengthOf(v, w), this->sourceOf(v), flags & OfRegion);
+        this->offer(w, distance + this->lengthOf(v, w), this->sourceOf(v), flags & OfRegion,
+          this->pointOf(v, v, 0.0), v);
         const bool isCurve = (flags & this->Window.flags()[w] & Straight) != 0 && distance == 0 &&
                              this->Window.distance()[w] == 0;
         if (isCurve && hasAll)
@@ -406,7 +416,10 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
   if (crossing >= interval.begin - reach && crossing <= interval.end + reach)
   {
     const int front = (image.isStraight ? Straight : 0) | (interval.isOfRegion ? OfRegion : 0);
-    this->offer(triangle.corner, image.at(x, y), interval.source, static_cast<std::uint8_t>(front));
+    const double share = std::clamp(crossing, interval.begin, interval.end) / length;
+    this->offer(triangle.corner, image.at(x, y), interval.source, static_cast<std::uint8_t>(front),
+      this->pointOf(interval.first, interval.second, share),
+      share < 0.5 ? interval.first : interval.second);
   }
   const double known = this->Window.distance()[triangle.corner];
   const std::uint32_t a = interval.first, b = interval.second, c = triangle.corner;

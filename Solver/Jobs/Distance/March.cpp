@@ -127,6 +127,16 @@ bool March::offer(
 {
   if (!this->isNews(w, arrival))
   {
+    // A distance that is shorter by less than the tolerance is not passed on, but it may have quite
+    // another direction.
+    const bool isStraight = (this->Window.flags()[w] & Straight) != 0;
+    if (arrival.distance < this->Window.distance()[w] && arrival.isStraight == isStraight &&
+        this->haveOneSource(w, corners[0]))
+    {
+      this->Window.distance()[w] = arrival.distance;
+      this->Window.flags()[w] |= Changed;
+      this->arrive(w, arrival, corners);
+    }
     return true;
   }
   // A path across a facet with a corner that the front reached by way of w would come from w
@@ -148,6 +158,7 @@ bool March::offer(
   flags = static_cast<std::uint8_t>(
     (flags & ~(Straight | OfRegion)) | Dirty | Changed | (arrival.isStraight ? Straight : 0) |
     (this->Window.flags()[corners[static_cast<std::size_t>(arrival.nearestCorner())]] & OfRegion));
+  this->arrive(w, arrival, corners);
   auto& via = this->Window.via()[w];
   std::fill(
     std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
@@ -158,6 +169,24 @@ bool March::offer(
   }
   this->Queue.put(w, distance);
   return true;
+}
+
+/** The path crosses the facet of these corners, an edge or a face, or comes from a single one. */
+template <std::size_t N>
+void March::arrive(
+  std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners)
+{
+  const double* first = this->Window.point(corners[0]);
+  Vector crossing{ first[0], first[1], first[2] };
+  for (std::size_t n = 1; n < N; ++n)
+  {
+    const Vector edge = difference(this->Window.point(corners[n]), first);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      crossing[k] += arrival.weight[n - 1] * edge[k];
+    }
+  }
+  this->Window.arrive(w, crossing, corners[static_cast<std::size_t>(arrival.nearestCorner())]);
 }
 
 template <int Corners>

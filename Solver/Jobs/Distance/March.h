@@ -185,6 +185,9 @@ private:
    */
   template <std::size_t N>
   bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
+  /** Takes note of the direction of an arrival that counts. */
+  template <std::size_t N>
+  void arrive(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
 
   /** Whether the front has come to two vertices from the same source, so that they have one image
    * of it. */

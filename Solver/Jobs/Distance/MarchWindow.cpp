@@ -11,7 +11,7 @@
 // new one is read into the slot (chunk mod 4) of one that left.
 //
 // Chunks have a fixed number of vertices, so the memory is known before the march: 45 bytes per
-// vertex (53 with sources) and the lists of cells.
+// vertex (8 more with sources, 12 with directions) and the lists of cells.
 
 namespace smg
 {
@@ -19,12 +19,14 @@ namespace smg
 namespace
 {
 
-/** Bytes of a vertex: position and distance, the facet of `via`, flags, and its source if wanted.
- */
-std::int64_t vertexBytes(bool sources)
+/** Bytes of a vertex: position and distance, the facet of `via`, flags, and what is wanted of its
+ * source and direction. */
+std::int64_t vertexBytes(const ChunkPlan& plan)
 {
   return 4 * std::int64_t(sizeof(double)) + 3 * std::int64_t(sizeof(std::uint32_t)) +
-         std::int64_t(sizeof(std::uint8_t)) + (sources ? std::int64_t(sizeof(std::int64_t)) : 0);
+         std::int64_t(sizeof(std::uint8_t)) +
+         (plan.sources ? std::int64_t(sizeof(std::int64_t)) : 0) +
+         (plan.directions ? 3 * std::int64_t(sizeof(float)) : 0);
 }
 
 /** The vertices of a window, which may be longer than the mesh. */
@@ -47,7 +49,7 @@ std::int64_t MarchWindow::bytes(
 {
   const std::int64_t slots =
     std::min(ChunkPlan::WindowChunks, (vertices + plan.length - 1) / plan.length);
-  return windowVertices(plan, vertices) * vertexBytes(plan.sources) +
+  return windowVertices(plan, vertices) * vertexBytes(plan) +
          slots * slotBytes(plan, innerCells, crossingCells);
 }
 
@@ -57,7 +59,7 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   , Span(static_cast<std::uint32_t>(mesh.plan.span))
 {
   const std::int64_t vertices = windowVertices(mesh.plan, mesh.vertices);
-  this->Memory = Buffer(pool, static_cast<std::size_t>(vertices * vertexBytes(mesh.plan.sources)));
+  this->Memory = Buffer(pool, static_cast<std::size_t>(vertices * vertexBytes(mesh.plan)));
   // One allocation, from the type with the strictest alignment on.
   std::byte* next = this->Memory.data();
   const auto part = [&]<class T>(T*& values, std::int64_t components)
@@ -70,6 +72,10 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   if (mesh.plan.sources)
   {
     part(this->Source, 1);
+  }
+  if (mesh.plan.directions)
+  {
+    part(this->Direction, 3);
   }
   part(this->Via, 1);
   part(this->Flag, 1);
@@ -213,8 +219,8 @@ void MarchWindow::buildStars(Slot& slot)
     { return corner >= begin ? corner - begin : corner + window - begin; });
 }
 
-/** Reads flags, distances and sources. A chunk without sources is stored without distances until
- * the march writes some. */
+/** Reads flags, distances, sources and directions. A chunk without sources is stored without
+ * distances until the march writes some. */
 void MarchWindow::loadState(std::int64_t chunk)
 {
   BlockStore& file = this->Mesh.state;
@@ -222,9 +228,8 @@ void MarchWindow::loadState(std::int64_t chunk)
   const std::span<std::uint8_t> flags = this->of(this->Flag, chunk);
   const std::span<double> distances = this->of(this->Distance, chunk);
   file.read(index + ChunkedMesh::Flags, std::as_writable_bytes(flags));
-  const auto readOr = [&]<class T>(T* values, int part, T fallback)
+  const auto readOr = [&]<class T>(std::span<T> of, int part, T fallback)
   {
-    const std::span<T> of = this->of(values, chunk);
     if (file.bytes(index + part) > 0)
     {
       file.read(index + part, std::as_writable_bytes(of));
@@ -232,12 +237,16 @@ void MarchWindow::loadState(std::int64_t chunk)
     }
     std::ranges::fill(of, fallback);
   };
-  readOr(this->Distance, ChunkedMesh::Distances, std::numeric_limits<double>::infinity());
+  readOr(distances, ChunkedMesh::Distances, std::numeric_limits<double>::infinity());
   // Where the front came from is not stored: it is unknown until the next shorter path arrives.
   std::ranges::fill(this->of(this->Via, chunk), std::array{ NoVertex, NoVertex, NoVertex });
   if (this->Source)
   {
-    readOr(this->Source, ChunkedMesh::Sources, std::int64_t(-1));
+    readOr(this->of(this->Source, chunk), ChunkedMesh::Sources, std::int64_t(-1));
+  }
+  if (this->Direction)
+  {
+    readOr(this->directions(chunk), ChunkedMesh::Directions, 0.0F);
   }
 }
 
@@ -251,37 +260,24 @@ void MarchWindow::write(std::int64_t chunk)
     return;
   }
   const std::int64_t index = chunk * ChunkedMesh::StateParts;
-  const auto store = [&](auto* values, int part)
-  {
-    if (values)
-    {
-      this->Mesh.state.write(index + part, std::as_bytes(this->of(values, chunk)));
-    }
-  };
+  const auto store = [&](auto values, int part)
+  { this->Mesh.state.write(index + part, std::as_bytes(values)); };
   // The file must not say Changed, or the chunk would be written again after it is read.
   for (std::uint8_t& flags : this->of(this->Flag, chunk))
   {
     flags &= static_cast<std::uint8_t>(~Changed);
   }
-  store(this->Flag, ChunkedMesh::Flags);
-  store(this->Distance, ChunkedMesh::Distances);
-  store(this->Source, ChunkedMesh::Sources);
-  this->Mesh.state.write(
-    index + ChunkedMesh::Fronts, std::as_bytes(std::span(this->waiting(chunk))));
-}
-
-std::span<const std::uint32_t> MarchWindow::innerCells(std::int64_t chunk) const
-{
-  const CellStars& stars =
-    this->Slots[static_cast<std::size_t>(chunk % ChunkPlan::WindowChunks)].inner;
-  return { stars.corners, stars.list };
-}
-
-std::span<const std::uint32_t> MarchWindow::crossingCells(std::int64_t chunk) const
-{
-  const CellStars& stars =
-    this->Slots[static_cast<std::size_t>(chunk % ChunkPlan::WindowChunks)].crossing;
-  return { stars.corners, stars.list };
+  store(this->of(this->Flag, chunk), ChunkedMesh::Flags);
+  store(this->of(this->Distance, chunk), ChunkedMesh::Distances);
+  if (this->Source)
+  {
+    store(this->of(this->Source, chunk), ChunkedMesh::Sources);
+  }
+  if (this->Direction)
+  {
+    store(this->directions(chunk), ChunkedMesh::Directions);
+  }
+  store(std::span(this->waiting(chunk)), ChunkedMesh::Fronts);
 }
 
 } // namespace smg

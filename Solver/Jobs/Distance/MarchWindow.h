@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 #include "Solver/Jobs/Distance/FrontInterval.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -137,10 +140,6 @@ public:
     return ((flags & ReachesBack) == 0 || slot.hasPrevious) &&
            ((flags & ReachesOn) == 0 || slot.hasNext);
   }
-  /** The corners of the inner and crossing cells of a shown chunk. */
-  std::span<const std::uint32_t> innerCells(std::int64_t chunk) const;
-  std::span<const std::uint32_t> crossingCells(std::int64_t chunk) const;
-
   // By places of vertices.
   const double* point(std::uint32_t vertex) const { return this->Point + 3 * std::size_t(vertex); }
   double* distance() const { return this->Distance; }
@@ -153,6 +152,24 @@ public:
   }
   /** Null if they are not wanted. */
   std::int64_t* source() const { return this->Source; }
+  /** A path has arrived at a vertex by way of this point of a facet, which is nearest to the vertex
+   * `via`: sets the direction, if that is wanted. */
+  void arrive(std::uint32_t vertex, const Vector& crossing, std::uint32_t via)
+  {
+    if (!this->Direction)
+    {
+      return;
+    }
+    const Vector along = difference(this->point(vertex), crossing.data());
+    const double length = std::sqrt(dot(along, along));
+    float* direction = this->Direction + 3 * std::size_t(vertex);
+    // Coincident vertices have the same direction.
+    const float* same = this->Direction + 3 * std::size_t(via);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      direction[k] = length > 0 ? static_cast<float>(along[k] / length) : same[k];
+    }
+  }
   /** What the front of a vertex shows: the number of its source. All regions are one source, and
    * all sources are where numbers are not wanted. */
   std::int64_t frontSource(std::uint32_t vertex) const
@@ -207,6 +224,12 @@ private:
     return { values + this->placeOf(chunk), static_cast<std::size_t>(this->Mesh.countOf(chunk)) };
   }
 
+  std::span<float> directions(std::int64_t chunk) const
+  {
+    return { this->Direction + 3 * std::size_t(this->placeOf(chunk)),
+      3 * static_cast<std::size_t>(this->Mesh.countOf(chunk)) };
+  }
+
   ChunkedMesh& Mesh;
   std::uint32_t Length, Span;
   std::uint32_t MostInner = 0, MostCrossing = 0; ///< cells of a chunk
@@ -214,6 +237,7 @@ private:
   Buffer Memory; ///< of the vertices
   double *Point, *Distance;
   std::int64_t* Source = nullptr;
+  float* Direction = nullptr; ///< null if they are not wanted
   std::array<std::uint32_t, 3>* Via = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;

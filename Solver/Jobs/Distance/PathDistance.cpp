@@ -6,7 +6,6 @@
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/GeodesicMarch.h"
 #include "Solver/Jobs/Distance/March.h"
-#include "Solver/Jobs/Distance/MarchDirections.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "Solver/Mesh/StreamCheck.h"
 
@@ -18,8 +17,7 @@
 
 // Distances along paths in the mesh: sources are found, the mesh is cut into chunks on scratch
 // files (ChunkedMesh), the front marches through them until nothing changes (GeodesicMarch,
-// exactly, or March), directions are found in one further pass (MarchDirections). The solution
-// reads the scratch files.
+// exactly, or March). The solution reads the scratch files.
 //
 // The memory is checked twice: before the mesh is read, with the mean number of cells in a chunk,
 // so that a limit that is far too low is reported at once; and before the march, with the exact
@@ -39,11 +37,9 @@ struct DistanceFiles
 {
   DistanceFiles(const ChunkPlan& plan, DistanceRun& run)
     : chunks(plan, run.scratch.path(), run.traffic)
-    , directions(run.scratch / "directions", run.traffic.add("directions"))
   {
   }
   ChunkedMesh chunks;
-  BlockStore directions;
 };
 
 /** The span of a stream whose information does not have it: takes a reading of the mesh. Chunks
@@ -64,17 +60,12 @@ std::int64_t measuredSpan(const StoredMesh& mesh)
   return span;
 }
 
-/** The bytes of the march and of the pass for the directions, which follow each other, for chunks
- * with at most this many cells. */
+/** The bytes of the march for chunks with at most this many cells. */
 std::int64_t neededBytes(const ChunkPlan& plan, bool isExact, std::int64_t vertices,
-  bool directions, std::int64_t innerCells, std::int64_t crossingCells)
+  std::int64_t innerCells, std::int64_t crossingCells)
 {
-  const std::int64_t march = isExact
-                               ? GeodesicMarch::bytes(plan, vertices, innerCells, crossingCells)
-                               : March::bytes(plan, vertices, innerCells, crossingCells);
-  return directions
-           ? std::max(march, MarchDirections::bytes(plan, vertices, innerCells, crossingCells))
-           : march;
+  return isExact ? GeodesicMarch::bytes(plan, vertices, innerCells, crossingCells)
+                 : March::bytes(plan, vertices, innerCells, crossingCells);
 }
 
 /** Tells of distances that are approximate since the mesh is large: nobody has asked for that. */
@@ -231,7 +222,8 @@ std::vector<StoredColumn> columnsOf(DistanceFiles& files, const DistanceDescript
   }
   if (description.direction)
   {
-    columns.push_back({ &files.directions, 1, 0, Type::Float32, 3, 0 });
+    columns.push_back(
+      { state, ChunkedMesh::StateParts, ChunkedMesh::Directions, Type::Float32, 3, 0 });
   }
   return columns;
 }
@@ -251,10 +243,9 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     std::in_place, description.from, DataPlace::Vertices, info, name, run->pool);
   const bool isExact = isExactDistance(info, description);
   // Where the fronts of several points meet, each cell must know which ones.
-  const bool needSources =
-    description.source || ((!isExact || description.direction) && haveSeveralFronts(description));
-  ChunkPlan plan =
-    ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources);
+  const bool needSources = description.source || (!isExact && haveSeveralFronts(description));
+  ChunkPlan plan = ChunkPlan::of(
+    info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources, description.direction);
   if (chunkVertices > 0)
   {
     // Tests take short chunks, so that small meshes have many.
@@ -267,8 +258,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     // With the mean number of cells in a chunk, taken as inner ones.
     const double share = std::min(1.0, double(plan.length) / double(info.vertices));
     const auto cells = static_cast<std::int64_t>(std::ceil(share * double(info.cells)));
-    checkMemory(
-      neededBytes(plan, isExact, info.vertices, description.direction, cells, 0), run->pool);
+    checkMemory(neededBytes(plan, isExact, info.vertices, cells, 0), run->pool);
   }
   run->report.distance = Report::Distance{};
   run->report.distance->exact = isExact;
@@ -282,15 +272,10 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   sources.reset();
   run->report.seconds.build = building.seconds();
   const ChunkedMesh::Chunk largest = largestOf(chunks);
-  checkMemory(neededBytes(plan, isExact, chunks.vertices, description.direction, largest.innerCells,
-                largest.crossingCells),
+  checkMemory(
+    neededBytes(plan, isExact, chunks.vertices, largest.innerCells, largest.crossingCells),
     run->pool);
   march(chunks, isExact, *run);
-  if (description.direction)
-  {
-    // The march has given its memory back: the pass needs about as much.
-    MarchDirections(chunks, run->pool).write(files->directions, run->progress);
-  }
   const std::vector<StoredColumn> columns = columnsOf(*files, description);
   // The solution owns the run from here on; its report is completed after that.
   DistanceRun& shared = *run;
