@@ -2,6 +2,7 @@
 #include "smg/Solve.h"
 
 #include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "Solver/Multigrid/Extended.h"
@@ -103,7 +104,11 @@ std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSour
   checkProblem(problem);
   checkAutomaticTolerance(options, problem);
   PoissonSolver solver(operators, problem.columns(), options);
-  return solver.solve(mesh, problem);
+  std::unique_ptr<Solution> solution = solver.solve(mesh, problem);
+  return options.again && solver.norms().flow > 0.0
+           ? corrected(
+               operators, problem, options, std::move(solution), solver.norms(), solver.usedBytes())
+           : std::move(solution);
 }
 
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)

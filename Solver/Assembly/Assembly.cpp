@@ -32,13 +32,13 @@ constexpr std::int64_t BatchRows = 256;
 } // namespace
 
 Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
-  Components& components, ComponentLabels& labels, RowListener* listener)
+  Components& components, ComponentLabels& labels, RowListener* listener, Solution* solution)
   : Info(info)
   , Check(info.cellType)
   , Parts(components)
   , Listener(listener)
   , Out(rows)
-  , Cells(pool, info.cellType, problem, this->WeightScale, components, labels)
+  , Cells(pool, info.cellType, problem, this->WeightScale, components, labels, solution)
   , Reach(pool)
   , Targets(problem, this->Cells.vertices.points)
   , ConnectsApart(this->Cells.mayConnectApart() && !this->Targets.any())

@@ -35,9 +35,12 @@ public:
     return may ? SliverRows(SliverRows::Triangles, rows.weightScale) : SliverRows();
   }
 
-  /** `listener`, if given, receives the data that the rows do not store. */
+  /** `listener`, if given, receives the data that the rows do not store. With a `solution`, the
+   * equations are those of its correction: the right-hand side is what it leaves of the problem's,
+   * and all values begin at 0. */
   Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
-    Components& components, ComponentLabels& labels, RowListener* listener = nullptr);
+    Components& components, ComponentLabels& labels, RowListener* listener = nullptr,
+    Solution* solution = nullptr);
 
   /** Adds a block and completes the rows of the vertices that it finalises. Throws Error on an
    * invalid block. */
@@ -72,6 +75,9 @@ public:
   std::int64_t cells() const { return this->Check.cells(); }
   const CoincidentPoints& coincident() const { return this->Coincident; }
   CellType cellType() const { return this->Info.cellType; }
+  /** Whether the equations are those of a correction. */
+  bool corrects() const { return this->Cells.vertices.isSolved(); }
+  double contrast() const { return this->Rows.contrast(); }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }

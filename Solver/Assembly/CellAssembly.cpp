@@ -24,9 +24,9 @@ std::size_t cellsOf(const MeshBlock& block, CellType type)
 } // namespace
 
 CellAssembly::CellAssembly(Pool& pool, CellType type, Problem& problem, double& scale,
-  Components& components, ComponentLabels& labels)
+  Components& components, ComponentLabels& labels, Solution* solution)
   : policy(type, problem, scale)
-  , vertices(pool, problem)
+  , vertices(pool, problem, solution)
   , parts(pool, components, labels)
   , edges(pool, problem, type)
   , loads(pool, type, problem, this->vertices)

@@ -45,9 +45,10 @@ struct ElementMatrices
  * masses, loads and components. Assembly turns them into rows in stream order. */
 struct SMG_EXPORT CellAssembly
 {
-  /** `scale`: see StiffnessRules; `labels` receives the component of each closed vertex. */
+  /** `scale`: see StiffnessRules; `labels` receives the component of each closed vertex;
+   * `solution`: see Assembly. */
   CellAssembly(Pool& pool, CellType type, Problem& problem, double& scale, Components& components,
-    ComponentLabels& labels);
+    ComponentLabels& labels, Solution* solution = nullptr);
 
   /** Adds the vertices, cells and facets of a block. Throws Error if the problem returns invalid
    * data. */

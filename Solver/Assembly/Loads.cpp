@@ -66,7 +66,7 @@ void VertexLoads::add(
   addFieldLoads(cells, this->Type, points, this->Columns, loads);
 }
 
-void VertexLoads::add(const BoundaryFacet& facet, double area)
+void VertexLoads::add(const BoundaryFacet& facet, double area, const OpenVertices* solved)
 {
   const int count = BoundaryFacet::cornersOf(this->Type);
   // (K grad u - q) . n is the flux itself, or coefficient * (ambient - u), of which the term with u
@@ -87,7 +87,10 @@ void VertexLoads::add(const BoundaryFacet& facet, double area)
     this->RowSum[facet.corners[c]] += rowSum;
     for (int k = 0; k < this->Columns; ++k)
     {
-      load[k] += rowSum * facet.ambient[c * this->Columns + k];
+      const double ambient = facet.ambient[c * this->Columns + k];
+      const std::int64_t corner = facet.corners[c];
+      load[k] +=
+        rowSum * (solved ? solved->below(ambient, corner, static_cast<std::size_t>(k)) : ambient);
     }
   }
 }
@@ -167,16 +170,26 @@ double RowLoads::close(std::int64_t i)
     this->Load[k] = mass * this->Vertices.densities[SourceDensity].at(i)[k];
   }
   // Always in this order: vertex, cells, facets.
-  for (const auto* loads : { &this->OfCells, &this->OfFacets })
+  const auto add = [&](const VertexLoads& loads)
   {
-    if (*loads)
+    rowSum += loads.rowSum(i);
+    for (std::size_t k = 0; k < this->Load.size(); ++k)
     {
-      rowSum += (*loads)->rowSum(i);
-      for (std::size_t k = 0; k < this->Load.size(); ++k)
-      {
-        this->Load[k] += (*loads)->load(i)[k];
-      }
+      this->Load[k] += loads.load(i)[k];
     }
+  };
+  if (this->OfCells)
+  {
+    add(*this->OfCells);
+  }
+  // What a solution leaves of the sources beside screening; facets have done the same.
+  for (std::size_t k = 0; this->Vertices.isSolved() && rowSum > 0.0 && k < this->Load.size(); ++k)
+  {
+    this->Load[k] += rowSum * this->Vertices.below(0.0, i, k);
+  }
+  if (this->OfFacets)
+  {
+    add(*this->OfFacets);
   }
   return rowSum;
 }
@@ -200,7 +213,8 @@ void RowLoads::addBoundary(std::int64_t i)
       {
         points[k] = this->Vertices.points.at(facet.corners[k]);
       }
-      this->OfFacets->add(facet, facetArea(this->Type, points));
+      this->OfFacets->add(facet, facetArea(this->Type, points),
+        this->Vertices.isSolved() ? &this->Vertices : nullptr);
     });
 }
 

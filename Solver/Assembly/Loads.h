@@ -31,8 +31,9 @@ public:
 
   /** Adds screening, source and field of the prepared cell, which must have a measure. */
   void add(const std::int64_t* corners, const double* const* points, const ProblemCells& cells);
-  /** Adds flux and heat transfer of a facet with this length or area. */
-  void add(const BoundaryFacet& facet, double area);
+  /** Adds flux and heat transfer of a facet with this length or area; with a solution
+   * what that leaves of the heat transfer. */
+  void add(const BoundaryFacet& facet, double area, const OpenVertices* solved = nullptr);
 
   double rowSum(std::int64_t i) const { return this->RowSum[i]; }
   /** `columns` numbers. */

@@ -37,14 +37,17 @@ std::array<Ring<double>, sizeof...(Index)> densityRings(
 
 } // namespace
 
-OpenVertices::OpenVertices(Pool& pool, Problem& problem)
+OpenVertices::OpenVertices(Pool& pool, Problem& problem, Solution* solution)
   : points(pool, 3)
   , values(pool, problem.columns())
+  , rest(pool, problem.columns())
   , dirichlet(pool)
   , densities(densityRings(pool, problem.columns(), std::make_index_sequence<Densities.size()>()))
   , mass(pool)
   , scale(pool)
   , Given(problem)
+  , Solved(solution)
+  , HasRest(solution && solution->hasRest())
   , Kept(pool)
   , Columns(problem.columns())
   , DirichletCount(problem.conditionCounts().dirichlet)
@@ -77,11 +80,32 @@ void OpenVertices::add(const MeshBlock& block)
   // Zeroed: cells add to these.
   this->mass.extend(end);
   this->scale.extend(end);
+  if (this->Solved)
+  {
+    this->readSolution(begin, end);
+  }
+}
+
+void OpenVertices::readSolution(std::int64_t begin, std::int64_t end)
+{
+  this->Read.resize(static_cast<std::size_t>((end - begin) * this->Columns));
+  this->Solved->read(begin, end - begin, this->Read);
+  std::ranges::copy(this->Read, this->values.at(begin));
+  if (this->HasRest)
+  {
+    this->Solved->readRest(begin, end - begin, this->Read);
+    this->rest.extendRaw(end);
+    std::ranges::copy(this->Read, this->rest.at(begin));
+  }
 }
 
 void OpenVertices::reserve(std::int64_t more)
 {
   this->forGiven({}, [more](auto& ring, const auto&) { ring.reserveMore(more); });
+  if (this->HasRest)
+  {
+    this->rest.reserveMore(more);
+  }
   this->mass.reserveMore(more);
   this->scale.reserveMore(more);
 }
@@ -149,6 +173,10 @@ void OpenVertices::release(std::int64_t done, std::int64_t final)
   // Rows of neighbours still read these.
   this->points.release(done);
   this->values.release(done);
+  if (this->HasRest)
+  {
+    this->rest.release(done);
+  }
   this->dirichlet.release(done);
   // Read when the vertex itself is collected, and copied then.
   for (Ring<double>& density : this->densities)

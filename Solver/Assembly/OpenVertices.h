@@ -4,6 +4,7 @@
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/Problem.h"
+#include "smg/Solve.h"
 
 #include <array>
 #include <cstddef>
@@ -49,12 +50,22 @@ enum DensityIndex : std::size_t
  * use or whose data rows of neighbours still need. */
 struct OpenVertices
 {
-  OpenVertices(Pool& pool, Problem& problem);
+  /** With a solution, its values take the place of those of the problem. */
+  OpenVertices(Pool& pool, Problem& problem, Solution* solution = nullptr);
 
   /** Adds the vertices of a block and queries the problem for them. Throws Error if a value is
    * invalid. */
   void add(const MeshBlock& block);
   std::int64_t end() const { return this->points.end(); }
+  /** Whether the values are those of a solution. */
+  bool isSolved() const { return this->Solved != nullptr; }
+  bool hasRest() const { return this->HasRest; }
+  /** The value of vertex i in column k less that of vertex j, to the digits that these have. */
+  double difference(std::int64_t i, std::int64_t j, std::size_t k) const
+  {
+    const double step = this->values.at(i)[k] - this->values.at(j)[k];
+    return this->HasRest ? step + (this->rest.at(i)[k] - this->rest.at(j)[k]) : step;
+  }
   /** Provides room for this many more vertices: while these are added, other threads may use the
    * data of earlier ones. */
   void reserve(std::int64_t more);
@@ -63,8 +74,16 @@ struct OpenVertices
    */
   void release(std::int64_t done, std::int64_t final);
 
+  /** A number less the value of vertex i in column k, to the digits that this has. */
+  double below(double number, std::int64_t i, std::size_t k) const
+  {
+    const double step = number - this->values.at(i)[k];
+    return this->HasRest ? step - this->rest.at(i)[k] : step;
+  }
+
   Ring<double> points;          ///< 3 per vertex
   Ring<double> values;          ///< `columns` per vertex: VertexConditions::value
+  Ring<double> rest;            ///< `columns` per vertex, if the solution has it: see Solution
   Ring<std::int32_t> dirichlet; ///< see VertexConditions
   std::array<Ring<double>, Densities.size()> densities; ///< in the order of Densities
   Ring<double> mass;                                    ///< lumped area or volume; initially zero
@@ -77,8 +96,13 @@ private:
   /** Calls visit(ring, numbers) with what the stream and the problem give of the block. */
   void forGiven(const MeshBlock& block, auto visit);
 
+  void readSolution(std::int64_t begin, std::int64_t end);
+
   Problem& Given;
-  Reservation Kept; ///< what the problem itself keeps of open vertices
+  Solution* Solved;
+  bool HasRest;
+  std::vector<double> Read; // of the solution
+  Reservation Kept;         ///< what the problem itself keeps of open vertices
   int Columns;
   int DirichletCount;
   VertexConditions Conditions;

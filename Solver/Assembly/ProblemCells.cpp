@@ -64,7 +64,8 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
     .screening = {},
     .source = {},
     .field = this->Field,
-    .conductivity = this->Conductivity };
+    .conductivity = this->Conductivity,
+    .part = this->Part };
   for (std::size_t k = 0; k < Densities.size(); ++k)
   {
     batch.*Densities[k].inCells = this->Values[k];
@@ -92,6 +93,7 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
     this->Values[k].assign(cells * this->numbersOf(Densities[k]), 0.0);
   }
   this->Field.assign(3 * cells * this->Columns, 0.0);
+  this->Part.assign(cells, -1);
   const std::int64_t* corner = block.corners.data() + first * static_cast<std::size_t>(corners);
   for (Cell& cell : this->Cells)
   {

@@ -50,6 +50,8 @@ public:
   const double* field() const { return this->Field.data() + 3 * this->Current * this->Columns; }
   /** 6 numbers, if requested. */
   const double* conductivity() const { return this->Conductivity.data() + 6 * this->Current; }
+  /** See CellBatch; below ConditionCounts::parts. */
+  std::int32_t part() const { return this->Part[this->Current]; }
 
 private:
   static constexpr std::size_t BatchCells = 256;
@@ -78,6 +80,7 @@ private:
   std::size_t Current = 0;
   std::vector<Cell> Cells; // of the batch
   std::vector<double> Points, Weight, Measure, Field, Conductivity;
+  std::vector<std::int32_t> Part;
   std::array<std::vector<double>, Densities.size()> Values; ///< in the order of Densities
 };
 

@@ -57,6 +57,7 @@ RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& p
   , Parts(components)
   , Stiff(stiff)
   , Listener(listener)
+  , Zeros(this->Columns)
   , B(this->Columns)
   , Constraint(this->Columns)
   , Residual(problem.columns())
@@ -70,7 +71,7 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   const std::int64_t i = made.first + static_cast<std::int64_t>(k);
   const FinalVertices::Vertex& vertex = made.vertices[k];
   const std::size_t begin = made.begin(k);
-  const double* x = this->Vertices.values.at(i);
+  const double* x = this->initial(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
   if (isKnown(this->Vertices.dirichlet[i], vertex.end - begin, vertex.rowSum))
   {
@@ -82,6 +83,12 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   std::copy_n(load, this->Columns, this->Constraint.data());
   this->RowSum = vertex.rowSum;
   this->Scale = static_cast<double>(vertex.scale);
+  if (this->Scale > 0.0)
+  {
+    this->LeastScale =
+      this->LeastScale > 0.0 ? std::min(this->LeastScale, this->Scale) : this->Scale;
+    this->MostScale = std::max(this->MostScale, this->Scale);
+  }
   this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
     made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
   // Before the row is closed, since it changes the row sum and b; count() takes back what is not
@@ -102,7 +109,7 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
  * own. */
 void RowAssembly::closeKnown(std::int64_t i)
 {
-  const double* x = this->Vertices.values.at(i);
+  const double* x = this->initial(i);
   ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
   this->Out.b.insert(this->Out.b.end(), x, x + this->Columns);
   if (this->Listener)
@@ -161,6 +168,20 @@ inline void RowAssembly::addUnknown(
   if (target)
   {
     this->addTarget(weight, target);
+  }
+  if (this->Vertices.isSolved())
+  {
+    this->addFlow(weight, i, neighbour.to);
+  }
+}
+
+/** What a solution leaves of the right-hand side: the flow along each edge, by differences. Their
+ * rounding is relative to what flows, not to weights times values. */
+void RowAssembly::addFlow(double weight, std::int64_t i, std::int64_t neighbour)
+{
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    this->B[k] += weight * this->Vertices.difference(neighbour, i, k);
   }
 }
 
@@ -235,6 +256,11 @@ void RowAssembly::addKnown(
   const double* value = this->Vertices.values.at(neighbour.to);
   this->RowSum += weight;
   this->addEdge(i, neighbour, weight);
+  if (this->Vertices.isSolved())
+  {
+    this->addFlow(weight, i, neighbour.to);
+    return;
+  }
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     const double term = weight * (value[k] + (target ? target[k] : 0.0));
@@ -273,7 +299,7 @@ void RowAssembly::regularise(std::int64_t i)
   }
   ++this->Raised;
   this->RowSum += this->Raise;
-  const double* x = this->Vertices.values.at(i);
+  const double* x = this->initial(i);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     this->B[k] += this->Raise * x[k];
@@ -290,9 +316,12 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   const AssembledRow row{ this->Row, this->weights(),
     nonZeroDiagonal(
       std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->RowSum)) };
-  const double* x = this->Vertices.values.at(i);
+  const double* x = this->initial(i);
+  // The initial values of a correction are the same zeros for all vertices.
+  const std::int64_t stride =
+    this->Vertices.isSolved() ? 0 : static_cast<std::int64_t>(this->Columns);
   const std::span<const double> residual =
-    this->Residual.add(row, x, this->B.data(), static_cast<std::int64_t>(this->Columns), share);
+    this->Residual.add(row, x, this->B.data(), stride, share);
   if (this->Raise > 0.0)
   {
     // What keeps the vertex near its initial value is not part of the problem, nor of the condition

@@ -242,6 +242,11 @@ public:
   /** Adds the next row, of vertex number k of `made`. */
   void close(const FinalVertices& made, std::size_t k);
 
+  /** The largest scale of the weights at an unknown over the smallest one; 1 if there is none. */
+  double contrast() const
+  {
+    return this->LeastScale > 0.0 ? this->MostScale / this->LeastScale : 1.0;
+  }
   std::int64_t prescribed() const { return this->Prescribed; }
   /** The number of vertices without any data that determine them. */
   std::int64_t held() const { return this->Held; }
@@ -261,6 +266,12 @@ private:
   void addUnknown(
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addTarget(double weight, const double* target);
+  void addFlow(double weight, std::int64_t i, std::int64_t neighbour);
+  /** The initial values of vertex i: of a correction zeros. */
+  const double* initial(std::int64_t i) const
+  {
+    return this->Vertices.isSolved() ? this->Zeros.data() : this->Vertices.values.at(i);
+  }
   void sharpen(std::span<const RowNeighbour> neighbours);
   bool addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight);
   void regularise(std::int64_t i);
@@ -292,10 +303,12 @@ private:
   std::vector<double> Weight;
   bool AnyPrecise = false;
   float Least = 0.0F;             // the smallest weight of the entries, or 0
+  std::vector<double> Zeros;      // `Columns` numbers
   std::vector<double> B;          // `Columns` numbers
   std::vector<double> Constraint; // the part of b not from edges to unknowns
 
   InitialResidual Residual;
+  double LeastScale = 0.0, MostScale = 0.0; // of all rows
   std::int64_t Prescribed = 0, Held = 0, Raised = 0;
 };
 

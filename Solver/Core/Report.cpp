@@ -35,6 +35,11 @@ void addResults(const Report& report, nlohmann::ordered_json& out)
     out["conditions"].push_back({ { "name", condition.name }, { "vertices", condition.vertices },
       { "area", condition.area }, { "mean", condition.mean }, { "flux", condition.flux } });
   }
+  for (const Report::Part& part : report.parts)
+  {
+    out["parts"].push_back({ { "name", part.name }, { "measure", part.measure },
+      { "gradient", part.gradient }, { "flux", part.flux } });
+  }
   out["energy"] = report.energy;
   out["mean"] = report.mean;
   out["minimum"] = extremes(report.minimum);

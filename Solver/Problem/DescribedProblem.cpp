@@ -294,7 +294,7 @@ ConditionCounts DescribedProblem::conditionCounts() const
 {
   const OnMesh& data = *this->Data;
   return { data.valueOf(rowOf("dirichlet")).entries(), data.valueOf(rowOf("flux")).entries(),
-    data.valueOf(rowOf("robin")).entries() };
+    data.valueOf(rowOf("robin")).entries(), data.valueOf(rowOf("conductivity")).entries() };
 }
 
 bool DescribedProblem::hasCells() const
@@ -431,6 +431,7 @@ void DescribedProblem::OnMesh::setConductivity(const CellRange& cells, CellBatch
   const auto corners = cornersOf(batch.type);
   for (std::size_t c = 0; c < batch.cells(); ++c)
   {
+    batch.part[c] = this->entry[c];
     if (this->entry[c] < 0)
     {
       continue;

@@ -44,8 +44,9 @@ void askCells(Problem& problem, CellType type, const MeshBlock& block, std::size
   {
     append(conductivity, { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0 });
   }
+  std::vector<std::int32_t> part(cells, -1);
   CellBatch batch{ type, block, first, those, points, weight, measure, screening, source, field,
-    conductivity };
+    conductivity, part };
   problem.cells(batch);
   append(all.weight, weight);
   append(all.screening, screening);

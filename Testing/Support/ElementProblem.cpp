@@ -49,6 +49,10 @@ void ElementProblem::cells(CellBatch& batch)
         std::copy_n(tensor, 6, batch.conductivity.begin() + static_cast<std::ptrdiff_t>(6 * c));
       }
     }
+    if (this->Part)
+    {
+      batch.part[c] = this->Part(center);
+    }
     if (this->CellScreening)
     {
       batch.screening[c] = this->CellScreening(center);
@@ -105,7 +109,8 @@ void ElementProblem::facets(FacetBatch& batch)
 ConditionCounts ElementProblem::conditionCounts() const
 {
   return { static_cast<int>(this->DirichletConditions.size()),
-    static_cast<int>(this->FluxConditions.size()), static_cast<int>(this->RobinConditions.size()) };
+    static_cast<int>(this->FluxConditions.size()), static_cast<int>(this->RobinConditions.size()),
+    this->Parts };
 }
 
 void ElementProblem::conditions(const MeshBlock& block, VertexConditions& conditions)

@@ -55,6 +55,8 @@ public:
   int Columns = 1;
   Weights EdgeWeights = Weights::Cotangent;
   Field<Eigen::Matrix3d> Conductivity;
+  Field<int> Part; ///< below `Parts`
+  int Parts = 0;
   Field<double> VertexScreening, CellScreening;
   Values VertexSource, CellSource, Initial;
   Field<Eigen::MatrixXd> CellField; ///< 3 x `Columns`

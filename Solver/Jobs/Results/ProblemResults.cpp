@@ -27,18 +27,19 @@ ProblemResults::ProblemResults(
   const StreamInfo& info, Problem& problem, Solution& solution, const ResultOptions& options)
   : Type(info.cellType)
   , Given(problem)
-  , Solved(solution)
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Kind(problem.weights())
   , Check(info.cellType)
   , Memory(options.memoryLimit, ResultMemory)
-  , Vertices(this->Memory, problem)
+  , Vertices(this->Memory, problem, &solution)
   , Reach(this->Memory)
   , EdgeWeights(this->Memory)
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Edges(this->Memory, problem, info.cellType)
-  , Cells(info.cellType, problem.columns(), options.gradient, options.flux)
+  , Cells(info.cellType, problem.columns(), options.gradient, options.flux,
+      problem.conditionCounts().parts)
   , Sums(info.cellType, problem)
+  , Steps(4 * this->Columns)
   , Terms(VertexTerms::size(this->Columns))
 {
   // A solution of another problem would give plausible numbers without meaning.
@@ -53,7 +54,7 @@ ProblemResults::ProblemResults(
   }
   if (problem.hasCells())
   {
-    this->Own.emplace(problem, this->Type, options.flux);
+    this->Own.emplace(problem, this->Type, options.flux || problem.conditionCounts().parts > 0);
     this->CellLoads.emplace(this->Memory, this->Type, problem.columns());
   }
   if (problem.hasFacets())
@@ -76,7 +77,6 @@ void ProblemResults::addPart(const MeshBlock& block)
   this->Facets.add(block);
 }
 
-/** Adds the vertices of a block, with the solution in place of prescribed and initial values. */
 void ProblemResults::addVertices(const MeshBlock& block)
 {
   const std::int64_t begin = this->Vertices.end();
@@ -95,10 +95,8 @@ void ProblemResults::addVertices(const MeshBlock& block)
       (*loads)->extend(end);
     }
   }
-  this->Values.resize(static_cast<std::size_t>(end - begin) * this->Columns);
-  this->Solved.read(begin, end - begin, this->Values);
-  // OpenVertices has asked the problem for its conditions, and stored its values here.
-  std::ranges::copy(this->Values, this->Vertices.values.at(begin));
+  const std::span<const double> solution = this->Vertices.values.range(begin, end);
+  this->Values.assign(solution.begin(), solution.end());
   for (std::size_t e = 0; e < this->Values.size(); ++e)
   {
     // Extremes of all vertices, in stream order: of equal ones the first remains.
@@ -152,8 +150,9 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
     return;
   }
   const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
-  this->Cells.add(
-    c, points, values, cell, flatness, this->Own ? this->Own->conductivity() : nullptr);
+  this->relateToFirst(corners, values);
+  this->Cells.add(c, points, values, cell, flatness,
+    this->Own ? this->Own->conductivity() : nullptr, this->Own ? this->Own->part() : -1);
   for (int k = 0; k < count; ++k)
   {
     this->Vertices.mass[corners[k]] += cell.measure / count;
@@ -171,6 +170,21 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
     }
   }
   this->connect(corners, points, cell);
+}
+
+/** Only differences within a cell matter for its results: those to its first corner have all
+ * digits of the solution. */
+void ProblemResults::relateToFirst(const std::int64_t* corners, const double** values)
+{
+  for (int c = 0; this->Vertices.hasRest() && c < cornersOf(this->Type); ++c)
+  {
+    double* steps = this->Steps.data() + static_cast<std::size_t>(c) * this->Columns;
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      steps[k] = this->Vertices.difference(corners[c], corners[0], k);
+    }
+    values[c] = steps;
+  }
 }
 
 /** Collects the weights, as in the solve, of the edges that carry a flow out of a condition. Most
@@ -281,21 +295,26 @@ void ProblemResults::close(std::int64_t i, double* numbers)
   this->Reach.close(i, this->Neighbours.empty() ? i : std::max(i, this->Neighbours.back().to));
   if (this->Vertices.dirichlet[i] >= 0)
   {
-    this->addEdges(this->Vertices.values.at(i), terms);
+    this->addEdges(i, terms);
   }
 }
 
 /** Adds what flows along the edges of a prescribed vertex, by the weights of the matrix. */
-void ProblemResults::addEdges(const double* u, VertexTerms terms)
+void ProblemResults::addEdges(std::int64_t i, VertexTerms terms)
 {
+  const double* u = this->Vertices.values.at(i);
   for (const RowNeighbour& neighbour : this->Neighbours)
   {
     const double weight = knownWeight(this->Kind, neighbour);
     const double* other = this->Vertices.values.at(neighbour.to);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      terms.outflow(k) += weight * (u[k] - other[k]);
-      terms.outflowTerms(k) += std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other[k]));
+      const double flow = weight * this->Vertices.difference(i, neighbour.to, k);
+      terms.outflow(k) += flow;
+      // What is rounded: values, or with the rest of them, what flows.
+      terms.outflowTerms(k) += this->Vertices.hasRest()
+                                 ? std::fabs(flow)
+                                 : std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other[k]));
     }
   }
 }

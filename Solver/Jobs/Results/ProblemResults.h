@@ -84,23 +84,23 @@ private:
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
   void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
+  void relateToFirst(const std::int64_t* corners, const double** values);
   void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
   void weighEdges(const std::int64_t* corners, const CellWeights& cell);
   void finalize(std::int64_t end);
   void addBoundary(std::int64_t i);
   void close(std::int64_t i, double* numbers);
-  void addEdges(const double* u, VertexTerms terms);
+  void addEdges(std::int64_t i, VertexTerms terms);
 
   CellType Type;
   Problem& Given;
-  Solution& Solved;
   std::size_t Columns;
   Weights Kind;
   StreamCheck Check;
   Pool Memory;
 
   // By open vertex.
-  OpenVertices Vertices; // their values are the solution
+  OpenVertices Vertices; // with the solution
   NeighbourReach Reach;
   std::optional<ProblemCells> Own;
   std::optional<VertexLoads> CellLoads, FacetLoads;
@@ -112,7 +112,7 @@ private:
 
   CellResults Cells;
   ResultSums Sums;
-  std::vector<double> Values, Terms; // of a block, of a vertex
+  std::vector<double> Values, Steps, Terms; // of a block, of a cell, of a vertex
   std::vector<RowNeighbour> Neighbours;
   std::int64_t Final = 0;
 };

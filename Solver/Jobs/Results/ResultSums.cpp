@@ -23,7 +23,7 @@
 namespace smg
 {
 
-CellResults::CellResults(CellType type, int columns, bool gradient, bool flux)
+CellResults::CellResults(CellType type, int columns, bool gradient, bool flux, int parts)
   : Type(type)
   , Columns(columns)
   , WantsGradient(gradient)
@@ -31,6 +31,8 @@ CellResults::CellResults(CellType type, int columns, bool gradient, bool flux)
   , Energy(static_cast<std::size_t>(columns))
   , LeftOut(static_cast<std::size_t>(columns))
 {
+  const std::vector<double> zeros(3 * static_cast<std::size_t>(columns));
+  this->Parts.assign(parts > 0 ? static_cast<std::size_t>(parts) + 1 : 0, { 0.0, zeros, zeros });
 }
 
 void CellResults::begin(std::size_t cells)
@@ -43,7 +45,7 @@ void CellResults::begin(std::size_t cells)
 /** Adds the energy of a cell by its weights, 1/2 the sum of w_ij (u_i - u_j)^2 over the edges,
  * which holds for any K; gradients are computed only if they are wanted. */
 void CellResults::add(std::size_t c, const double* const* points, const double* const* values,
-  const CellWeights& weights, double flatness, const double* K)
+  const CellWeights& weights, double flatness, const double* K, std::int32_t part)
 {
   for (int k = 0; k < this->Columns; ++k)
   {
@@ -57,9 +59,16 @@ void CellResults::add(std::size_t c, const double* const* points, const double* 
     this->Energy[static_cast<std::size_t>(k)] += 0.5 * twice;
     this->LeftOut[static_cast<std::size_t>(k)] += 0.5 * (1.0 - flatness) * twice;
   }
-  if (!this->WantsGradient && !this->WantsFlux)
+  if (!this->WantsGradient && !this->WantsFlux && this->Parts.empty())
   {
     return;
+  }
+  PartSums* sums = this->Parts.empty() ? nullptr
+                   : part >= 0         ? &this->Parts[static_cast<std::size_t>(part)]
+                                       : &this->Parts.back();
+  if (sums)
+  {
+    sums->measure += weights.measure;
   }
   const CellGradients gradients(this->Type, points);
   for (int k = 0; k < this->Columns; ++k)
@@ -71,10 +80,20 @@ void CellResults::add(std::size_t c, const double* const* points, const double* 
     {
       std::ranges::copy(gradient, this->Gradient.begin() + static_cast<std::ptrdiff_t>(place));
     }
+    if (!this->WantsFlux && !sums)
+    {
+      continue; // then K is not known
+    }
+    const Vector flux = scaled(-1.0, K ? product(K, gradient) : gradient);
     if (this->WantsFlux)
     {
-      const Vector flux = scaled(-1.0, K ? product(K, gradient) : gradient);
       std::ranges::copy(flux, this->Flux.begin() + static_cast<std::ptrdiff_t>(place));
+    }
+    for (std::size_t d = 0; sums && d < 3; ++d)
+    {
+      const std::size_t number = 3 * static_cast<std::size_t>(k) + d;
+      sums->gradient[number] += weights.measure * gradient[d];
+      sums->flux[number] += weights.measure * flux[d];
     }
   }
 }
@@ -87,7 +106,7 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
   , RobinTerms(this->Columns)
 {
   const std::vector<double> zeros(this->Columns);
-  const Sums none{ 0.0, zeros, zeros, zeros, 0.0 };
+  const Sums none{ 0.0, zeros, zeros, zeros, 0.0, zeros };
   this->Dirichlet.assign(static_cast<std::size_t>(counts.dirichlet), none);
   this->Flux.assign(static_cast<std::size_t>(counts.flux), none);
   this->Robin.assign(static_cast<std::size_t>(counts.robin), none);
@@ -133,21 +152,25 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
     for (std::size_t k = 0; factor > 0.0 && k < this->Columns; ++k)
     {
       const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
-      this->addFlux(sums, k, factor * (ambient - value[k]));
+      this->addFlux(sums, k, factor * vertices.below(ambient, facet.corners[c], k));
       // The flux is a small difference of these where u is close to the ambient value.
-      this->RobinTerms[k] += factor * (std::fabs(ambient) + std::fabs(value[k]));
+      const double terms = factor * (std::fabs(ambient) + std::fabs(value[k]));
+      this->RobinTerms[k] += terms;
+      sums.terms[k] += terms;
     }
   }
 }
 
 /** Adds a prescribed vertex; its reaction is the flow through the condition there. */
-void ConditionSums::add(std::int32_t dirichlet, const double* value, const double* reaction)
+void ConditionSums::add(
+  std::int32_t dirichlet, const double* value, const double* reaction, const double* terms)
 {
   Sums& sums = this->Dirichlet[static_cast<std::size_t>(dirichlet)];
   sums.vertices += 1.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     sums.vertexValue[k] += value[k];
+    sums.terms[k] += terms[k];
     this->addFlux(sums, k, reaction[k]);
   }
 }
@@ -195,6 +218,7 @@ void ConditionSums::appendNumbers(std::vector<double*>& numbers)
       append(sums.value);
       append(sums.flux);
       append(sums.vertexValue);
+      append(sums.terms);
     }
   }
   append(this->Inflow);
@@ -209,6 +233,17 @@ std::vector<Report::Condition> ConditionSums::conditions() const
   this->append("flux", this->Flux, conditions);
   this->append("robin", this->Robin, conditions);
   return conditions;
+}
+
+std::vector<std::vector<double>> ConditionSums::terms() const
+{
+  std::vector<std::vector<double>> terms;
+  for (const auto* all : { &this->Dirichlet, &this->Flux, &this->Robin })
+  {
+    std::ranges::transform(
+      *all, std::back_inserter(terms), [](const Sums& sums) { return sums.terms; });
+  }
+  return terms;
 }
 
 /** The means of a condition: over its facets if it has any, else over its vertices; NaN if it holds
@@ -251,6 +286,7 @@ ResultSums::ResultSums(CellType type, Problem& problem)
   , Columns(static_cast<std::size_t>(problem.columns()))
   , HasFacets(problem.hasFacets())
   , Reaction(this->Columns)
+  , Terms(this->Columns)
   , Mean(this->Columns)
   , Source(this->Columns)
   , Screening(this->Columns)
@@ -315,9 +351,10 @@ void ResultSums::addDirichlet(VertexTerms terms, const double* u, std::int32_t d
   {
     this->Reaction[k] = (terms.screening() + terms.transfer()) * u[k] -
                         (terms.source(k) + terms.inflow(k)) + terms.outflow(k);
-    this->ReactionTerms[k] += terms.outflowTerms(k);
+    this->Terms[k] = terms.outflowTerms(k);
+    this->ReactionTerms[k] += this->Terms[k];
   }
-  this->conditions.add(dirichlet, u, this->Reaction.data());
+  this->conditions.add(dirichlet, u, this->Reaction.data(), this->Terms.data());
 }
 
 /** The cells have been summed on their own, over all blocks. */
@@ -325,6 +362,7 @@ void ResultSums::setCells(const CellResults& cells)
 {
   this->CellEnergy = cells.energy();
   this->LeftOut = cells.leftOut();
+  this->Parts = cells.parts();
 }
 
 /** The order is the same in all processes, which add these numbers. */
@@ -336,6 +374,14 @@ std::vector<double*> ResultSums::numbers()
       &this->CellEnergy, &this->LeftOut, &this->ReactionTerms, &this->RobinTerms })
   {
     std::ranges::transform(*sums, std::back_inserter(all), [](double& sum) { return &sum; });
+  }
+  for (PartSums& part : this->Parts)
+  {
+    all.push_back(&part.measure);
+    for (auto* sums : { &part.gradient, &part.flux })
+    {
+      std::ranges::transform(*sums, std::back_inserter(all), [](double& sum) { return &sum; });
+    }
   }
   this->conditions.appendNumbers(all);
   return all;
@@ -355,6 +401,7 @@ void ResultSums::finish(Report& report) const
   report.minimum = this->minimum;
   report.maximum = this->maximum;
   this->reportBalance(report);
+  this->reportParts(report);
   noteConditionsWithoutEffect(report);
   this->noteFlatCells(report);
 }
@@ -375,6 +422,88 @@ void ResultSums::noteConditionsWithoutEffect(Report& report)
                   "no facet of the boundary is where it holds, or later ones hold there");
     }
   }
+}
+
+/** The whole first; parts if there are several. */
+void ResultSums::reportParts(Report& report) const
+{
+  const auto add = [&report](const std::string& name, const PartSums& sums)
+  {
+    Report::Part& part = report.parts.emplace_back();
+    part = { name, sums.measure, sums.gradient, sums.flux };
+    for (auto* means : { &part.gradient, &part.flux })
+    {
+      std::ranges::for_each(*means, [&sums](double& number) { number /= sums.measure; });
+    }
+  };
+  if (this->Parts.empty())
+  {
+    return;
+  }
+  PartSums all = this->Parts.front();
+  for (std::size_t p = 1; p < this->Parts.size(); ++p)
+  {
+    all.measure += this->Parts[p].measure;
+    for (std::size_t e = 0; e < all.gradient.size(); ++e)
+    {
+      all.gradient[e] += this->Parts[p].gradient[e];
+      all.flux[e] += this->Parts[p].flux[e];
+    }
+  }
+  add("all", all);
+  const std::size_t last = this->Parts.size() - 1;
+  for (std::size_t p = 0; p < this->Parts.size(); ++p)
+  {
+    if (this->Parts[p].measure > 0.0 && this->Parts[p].measure < all.measure)
+    {
+      add(p == last ? "elsewhere" : "conductivity[" + std::to_string(p) + ']', this->Parts[p]);
+    }
+  }
+}
+
+/** What flows in column k at least: the power, twice the energy, over the range of u; 0 if that is
+ * rounding. So a flux that is as small as its rounding is no flux where nothing flows, and not
+ * known where something does. */
+double ResultSums::leastFlow(const Report& report, std::size_t k) const
+{
+  // Values differ by their rounding, and a flow that is so small beside its terms is due to it.
+  constexpr double OfValues = 1e-12, OfFlow = 1e-24;
+  const double most = this->maximum[k].value, least = this->minimum[k].value;
+  const double range = most - least;
+  if (!(range > OfValues * std::max(std::fabs(most), std::fabs(least))))
+  {
+    return 0.0;
+  }
+  const double flow = 2.0 * report.energy[k] / range;
+  return flow > OfFlow * (this->ReactionTerms[k] + this->conditions.robinTerms()[k]) ? flow : 0.0;
+}
+
+/** Makes the fluxes of column k that are lost in the rounding of the solution NaN; returns whether
+ * there are any. `flow`: leastFlow(). */
+bool ResultSums::markLost(Report& report, std::size_t k, double flow) const
+{
+  // Of each of many terms; and the part of a flux, or of all that flows, that it may be.
+  constexpr double Rounding = 1e-14, Known = 1e-3;
+  const std::vector<std::vector<double>> terms = this->conditions.terms();
+  bool any = false;
+  for (std::size_t c = 0; flow > 0.0 && c < report.conditions.size(); ++c)
+  {
+    Report::Condition& condition = report.conditions[c];
+    const double noise = Rounding * terms[c][k];
+    if (noise <= Known * std::max(std::fabs(condition.flux[k]), flow))
+    {
+      continue;
+    }
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.1e", noise);
+    report.warn("the flux of " + condition.name +
+                " is not known: it is a difference of numbers so large that their rounding is up "
+                "to " +
+                text);
+    condition.flux[k] = std::numeric_limits<double>::quiet_NaN();
+    any = true;
+  }
+  return any;
 }
 
 /** The balance of each column: what flows in through conditions and sources, minus what screening
@@ -401,7 +530,13 @@ void ResultSums::reportBalance(Report& report) const
     const double noise =
       std::max(Rounding * (this->ReactionTerms[k] + this->conditions.robinTerms()[k]),
         report.residual() * (this->ReactionTerms[k] + this->RobinTerms[k]));
-    report.balance[k] = all > noise ? rest / all : 0.0;
+    const double flow = this->leastFlow(report, k);
+    if (this->markLost(report, k, flow))
+    {
+      report.balance[k] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    report.balance[k] = all > noise || (all > 0.0 && flow > 0.0) ? rest / all : 0.0;
     largest = std::max(largest, std::fabs(report.balance[k]));
   }
   if (largest > Noted && report.converged)

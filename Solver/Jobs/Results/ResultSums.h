@@ -17,19 +17,27 @@
 namespace smg
 {
 
-/** The gradients and fluxes of the cells of a block, and the energy of all cells. */
+/** Integrals over the cells of a part. */
+struct PartSums
+{
+  double measure = 0.0;
+  std::vector<double> gradient, flux; ///< 3 * `columns` numbers
+};
+
+/** The gradients and fluxes of the cells of a block, and the sums over all cells. */
 class CellResults
 {
 public:
-  /** `gradient`, `flux`: whether they are requested. */
-  CellResults(CellType type, int columns, bool gradient, bool flux);
+  /** `gradient`, `flux`: whether they are requested. `parts`: see ConditionCounts. */
+  CellResults(CellType type, int columns, bool gradient, bool flux, int parts);
 
   /** Starts the next block, of this many cells. */
   void begin(std::size_t cells);
   /** Adds cell c of the block: the positions of its corners, the values there (`columns` each), its
-   * weights, the factor by which the solve scaled these down, and K (null: the identity). */
+   * weights, the factor by which the solve scaled these down, K (null: the identity) and its part
+   * (-1: none). */
   void add(std::size_t c, const double* const* points, const double* const* values,
-    const CellWeights& weights, double flatness, const double* K);
+    const CellWeights& weights, double flatness, const double* K, std::int32_t part);
 
   /** grad u in the block: 3 * `columns` numbers per cell, 0 in cells without measure. */
   std::span<const double> gradient() const { return this->Gradient; }
@@ -39,12 +47,15 @@ public:
    * omitted. */
   const std::vector<double>& energy() const { return this->Energy; }
   const std::vector<double>& leftOut() const { return this->LeftOut; }
+  /** One of each part, and one of all other cells; empty without parts. */
+  const std::vector<PartSums>& parts() const { return this->Parts; }
 
 private:
   CellType Type;
   int Columns;
   bool WantsGradient, WantsFlux;
   std::vector<double> Gradient, Flux, Energy, LeftOut;
+  std::vector<PartSums> Parts;
 };
 
 /** Whether nothing determines these values of a vertex, which has no share in the equations. */
@@ -61,11 +72,14 @@ public:
 
   /** Adds a boundary facet of this length or area; the values of `vertices` are the solution. */
   void add(const BoundaryFacet& facet, double area, const OpenVertices& vertices);
-  /** Adds a vertex of a Dirichlet condition with its value and its reaction, `columns` numbers
-   * each. */
-  void add(std::int32_t dirichlet, const double* value, const double* reaction);
+  /** Adds a vertex of a Dirichlet condition with its value, its reaction, and the magnitudes of the
+   * terms of that, `columns` numbers each. */
+  void add(
+    std::int32_t dirichlet, const double* value, const double* reaction, const double* terms);
 
   std::vector<Report::Condition> conditions() const;
+  /** The magnitudes of the terms of the flux of each of these conditions, per column. */
+  std::vector<std::vector<double>> terms() const;
   /** Appends pointers to all sums, so that those of the parts of a mesh can be added up. */
   void appendNumbers(std::vector<double*>& numbers);
   /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
@@ -80,6 +94,7 @@ private:
     double area = 0.0;
     std::vector<double> value, flux, vertexValue; ///< value: times area
     double vertices = 0.0;                        ///< their number
+    std::vector<double> terms; ///< magnitudes of what the flux is a difference of
   };
 
   void addMean(Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices);
@@ -164,16 +179,20 @@ private:
   void addRobinTerms(VertexTerms terms, const double* u);
   void addDirichlet(VertexTerms terms, const double* u, std::int32_t dirichlet);
   void reportBalance(Report& report) const;
+  void reportParts(Report& report) const;
+  double leastFlow(const Report& report, std::size_t k) const;
+  bool markLost(Report& report, std::size_t k, double flow) const;
   static void noteConditionsWithoutEffect(Report& report);
   void noteFlatCells(Report& report) const;
 
   std::size_t Columns;
   bool HasFacets;
-  std::vector<double> Reaction; // of a vertex
+  std::vector<double> Reaction, Terms; // of a vertex
   double Mass = 0.0;
   // Per column.
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude;
   std::vector<double> CellEnergy, LeftOut; // see CellResults
+  std::vector<PartSums> Parts;             // likewise
   std::vector<double> ReactionTerms;       // magnitudes of the terms of the reactions
   // Terms of Robin conditions as the residual of the solve counts them, see commonShare().
   std::vector<double> RobinTerms;

@@ -85,6 +85,10 @@ public:
     {
       this->Range->startPass();
     }
+    if (this->Flow)
+    {
+      this->Flow->startPass();
+    }
     this->Window.startPass(first);
     if (this->Core)
     {
@@ -140,6 +144,8 @@ public:
   void setEnergy(IterateEnergy* energy) { this->Energy = energy; }
   /** On the finest level: finds the range of the iterates there; null: it does not. */
   void setRange(IterateRange* range) { this->Range = range; }
+  /** On the finest level: measures what flows in the iterates there; null: it does not. */
+  void setFlow(IterateFlow* flow) { this->Flow = flow; }
 
   /** The end of the nodes from `end` on whose x is final in the upward part, as seen by a stage
    * that `follows` it on the same thread, or does not. */
@@ -356,7 +362,7 @@ private:
   {
     Real* squares = this->Squares.data();
     return { this->Coarse->window().b(), this->Scale, squares, squares + this->lanes(),
-      this->History, this->Energy, this->Range };
+      this->History, this->Energy, this->Range, this->Flow };
   }
   template <class Kernel>
   void forAll(State& state, const Kernel& kernel)
@@ -377,6 +383,7 @@ private:
   IterateHistory* History = nullptr;
   IterateEnergy* Energy = nullptr;
   IterateRange* Range = nullptr;
+  IterateFlow* Flow = nullptr;
   Real Scale = 1;
   Real Unscale = 1;
   bool First = true;

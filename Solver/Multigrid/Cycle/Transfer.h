@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Memory/Ring.h"
+#include "Solver/Multigrid/Cycle/IterateFlow.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/Residual.h"
@@ -78,7 +79,8 @@ double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t 
  * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed; on
  * the finest level both with the share of the row, see residualShare(). Both are summed in node
  * order, so the norm of the residual does not depend on windows or threads. The history and the
- * energy of the iterates, if there are some, get each residual, too, and their range each unknown.
+ * energy of the iterates, if there are some, get each residual, too, and their range and their flow
+ * each unknown.
  */
 template <class Real>
 struct Restriction
@@ -89,6 +91,7 @@ struct Restriction
   IterateHistory* history;
   IterateEnergy* energy;
   IterateRange* range;
+  IterateFlow* flow;
 
   template <class Arrays, class Vectors>
   void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
@@ -132,6 +135,10 @@ private:
           if (this->range)
           {
             this->range->template add<Vectors>(x, part.lane);
+          }
+          if (this->flow)
+          {
+            this->flow->template add<Vectors>(h, a, k, stride, part.x, part.b, share, part.lane);
           }
         }
       }

@@ -124,7 +124,8 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   counts.components = components.components();
   counts.freeComponents = components.freeComponents();
   counts.termSquares = assembly.residual().termSquares();
-  counts.anyTerm = assembly.residual().anyTerm();
+  // The residual that is to be corrected may be as small as it likes.
+  counts.anyTerm = !assembly.corrects() && assembly.residual().anyTerm();
   counts.measures = assembly.weights().measures();
   // A single body needs no search.
   counts.coincident =

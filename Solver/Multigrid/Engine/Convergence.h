@@ -32,8 +32,9 @@ struct FirstResidual
  * Follows the residual of a problem over the V-cycles and decides when to stop: at the tolerance,
  * at the limit of rounding, when it stagnates, at the largest number of V-cycles, or, with an
  * Error, when it diverges or overflows. The relative residual is ||b - A x|| / ||b - A x_0||, x_0
- * the initial values. If the solution varies much less than it differs from these, the goal is
- * smaller by as much (IterateRange).
+ * the initial values. If the solution varies much less than it differs from these, or much less
+ * flows in it than the initial residual, the goal is smaller by as much (IterateRange,
+ * IterateFlow).
  */
 class SMG_EXPORT Convergence
 {
@@ -46,8 +47,8 @@ public:
    * already end the solve, unless the right-hand side has changed since. `share`: as for add(). */
   void begin(double norm, bool mayEnd = true, double share = 1.0);
   /** To be called after a V-cycle; `rounding`: the part of the norm that is due to the rounding
-   * of its terms, if that is more than initially; `share`: the range of the iterate over its
-   * distance from the initial values. Throws Error if the residual diverges or overflows. */
+   * of its terms, if that is more than initially; `share`: see SolveContext::shareOfTolerance().
+   * Throws Error if the residual diverges or overflows. */
   void add(double norm, double rounding = 0.0, double share = 1.0);
 
   /** The last V-cycle was enough, for another reason than its residual. */
@@ -61,6 +62,10 @@ public:
   bool meets(double norm) const { return norm <= this->Goal; }
   /** The relative residual to reach. */
   double goal() const { return this->Reference > 0.0 ? this->Goal / this->Reference : 1.0; }
+  /** The residual that relative ones are relative to. */
+  double reference() const { return this->Reference; }
+  /** The part of the residual that is due to the rounding of its terms. */
+  double rounding() const { return this->Rounding; }
   bool done() const { return this->Done; }
   bool converged() const { return this->Converged; }
   int cycles() const { return static_cast<int>(this->Residuals.size()); }

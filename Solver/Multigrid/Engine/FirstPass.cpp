@@ -76,8 +76,8 @@ FirstResidual FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* 
   const bool apart = this->Run.threads.areConcurrent() && this->Run.isAmple;
   HierarchyBuilder builder(this->Run.pool, this->Set, this->Built.levels(), this->Built.firstCore(),
     Assembly::stiffRows(type, problem.weights(), rows), apart);
-  Assembly assembly(
-    this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
+  Assembly assembly(this->Run.pool, mesh.info(), problem, rows, this->Run.components,
+    this->Run.labels, listener, this->Run.corrected);
   this->Built.startPass(true);
   MeshPrefetch blocks(mesh, this->Run.threads.areConcurrent());
   // The stages of the assembly run as tasks of their own only if the next block is read ahead: they
@@ -197,6 +197,8 @@ FirstResidual FirstPass::note(const Assembly& assembly)
 {
   // With more stiff rows than this share, the slowest errors may be local to them; see Iteration.
   constexpr std::int64_t StiffShare = 512;
+  // Coefficients that differ less do not change what the tolerance means.
+  constexpr double Contrasting = 100.0;
   this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
   Report& r = this->Run.report;
   this->Run.components.anchorHeld();
@@ -211,6 +213,10 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   // Vertices with given values have an empty row, but are not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
+  if (this->Run.range && assembly.contrast() >= Contrasting)
+  {
+    this->Built.measureFlow();
+  }
   this->Run.keepReport();
   beginRange(this->Run, assembly.residual());
   return residualOf(assembly.residual(), this->Run.components);

@@ -70,6 +70,11 @@ void Hierarchy::addFinestLevel()
   }
 }
 
+void Hierarchy::measureFlow()
+{
+  this->finest().setFlow(&this->Run.flow.emplace(this->Columns));
+}
+
 void Hierarchy::addCoarseLevel(int l, bool core)
 {
   auto level = std::make_unique<CoarseLevel>(this->Run.pool, this->Run.resident, l, this->Columns,
@@ -195,7 +200,12 @@ void Hierarchy::save(StateWriter& state)
 {
   state.part("hierarchy");
   const auto levels = static_cast<std::int32_t>(this->Built.coarse.size());
-  state(levels, this->FirstCore, this->SlowestAtSlivers, *this->Built.finest);
+  const bool measuresFlow = this->Run.flow.has_value();
+  state(levels, this->FirstCore, this->SlowestAtSlivers, *this->Built.finest, measuresFlow);
+  if (measuresFlow)
+  {
+    state(*this->Run.flow);
+  }
   for (auto& level : this->Built.coarse)
   {
     state(*level);
@@ -211,7 +221,13 @@ void Hierarchy::load(StateReader& state)
   state(levels, this->FirstCore, this->SlowestAtSlivers);
   state.require(this->FirstCore >= 1 && this->FirstCore <= levels && levels <= MaxLevels);
   this->addFinestLevel();
-  state(this->finest());
+  bool measuresFlow = false;
+  state(this->finest(), measuresFlow);
+  if (measuresFlow)
+  {
+    this->measureFlow();
+    state(*this->Run.flow);
+  }
   const std::int64_t vertices = this->Run.report.vertices;
   // The report comes first in a state; it has the finest level and at most these, see
   // noteWindows().

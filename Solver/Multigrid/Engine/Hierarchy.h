@@ -39,6 +39,8 @@ public:
   /** Completes the hierarchy after the last row: level `coarsest`, the coarsest one, is
    * factorised. */
   void close(int coarsest);
+  /** Later passes measure what flows: SolveContext::flow. */
+  void measureFlow();
   /** Sets whether the slowest errors may be local to some vertices of slivers, see Iteration. */
   void setSlowestAtSlivers(bool are) { this->SlowestAtSlivers = are; }
 

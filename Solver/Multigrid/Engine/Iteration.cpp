@@ -32,8 +32,8 @@ void Iteration::operator()(bool spareLast)
       this->Run.plainPassPeak = this->Run.pool.recentPeak();
       this->Run.valueNodes = this->Levels.window().x().capacity();
     }
-    this->StoppingRule.add(
-      this->Levels.residualNorm(), this->Levels.roundingNorm(), this->Run.shareOfRange());
+    this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
+      this->Run.shareOfTolerance(this->StoppingRule.reference()));
     if (this->Run.range)
     {
       this->Run.progress.expect(this->StoppingRule.goal());

@@ -167,8 +167,8 @@ void LinearEngine::solve(const Group& group, const Stopping& stopping)
   Iteration iteration(this->Run, this->Levels, convergence);
   convergence = Convergence(stopping, this->begin());
   // As for a first pass: see PoissonSolver.
-  convergence.begin(
-    this->Levels.residualNorm(), !this->Run.components.shiftsRightSide(), this->Run.shareOfRange());
+  convergence.begin(this->Levels.residualNorm(), !this->Run.components.shiftsRightSide(),
+    this->Run.shareOfTolerance(convergence.reference()));
   this->Run.endPass(1.0);
   iteration(false);
   Report& r = this->Run.report;

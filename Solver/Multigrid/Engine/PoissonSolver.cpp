@@ -6,6 +6,7 @@
 #include "Solver/Multigrid/Engine/Iteration.h"
 #include "Solver/Multigrid/Engine/StreamedSolution.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -49,15 +50,50 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
   };
   if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
   {
-    const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
-    convergence = Convergence(stopping, first);
-    // The residual after the first sweeps does not count if the right-hand side was projected after
-    // them.
-    convergence.begin(
-      this->Levels.residualNorm(), !run.components.shiftsRightSide(), run.shareOfRange());
-    run.endPass(1.0);
+    this->begin(convergence, stopping, FirstPass(run, this->Levels, this->Set)(mesh, problem));
   }
   iteration(false);
+  return this->finish(convergence, problem, balance ? &*balance : nullptr);
+}
+
+std::unique_ptr<Solution> PoissonSolver::correct(
+  MeshSource& mesh, Problem& problem, Solution& solution, double goal)
+{
+  // At least this share of the residual is to go, whose digits a double has.
+  constexpr double Most = 0.1, Least = 1e-12;
+  SolveContext& run = *this->Run;
+  run.beginReport();
+  run.corrected = &solution;
+  run.progress.begin({ Least, run.options.maxCycles }, 0.0, 1.0, true);
+  const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
+  const Stopping stopping{ first.norm > 0.0 ? std::clamp(goal / first.norm, Least, Most) : Most,
+    run.options.maxCycles };
+  Convergence convergence(stopping, first);
+  Iteration iteration(run, this->Levels, convergence);
+  this->begin(convergence, stopping, first);
+  iteration(false);
+  return this->finish(convergence, problem, nullptr);
+}
+
+/** To be called after the first pass. The residual after its sweeps does not count if the
+ * right-hand side was projected after them. */
+void PoissonSolver::begin(
+  Convergence& convergence, const Stopping& stopping, const FirstResidual& first)
+{
+  SolveContext& run = *this->Run;
+  convergence = Convergence(stopping, first);
+  convergence.begin(this->Levels.residualNorm(), !run.components.shiftsRightSide(),
+    run.shareOfTolerance(convergence.reference()));
+  run.endPass(1.0);
+}
+
+/** To be called after the last pass: makes the solution, with its report. */
+std::unique_ptr<Solution> PoissonSolver::finish(
+  const Convergence& convergence, Problem& problem, const ErrorBalance* balance)
+{
+  SolveContext& run = *this->Run;
+  this->Norms = { convergence.reference(), convergence.norm(), convergence.rounding(),
+    run.flow ? run.flow->norm() : 0.0 };
   Report& r = run.report;
   r.cycles = convergence.cycles();
   r.residuals = convergence.residuals();
@@ -73,6 +109,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
   auto solution =
     std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
   run.progress.finish();
+  this->Used = run.pool.used();
   return solution;
 }
 

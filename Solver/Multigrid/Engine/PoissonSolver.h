@@ -2,6 +2,8 @@
 #pragma once
 
 #include "Solver/Multigrid/Engine/CompiledOperators.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
 #include "Solver/Multigrid/Engine/Hierarchy.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
@@ -32,15 +34,30 @@ public:
 
   /** To be called once. */
   std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem);
+  /** Instead: solves for what is to be added to this solution of the problem, until the residual is
+   * at most `goal`. */
+  std::unique_ptr<Solution> correct(
+    MeshSource& mesh, Problem& problem, Solution& solution, double goal);
 
   SolveContext& run() { return *this->Run; }
 
+  // Afterwards:
+
+  const SolveNorms& norms() const { return this->Norms; }
+  /** The bytes of the pool that the solution has. */
+  std::int64_t usedBytes() const { return this->Used; }
+
 private:
   EnergySquares discretisation(Problem& problem);
+  void begin(Convergence& convergence, const Stopping& stopping, const FirstResidual& first);
+  std::unique_ptr<Solution> finish(
+    const Convergence& convergence, Problem& problem, const ErrorBalance* balance);
 
   CompiledOperators Set;
   std::unique_ptr<SolveContext> Run;
   Hierarchy Levels;
+  SolveNorms Norms;
+  std::int64_t Used = 0;
 };
 
 } // namespace smg

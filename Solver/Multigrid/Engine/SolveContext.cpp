@@ -38,6 +38,13 @@ SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   }
 }
 
+double SolveContext::shareOfTolerance(double reference) const
+{
+  const double ofRange = this->range ? this->range->share() : 1.0;
+  const double flow = this->flow ? IterateFlow::Judged * this->flow->norm() : 0.0;
+  return flow > 0.0 && reference > 0.0 ? std::min(ofRange, flow / reference) : ofRange;
+}
+
 void SolveContext::beginReport()
 {
   this->Wall = {};

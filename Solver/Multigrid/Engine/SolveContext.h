@@ -7,6 +7,7 @@
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
+#include "Solver/Multigrid/Cycle/IterateFlow.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
 #include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
@@ -86,10 +87,15 @@ struct SMG_EXPORT SolveContext
     return error.expecting(this->expectedBytes);
   }
 
-  /** IterateRange::share() of the last pass; 1 if the solve does not need it. */
-  double shareOfRange() const { return this->range ? this->range->share() : 1.0; }
+  /** The part of the tolerance by which a residual of the last pass is judged, `reference` being
+   * the residual that the tolerance is a share of: less than 1 where the range of the iterate is
+   * small beside its distance from the initial values, or what flows in it beside `reference`. 1 if
+   * the solve needs neither. */
+  double shareOfTolerance(double reference) const;
 
   SolveOptions options;
+  /** The solution whose correction is solved for; null: the problem itself. */
+  Solution* corrected = nullptr;
   SolveProgress progress;
   Pool pool;
   /** The bytes of the pool that one thread is expected to need, estimated before the first pass;
@@ -113,6 +119,7 @@ struct SMG_EXPORT SolveContext
   FreeComponents free;
   std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
   std::optional<IterateRange> range;   ///< of the iterates, if the solve needs it
+  std::optional<IterateFlow> flow;     ///< in the iterates, if the solve needs it
   StepThreads threads;
   Report report;
 

@@ -67,9 +67,11 @@ struct CellBatch
   std::span<double> field;     ///< out, 3 * `columns` a cell: the vector q of each column
   /**
    * Out, 6 a cell: K as in conductivityWeights(), the identity on entry. Empty unless fluxes are
-   * computed (ResultOptions::flux).
+   * computed (ResultOptions::flux, ConditionCounts::parts).
    */
   std::span<double> conductivity;
+  /** Out, one a cell: the number of its part, below ConditionCounts::parts; -1: none. */
+  std::span<std::int32_t> part;
 
   /** Number of cells of the batch. */
   std::size_t cells() const { return this->measure.size(); }
@@ -115,12 +117,14 @@ struct FacetBatch
   }
 };
 
-/** Numbers of conditions of a problem; each has an entry in Report::conditions. */
+/** Numbers of what a problem tells apart; each condition has an entry in Report::conditions. */
 struct ConditionCounts
 {
   int dirichlet = 0; ///< Dirichlet conditions
   int flux = 0;      ///< flux conditions
   int robin = 0;     ///< Robin conditions
+  /** Parts of the mesh by their conductivity, each with an entry in Report::parts. */
+  int parts = 0;
 };
 
 /**

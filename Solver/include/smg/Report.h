@@ -156,8 +156,22 @@ struct SMG_EXPORT Report
      * Dirichlet condition, and NaN for other conditions. */
     std::vector<double> mean;
     /** Per column: the total of (K grad u - q) . n, positive into the body. Of a Dirichlet
-     * condition the reaction of its vertices, so that all fluxes balance. */
+     * condition the reaction of its vertices, so that all fluxes balance. NaN, with a warning, if
+     * it is lost in the rounding of the solution. */
     std::vector<double> flux;
+  };
+
+  /** A part of the mesh, and the means of the solution over it: where K is a number, the mean of
+   * the flux is -K times that of the gradient; of the whole the ratio is an effective conductivity.
+   */
+  struct Part
+  {
+    /** "conductivity[0]" with the number of its entry in the problem, "elsewhere", where none
+     * holds, or "all". */
+    std::string name;
+    double measure = 0;           ///< area or volume of its cells
+    std::vector<double> gradient; ///< mean of grad u: 3 a column
+    std::vector<double> flux;     ///< mean of -K grad u: 3 a column
   };
 
   /** The largest difference of a column, over its components, between the ends of the edges that
@@ -231,6 +245,8 @@ struct SMG_EXPORT Report
   /** Per column: 1/2 the integral of grad u . K grad u + s u^2 over the piecewise linear u, s u^2
    * lumped at the vertices. */
   std::vector<double> energy;
+  /** Of a problem with a conductivity: the whole, and its parts if there are several. */
+  std::vector<Part> parts;
   std::vector<double> mean;      ///< per column: the mean of u, weighted with area or volume
   std::vector<Extreme> minimum;  ///< per column: the smallest value of u
   std::vector<Extreme> maximum;  ///< per column: the largest value of u
@@ -238,7 +254,7 @@ struct SMG_EXPORT Report
   std::vector<double> screening; ///< per column: the total of s u
   /** Per column: what flows in through all conditions and sources less what screening takes, over
    * the sum of the magnitudes of all terms, from -1 to 1; of the size of the tolerance. 0 if
-   * nothing flows. */
+   * nothing flows; NaN if a flux is. */
   std::vector<double> balance;
   std::optional<Distance> distance; ///< of a distance; else none
   std::optional<Inverted> inverted; ///< set when a deformed mesh is read: MovedMesh::source()

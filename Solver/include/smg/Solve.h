@@ -163,6 +163,17 @@ public:
    * @throws Error if the range or the room is not valid, or a scratch file cannot be read
    */
   virtual void read(std::int64_t first, std::int64_t count, std::span<double> values) = 0;
+  /** Whether the values have more digits than a double: see readRest(). False by default. */
+  virtual bool hasRest() const { return false; }
+  /**
+   * Reads what rounding to double has taken from the values, as read() does: their sum is the
+   * solution. Where conductivities differ by 1e8 and more, what flows in the good conductors is in
+   * these digits. Only to be called if hasRest().
+   */
+  virtual void readRest(
+    std::int64_t /*first*/, std::int64_t /*count*/, std::span<double> /*values*/)
+  {
+  }
   /** Removes the checkpoint, if there is one, when the solution is destroyed: to be called when the
    * result is complete on disk. */
   virtual void removeCheckpoint() {}

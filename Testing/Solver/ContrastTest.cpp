@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Results/ProblemResults.h"
+#include "Solver/Multigrid/Engine/Convergence.h"
+#include "Testing/Solver/EllipticTesting.h"
+#include "Testing/Support/QuadrupleElements.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+// Conductivities that differ by up to 1e12: energy, the flux of every condition and the mean flux
+// of every part, against linear finite elements that are assembled and solved in quadruple
+// precision. A double has the solution, but not what flows in the good conductor.
+
+namespace smg::testing
+{
+namespace
+{
+
+struct Shape
+{
+  std::string name;
+  /** Sets the part of each point, 0 or 1, and the conditions, for a mesh of this size. */
+  std::function<void(ElementProblem&, const Point& size)> set;
+};
+
+void hold(ElementProblem& problem, ElementProblem::Where where, double value)
+{
+  problem.DirichletConditions.push_back(
+    { std::move(where), [value](const Point&) { return Eigen::VectorXd::Constant(1, value); } });
+}
+
+std::vector<Shape> shapes()
+{
+  const auto halves = [](ElementProblem& p, const Point& size)
+  { p.Part = [size](const Point& x) { return x[0] < 0.5 * size[0] ? 0 : 1; }; };
+  const auto ends = [](ElementProblem& p, const Point& size)
+  {
+    hold(p, below(0, 0.5), 0.0);
+    hold(p, above(0, size[0] - 0.5), 1.0);
+  };
+  return {
+    { "layers",
+      [=](ElementProblem& p, const Point& size)
+      {
+        halves(p, size);
+        ends(p, size);
+      } },
+    { "electrode in the good conductor",
+      [=](ElementProblem& p, const Point& size)
+      {
+        halves(p, size);
+        hold(p, below(0, 0.5), 0.0);
+        hold(
+          p, [size](const Point& x) { return (x - 0.75 * size).norm() < 0.2 * size.norm(); }, 1.0);
+      } },
+    { "two electrodes, a circuit in the good conductor",
+      [=](ElementProblem& p, const Point& size)
+      {
+        halves(p, size);
+        ends(p, size);
+        hold(
+          p,
+          [size](const Point& x)
+          { return x[0] > 0.6 * size[0] && x[0] < 0.9 * size[0] && x[1] < 0.5; },
+          1.0);
+      } },
+    { "inclusions at random",
+      [=](ElementProblem& p, const Point& size)
+      {
+        p.Part = [](const Point& x)
+        { return std::sin(2.3 * x[0] + 1.0) * std::cos(1.9 * x[1]) + std::sin(1.7 * x[2]) > 0.2; };
+        ends(p, size);
+      } },
+    { "voids at random",
+      [=](ElementProblem& p, const Point& size)
+      {
+        p.Part = [](const Point& x)
+        { return std::sin(2.3 * x[0] + 1.0) * std::cos(1.9 * x[1]) + std::sin(1.7 * x[2]) < 0.5; };
+        ends(p, size);
+      } },
+    { "cooled good conductor",
+      [=](ElementProblem& p, const Point& size)
+      {
+        halves(p, size);
+        hold(p, below(0, 0.5), 1.0);
+        p.RobinConditions.push_back({ above(0, 0.7 * size[0]), [](const Point&) { return 3.0; },
+          [](const Point&) { return Eigen::VectorXd::Constant(1, 20.0); } });
+      } },
+  };
+}
+
+/** The results of a solve with the options of a user who gave none, and others. */
+Report resultsOf(
+  ElementProblem& problem, const SolveOptions& others = {}, std::int64_t block = 1000)
+{
+  const StreamMesh& mesh = problem.mesh();
+  SolveOptions options = others;
+  options.again = [&mesh, block] { return std::make_unique<MemorySource>(mesh, block); };
+  MemorySource source(mesh, block);
+  const std::unique_ptr<Solution> solution = solve(source, problem, options);
+  Report report = solution->report();
+  source.rewind(block);
+  ProblemResults results(source.info(), problem, *solution);
+  for (MeshBlock cells; source.next(cells);)
+  {
+    results.add(cells);
+  }
+  results.finish(report);
+  return report;
+}
+
+/** The largest relative errors of the results of a report. */
+struct Errors
+{
+  double energy = 0.0, flux = 0.0, mean = 0.0;
+};
+
+Errors errorsOf(const Report& report, const ExactResults& exact)
+{
+  Errors errors{ std::fabs(report.energy[0] / exact.energy - 1.0) };
+  double largest = 0.0;
+  for (const auto& [name, flux] : exact.flux)
+  {
+    largest = std::max(largest, std::fabs(flux));
+  }
+  for (const Report::Condition& condition : report.conditions)
+  {
+    // A flux that is a millionth of the largest one has that many digits less.
+    const double flux = exact.flux.at(condition.name);
+    errors.flux = std::max(
+      errors.flux, std::fabs(condition.flux[0] - flux) / std::max(std::fabs(flux), 1e-3 * largest));
+  }
+  for (const Report::Part& part : report.parts)
+  {
+    const auto& means = exact.parts.at(part.name);
+    for (const auto& [mean, expected] :
+      { std::pair(&part.gradient, means[0]), { &part.flux, means[1] } })
+    {
+      errors.mean =
+        std::max(errors.mean, (Point::Map(mean->data()) - expected).norm() / expected.norm());
+    }
+  }
+  return errors;
+}
+
+/** Calls test(problem, name) for each shape, on a surface and a solid, with these contrasts. */
+void forShapes(const std::vector<double>& contrasts, auto test)
+{
+  for (const bool solid : { false, true })
+  {
+    const StreamMesh mesh = toStream(solid ? tetBox(9, 5, 5, 0.15) : grid(17, 13, 0.1));
+    const Point size = solid ? Point(8, 4, 4) : Point(16, 12 * std::sqrt(0.75), 0);
+    for (const Shape& shape : shapes())
+    {
+      for (const double contrast : contrasts)
+      {
+        const std::string name =
+          shape.name + (solid ? ", solid, " : ", surface, ") + scientific(contrast);
+        SCOPED_TRACE(name);
+        ElementProblem problem(mesh);
+        shape.set(problem, size);
+        problem.Parts = 2;
+        problem.Conductivity = [&](const Point& x) -> Eigen::Matrix3d
+        { return (problem.Part(x) == 0 ? 1.0 : contrast) * Eigen::Matrix3d::Identity(); };
+        test(problem, name);
+      }
+    }
+  }
+}
+
+TEST(Contrast, EnergyFluxesAndMeansAreThoseOfQuadruplePrecision)
+{
+  forShapes({ 1.0, 1e3, 1e6, 1e9, 1e12 },
+    [](ElementProblem& problem, const std::string& name)
+    {
+      const Report report = resultsOf(problem);
+      const ExactResults exact = solveInQuadruple(problem);
+      ASSERT_EQ(report.parts.size(), exact.parts.size());
+      const Errors errors = errorsOf(report, exact);
+      constexpr double Known = 1e-6;
+      EXPECT_LE(errors.energy, Known);
+      EXPECT_LE(errors.flux, Known);
+      EXPECT_LE(errors.mean, Known);
+      EXPECT_LE(std::fabs(report.balance[0]), Known);
+      EXPECT_TRUE(report.converged);
+      EXPECT_EQ(report.warnings, std::vector<std::string>());
+      // For Testing/Verification/contrast.py.
+      ::testing::Test::RecordProperty(name,
+        scientific(errors.energy) + ' ' + scientific(errors.flux) + ' ' + scientific(errors.mean) +
+          ' ' + scientific(std::fabs(report.balance[0])) + ' ' + std::to_string(report.cycles));
+    });
+}
+
+TEST(Contrast, CorrectionsDependOnNoBlocksThreadsOrScratch)
+{
+  int corrections = 0;
+  forShapes({ 1e10 },
+    [&corrections](ElementProblem& problem, const std::string&)
+    {
+      const Report report = resultsOf(problem);
+      SolveOptions inCore, streamed;
+      inCore.inCore = true;
+      inCore.threads = 1;
+      streamed.coreNodes = 0;
+      streamed.blockNodes = 64;
+      streamed.threads = 3;
+      corrections += report.passes - report.cycles - 1;
+      for (const auto& [options, block] : { std::pair(inCore, 37), { streamed, 100 } })
+      {
+        const Report other = resultsOf(problem, options, block);
+        EXPECT_EQ(other.energy, report.energy);
+        for (std::size_t c = 0; c < report.conditions.size(); ++c)
+        {
+          EXPECT_EQ(other.conditions[c].flux, report.conditions[c].flux);
+        }
+      }
+    });
+  EXPECT_GT(corrections, 0);
+}
+
+TEST(Contrast, WhatRoundingTakesIsSaid)
+{
+  const StreamMesh mesh = toStream(tetBox(9, 5, 5, 0.15));
+  ElementProblem problem(mesh);
+  problem.Part = [](const Point& x) { return x[0] < 4.0 ? 0 : 1; };
+  hold(problem, below(0, 0.5), 0.0);
+  hold(problem, above(0, 7.5), 1.0);
+  problem.Conductivity = [&](const Point& x) -> Eigen::Matrix3d
+  { return (problem.Part(x) == 0 ? 1.0 : 1e14) * Eigen::Matrix3d::Identity(); };
+  // The mesh cannot be read again: there is no correction.
+  MemorySource source(mesh);
+  const std::unique_ptr<Solution> solution = solve(source, problem);
+  Report report = solution->report();
+  source.rewind(1000);
+  ProblemResults results(source.info(), problem, *solution);
+  for (MeshBlock block; source.next(block);)
+  {
+    results.add(block);
+  }
+  results.finish(report);
+  EXPECT_TRUE(std::isnan(report.conditions[1].flux[0]));
+  EXPECT_TRUE(std::isnan(report.balance[0]));
+  EXPECT_NEAR(report.conditions[0].flux[0], -2.0 * report.energy[0], 1e-6 * report.energy[0]);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_TRUE(contains(report.warnings[0], "the flux of dirichlet[1] is not known"))
+    << report.warnings[0];
+}
+
+} // namespace
+} // namespace smg::testing
