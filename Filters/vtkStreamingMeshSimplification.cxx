@@ -100,7 +100,7 @@ std::string sentence(
   }
   for (const std::string& note : report.notes)
   {
-    text << "; " << note;
+    text << "; " << (note.ends_with('.') ? note.substr(0, note.size() - 1) : note);
   }
   return text.str();
 }
@@ -144,6 +144,7 @@ struct vtkStreamingMeshSimplification::Internals
           .codec = smg::Codec::Lz4,
           .scratch = this->Scratch->path(),
           .progress = smg::partOf(smg::progressOf(this->Self), ReadShare, 1.0) });
+      this->Report.notes.insert(this->Report.notes.end(), this->Lost.begin(), this->Lost.end());
       smg::FileDescriptor::removeClosed(*this->Scratch / Copy);
       this->Result.emplace(result);
       this->Outcome = sentence(this->Report, this->target(), isSurface);
@@ -224,8 +225,9 @@ struct vtkStreamingMeshSimplification::Internals
   /** The mesh as a .vsm file: that of the reader, or a copy in the scratch folder. `present` is
    * what was requested of the input last. */
   smg::StreamFile fileOf(
-    smg::PieceInput& input, const smg::PieceRequest& request, vtkPointSet& present) const
+    smg::PieceInput& input, const smg::PieceRequest& request, vtkPointSet& present)
   {
+    this->Lost.clear();
     smg::StreamFile whole = smg::unchangedFile(this->Self, AllColumns);
     if (!whole.path.empty())
     {
@@ -242,7 +244,7 @@ struct vtkStreamingMeshSimplification::Internals
       options.scratch = this->Scratch->path();
       options.threads = this->Self.NumberOfThreads;
       options.progress = progress;
-      smg::writeOrdinaryMesh(*vtkPointSet::SafeDownCast(mesh), copy, options);
+      this->Lost = smg::writeOrdinaryMesh(*vtkPointSet::SafeDownCast(mesh), copy, options).notes;
       return { copy, {} };
     }
     const int given = this->Self.NumberOfPieces;
@@ -277,6 +279,7 @@ struct vtkStreamingMeshSimplification::Internals
   std::optional<smg::ScratchFolder> Scratch;
   std::optional<smg::VsmReader> Result; ///< in the scratch folder
   smg::SimplifyReport Report;
+  std::vector<std::string> Lost; ///< notes on what the copy of the input lacks
   std::string Outcome;
   std::string Shown, Json, Estimate; ///< storage of the strings that are returned
   smg::InputStamp MadeFor;

@@ -10,6 +10,9 @@
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 
 #include <algorithm>
@@ -17,6 +20,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 
 namespace smg
 {
@@ -67,6 +71,41 @@ ProgressFunction functionOf(Progress& progress)
   };
 }
 
+/** The mesh without what no column of a stream can be: the output has all arrays of the input. */
+vtkSmartPointer<vtkPointSet> withoutTexts(vtkPointSet& mesh)
+{
+  vtkSmartPointer<vtkPointSet> copy = withoutOriginalNumbers(mesh);
+  for (vtkFieldData* data : { static_cast<vtkFieldData*>(copy->GetPointData()),
+         static_cast<vtkFieldData*>(copy->GetCellData()) })
+  {
+    for (int k = data->GetNumberOfArrays() - 1; k >= 0; --k)
+    {
+      vtkDataArray* const array = data->GetArray(k);
+      if (!array || array->GetDataType() == VTK_BIT)
+      {
+        data->RemoveArray(k);
+      }
+    }
+  }
+  return copy;
+}
+
+/** Throws Error if one of these arrays is no array of numbers. */
+void requireNumbers(vtkPointSet& mesh, const std::set<std::string>& names)
+{
+  for (const std::string& name : names)
+  {
+    for (vtkFieldData* data : { static_cast<vtkFieldData*>(mesh.GetPointData()),
+           static_cast<vtkFieldData*>(mesh.GetCellData()) })
+    {
+      if (data->GetAbstractArray(name.c_str()) && !data->GetArray(name.c_str()))
+      {
+        throw Error("the array '" + name + "' is one of texts: one of numbers is needed");
+      }
+    }
+  }
+}
+
 } // namespace
 
 void StreamedSolve::solve(
@@ -91,6 +130,7 @@ void StreamedSolve::solveWhole(
 {
   const auto make = [&](const std::filesystem::path& container, Progress& written, Report& notes)
   {
+    requireNumbers(mesh, task.columns().required);
     const ConversionReport converted = this->writeWhole(mesh, reading, container, written);
     notes.notes = converted.notes;
     if (converted.higher_order_cells > 0)
@@ -224,8 +264,7 @@ ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const PieceReading
   options.threads = reading.threads;
   options.codec = Codec::Lz4;
   options.progress = functionOf(progress);
-  const ConversionReport report =
-    writeOrdinaryMesh(*withoutOriginalNumbers(mesh), container, options);
+  const ConversionReport report = writeOrdinaryMesh(*withoutTexts(mesh), container, options);
 
   this->VertexOfPoint.assign(static_cast<std::size_t>(mesh.GetNumberOfPoints()), -1);
   VsmReader reader(container);

@@ -60,6 +60,8 @@ void readOf(smg_field& field, bool ofCells, const std::string& name, std::byte* 
   columnOf(field.info(), ofCells, name);
   if (!ofCells && readSolutionOf(field, name, values, progress))
   {
+    // The program has the result: no other needs to continue.
+    field.solution->removeCheckpoint();
     return;
   }
   const std::shared_ptr<const OriginalOrder> order = field.shared->order(progress);

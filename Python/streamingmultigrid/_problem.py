@@ -350,11 +350,15 @@ def handle(
         "logScale": log_scale,
     }
     motion.update((key, value) for key, value in words.items() if value is not None)
+    part = as_region(region)
+    turned = motion.get("rotate", {"center": center} if scale is not None else None)
+    if part.is_plane and turned is not None and turned.get("center") is None and center is None:
+        raise InputError("handle: %r has no center to turn or scale about: give center=." % part)
     if not motion:
         raise InputError(
             "handle: say what it does: fixed=True, translate=, rotate=, scale= or target=."
         )
-    return Handle(as_region(region), motion)
+    return Handle(part, motion)
 
 
 def handles(columns: Columns, given: Any) -> Dict[str, Any]:

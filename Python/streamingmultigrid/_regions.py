@@ -6,13 +6,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+import functools
+from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _types as types
-from ._arrays import numbers
+from ._arrays import numbers, plain
 from ._columns import Columns, said_of, saying
 from ._errors import InputError
 
@@ -28,6 +29,8 @@ class Region:
     combined vertex by vertex: ``a | b``, ``a & b``, ``a - b``, ``~a``.
     """
 
+    is_plane = False
+
     def __init__(self, kind: str, value: Any) -> None:
         self._kind, self._value = kind, value
 
@@ -35,7 +38,14 @@ class Region:
         return Placed(self, value)
 
     def __repr__(self) -> str:
-        return "smg.%s(%r)" % (self._kind, self._value)
+        value = self._value
+        parts = {
+            "halfspace": lambda: [value[:3], value[3]],
+            "box": lambda: [value[:3], value[3:]],
+            "sphere": lambda: [value[:3], value[3]],
+            "tag": lambda: value,
+        }.get(self._kind, lambda: [value])()
+        return "smg.%s(%s)" % (self._kind, ", ".join(map(repr, parts)))
 
     def __bool__(self) -> bool:
         raise TypeError("A region is neither true nor false: combine regions with &, | and ~, not with and, or and not.")
@@ -55,13 +65,16 @@ class Region:
     def __ror__(self, other: Any) -> "Region":
         return as_region(other) | self
 
+    def __rsub__(self, other: Any) -> "Region":
+        return as_region(other) - self
+
     def __invert__(self) -> "Region":
         return _Combined("~", self)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> Any:
-        if ufunc is np.bitwise_and or ufunc is np.bitwise_or:  # an array, a mask, on the left
+        if ufunc in (np.bitwise_and, np.bitwise_or, np.subtract):  # an array, a mask, on the left
             first, second = map(as_region, inputs)
-            return first & second if ufunc is np.bitwise_and else first | second
+            return {np.bitwise_and: first.__and__, np.bitwise_or: first.__or__}.get(ufunc, first.__sub__)(second)
         raise InputError("A region stands before the value: region >> value.")
 
     def where(self, context: Any) -> Dict[str, Any]:
@@ -116,9 +129,14 @@ class _Boundary(Region):
 
 
 class _Plane(Region):
+    is_plane = True  # a box without ends, which has no center
+
     def __init__(self, axis: int, at: float, tolerance: Optional[float]) -> None:
         super().__init__("plane", {_AXES[axis]: at})
         self._axis, self._at, self._tolerance = axis, at, tolerance
+
+    def __repr__(self) -> str:
+        return "smg.plane(%s=%r)" % (_AXES[self._axis], self._at)
 
     def where(self, context: Any) -> Dict[str, Any]:
         tolerance = 1e-6 * context.diagonal() if self._tolerance is None else self._tolerance
@@ -258,17 +276,17 @@ def below(
     return halfspace([-float(axis == each) for each in range(3)], -at)
 
 
-def halfspace(normal: Sequence[float], offset: float) -> Region:
+def halfspace(normal: npt.ArrayLike, offset: float) -> Region:
     """The vertices p with ``normal . p >= offset``; `normal` has any length but 0."""
     return Region("halfspace", [*_vector(normal, 3, "halfspace"), float(offset)])
 
 
-def box(low: Sequence[float], high: Sequence[float]) -> Region:
+def box(low: npt.ArrayLike, high: npt.ArrayLike) -> Region:
     """The vertices between two corners (3 numbers each), both included."""
     return Region("box", [*_vector(low, 3, "box"), *_vector(high, 3, "box")])
 
 
-def sphere(center: Sequence[float], radius: float) -> Region:
+def sphere(center: npt.ArrayLike, radius: float) -> Region:
     """The vertices at most `radius` from `center` (3 numbers)."""
     return Region("sphere", [*_vector(center, 3, "sphere"), float(radius)])
 
@@ -294,14 +312,19 @@ def vertices(numbers_: Union[int, Iterable[int], npt.ArrayLike]) -> Region:
 def nearest(points: npt.ArrayLike) -> Region:
     """The vertex nearest to a point, (3,), or to each of several points, (k, 3)."""
     array = np.atleast_2d(numbers(points, "nearest"))
-    if array.ndim != 2 or array.shape[1] != 3:
+    if array.ndim != 2 or array.shape[1] != 3 or not len(array):
         raise InputError("nearest: the shape is %s; it must be (3,) or (k, 3)." % (array.shape,))
     return Region("nearest", array.tolist())
 
 
-def tag(column: str, value: float) -> Region:
-    """Where a column of one component, of the vertices or cells, has the value."""
-    return Region("tag", [column, value])
+def tag(column: str, value: Union[float, npt.ArrayLike]) -> Region:
+    """Where a column of one component, of the vertices or cells, has the value, or one of several values,
+    as ``tag("part", [3, 7])``."""
+    values = numbers(value, "tag")
+    if values.ndim > 1 or not values.size or values.dtype.kind not in "iuf" or np.isnan(values).any():
+        raise InputError("tag: %r is neither a number nor a list of numbers." % (value,))
+    regions = [Region("tag", [column, plain(each)]) for each in values.reshape(-1)]
+    return functools.reduce(Region.__or__, regions)
 
 
 def mask(column_or_values: Union[str, npt.ArrayLike]) -> Region:
@@ -323,6 +346,8 @@ def as_region(value: Any) -> Region:
     if isinstance(value, str):
         return mask(value)
     array = np.asarray(value)
+    if not array.size:
+        raise InputError("%r: numbers of vertices are needed, or a mask, and there are none." % (value,))
     if array.dtype.kind == "b":
         return mask(value)
     if array.dtype.kind in "iu":

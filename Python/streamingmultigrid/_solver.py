@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from ctypes import byref, c_char_p, c_void_p
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +13,22 @@ from . import _jobs as jobs
 from . import _types as types
 from ._arrays import counted, numbers, table, vector
 from ._columns import Columns
-from ._errors import InputError, NotConverged
+from ._errors import InputError, NotConverged, ReportWarning, warn
 from ._library import NativeHandle, call, call_reporting, json_text, parse
+from ._regions import Placed
 from .progress import reporting
 from ._report import Report, not_converged, warn_of
+
+
+def _with_unused_values(options: Mapping[str, Any]) -> Iterator[str]:
+    """The conditions that have values other than 0, of which a solver needs the places alone."""
+    for name in ("dirichlet", "robin", "soft"):
+        given = options.get(name)
+        entries = given if isinstance(given, (list, tuple)) else [given]
+        values = [each.value if name == "dirichlet" else each.value[-1] for each in entries if isinstance(each, Placed)]
+        values += list(given.values()) if isinstance(given, Mapping) else []
+        if any(isinstance(value, str) or np.any(np.asarray(value)) for value in values):
+            yield name
 
 
 class Solver:
@@ -44,6 +56,12 @@ class Solver:
                 raise InputError(
                     "solver: %s is part of the right-hand side, which solve() gets: leave it out." % name
                 )
+        for name in _with_unused_values(options):
+            warn(
+                "solver: the values of %s are part of the right-hand side, which solve() gets: those that "
+                "are given here are not used." % name,
+                ReportWarning,
+            )
         columns = Columns(mesh)
         problem, _ = jobs.solve(columns, **{k: v for k, v in options.items() if k not in own})
         used = {key: value for key, value in problem.items() if value is not None}

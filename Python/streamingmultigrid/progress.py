@@ -9,7 +9,8 @@
 * ``True``: a plain bar on the standard error output;
 * ``None`` (default): nothing.
 
-An exception that a progress function raises cancels the call and is raised from it; so is Ctrl-C.
+An exception that a progress function raises cancels the call and is raised from it; so is Ctrl-C, and what
+the handler of any other signal raises.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import os
 import signal
 import sys
 import threading
-from typing import Any, Callable, Iterator, Optional
+from typing import Any, Callable, Dict, Iterator, List, Optional
 
 from ._errors import Error, InputError
 from ._process import require_interpreter
@@ -97,22 +98,22 @@ class Cancellation:
     """The function that the library calls, and the exception that ended a call.
 
     No exception can pass through the library: what the progress function raises is kept, the library
-    told to cancel, and the exception raised again after the call. KeyboardInterrupt could be raised
-    anywhere in this class; therefore Ctrl-C only leaves a note here, for which the handler that was
-    there is called where an exception is caught.
+    told to cancel, and the exception raised again after the call. Handlers of signals, as of Ctrl-C and
+    of `signal.alarm`, could raise anywhere in this class; therefore a signal only leaves a note here, for
+    which the handler that was there is called where an exception is caught.
     """
 
     def __init__(self, report: Optional[Report]) -> None:
         self._report = report
-        self._interrupt: Optional[tuple] = None
-        self._handler: Any = None
+        self._signals: List[tuple] = []
+        self._handlers: Dict[int, Any] = {}
         self._process = os.getpid()
         self.exception: Optional[BaseException] = None
 
     def __call__(self, done: float, _user: Any = None) -> int:
         try:
             require_interpreter()
-            self._handle_interrupt()
+            self._handle_signals()
             if self._report is not None and self.exception is None:
                 self._report(min(1.0, max(0.0, done)))
             if os.getpid() != self._process:
@@ -123,25 +124,27 @@ class Cancellation:
 
     def __enter__(self) -> "Cancellation":
         if threading.current_thread() is threading.main_thread():
-            self._handler = signal.getsignal(signal.SIGINT)
-            if callable(self._handler):
-                signal.signal(signal.SIGINT, self._note_interrupt)
+            for number in signal.valid_signals():
+                handler = signal.getsignal(number)
+                if callable(handler):
+                    self._handlers[number] = handler
+                    signal.signal(number, self._note_signal)
         return self
 
     def __exit__(self, *_: Any) -> None:
-        if callable(self._handler):
-            signal.signal(signal.SIGINT, self._handler)
+        for number, handler in self._handlers.items():
+            signal.signal(number, handler)
 
     def raise_exception(self) -> None:
-        """After the call: raises what ended it; of Ctrl-C that came too late for it as well."""
+        """After the call: raises what ended it; of signals that came too late for it as well."""
         if self.exception is not None:
             raise self.exception
-        self._handle_interrupt()
+        self._handle_signals()
 
-    def _note_interrupt(self, *arguments: Any) -> None:
-        self._interrupt = arguments
+    def _note_signal(self, *arguments: Any) -> None:
+        self._signals.append(arguments)
 
-    def _handle_interrupt(self) -> None:
-        interrupt, self._interrupt = self._interrupt, None
-        if interrupt is not None:
-            self._handler(*interrupt)
+    def _handle_signals(self) -> None:
+        while self._signals:
+            number, frame = self._signals.pop(0)
+            self._handlers[number](number, frame)

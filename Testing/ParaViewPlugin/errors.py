@@ -97,6 +97,22 @@ Delete(poisson)
 Delete(other)
 Delete(condition)
 
+# What is no array of numbers is refused as that.
+ball = Sphere(ThetaResolution=20)
+texts = ProgrammableFilter(Input=ball, CopyArrays=1, Script="""
+from vtkmodules.vtkCommonCore import vtkStringArray
+names = vtkStringArray()
+names.SetName("Material")
+for cell in range(output.VTKObject.GetNumberOfCells()):
+    names.InsertNextValue("steel")
+output.VTKObject.GetCellData().AddArray(names)
+""")
+poisson = StreamingPoisson(Input=MeshCondition(Input=texts, Region="Ids", Ids=[0]), ConductivityArray=["CELLS", "Material"])
+poisson.UpdatePipeline()
+text = said()
+assert "the array 'Material' is one of texts" in text, text
+Delete(poisson)
+
 # Formats that are written by pieces or not at all, so that a preview cannot be mistaken for the
 # mesh.
 folder = t.make_folder()

@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules.vtkCommonCore import vtkIdList, vtkStringArray
 
 import smg_testing as t
 from paraview import servermanager
@@ -152,7 +152,32 @@ def check_motions(source):
     assert data.GetNumberOfCells() == servermanager.Fetch(source).GetNumberOfCells()
 
 
+def check_texts():
+    """Arrays of texts are in the output of what adds arrays, and are not said to be left out; what makes another mesh
+    says that they are."""
+    grid = Sphere(ThetaResolution=60, PhiResolution=40)
+    grid.UpdatePipeline()
+    data = servermanager.Fetch(grid)
+    texts = vtkStringArray()
+    texts.SetName("Material")
+    for cell in range(data.GetNumberOfCells()):
+        texts.InsertNextValue("steel" if cell % 2 else "glass")
+    data.GetCellData().AddArray(texts)
+    source = TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    solved = StreamingPoisson(Input=hot_and_cold(source, -0.45, 0.45))
+    solved.UpdatePipeline()
+    solved.UpdatePropertyInformation()
+    assert "texts" not in solved.GetPropertyValue("Notes"), solved.GetPropertyValue("Notes")
+    assert servermanager.Fetch(solved).GetCellData().GetAbstractArray("Material").GetValue(1) == "steel"
+    simple = StreamingMeshSimplification(Input=source, NumberOfVertices=500)
+    simple.UpdatePipeline()
+    simple.UpdatePropertyInformation()
+    assert "left out: 'Material'" in simple.GetPropertyValue("Outcome"), simple.GetPropertyValue("Outcome")
+
+
 compared = 0
+check_texts()
 wavelet = Wavelet(WholeExtent=[-7, 7, -7, 7, -7, 7])
 tetrahedra = Tetrahedralize(Input=wavelet)
 ply = os.path.join(folder, "ball.ply")

@@ -134,6 +134,27 @@ class CancelTest(unittest.TestCase):
             signal.signal(signal.SIGINT, before)
         self.assertEqual(called, [signal.SIGINT])
 
+    def test_what_the_handler_of_a_timer_raises_is_raised(self):
+        """At any time, not only while a progress function runs."""
+
+        class TooLong(Exception):
+            pass
+
+        def end(*_):
+            raise TooLong
+
+        mesh = smg.mesh(POINTS, CELLS)
+        before = signal.signal(signal.SIGALRM, end)
+        try:
+            for delay in np.geomspace(1e-4, 0.1, 20):
+                with self.assertRaises(TooLong):
+                    signal.setitimer(signal.ITIMER_REAL, delay)
+                    while True:
+                        mesh.solve(**PROBLEM)
+            self.assertIs(signal.getsignal(signal.SIGALRM), end)
+        finally:
+            signal.signal(signal.SIGALRM, before)
+
 
 class ThreadsTest(unittest.TestCase):
     def test_python_runs_during_a_call(self):

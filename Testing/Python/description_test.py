@@ -125,6 +125,8 @@ class ProblemTest(unittest.TestCase):
             (smg.tag("Half", 1) & ball, (x > 0.5) & in_ball),
             (smg.nearest([0, 0, 0]) | left, on_left),
             (smg.tag("Part", 1), part == 1),
+            (smg.tag("Part", [0, 1]), np.isin(part, [0, 1])),
+            (np.ones(len(x), bool) - ball, ~in_ball),
             (~smg.tag("Part", 1), part != 1),
             (smg.tag("Part", 1) & smg.mask("Part"), part == 1),
             (smg.tag("Part", 1) & smg.below(x=0.5), of_part & (x <= 0.5)),
@@ -326,6 +328,9 @@ class HandlesTest(unittest.TestCase):
     def test_errors(self):
         self.assertRaises(smg.InputError, smg.handle, smg.boundary)
         self.assertRaises(smg.InputError, handles, Columns(Mesh()), [1])
+        for motion in ({"scale": 2}, {"rotate": ((0, 0, 1), 90)}, {"rotate": {"axis": [0, 0, 1], "degrees": 9}}):
+            with self.assertRaisesRegex(smg.InputError, r"smg.plane\(z=0.0\) has no center"):
+                smg.handle(smg.plane(z=0), **motion)
 
 
 unittest.main(verbosity=2)

@@ -95,6 +95,12 @@ class SolverTest(unittest.TestCase):
             with self.assertRaisesRegex(smg.InputError, name):
                 smg.solver(POINTS, TRIANGLES, **{name: 1.0})
 
+    def test_values_that_are_not_used_are_said(self):
+        north = smg.above(z=0.9)
+        for given in ({"dirichlet": north >> 3.0}, {"dirichlet": {0: 1.0}}, {"soft": north >> (1, 7)}):
+            with self.assertWarnsRegex(smg.ReportWarning, next(iter(given))):
+                smg.solver(POINTS, TRIANGLES, **given)
+
     def test_tetrahedra(self):
         points, cells = cube(8)
         solver = smg.mesh(points, cells).solver(dirichlet=smg.boundary >> 0)

@@ -466,8 +466,9 @@ void ResultSums::reportParts(Report& report) const
  * known where something does. */
 double ResultSums::leastFlow(const Report& report, std::size_t k) const
 {
-  // Values differ by their rounding, and a flow that is so small beside its terms is due to it.
-  constexpr double OfValues = 1e-12, OfFlow = 1e-24;
+  // Values differ by what the solve leaves, and a flow that is so small beside its terms is due to
+  // their rounding.
+  constexpr double OfValues = 1e-6, OfFlow = 1e-24;
   const double most = this->maximum[k].value, least = this->minimum[k].value;
   const double range = most - least;
   if (!(range > OfValues * std::max(std::fabs(most), std::fabs(least))))
