@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import smg_testing as t
 from paraview.simple import *
-from paraview.vtk import vtkObject, vtkStringOutputWindow, vtkOutputWindow
+from paraview.vtk import vtkObject, vtkStringArray, vtkStringOutputWindow, vtkOutputWindow
 
 LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson
@@ -98,16 +98,16 @@ Delete(other)
 Delete(condition)
 
 # What is no array of numbers is refused as that.
-ball = Sphere(ThetaResolution=20)
-texts = ProgrammableFilter(Input=ball, CopyArrays=1, Script="""
-from vtkmodules.vtkCommonCore import vtkStringArray
+ball = servermanager.Fetch(Sphere(ThetaResolution=20))
 names = vtkStringArray()
 names.SetName("Material")
-for cell in range(output.VTKObject.GetNumberOfCells()):
+for _ in range(ball.GetNumberOfCells()):
     names.InsertNextValue("steel")
-output.VTKObject.GetCellData().AddArray(names)
-""")
-poisson = StreamingPoisson(Input=MeshCondition(Input=texts, Region="Ids", Ids=[0]), ConductivityArray=["CELLS", "Material"])
+ball.GetCellData().AddArray(names)
+texts = TrivialProducer()
+texts.GetClientSideObject().SetOutput(ball)
+poisson = StreamingPoisson(Input=MeshCondition(Input=texts, Region="Ids", Ids=[0]),
+                           ConductivityArray=["CELLS", "Material"])
 poisson.UpdatePipeline()
 text = said()
 assert "the array 'Material' is one of texts" in text, text
