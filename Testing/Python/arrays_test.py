@@ -289,18 +289,27 @@ class ColumnsTest(unittest.TestCase):
         self.assertEqual(bits(smg.distance(points[:, :2], cells, [0])), bits(smg.distance(flat, cells, [0])))
 
 
+def moebius(n=40):
+    """A band that is twisted once."""
+    turn = 2 * np.pi * np.arange(n) / n
+    sides = [np.column_stack([(1 + s * np.cos(turn / 2)) * np.cos(turn), (1 + s * np.cos(turn / 2)) * np.sin(turn),
+                              s * np.sin(turn / 2)]) for s in (-0.3, 0.3)]
+    one, other = np.arange(n), np.arange(n) + n
+    next_one, next_other = np.append(one[1:], n), np.append(other[1:], 0)
+    return np.concatenate(sides), np.concatenate(
+        [np.column_stack([one, next_one, other]), np.column_stack([other, next_one, next_other])])
+
+
 class WarningsTest(unittest.TestCase):
     """What the report warns of is a warning of Python, of methods and of functions on arrays."""
 
     def test_warnings(self):
         points, cells = sphere(3)
-        mixed = cells.copy()
-        mixed[::2] = mixed[::2, ::-1]
         ball, facets = sphere(1)
         many = np.concatenate([ball + [3 * i, 0, 0] for i in range(100)])
         bodies = np.concatenate([facets + len(ball) * i for i in range(100)])
         for arrays, job, arguments, words in (
-            ((points, mixed), "smooth", {}, "wound against each other"),
+            (moebius(), "smooth", {}, "cannot be wound"),
             ((many, bodies), "simplify", {"vertices": 100}, "left out"),
             ((points, cells), "solve", {"source": 1.0}, "do not sum to zero"),
         ):

@@ -197,28 +197,116 @@ TEST(Smooth, TheVolumeOfAClosedSurfaceIsKept)
   EXPECT_NEAR(shrunk.report.volume->swept, less - volume, 1e-12 * volume);
 }
 
-TEST(Smooth, ANoteSaysWhereTheVolumeIsNotThatOfTheSurface)
+/** A band that is twisted once, with a boundary. */
+IndexedTestMesh moebius(int n)
+{
+  IndexedTestMesh mesh;
+  for (int i = 0; i < n; ++i)
+  {
+    const double turn = 2.0 * std::numbers::pi * i / n;
+    for (const double side : { -0.3, 0.3 })
+    {
+      const double radius = 1.0 + side * std::cos(0.5 * turn);
+      mesh.positions.insert(mesh.positions.end(),
+        { radius * std::cos(turn), radius * std::sin(turn), side * std::sin(0.5 * turn) });
+    }
+    const std::int64_t a = 2 * i, b = a + 1;
+    const std::int64_t c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
+    mesh.corners.insert(mesh.corners.end(), { a, c, b, b, c, d });
+  }
+  return mesh;
+}
+
+/** The mesh scaled, which lies within the same one. */
+IndexedTestMesh scaled(IndexedTestMesh mesh, double factor)
+{
+  std::ranges::for_each(mesh.positions, [factor](double& x) { x *= factor; });
+  return mesh;
+}
+
+IndexedTestMesh turned(IndexedTestMesh mesh, auto isTurned)
+{
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    if (isTurned(c))
+    {
+      std::swap(mesh.corners[3 * c + 1], mesh.corners[3 * c + 2]);
+    }
+  }
+  return mesh;
+}
+
+/** Smooths a mesh; the values are in its own order. */
+Solved ordered(const IndexedTestMesh& mesh, std::int64_t blockCells)
+{
+  Smoothing options;
+  options.size = { 0.5, SmoothingSize::Mesh };
+  options.tolerance = 1e-10;
+  const StreamMesh stream = toStream(mesh, TestOrder::Keep);
+  Solved found = smoothed(stream, options, blockCells);
+  const Eigen::MatrixXd inStream = found.values;
+  for (std::int64_t v = 0; v < stream.vertices(); ++v)
+  {
+    found.values.row(stream.originalIds[static_cast<std::size_t>(v)]) = inStream.row(v);
+  }
+  return found;
+}
+
+TEST(Smooth, AnyWindingGivesTheSurfaceThatIsWoundWell)
 {
   const IndexedTestMesh ball = sphere(3);
-  const auto notesFor = [](IndexedTestMesh mesh, auto isTurned)
+  const IndexedTestMesh hollow =
+    disjointUnion(ball, turned(scaled(ball, 0.6), [](std::int64_t) { return true; }));
+  const std::vector<std::pair<std::string, IndexedTestMesh>> surfaces{ { "a ball", ball },
+    { "two balls", disjointUnion(ball, scaled(ball, 0.5), { 3, 0, 0 }) },
+    { "a torus", torus(40, 20, 0.2) }, { "an open surface", grid(20, 20, 0.1) },
+    { "a ball and a grid", disjointUnion(ball, grid(9, 9), { 0, 0, 4 }) } };
+  for (const auto& [name, surface] : surfaces)
   {
-    for (std::int64_t c = 0; c < mesh.cells(); ++c)
+    SCOPED_TRACE(name);
+    const Solved well = ordered(surface, 1000);
+    EXPECT_TRUE(well.report.warnings.empty());
+    Random random(3);
+    const std::int64_t bodyCells = ball.cells();
+    const std::vector<std::function<bool(std::int64_t)>> windings{ [](std::int64_t)
+      { return true; },
+      [](std::int64_t c) { return c % 2 == 0; }, [](std::int64_t c) { return c == 7; },
+      [&random](std::int64_t) { return random.below(3) == 0; },
+      // The side of an open body is that of most of its triangles.
+      [bodyCells, &name](std::int64_t c) { return c >= bodyCells && name == "two balls"; } };
+    for (const auto& winding : windings)
     {
-      if (isTurned(c))
+      for (const std::int64_t blockCells : { 1000, 17 })
       {
-        std::swap(mesh.corners[3 * c], mesh.corners[3 * c + 1]);
+        const Solved found = ordered(turned(surface, winding), blockCells);
+        EXPECT_LE((found.values - well.values).norm(), 1e-9 * well.values.norm());
+        EXPECT_TRUE(found.report.warnings.empty());
+        if (std::isnan(well.report.volume->before))
+        {
+          EXPECT_TRUE(std::isnan(found.report.volume->before));
+          continue;
+        }
+        EXPECT_NEAR(found.report.volume->before, well.report.volume->before,
+          1e-12 * well.report.volume->before);
+        EXPECT_NEAR(
+          found.report.volume->after, well.report.volume->after, 1e-9 * well.report.volume->before);
       }
     }
-    Smoothing options;
-    options.size = { 0.5, SmoothingSize::Mesh };
-    return smoothed(toStream(mesh), options).report.notes;
-  };
-  const std::int64_t cells = ball.cells();
-  EXPECT_TRUE(notesFor(ball, [](std::int64_t) { return false; }).empty());
-  EXPECT_TRUE(notesFor(ball, [](std::int64_t) { return true; }).empty());
-  const std::vector<std::string> one = notesFor(ball, [](std::int64_t c) { return c == 7; });
-  ASSERT_EQ(one.size(), 1U);
-  EXPECT_NE(one.front().find("at 3 edges are wound against each other"), std::string::npos);
+  }
+  // A cavity is wound inwards, and stays so; what is inside out by itself does not.
+  const Solved cavity = ordered(hollow, 1000);
+  EXPECT_NEAR(cavity.report.volume->before,
+    enclosedVolume(toStream(ball), positionsOf(toStream(ball))) * (1.0 - 0.216), 1e-9);
+  ASSERT_EQ(cavity.report.warnings.size(), 1U);
+  EXPECT_NE(cavity.report.warnings.front().find("as cavities are"), std::string::npos);
+}
+
+TEST(Smooth, ASurfaceWithoutSidesHasNoVolume)
+{
+  const Solved band = ordered(moebius(40), 1000);
+  EXPECT_TRUE(std::isnan(band.report.volume->before));
+  ASSERT_EQ(band.report.warnings.size(), 1U);
+  EXPECT_NE(band.report.warnings.front().find("1 body cannot be wound"), std::string::npos);
   // Three triangles at an edge: no two sides to be wound against.
   StreamMesh fins;
   fins.positions = { 0, 0, 0, 0, 0, 1, 1, 0, 0, -1, 1, 0, -1, -1, 0 };
@@ -229,13 +317,6 @@ TEST(Smooth, ANoteSaysWhereTheVolumeIsNotThatOfTheSurface)
   {
     EXPECT_EQ(note.find("wound"), std::string::npos) << note;
   }
-  // Two balls, of which one is inside out.
-  const IndexedTestMesh two = disjointUnion(ball, ball, { 5, 0, 0 });
-  EXPECT_TRUE(notesFor(two, [](std::int64_t) { return false; }).empty());
-  const std::vector<std::string> half =
-    notesFor(two, [cells](std::int64_t c) { return c >= cells; });
-  ASSERT_EQ(half.size(), 1U);
-  EXPECT_NE(half.front().find("inside out"), std::string::npos);
 }
 
 TEST(Smooth, AnOpenSurfaceSweepsNoVolume)

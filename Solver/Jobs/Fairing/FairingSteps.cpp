@@ -113,7 +113,8 @@ void MeshFairing::solveStep(
   {
     options.progress = [this, part](double done) { return this->Options.progress(part.at(done)); };
   }
-  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  const auto source =
+    this->surface().source(this->Columns.vertexColumns(), this->Columns.cellColumns());
   std::unique_ptr<Solution> solution;
   try
   {

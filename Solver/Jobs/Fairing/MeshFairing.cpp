@@ -2,6 +2,7 @@
 #include "Solver/Jobs/Fairing/MeshFairing.h"
 
 #include "Solver/Assembly/Facets.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
@@ -127,7 +128,8 @@ std::unique_ptr<Solution> MeshFairing::run()
 /** Reads the mesh once, and counts the pass. */
 void MeshFairing::read(Part part, const Visit& visit)
 {
-  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  const auto source =
+    this->surface().source(this->Columns.vertexColumns(), this->Columns.cellColumns());
   visitBlocks(*source, this->Options.progress, part.begin, part.end, visit);
   // Passes of solves are added with their reports.
   ++this->Result->total.passes;
@@ -140,10 +142,9 @@ void MeshFairing::survey(Part part)
   StreamCheck check(type);
   MeshMeasures measures(this->Result->memory, type);
   Reservation held(this->Result->memory);
-  // Keeping the volume needs to know which triangles are wound against each other, which facets
-  // tell.
+  // Volumes need to know which triangles are wound against each other, which facets tell.
   std::optional<BoundaryFacets> facets;
-  if (this->Curves || (this->Options.keepVolume && this->movesPoints()))
+  if (this->Curves || this->movesPoints())
   {
     facets.emplace(this->Result->memory, type);
   }
@@ -154,7 +155,7 @@ void MeshFairing::survey(Part part)
       this->Curves->add(low, high);
     }
   };
-  this->read(part.of(0.0, 0.8),
+  this->read(part.of(0.0, 0.6),
     [&](const MeshBlock& block)
     {
       check.add(block);
@@ -180,7 +181,7 @@ void MeshFairing::survey(Part part)
     // The positions of all vertices are known only now: a boundary edge may be found long after its
     // vertices.
     this->Curves->begin(this->Result->values);
-    this->holdCurves(part.of(0.8, 1.0));
+    this->holdCurves(part.of(0.6, 0.8));
   }
   this->setSize(measures);
   if (this->movesPoints())
@@ -189,33 +190,53 @@ void MeshFairing::survey(Part part)
     const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
     this->Result->total.volume = Report::Volume{};
     this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
-    if (this->Options.keepVolume)
+    if (facets->turnedEdges() > 0 || (isClosed && measures.turnedVolume() > 0.0))
     {
-      this->noteWinding(facets->turnedEdges(), isClosed ? &measures : nullptr);
+      this->orient(part.of(0.8, 1.0));
     }
   }
 }
 
-/** Warns of triangles that are wound in ways that make the volume, and the normals along which it
- * is kept, differ from what one would expect. `closed`: the measures of a surface without boundary.
- */
-void MeshFairing::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
+/** Finds how a surface is to be wound whose triangles are wound against each other, or inwards: the
+ * steps are those of the surface that is wound like that. */
+void MeshFairing::orient(Part part)
 {
+  this->Winding.emplace(this->Result->memory,
+    this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch);
+  this->read(part, [this](const MeshBlock& block) { this->Winding->add(block); });
+  this->Winding->finish();
   Report& report = this->Result->total;
-  if (turnedEdges > 0)
+  if (this->Winding->turned() > 0)
   {
-    report.warn("The triangles at " + std::to_string(turnedEdges) +
-                (turnedEdges == 1 ? " edge" : " edges") +
-                " are wound against each other: there the surface has no sides, so that its "
-                "volume is not kept. Orient the mesh first, or do not keep the volume");
+    this->Oriented.emplace(this->Mesh, *this->Winding);
+    report.notes.push_back(counted(this->Winding->turned(), "triangle was", "triangles were") +
+                           " turned to compute with: wound as in the mesh, its bodies have no "
+                           "sides, or are inside out. The result is wound as the mesh");
+  }
+  if (!std::isnan(report.volume->before))
+  {
+    report.volume->before = this->Winding->volume();
+  }
+  if (const std::int64_t bodies = this->Winding->unorientable(); bodies > 0)
+  {
+    report.volume->before = std::nan("");
+    report.warn(counted(bodies, "body", "bodies") +
+                " cannot be wound so that the surface has two sides: its volume is not known, and "
+                "is not kept there");
     return;
   }
+  this->noteCavities(
+    this->Winding->cavities(), this->Winding->volume() + this->Winding->cavities());
+}
+
+/** Warns of cavities, whose volume counts as negative. */
+void MeshFairing::noteCavities(double inwards, double outwards)
+{
+  Report& report = this->Result->total;
   constexpr double Little = 0.01;
-  const double inwards = closed ? closed->turnedVolume() : 0.0;
-  const double outwards = closed ? closed->volume() + inwards : 0.0;
   if (std::min(inwards, outwards) > Little * std::max(inwards, outwards))
   {
-    report.warn("Some bodies are wound inside out, or are cavities of others: their volume, " +
+    report.warn("Some bodies are wound inwards within others, as cavities are: their volume, " +
                 std::to_string(std::lround(100.0 * inwards / outwards)) +
                 " % of that of the others, counts as negative, and what is kept is the sum");
   }

@@ -7,6 +7,7 @@
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
+#include "Solver/Mesh/Orientation.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/FixedVertices.h"
@@ -87,7 +88,8 @@ private:
   void survey(Part part);
   void keepValues(const MeshBlock& block);
   void requireWelded(const StreamCheck& check);
-  void noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed);
+  void orient(Part part);
+  void noteCavities(double inwards, double outwards);
   void setSize(const MeshMeasures& measures);
   void holdCurves(Part part);
 
@@ -100,7 +102,12 @@ private:
   double sweptVolume(Part part, double& distance);
   std::unique_ptr<Solution> finish();
 
+  /** The mesh, wound so that its bodies have volumes. */
+  const StoredMesh& surface() const { return this->Oriented ? *this->Oriented : this->Mesh; }
+
   const StoredMesh& Mesh;
+  std::optional<Orientation> Winding; ///< of a surface that is wound badly
+  std::optional<OrientedMesh> Oriented;
   Smoothing Options;
   Timer Wall;
   double CpuAtStart = processSeconds();
