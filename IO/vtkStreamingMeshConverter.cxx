@@ -159,6 +159,7 @@ struct vtkStreamingMeshConverter::Internals
     {
       options.weld = self.WeldDistance;
     }
+    options.orient = self.Orient;
     options.timeStep = self.TimeStep;
     if (self.Partition >= 0)
     {
@@ -213,6 +214,7 @@ void vtkStreamingMeshConverter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Cells: " << this->Cells << "\n";
   os << indent << "Weld: " << this->Weld << "\n";
   os << indent << "WeldDistance: " << this->WeldDistance << "\n";
+  os << indent << "Orient: " << this->Orient << "\n";
   os << indent << "TimeStep: " << this->TimeStep << "\n";
   os << indent << "Partition: " << this->Partition << "\n";
   os << indent << "Overwrite: " << this->Overwrite << "\n";

@@ -89,6 +89,14 @@ public:
   ///@}
 
   ///@{
+  /** Whether to turn triangles so that those of a body are wound alike, and outwards if it is closed.
+   * Default: off. */
+  vtkSetMacro(Orient, bool);
+  vtkGetMacro(Orient, bool);
+  vtkBooleanMacro(Orient, bool);
+  ///@}
+
+  ///@{
   /** Which time step of a file with time steps (VTKHDF) to read, from 0. Default: 0. */
   vtkSetMacro(TimeStep, int);
   vtkGetMacro(TimeStep, int);
@@ -153,6 +161,7 @@ private:
   int Cells = ONLY;
   bool Weld = false;
   double WeldDistance = 0.0;
+  bool Orient = false;
   int TimeStep = 0;
   int Partition = -1;
   bool Overwrite = false;

@@ -60,6 +60,7 @@ struct ConvertCommand : CommonOptions
   std::filesystem::path in, out;
   std::string order = "bfs";
   std::string codec = "zstd";
+  bool orient = false;
   bool restoreOrder = false;
   bool dryRun = false;
 
@@ -70,6 +71,7 @@ struct ConvertCommand : CommonOptions
     options.codec = this->codec == "zstd"  ? smg::Codec::Zstd
                     : this->codec == "lz4" ? smg::Codec::Lz4
                                            : smg::Codec::None;
+    options.orient = this->orient;
     options.restoreOrder = this->restoreOrder;
     options.text = this->writesText;
     options.checkpoint = this->checkpoint;
@@ -107,11 +109,14 @@ struct ConvertCommand : CommonOptions
       ->check(oneOf({ "zstd", "lz4", "none" }))
       ->capture_default_str();
     this->addInputTo(command);
+    command.add_flag("--orient", this->orient,
+      "Turn triangles so that those of a body are wound alike, and outwards if it is closed");
     command
       .add_flag("--restore-order", this->restoreOrder,
         "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
           smg::suffixList(smg::FormatUse::Restore, "or") + " file")
-      ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
+      ->excludes(
+        "--order", "--weld", "--orient", "--cells", "--codec", "--time-step", "--partition");
     this->addTextTo(command);
     command.add_flag("--dry-run", this->dryRun,
       "Only estimate the size of the mesh and the cost of the conversion");

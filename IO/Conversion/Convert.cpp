@@ -19,13 +19,16 @@
 #include "IO/Order/LayOut.h"
 #include "IO/Order/Search/FileOrder.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/Orientation.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -291,6 +294,34 @@ void openAgain(Conversion& conversion)
   }
 }
 
+/** The stream that `open` opens, oriented if that is asked for: for that it is read once before. */
+std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientation>& winding,
+  const std::function<std::unique_ptr<MeshSource>()>& open)
+{
+  std::unique_ptr<MeshSource> source = open();
+  if (!conversion.options().orient || source->info().cellType != CellType::Triangle)
+  {
+    return source;
+  }
+  Workspace& space = conversion.workspace();
+  winding.emplace(space.pool(), space.folder());
+  Progress reported(conversion.progress());
+  for (MeshBlock block; source->next(block);)
+  {
+    winding->add(block);
+    reported.update(0.0); // asks whether to go on
+  }
+  winding->finish();
+  std::vector<std::string>& notes = conversion.report().notes;
+  notes.push_back(counted(winding->turned(), "triangle was turned.", "triangles were turned."));
+  if (winding->unorientable() > 0)
+  {
+    notes.push_back(counted(winding->unorientable(), "body has", "bodies have") +
+                    " no two sides, and stayed as wound.");
+  }
+  return oriented(open(), *winding);
+}
+
 } // namespace
 
 void convertMesh(Conversion& conversion)
@@ -316,9 +347,11 @@ void convertMesh(Conversion& conversion)
     layOutInput(conversion, mesh, layout);
     stages.save(ConversionStages::LaidOut, mesh, layout);
   }
+  std::optional<Orientation> winding;
+  const std::unique_ptr<MeshSource> source =
+    wound(conversion, winding, [&] { return std::make_unique<LayoutSource>(mesh, layout, space); });
   space.beginPart(1.0, Unknown);
-  LayoutSource source(mesh, layout, space);
-  conversion.write(source,
+  conversion.write(*source,
     [&](VsmWriter& writer)
     {
       takeIsolatedVertices(mesh, layout, space,
@@ -327,7 +360,7 @@ void convertMesh(Conversion& conversion)
       // Those of a stream are already stored separately, by their indices in the original file.
       if (const VsmReader* const stream = conversion.stream())
       {
-        copyIsolated(stream->path(), source.info(), writer, {}, stream->fingerprint());
+        copyIsolated(stream->path(), source->info(), writer, {}, stream->fingerprint());
       }
     });
   stages.discard();
@@ -412,11 +445,13 @@ void copyStream(Conversion& conversion)
   flagged ? countFlags(conversion, reader) : findFlags(conversion, reader);
   report.seconds.order = conversion.lap();
 
-  std::unique_ptr<MeshSource> source = reader.source();
-  if (!flagged && (report.degenerate_cells > 0 || report.duplicate_cells > 0))
-  {
-    source = withFlags(std::move(source), reader.info().cellType);
-  }
+  std::optional<Orientation> winding;
+  std::unique_ptr<MeshSource> source = wound(conversion, winding,
+    [&]
+    {
+      const bool adds = !flagged && (report.degenerate_cells > 0 || report.duplicate_cells > 0);
+      return adds ? withFlags(reader.source(), reader.info().cellType) : reader.source();
+    });
   space.beginPart(1.0, Unknown);
   conversion.write(*source, [&](VsmWriter& writer)
     { copyIsolated(reader.path(), source->info(), writer, {}, reader.fingerprint()); });

@@ -102,6 +102,7 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
            : options.cells == CellChoice::Triangles ? ", triangles"
                                                     : ", tetrahedra") +
          (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "") +
+         (options.orient ? ", oriented" : "") +
          (options.timeStep != 0 ? ", time step " + std::to_string(options.timeStep) : "") +
          (options.partition ? ", partition " + std::to_string(*options.partition) : "");
 }

@@ -69,13 +69,14 @@ std::unique_ptr<OpenedMesh> openMesh(
   const MeshFileKind kind = kindOfInput(path);
   if (kind == MeshFileKind::Vsm)
   {
-    if (options.weld || options.cells != CellChoice::Only || options.timeStep != 0 ||
-        options.partition)
+    if (options.weld || options.orient || options.cells != CellChoice::Only ||
+        options.timeStep != 0 || options.partition)
     {
       throw Error(
         path.string() +
         ": a .vsm file is read as it is: leave the choice of cells, of a time step and of "
-        "a partition, and the merging of points, to its conversion (smg convert).");
+        "a partition, the merging of points and the turning of triangles to its conversion (smg "
+        "convert).");
     }
     if (!options.checkpoint.empty())
     {

@@ -140,7 +140,7 @@ ConversionOptions conversionIn(
   const JsonNode& object, bool isFile, std::initializer_list<const char*> more)
 {
   constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
-  std::vector<const char*> keys{ "weld", "order" };
+  std::vector<const char*> keys{ "weld", "orient", "order" };
   keys.insert(keys.end(), LimitKeys);
   if (isFile)
   {
@@ -155,6 +155,7 @@ ConversionOptions conversionIn(
   {
     options.weld = weldIn(object.member("weld"));
   }
+  options.orient = object.has("orient") && flagIn(object.member("orient"));
   if (object.has("order"))
   {
     options.order = static_cast<StreamOrder>(

@@ -425,7 +425,7 @@ def mask(column_or_values: Union[str, npt.ArrayLike]) -> Region: ...
 def mesh(
     points: npt.ArrayLike, cells: npt.ArrayLike, *, memory: Optional[types.Size] = None,
     threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None, weld: Optional[float] = None,
+    scratch_limit: Optional[types.Size] = None, weld: Optional[float] = None, orient: Optional[bool] = None,
     order: Optional[types.Order] = None, progress: Optional[types.Progress] = None
 ) -> Mesh: ...
 
@@ -440,8 +440,8 @@ def of_vertices(values: npt.ArrayLike) -> npt.NDArray[Any]: ...
 def open(
     path: types.Path, *, memory: Optional[types.Size] = None, threads: Optional[int] = None,
     scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-    cells: Optional[types.Cells] = None, weld: Optional[float] = None, time_step: Optional[int] = None,
-    partition: Optional[int] = None, order: Optional[types.Order] = None,
+    cells: Optional[types.Cells] = None, weld: Optional[float] = None, orient: Optional[bool] = None,
+    time_step: Optional[int] = None, partition: Optional[int] = None, order: Optional[types.Order] = None,
     numbering: Optional[types.Numbering] = None, cache: Union[bool, types.Path, None] = None,
     progress: Optional[types.Progress] = None
 ) -> Mesh: ...

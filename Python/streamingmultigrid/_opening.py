@@ -54,6 +54,7 @@ def open(  # noqa: A001, the word of the trade
     scratch_limit: Optional[types.Size] = None,
     cells: Optional[types.Cells] = None,
     weld: Optional[float] = None,
+    orient: Optional[bool] = None,
     time_step: Optional[int] = None,
     partition: Optional[int] = None,
     order: Optional[types.Order] = None,
@@ -77,6 +78,7 @@ def open(  # noqa: A001, the word of the trade
         weld: merge points within this distance, in the unit of the mesh; 0: of equal coordinates. Arrays
             have rows for all points of the file; what a job finds at a point that was merged is what it
             finds at the one that stayed.
+        orient: turn triangles so that those of a body are wound alike, and outwards if it is closed.
         time_step, partition: which of a VTKHDF file, from 0.
         order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
         numbering: "columns" (default): rows of arrays are those that `int64` columns OriginalId and
@@ -97,6 +99,7 @@ def open(  # noqa: A001, the word of the trade
     given: Dict[str, Any] = {
         "cells": cells,
         "weld": weld,
+        "orient": orient,
         "time_step": time_step,
         "partition": partition,
         "order": order,
@@ -145,6 +148,7 @@ def mesh(
     scratch: Optional[types.Path] = None,
     scratch_limit: Optional[types.Size] = None,
     weld: Optional[float] = None,
+    orient: Optional[bool] = None,
     order: Optional[types.Order] = None,
     progress: Optional[types.Progress] = None,
 ) -> Mesh:
@@ -153,7 +157,7 @@ def mesh(
     Args:
         points: (n, 3) numbers of any type, in any unit of length.
         cells: (m, 3), triangles, or (m, 4), tetrahedra: integers of any type, rows of `points`.
-        memory, threads, scratch, scratch_limit, weld, order, progress: as of `smg.open`.
+        memory, threads, scratch, scratch_limit, weld, orient, order, progress: as of `smg.open`.
     """
     places, corners = points_and_cells(points, cells)
     defaults: Dict[str, Any] = {
@@ -162,7 +166,7 @@ def mesh(
         "scratch": scratch,
         "scratch_limit": scratch_limit,
     }
-    options = {**defaults, "weld": weld, "order": order}
+    options = {**defaults, "weld": weld, "orient": orient, "order": order}
     arrays = table(places), table(corners)
 
     def opener(report: Any) -> NativeHandle:

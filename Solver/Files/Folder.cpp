@@ -210,9 +210,10 @@ bool areSame(const struct stat& a, const struct stat& b)
 
 [[noreturn]] void failUsed(const std::filesystem::path& folder)
 {
-  throw Error(folder.string() +
-              ": another program is using this checkpoint, or a result of this one that is still open: "
-              "wait for its end, or name another folder.");
+  throw Error(
+    folder.string() +
+    ": another program is using this checkpoint, or a result of this one that is still open: "
+    "wait for its end, or name another folder.");
 }
 
 /** The lock of this folder if this process already has it, else null. */

@@ -425,11 +425,15 @@ private:
 
 } // namespace
 
+std::unique_ptr<MeshSource> oriented(std::unique_ptr<MeshSource> source, Orientation& orientation)
+{
+  return std::make_unique<OrientedSource>(std::move(source), orientation);
+}
+
 std::unique_ptr<MeshSource> OrientedMesh::source(
   std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
 {
-  return std::make_unique<OrientedSource>(
-    this->Mesh.source(std::move(vertexColumns), std::move(cellColumns)), this->By);
+  return oriented(this->Mesh.source(std::move(vertexColumns), std::move(cellColumns)), this->By);
 }
 
 } // namespace smg

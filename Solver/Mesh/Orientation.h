@@ -139,6 +139,10 @@ private:
   double Volume = 0.0, Cavities = 0.0;
 };
 
+/** A stream with the triangles turned that are to be; `orientation` must outlive it. */
+SMG_EXPORT std::unique_ptr<MeshSource> oriented(
+  std::unique_ptr<MeshSource> source, Orientation& orientation);
+
 /** A surface with some of its triangles turned. */
 class SMG_EXPORT OrientedMesh final : public StoredMesh
 {

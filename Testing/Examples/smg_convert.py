@@ -256,6 +256,32 @@ def test_weld():
     run("convert", "soup.ply", "o.vsm", "--weld", -1, code=2)
 
 
+def test_orient():
+    """However triangles are wound, the stream has a closed surface with a volume; of two nested ones the inner one is
+    a cavity if it was wound inwards."""
+    write_torus("torus.obj", 60, 30)
+    mesh = read_mesh("torus.obj")
+    triangles = fans(mesh.cells)
+    half = [tuple(x / 2 + 10 for x in point) for point in mesh.points]  # beside the other one
+    points = mesh.points + half
+    both = triangles + [tuple(i + len(mesh.points) for i in cell) for cell in triangles]
+    for number, is_turned in enumerate((lambda k: True, lambda k: k % 2, lambda k: k == 5, lambda k: k >= len(triangles))):
+        wound = [cell[::-1] if is_turned(k) else cell for k, cell in enumerate(both)]
+        write_tagged_ply("wound.ply", points, wound)
+        for order in ORDERS:
+            report = convert("wound.ply", "oriented.vsm", "--orient", "--order", order)
+            turned = sum(1 for k in range(len(both)) if is_turned(k))
+            # The torus of the test is wound outwards or inwards as a whole.
+            counts = {f"{n} triangle{'s were' if n != 1 else ' was'} turned." for n in (turned, len(both) - turned)}
+            assert counts & set(report["notes"]), (number, report["notes"])
+            facts = json.loads(run("info", "oriented.vsm", "--json", "--full").stdout)
+            assert facts["consistently_wound"] and facts["turned_volume"] == 0, facts
+    again = convert("oriented.vsm", "again.vsm", "--orient", "--order", "keep")
+    assert "0 triangles were turned." in again["notes"], again["notes"]
+    error = run("convert", "oriented.vsm", "o.ply", "--restore-order", "--orient", code=2).stderr
+    assert "--orient" in error, error
+
+
 def test_cells_of_both_kinds():
     points, solids = tetrahedra(5)
     faces = [(0, 1, 5), (1, 5, 6), (5, 6, 10)]
