@@ -89,8 +89,8 @@ public:
   ///@}
 
   ///@{
-  /** Whether to turn triangles so that those of a body are wound alike, and outwards if it is closed.
-   * Default: off. */
+  /** Whether to turn triangles so that those of a body are wound alike, and outwards if it is
+   * closed. Default: off. */
   vtkSetMacro(Orient, bool);
   vtkGetMacro(Orient, bool);
   vtkBooleanMacro(Orient, bool);

@@ -21,8 +21,8 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Jobs/Fairing/Orientation.h"
 #include "Solver/Mesh/AddedColumn.h"
-#include "Solver/Mesh/Orientation.h"
 #include "smg/Error.h"
 
 #include <algorithm>

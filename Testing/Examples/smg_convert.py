@@ -265,7 +265,9 @@ def test_orient():
     half = [tuple(x / 2 + 10 for x in point) for point in mesh.points]  # beside the other one
     points = mesh.points + half
     both = triangles + [tuple(i + len(mesh.points) for i in cell) for cell in triangles]
-    for number, is_turned in enumerate((lambda k: True, lambda k: k % 2, lambda k: k == 5, lambda k: k >= len(triangles))):
+    windings = (lambda k: True, lambda k: k % 2, lambda k: k == 5, lambda k: k >= len(triangles),
+                lambda k: (k * 2654435761 >> 7) % 3 == 0)
+    for number, is_turned in enumerate(windings):
         wound = [cell[::-1] if is_turned(k) else cell for k, cell in enumerate(both)]
         write_tagged_ply("wound.ply", points, wound)
         for order in ORDERS:
@@ -276,6 +278,9 @@ def test_orient():
             assert counts & set(report["notes"]), (number, report["notes"])
             facts = json.loads(run("info", "oriented.vsm", "--json", "--full").stdout)
             assert facts["consistently_wound"] and facts["turned_volume"] == 0, facts
+            restored = restore("oriented.vsm", ".ply")
+            assert same_points(restored.points, points)
+            assert [sorted(cell) for cell in restored.cells] == [sorted(cell) for cell in wound]
     again = convert("oriented.vsm", "again.vsm", "--orient", "--order", "keep")
     assert "0 triangles were turned." in again["notes"], again["notes"]
     error = run("convert", "oriented.vsm", "o.ply", "--restore-order", "--orient", code=2).stderr

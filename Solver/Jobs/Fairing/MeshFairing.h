@@ -7,7 +7,7 @@
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Mesh/Orientation.h"
+#include "Solver/Jobs/Fairing/Orientation.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/FixedVertices.h"

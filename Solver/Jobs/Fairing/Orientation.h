@@ -92,13 +92,15 @@ private:
     std::uint32_t up;
     std::uint32_t state; ///< 1: opposite; of a representing cell 0, 1: to be turned, or Leave
   };
-  /** A closed body. */
-  struct Closed
+  /** A body that is closed, or open and large enough to have cavities. */
+  struct Body
   {
     std::int64_t cell; ///< that represents it
-    double volume;     ///< sixfold, as in the mesh
-    bool mayBeCavity;
+    double volume;     ///< sixfold, wound like that
+    bool isClosed, mayBeCavity;
     std::array<double, 3> low, high;
+
+    bool contains(const Body& other) const;
   };
   static constexpr std::uint32_t Leave = 2;
 
@@ -118,6 +120,7 @@ private:
   std::int64_t cellOf(std::uint32_t low) const;
   void write(Link link);
   void flush();
+  void keepBody(std::int64_t cell, const Sums& sums);
   void decideCavities();
   void resolve();
 
@@ -130,7 +133,7 @@ private:
   IoStatistics Traffic;
   Reservation Kept;
   std::vector<Link> Written; ///< of the current block
-  std::vector<Closed> Bodies;
+  std::vector<Body> Bodies;
   std::vector<std::int64_t> TurnedBodies; ///< representing cells of closed bodies, ascending
   std::array<double, 3> Origin{};
   std::int64_t Cells = 0, Final = 0, Block = 0; ///< Block: of links, the next
@@ -139,11 +142,12 @@ private:
   double Volume = 0.0, Cavities = 0.0;
 };
 
-/** A stream with the triangles turned that are to be; `orientation` must outlive it. */
+/** A stream with the triangles turned that are to be; `orientation` must outlive it. Some vertices
+ * have other numbers, since they are numbered by their first use. */
 SMG_EXPORT std::unique_ptr<MeshSource> oriented(
   std::unique_ptr<MeshSource> source, Orientation& orientation);
 
-/** A surface with some of its triangles turned. */
+/** A surface with some of its triangles turned, and the vertices as they are. */
 class SMG_EXPORT OrientedMesh final : public StoredMesh
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Mesh/Orientation.h"
+#include "Solver/Jobs/Fairing/Orientation.h"
 
 #include "Solver/Assembly/Elements.h"
 #include "smg/Error.h"
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 // The winding of a surface in its stream. Triangles that share an edge are wound alike if they run
@@ -244,19 +245,31 @@ std::uint32_t Orientation::closeBody(std::int64_t cell, const Sums& sums)
     ++this->Unorientable;
     return Leave;
   }
+  this->keepBody(cell, sums);
   if (sums.boundary > 0)
   {
     ++this->OpenBodies;
     return 2 * sums.opposite > sums.cells ? 1 : 0;
   }
   // Which of the two ways may depend on other bodies: see decideCavities().
-  this->Bodies.push_back(
-    { cell, sums.volume, sums.volume < 0.0 && sums.opposite == 0, sums.low, sums.high });
+  return 0;
+}
+
+void Orientation::keepBody(std::int64_t cell, const Sums& sums)
+{
+  // Unwelded triangles are bodies, too.
+  constexpr std::int64_t Large = 16;
+  const bool isClosed = sums.boundary == 0;
+  if (!isClosed && sums.cells < Large)
+  {
+    return;
+  }
+  this->Bodies.push_back({ cell, sums.volume, isClosed,
+    isClosed && sums.volume < 0.0 && sums.opposite == 0, sums.low, sums.high });
   if (this->Bodies.size() % 1024 == 0)
   {
-    this->Kept.resize(static_cast<std::int64_t>(this->Bodies.capacity() * sizeof(Closed)));
+    this->Kept.resize(static_cast<std::int64_t>(this->Bodies.capacity() * sizeof(Body)));
   }
-  return 0;
 }
 
 void Orientation::write(Link link)
@@ -286,30 +299,37 @@ void Orientation::finish()
   this->resolve();
 }
 
+/** Whether another body, which is closed, lies within the bounds of this one, a larger one. */
+bool Orientation::Body::contains(const Body& other) const
+{
+  bool isInside = !this->isClosed || std::fabs(this->volume) > std::fabs(other.volume);
+  for (std::size_t d = 0; d < 3; ++d)
+  {
+    isInside = isInside && this->low[d] < other.low[d] && other.high[d] < this->high[d];
+  }
+  return isInside;
+}
+
 /** Closed bodies are to be wound outwards, but for those that may be cavities: they were wound
  * inwards throughout, and lie within the bounds of a larger one. */
 void Orientation::decideCavities()
 {
-  std::vector<const Closed*> bySize;
-  for (const Closed& body : this->Bodies)
+  // Of thousands, a large one contains most: these come first.
+  std::vector<const Body*> bySize;
+  for (const Body& body : this->Bodies)
   {
     bySize.push_back(&body);
   }
-  std::ranges::sort(bySize,
-    [](const Closed* a, const Closed* b) { return std::fabs(a->volume) > std::fabs(b->volume); });
-  for (const Closed& body : this->Bodies)
+  const auto sizeOf = [](const Body* body) { return body->high[0] - body->low[0]; };
+  std::ranges::sort(bySize, std::ranges::greater(), sizeOf);
+  for (const Body& body : this->Bodies)
   {
-    const auto contains = [&body](const Closed* other)
+    if (!body.isClosed)
     {
-      bool isInside = std::fabs(other->volume) > std::fabs(body.volume);
-      for (std::size_t d = 0; d < 3; ++d)
-      {
-        isInside = isInside && other->low[d] < body.low[d] && body.high[d] < other->high[d];
-      }
-      return isInside;
-    };
-    // Larger ones come first, and few of thousands are needed as a rule.
-    const bool isCavity = body.mayBeCavity && std::ranges::any_of(bySize, contains);
+      continue;
+    }
+    const bool isCavity = body.mayBeCavity && std::ranges::any_of(bySize, [&body](const Body* other)
+                                                { return other->contains(body); });
     if (body.volume < 0.0 && !isCavity)
     {
       this->TurnedBodies.push_back(body.cell);
@@ -388,11 +408,12 @@ void Orientation::read(std::int64_t first, std::span<std::uint8_t> marks)
 namespace
 {
 
-/** A stream whose marked triangles are turned. */
-class OrientedSource final : public MeshSource
+/** A stream whose marked triangles are turned. Its vertices keep their numbers, in the order of
+ * which cells may then not use them for the first time. */
+class TurnedSource : public MeshSource
 {
 public:
-  OrientedSource(std::unique_ptr<MeshSource> source, Orientation& orientation)
+  TurnedSource(std::unique_ptr<MeshSource> source, Orientation& orientation)
     : Source(std::move(source))
     , By(orientation)
   {
@@ -407,6 +428,13 @@ public:
     }
     this->Marks.resize(block.corners.size() / 3);
     this->By.read(block.firstCell, this->Marks);
+    this->turn(block);
+    return true;
+  }
+
+protected:
+  virtual void turn(MeshBlock& block)
+  {
     for (std::size_t c = 0; c < this->Marks.size(); ++c)
     {
       if (this->Marks[c] != 0)
@@ -414,26 +442,98 @@ public:
         std::swap(block.corners[3 * c + 1], block.corners[3 * c + 2]);
       }
     }
-    return true;
   }
+
+  std::vector<std::uint8_t> Marks; ///< of the block
 
 private:
   std::unique_ptr<MeshSource> Source;
   Orientation& By;
-  std::vector<std::uint8_t> Marks;
+};
+
+/** The same with vertices that are numbered by their first use, as a stream has them. A triangle
+ * that uses some for the first time begins with another corner; of one that uses three, two
+ * exchange their numbers. */
+class RenumberedSource final : public TurnedSource
+{
+public:
+  using TurnedSource::TurnedSource;
+
+private:
+  void turn(MeshBlock& block) override
+  {
+    std::int64_t used = block.firstVertex;
+    for (std::size_t c = 0; c < this->Marks.size(); ++c)
+    {
+      const std::span<std::int64_t, 3> corners(block.corners.data() + 3 * c, 3);
+      for (std::int64_t& corner : corners)
+      {
+        const auto exchanged = this->Exchanged.find(corner);
+        corner = exchanged == this->Exchanged.end() ? corner : exchanged->second;
+      }
+      if (this->Marks[c] != 0)
+      {
+        this->turn(block, corners, used);
+      }
+      used = std::max(used, std::ranges::max(corners) + 1);
+    }
+    std::erase_if(this->Exchanged,
+      [&block](const auto& pair) { return std::max(pair.first, pair.second) < block.finalized; });
+  }
+
+  void turn(MeshBlock& block, std::span<std::int64_t, 3> corners, std::int64_t used)
+  {
+    if (std::ranges::min(corners) >= used)
+    {
+      this->exchange(block, corners[1], corners[2]);
+      return;
+    }
+    std::swap(corners[1], corners[2]);
+    const auto isInOrder = [corners, used]
+    {
+      std::int64_t last = used - 1;
+      return std::ranges::all_of(corners, [&](std::int64_t corner)
+        { return corner < used || std::exchange(last, corner) == corner - 1; });
+    };
+    for (int k = 0; k < 3 && !isInOrder(); ++k)
+    {
+      std::ranges::rotate(corners, corners.begin() + 1);
+    }
+  }
+
+  /** Exchanges the numbers of two vertices of the block: in it their rows. */
+  void exchange(MeshBlock& block, std::int64_t a, std::int64_t b)
+  {
+    this->Exchanged[a] = b;
+    this->Exchanged[b] = a;
+    const auto first = static_cast<std::size_t>(a - block.firstVertex);
+    const auto second = static_cast<std::size_t>(b - block.firstVertex);
+    const auto swapRows = [&](auto* values, std::size_t size) {
+      std::swap_ranges(values + size * first, values + size * (first + 1), values + size * second);
+    };
+    swapRows(block.positions.data(), 3);
+    for (Column& column : block.vertexColumns)
+    {
+      swapRows(
+        column.bytes.data(), column.bytes.size() / static_cast<std::size_t>(block.vertices()));
+    }
+  }
+
+  std::map<std::int64_t, std::int64_t> Exchanged; ///< numbers of open vertices
 };
 
 } // namespace
 
 std::unique_ptr<MeshSource> oriented(std::unique_ptr<MeshSource> source, Orientation& orientation)
 {
-  return std::make_unique<OrientedSource>(std::move(source), orientation);
+  return std::make_unique<RenumberedSource>(std::move(source), orientation);
 }
 
 std::unique_ptr<MeshSource> OrientedMesh::source(
   std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
 {
-  return oriented(this->Mesh.source(std::move(vertexColumns), std::move(cellColumns)), this->By);
+  return std::make_unique<TurnedSource>(
+    this->Mesh.source(std::move(vertexColumns), std::move(cellColumns)), this->By);
 }
 
 } // namespace smg
