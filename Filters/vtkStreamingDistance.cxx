@@ -127,6 +127,10 @@ smg::DistanceDescription vtkStreamingDistance::Description() const
   description.source = this->Source;
   description.direction = this->Direction;
   description.accuracy = static_cast<smg::PathAccuracy>(this->Accuracy);
+  if (this->Within > 0.0)
+  {
+    description.within = this->Within;
+  }
   return description;
 }
 
@@ -134,6 +138,7 @@ void vtkStreamingDistance::CheckRanges() const
 {
   this->Superclass::CheckRanges();
   smg::requireInRange({ { "Accuracy", this->Accuracy, AUTOMATIC, APPROXIMATE } });
+  smg::requireInRealRange({ { "Within", this->Within, 0.0 } });
   smg::requireInRange({ { "MaximumPasses", this->MaximumPasses, 1 } });
 }
 

@@ -84,6 +84,13 @@ public:
   ///@}
 
   ///@{
+  /** Of paths, in the unit of the mesh: points that are farther are not reached. 0: none is too
+   * far. Default: 0. */
+  vtkSetMacro(Within, double);
+  vtkGetMacro(Within, double);
+  ///@}
+
+  ///@{
   /** The maximum number of passes over the mesh, at least 1. Default: 200. */
   vtkSetMacro(MaximumPasses, int);
   vtkGetMacro(MaximumPasses, int);
@@ -110,6 +117,7 @@ private:
   bool Source = false;
   bool Direction = false;
   int Accuracy = AUTOMATIC;
+  double Within = 0.0;
   int MaximumPasses = 200;
 };
 

@@ -47,6 +47,10 @@ public:
       ->check(oneOf({ "auto", "exact", "approximate" }))
       ->default_str("auto");
     command
+      .add_option("--within", this->Job.description.within,
+        "Of paths, in the unit of the mesh: vertices farther than this are not reached")
+      ->check(CLI::PositiveNumber);
+    command
       .add_option(
         "--max-passes", this->Job.options.maxPasses, "Maximum number of passes over the mesh")
       ->check(CLI::Range(1, 1000000))

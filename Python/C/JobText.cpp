@@ -210,7 +210,8 @@ std::unique_ptr<MeshJob> blendJob(const JsonNode& node)
 
 std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
 {
-  requireKeys(node, { "from", "wall", "source", "direction", "accuracy", "max_passes" }, false);
+  requireKeys(
+    node, { "from", "wall", "source", "direction", "accuracy", "within", "max_passes" }, false);
   auto job = std::make_unique<DistanceJob>();
   job->name = "from";
   DistanceDescription& distance = job->description;
@@ -223,6 +224,10 @@ std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
   {
     distance.accuracy = static_cast<PathAccuracy>(
       choiceIn(node.member("accuracy"), { "auto", "exact", "approximate" }));
+  }
+  if (node.has("within"))
+  {
+    distance.within = node.member("within").number();
   }
   if (distance.from.empty() && !distance.wall)
   {

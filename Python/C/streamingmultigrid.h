@@ -182,7 +182,7 @@ extern "C"
    *               "keep_edges" (degrees), "column", "tolerance", "normals"
    *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
    *   "distance"  "from" (WHERE or a list), "wall", "source", "direction",
-   *               "accuracy" ("auto", "exact", "approximate"), "max_passes"
+   *               "accuracy" ("auto", "exact", "approximate"), "within", "max_passes"
    * and of all of them "memory", "threads", "scratch", "scratch_limit", by default those that the
    * mesh was opened with; of all that solve "sweeps", "max_cycles", "in_core"; of solve and deform
    * "checkpoint". They mean what the options of the command line of these names mean, and have

@@ -119,8 +119,8 @@ class Mesh:
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
         source: Optional[bool] = None, direction: Optional[bool] = None,
-        accuracy: Optional[types.Accuracy] = None, max_passes: Optional[int] = None,
-        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
+        max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
@@ -262,8 +262,8 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
         source: Optional[bool] = None, direction: Optional[bool] = None,
-        accuracy: Optional[types.Accuracy] = None, max_passes: Optional[int] = None,
-        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
+        max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
@@ -400,10 +400,10 @@ def dirichlet(region: types.Where, value: types.Value) -> Placed: ...
 def distance(
     points: npt.ArrayLike, cells: npt.ArrayLike, sources: Optional[types.Places] = None, *,
     wall: Optional[bool] = None, source: Optional[bool] = None, direction: Optional[bool] = None,
-    accuracy: Optional[types.Accuracy] = None, max_passes: Optional[int] = None,
-    memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
-    strict: bool = False
+    accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
+    max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+    progress: Optional[types.Progress] = None, strict: bool = False
 ) -> Any: ...
 
 everywhere: Region

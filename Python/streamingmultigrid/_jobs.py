@@ -307,6 +307,7 @@ def distance(
     source: Optional[bool] = None,
     direction: Optional[bool] = None,
     accuracy: Optional[types.Accuracy] = None,
+    within: Optional[float] = None,
     max_passes: Optional[int] = None,
     memory: Optional[types.Size] = None,
     threads: Optional[int] = None,
@@ -324,6 +325,7 @@ def distance(
         direction: adds the column DistanceDirection (n, 3), the unit gradient.
         accuracy: of paths on a surface: "exact", "approximate" (ten times as fast, too long on long
             thin triangles) or "auto", exact up to 1,000,000 vertices. Default "auto".
+        within: of paths, a length in the unit of the mesh: vertices that are farther are not reached.
         max_passes: the most passes over the mesh; default 200.
         memory, threads, scratch, scratch_limit, progress, strict: as of `solve`.
 

@@ -259,6 +259,10 @@ void RowAssembly::addKnown(
   if (this->Vertices.isSolved())
   {
     this->addFlow(weight, i, neighbour.to);
+    for (std::size_t k = 0; target && k < this->Columns; ++k)
+    {
+      this->B[k] += weight * target[k];
+    }
     return;
   }
   for (std::size_t k = 0; k < this->Columns; ++k)

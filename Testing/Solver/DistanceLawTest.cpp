@@ -520,4 +520,47 @@ TEST(DistanceLaws, ExactOnesDoNotDependOnTheWindow)
   }
 }
 
+/** What is farther than wanted is not reached, and nothing else changes: exactly, or for
+ * approximate ones but for what paths beyond would have improved. */
+TEST(DistanceLaws, OnesWithinALengthAreThose)
+{
+  for (const KnownSurface& surface : surfaces())
+  {
+    for (const PathAccuracy accuracy : { PathAccuracy::Exact, PathAccuracy::Approximate })
+    {
+      SCOPED_TRACE(surface.name + (accuracy == PathAccuracy::Exact ? ", exact" : ", approximate"));
+      const MemoryMesh mesh(surface.mesh);
+      Random random(29);
+      DistanceDescription description = fromPoints(someVertices(surface.mesh, 3, random), accuracy);
+      description.source = description.direction = true;
+      const Eigen::MatrixXd all = measure(mesh, description).values;
+      std::vector<double> sorted(all.col(0).data(), all.col(0).data() + all.rows());
+      std::ranges::sort(sorted);
+      description.within = sorted[sorted.size() / 3];
+      const double slack = accuracy == PathAccuracy::Exact ? 1e-12 : 1e-3;
+      for (const std::int64_t chunk : { 100000, 300 })
+      {
+        const Eigen::MatrixXd near = measureInChunks(mesh, description, chunk).values;
+        for (Eigen::Index v = 0; v < all.rows(); ++v)
+        {
+          const double distance = all(v, 0);
+          if (std::abs(distance - description.within) <= slack * description.within)
+          {
+            continue; // on the border
+          }
+          if (distance > description.within)
+          {
+            EXPECT_EQ(near(v, 0), HUGE_VAL) << distance;
+            EXPECT_EQ(near(v, 1), -1.0);
+            EXPECT_EQ(near.row(v).tail<3>().norm(), 0.0);
+            continue;
+          }
+          EXPECT_TRUE(std::abs(near(v, 0) - distance) <= slack * distance)
+            << near(v, 0) << " instead of " << distance << " within " << description.within;
+        }
+      }
+    }
+  }
+}
+
 } // namespace smg::testing

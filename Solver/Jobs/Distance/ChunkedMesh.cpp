@@ -2,9 +2,11 @@
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Core/Vector.h"
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -157,6 +159,11 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   int sources = 0;
   for (int k = 0; k < count; ++k)
   {
+    for (int other = 0; other < k && !std::isinf(plan.within); ++other)
+    {
+      const Vector edge = difference(this->Points.at(corners[k]), this->Points.at(corners[other]));
+      this->To.longestEdge = std::max(this->To.longestEdge, std::sqrt(dot(edge, edge)));
+    }
     local[k] = plan.local(corners[k]);
     sources += (this->Marks[corners[k]] & OfRegion) != 0;
   }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 namespace smg
@@ -34,6 +35,8 @@ struct ChunkPlan
   bool singlePositions = false; ///< whether the files have positions in single precision
   bool sources = false;         ///< whether the numbers of sources are stored
   bool directions = false;      ///< whether directions are stored
+  /** Distances beyond are not wanted. */
+  double within = std::numeric_limits<double>::infinity();
 
   /** The plan for a stream whose span is known. */
   static ChunkPlan of(const StreamInfo& mesh, std::int64_t span, bool sources, bool directions);
@@ -108,6 +111,7 @@ struct ChunkedMesh
   BlockStore state; ///< block chunk * StateParts + StatePart
   std::vector<Chunk> chunks;
   std::int64_t vertices = 0;
+  double longestEdge = 0.0; ///< of the cells that take part
 };
 
 /** Cuts a mesh stream into chunks, with the distance 0 at sources. A chunk is written when all its

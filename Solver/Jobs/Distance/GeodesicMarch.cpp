@@ -148,6 +148,10 @@ void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source,
   const Vector& crossing, std::uint32_t via)
 {
   double& known = this->Window.distance()[v];
+  if (distance > this->Window.mesh().plan.within)
+  {
+    return;
+  }
   if (distance < known - Same * known || known == HUGE_VAL)
   {
     known = distance;
@@ -314,6 +318,10 @@ void GeodesicMarch::add(FrontInterval interval, double length)
   const FrontImage& image = interval.image;
   // Paths by way of the corners of the edge are shorter.
   const double least = image.least(interval.begin, interval.end);
+  if (least > this->Window.mesh().plan.within)
+  {
+    return;
+  }
   if (interval.from != FrontInterval::None &&
       (image.at(interval.end) >= atFirst + interval.end ||
         image.at(interval.begin) >= atSecond + (length - interval.begin) ||

@@ -114,6 +114,10 @@ FrontCorner March::corner(std::uint32_t vertex) const
 
 bool March::isNews(std::uint32_t w, const Arrival& arrival) const
 {
+  if (arrival.distance > this->Within)
+  {
+    return false;
+  }
   const double distance = this->Window.distance()[w];
   // Of two fronts that arrive at the same time, within the tolerance, the straight one wins.
   const bool isStraighter = arrival.isStraight && (this->Window.flags()[w] & Straight) == 0 &&
@@ -130,8 +134,8 @@ bool March::offer(
     // A distance that is shorter by less than the tolerance is not passed on, but it may have quite
     // another direction.
     const bool isStraight = (this->Window.flags()[w] & Straight) != 0;
-    if (arrival.distance < this->Window.distance()[w] && arrival.isStraight == isStraight &&
-        this->haveOneSource(w, corners[0]))
+    if (arrival.distance <= this->Within && arrival.distance < this->Window.distance()[w] &&
+        arrival.isStraight == isStraight && this->haveOneSource(w, corners[0]))
     {
       this->Window.distance()[w] = arrival.distance;
       this->Window.flags()[w] |= Changed;

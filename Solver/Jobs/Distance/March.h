@@ -133,6 +133,7 @@ public:
   March(ChunkedMesh& mesh, Pool& pool)
     : ChunkMarch(mesh, pool)
     , Queue(pool, std::min(mesh.plan.window(), mesh.vertices))
+    , Within(mesh.plan.within + Margin * mesh.longestEdge)
   {
   }
 
@@ -200,6 +201,10 @@ private:
   /** Smaller relative changes of a distance are dropped, since each would be passed on through the
    * whole mesh. */
   double Tolerance = 1e-7;
+  /** Where the march ends: some edges farther than what is wanted, since a path may cross facets
+   * whose corners are farther than its end. */
+  double Within;
+  static constexpr double Margin = 3.0;
   std::int64_t Taken = 0; ///< vertices since the tolerance grew
 };
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -208,6 +209,53 @@ void march(ChunkedMesh& chunks, bool isExact, DistanceRun& run)
   }
 }
 
+/** Makes what is farther than wanted as if it had not been reached. */
+void leaveOutFar(ChunkedMesh& chunks)
+{
+  const double within = chunks.plan.within;
+  std::vector<double> distances;
+  std::vector<std::int64_t> sources;
+  std::vector<float> directions;
+  for (std::int64_t chunk = 0; chunk < chunks.count() && !std::isinf(within); ++chunk)
+  {
+    const auto count = static_cast<std::size_t>(chunks.countOf(chunk));
+    const auto part = [&](ChunkedMesh::StatePart which, auto& values, std::size_t components)
+    {
+      const std::int64_t index = chunk * ChunkedMesh::StateParts + which;
+      values.resize(chunks.state.bytes(index) > 0 ? components * count : 0);
+      chunks.state.read(index, std::as_writable_bytes(std::span(values)));
+      return index;
+    };
+    const std::int64_t index = part(ChunkedMesh::Distances, distances, 1);
+    if (std::ranges::none_of(
+          distances, [within](double d) { return d > within && !std::isinf(d); }))
+    {
+      continue;
+    }
+    const std::int64_t ofSources = part(ChunkedMesh::Sources, sources, 1);
+    const std::int64_t ofDirections = part(ChunkedMesh::Directions, directions, 3);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (distances[i] > within)
+      {
+        distances[i] = HUGE_VAL;
+        std::fill_n(sources.begin() + static_cast<std::ptrdiff_t>(i), sources.empty() ? 0 : 1, -1);
+        std::fill_n(directions.begin() + static_cast<std::ptrdiff_t>(3 * i),
+          directions.empty() ? 0 : 3, 0.0F);
+      }
+    }
+    chunks.state.write(index, std::as_bytes(std::span(distances)));
+    if (!sources.empty())
+    {
+      chunks.state.write(ofSources, std::as_bytes(std::span(sources)));
+    }
+    if (!directions.empty())
+    {
+      chunks.state.write(ofDirections, std::as_bytes(std::span(directions)));
+    }
+  }
+}
+
 /** The columns of the solution, in the order of distanceColumns(), and where they are stored. */
 std::vector<StoredColumn> columnsOf(DistanceFiles& files, const DistanceDescription& description)
 {
@@ -246,6 +294,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   const bool needSources = description.source || (!isExact && haveSeveralFronts(description));
   ChunkPlan plan = ChunkPlan::of(
     info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources, description.direction);
+  plan.within = description.within;
   if (chunkVertices > 0)
   {
     // Tests take short chunks, so that small meshes have many.
@@ -276,6 +325,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     neededBytes(plan, isExact, chunks.vertices, largest.innerCells, largest.crossingCells),
     run->pool);
   march(chunks, isExact, *run);
+  leaveOutFar(chunks);
   const std::vector<StoredColumn> columns = columnsOf(*files, description);
   // The solution owns the run from here on; its report is completed after that.
   DistanceRun& shared = *run;

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,6 +59,10 @@ struct DistanceDescription
   bool direction = false;
   /** Of paths on a surface. */
   PathAccuracy accuracy = PathAccuracy::Automatic;
+  /** Of paths, more than 0, in the unit of the mesh: a vertex that is farther counts as not
+   * reached. A mesh of which a small part is within takes about the time of that part, and a
+   * reading. */
+  double within = std::numeric_limits<double>::infinity();
 };
 
 /** Whether the distances of a mesh with this description are exact, up to rounding. */
