@@ -77,7 +77,7 @@ public:
   CellType cellType() const { return this->Info.cellType; }
   /** Whether the equations are those of a correction. */
   bool corrects() const { return this->Cells.vertices.isSolved(); }
-  double contrast() const { return this->Rows.contrast(); }
+  double contrast() const { return this->Cells.contrast(); }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }

@@ -149,6 +149,11 @@ void CellAssembly::connect(const ElementMatrix& cell)
     this->vertices.mass[cell.corners[k]] += mass;
     points[k] = this->vertices.points.at(cell.corners[k]);
   }
+  if (this->policy.own() && cell.weights.measure > 0.0)
+  {
+    this->LeastScale = this->LeastScale > 0.0 ? std::min(this->LeastScale, cell.scale) : cell.scale;
+    this->MostScale = std::max(this->MostScale, cell.scale);
+  }
   for (int k = 0; this->policy.own() && k < count; ++k)
   {
     // The largest scale at a vertex decides which weights of its row are usual; see

@@ -68,6 +68,12 @@ struct SMG_EXPORT CellAssembly
   /** Connects the corners of the cells. */
   void connect(const ElementMatrices& cells);
 
+  /** The largest scale of the weights of a cell over the smallest one; 1 if there is none. */
+  double contrast() const
+  {
+    return this->LeastScale > 0.0 ? this->MostScale / this->LeastScale : 1.0;
+  }
+
   StiffnessRules policy;
   OpenVertices vertices;
   OpenComponents parts;
@@ -84,7 +90,8 @@ private:
   void connect(const ElementMatrix& cell);
 
   CellType Type;
-  std::vector<ElementMatrix> Weighed; // a batch of add()
+  double LeastScale = 0.0, MostScale = 0.0; // of all cells
+  std::vector<ElementMatrix> Weighed;       // a batch of add()
 };
 
 } // namespace smg

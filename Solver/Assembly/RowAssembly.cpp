@@ -83,12 +83,6 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   std::copy_n(load, this->Columns, this->Constraint.data());
   this->RowSum = vertex.rowSum;
   this->Scale = static_cast<double>(vertex.scale);
-  if (this->Scale > 0.0)
-  {
-    this->LeastScale =
-      this->LeastScale > 0.0 ? std::min(this->LeastScale, this->Scale) : this->Scale;
-    this->MostScale = std::max(this->MostScale, this->Scale);
-  }
   this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
     made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
   // Before the row is closed, since it changes the row sum and b; count() takes back what is not
@@ -169,10 +163,6 @@ inline void RowAssembly::addUnknown(
   {
     this->addTarget(weight, target);
   }
-  if (this->Vertices.isSolved())
-  {
-    this->addFlow(weight, i, neighbour.to);
-  }
 }
 
 /** What a solution leaves of the right-hand side: the flow along each edge, by differences. Their
@@ -213,6 +203,15 @@ void RowAssembly::addNeighbours(
     target = target ? target + this->Columns : nullptr;
   }
   this->sharpen(neighbours);
+  std::size_t e = 0;
+  for (const RowNeighbour& neighbour : neighbours)
+  {
+    // By the weights as the row has them.
+    if (this->Vertices.isSolved() && this->Vertices.dirichlet[neighbour.to] < 0)
+    {
+      this->addFlow(this->Weight[e++], i, neighbour.to);
+    }
+  }
 }
 
 /** If the weights of a row nearly cancel, keeps all of them in double precision, so that the small

@@ -242,11 +242,6 @@ public:
   /** Adds the next row, of vertex number k of `made`. */
   void close(const FinalVertices& made, std::size_t k);
 
-  /** The largest scale of the weights at an unknown over the smallest one; 1 if there is none. */
-  double contrast() const
-  {
-    return this->LeastScale > 0.0 ? this->MostScale / this->LeastScale : 1.0;
-  }
   std::int64_t prescribed() const { return this->Prescribed; }
   /** The number of vertices without any data that determine them. */
   std::int64_t held() const { return this->Held; }
@@ -308,7 +303,6 @@ private:
   std::vector<double> Constraint; // the part of b not from edges to unknowns
 
   InitialResidual Residual;
-  double LeastScale = 0.0, MostScale = 0.0; // of all rows
   std::int64_t Prescribed = 0, Held = 0, Raised = 0;
 };
 

@@ -82,6 +82,14 @@ std::vector<Shape> shapes()
         { return std::sin(2.3 * x[0] + 1.0) * std::cos(1.9 * x[1]) + std::sin(1.7 * x[2]) < 0.5; };
         ends(p, size);
       } },
+    { "a film",
+      [=](ElementProblem& p, const Point& size)
+      {
+        // A cell thick: each of its vertices is one of the good conductor, too.
+        const double middle = std::floor(0.5 * size[0]);
+        p.Part = [middle](const Point& x) { return x[0] > middle && x[0] < middle + 1.0 ? 0 : 1; };
+        ends(p, size);
+      } },
     { "cooled good conductor",
       [=](ElementProblem& p, const Point& size)
       {

@@ -154,7 +154,9 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
       const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
       this->addFlux(sums, k, factor * vertices.below(ambient, facet.corners[c], k));
       // The flux is a small difference of these where u is close to the ambient value.
-      const double terms = factor * (std::fabs(ambient) + std::fabs(value[k]));
+      const double terms = vertices.hasRest()
+                             ? factor * std::fabs(vertices.below(ambient, facet.corners[c], k))
+                             : factor * (std::fabs(ambient) + std::fabs(value[k]));
       this->RobinTerms[k] += terms;
       sums.terms[k] += terms;
     }
