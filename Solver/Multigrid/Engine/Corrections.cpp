@@ -47,7 +47,7 @@ void addCosts(Report& report, const Report& correction, double scale)
     pass.residual *= scale;
     report.by_pass.push_back(pass);
   }
-  report.converged = report.converged && correction.converged;
+  report.converged = correction.converged; // only what has converged is corrected
   report.peak_nodes = std::max(report.peak_nodes, correction.peak_nodes);
   report.pool_bytes_peak = std::max(report.pool_bytes_peak, correction.pool_bytes_peak);
   report.rss_bytes_peak = std::max(report.rss_bytes_peak, correction.rss_bytes_peak);
