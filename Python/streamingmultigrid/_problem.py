@@ -352,7 +352,7 @@ def handle(
     motion.update((key, value) for key, value in words.items() if value is not None)
     part = as_region(region)
     turned = motion.get("rotate", {"center": center} if scale is not None else None)
-    if part.is_plane and turned is not None and turned.get("center") is None and center is None:
+    if part.is_plane and turned is not None and turned.get("center") is None:
         raise InputError("handle: %r has no center to turn or scale about: give center=." % part)
     if not motion:
         raise InputError(

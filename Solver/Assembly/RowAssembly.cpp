@@ -203,11 +203,19 @@ void RowAssembly::addNeighbours(
     target = target ? target + this->Columns : nullptr;
   }
   this->sharpen(neighbours);
+  if (this->Vertices.isSolved())
+  {
+    this->addFlows(i, neighbours);
+  }
+}
+
+/** Adds the flow along each entry, by the weights as the row has them in the end. */
+void RowAssembly::addFlows(std::int64_t i, std::span<const RowNeighbour> neighbours)
+{
   std::size_t e = 0;
   for (const RowNeighbour& neighbour : neighbours)
   {
-    // By the weights as the row has them.
-    if (this->Vertices.isSolved() && this->Vertices.dirichlet[neighbour.to] < 0)
+    if (this->Vertices.dirichlet[neighbour.to] < 0)
     {
       this->addFlow(this->Weight[e++], i, neighbour.to);
     }
@@ -257,10 +265,11 @@ void RowAssembly::addKnown(
   this->addEdge(i, neighbour, weight);
   if (this->Vertices.isSolved())
   {
+    // Nobody listens to the rows of a correction.
     this->addFlow(weight, i, neighbour.to);
-    for (std::size_t k = 0; target && k < this->Columns; ++k)
+    if (target)
     {
-      this->B[k] += weight * target[k];
+      this->addTarget(weight, target);
     }
     return;
   }

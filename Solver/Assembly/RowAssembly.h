@@ -262,6 +262,7 @@ private:
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addTarget(double weight, const double* target);
   void addFlow(double weight, std::int64_t i, std::int64_t neighbour);
+  void addFlows(std::int64_t i, std::span<const RowNeighbour> neighbours);
   /** The initial values of vertex i: of a correction zeros. */
   const double* initial(std::int64_t i) const
   {

@@ -159,13 +159,12 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   int sources = 0;
   for (int k = 0; k < count; ++k)
   {
-    for (int other = 0; other < k && !std::isinf(plan.within); ++other)
-    {
-      const Vector edge = difference(this->Points.at(corners[k]), this->Points.at(corners[other]));
-      this->To.longestEdge = std::max(this->To.longestEdge, std::sqrt(dot(edge, edge)));
-    }
     local[k] = plan.local(corners[k]);
     sources += (this->Marks[corners[k]] & OfRegion) != 0;
+  }
+  if (!std::isinf(plan.within))
+  {
+    this->noteLongestEdge(corners);
   }
   const std::int64_t chunk = *high / plan.length;
   const bool crosses = *low / plan.length != chunk;
@@ -184,6 +183,18 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   }
   OpenCells& cells = this->Open[open];
   (crosses ? cells.crossing : cells.inner).add(this->Owner, local, static_cast<std::size_t>(count));
+}
+
+void ChunkWriter::noteLongestEdge(const std::int64_t* corners)
+{
+  for (int a = 1; a < cornersOf(this->To.plan.cellType); ++a)
+  {
+    for (int b = 0; b < a; ++b)
+    {
+      const Vector edge = difference(this->Points.at(corners[a]), this->Points.at(corners[b]));
+      this->To.longestEdge = std::max(this->To.longestEdge, std::sqrt(dot(edge, edge)));
+    }
+  }
 }
 
 /** Writes positions, state and cells of the first open chunk, and releases them. A chunk may be

@@ -111,7 +111,7 @@ struct ChunkedMesh
   BlockStore state; ///< block chunk * StateParts + StatePart
   std::vector<Chunk> chunks;
   std::int64_t vertices = 0;
-  double longestEdge = 0.0; ///< of the cells that take part
+  double longestEdge = 0.0; ///< of the cells that take part; known if plan.within is given
 };
 
 /** Cuts a mesh stream into chunks, with the distance 0 at sources. A chunk is written when all its
@@ -150,6 +150,7 @@ private:
 
   void addVertices(const MeshBlock& block);
   void addCell(const std::int64_t* corners);
+  void noteLongestEdge(const std::int64_t* corners);
   /** Writes the first open chunk, with `count` vertices. */
   void writeChunk(std::int64_t count);
   void writePositions(std::int64_t chunk, std::int64_t first, std::int64_t count);

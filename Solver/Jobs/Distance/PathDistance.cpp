@@ -213,10 +213,14 @@ void march(ChunkedMesh& chunks, bool isExact, DistanceRun& run)
 void leaveOutFar(ChunkedMesh& chunks)
 {
   const double within = chunks.plan.within;
+  if (std::isinf(within))
+  {
+    return;
+  }
   std::vector<double> distances;
   std::vector<std::int64_t> sources;
   std::vector<float> directions;
-  for (std::int64_t chunk = 0; chunk < chunks.count() && !std::isinf(within); ++chunk)
+  for (std::int64_t chunk = 0; chunk < chunks.count(); ++chunk)
   {
     const auto count = static_cast<std::size_t>(chunks.countOf(chunk));
     const auto part = [&](ChunkedMesh::StatePart which, auto& values, std::size_t components)

@@ -2,6 +2,7 @@
 #include "Solver/Jobs/Fairing/Orientation.h"
 
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Core/Vector.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -30,14 +31,6 @@ namespace
 std::filesystem::path inFolder(const std::filesystem::path& folder, const char* name)
 {
   return (folder.empty() ? std::filesystem::temp_directory_path() : folder) / name;
-}
-
-/** Six times the volume between a triangle and the origin of these points. */
-double sixfoldVolume(const std::array<std::array<double, 3>, 3>& p)
-{
-  return p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
-         p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-         p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
 }
 
 } // namespace
@@ -93,22 +86,22 @@ void Orientation::addCell(const std::int64_t* corners, unsigned flags)
   }
   Sums& sums = member.sums;
   sums.cells = 1;
-  std::array<std::array<double, 3>, 3> points{};
+  Vector points[3];
   constexpr double Far = std::numeric_limits<double>::infinity();
   sums.low = { Far, Far, Far };
   sums.high = { -Far, -Far, -Far };
   for (std::size_t k = 0; k < 3; ++k)
   {
     const double* point = this->Points.at(corners[k]);
+    points[k] = difference(point, this->Origin.data());
     for (std::size_t d = 0; d < 3; ++d)
     {
-      points[k][d] = point[d] - this->Origin[d];
       sums.low[d] = std::min(sums.low[d], point[d]);
       sums.high[d] = std::max(sums.high[d], point[d]);
     }
     this->addEdge(corners[k], corners[(k + 1) % 3], cell);
   }
-  sums.volume = sixfoldVolume(points);
+  sums.volume = dot(points[0], cross(points[1], points[2]));
 }
 
 void Orientation::addEdge(std::int64_t a, std::int64_t b, std::int64_t cell)

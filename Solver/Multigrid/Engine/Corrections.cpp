@@ -99,9 +99,15 @@ CorrectedSolution::CorrectedSolution(std::unique_ptr<Solution> solution,
 }
 
 /** Adds up values with what the solution has beyond their digits. A value that nothing determines
- * is not a number, and has no rest. */
+ * is not a number, and has no rest. Whoever wants the rest has read the values: these are summed up
+ * once. */
 void CorrectedSolution::add(std::int64_t first, std::int64_t count, std::size_t numbers)
 {
+  if (first == this->Begin && numbers == this->Sum.size())
+  {
+    return;
+  }
+  this->Begin = -1; // until all is read
   for (std::vector<double>* values : { &this->Sum, &this->Rest, &this->Added })
   {
     values->assign(numbers, 0.0);
@@ -119,6 +125,7 @@ void CorrectedSolution::add(std::int64_t first, std::int64_t count, std::size_t 
     this->Sum[e] = all;
     this->Rest[e] = std::isfinite(left) ? left : 0.0;
   }
+  this->Begin = first;
 }
 
 void CorrectedSolution::read(std::int64_t first, std::int64_t count, std::span<double> values)

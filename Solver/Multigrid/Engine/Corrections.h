@@ -54,8 +54,8 @@ private:
 class CorrectedSolution final : public Solution
 {
 public:
-  /** `initial`: the residual that those of the correction are relative to, and those of the
-   * solution, in this order. */
+  /** `ofCorrection`, `ofSolution`: the residuals that those of the report of each are relative to.
+   */
   CorrectedSolution(std::unique_ptr<Solution> solution, std::unique_ptr<Solution> correction,
     double ofCorrection, double ofSolution);
 
@@ -72,7 +72,8 @@ private:
 
   std::unique_ptr<Solution> First, Correction;
   Report Reported;
-  std::vector<double> Sum, Rest, Added; // of the vertices that are read
+  std::vector<double> Sum, Rest, Added; // of the vertices from Begin on, which were read last
+  std::int64_t Begin = -1;
 };
 
 /**
