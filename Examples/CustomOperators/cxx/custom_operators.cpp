@@ -25,9 +25,9 @@ Run it:
     sheet, extended: converged after 8 cycles, relative residual 2.74882e-11
     sheet, over-relaxed: converged after 8 cycles, relative residual 9.97187e-12
     sheet, direct: converged after 14 cycles, relative residual 7.25853e-11
-    wires, extended: converged after 7 cycles, relative residual 6.56338e-11
-    wires, over-relaxed: converged after 7 cycles, relative residual 3.41856e-11
-    wires, direct: converged after 12 cycles, relative residual 4.85812e-11
+    wires, extended: converged after 9 cycles, relative residual 1.57746e-13
+    wires, over-relaxed: converged after 8 cycles, relative residual 1.54293e-12
+    wires, direct: converged after 14 cycles, relative residual 1.72205e-12
 */
 
 #include <smg/Convert.h>
