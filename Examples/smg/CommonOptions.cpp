@@ -39,8 +39,10 @@ std::string toBytes(std::string& text)
       std::int64_t number = 0;
       CLI::detail::lexical_cast(mebibytes, number);
       text = std::to_string(bytes ? static_cast<std::int64_t>(*bytes) : number << 20);
+      return {};
     }
-    return error;
+    return '\'' + text + "' is no size from 1 to " + std::to_string(Most) +
+           " MiB: give a whole number of MiB, or a number with a unit, as 2GiB";
   }
   catch (const smg::Error& error)
   {

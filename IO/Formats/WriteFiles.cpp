@@ -16,6 +16,7 @@
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Results/MovedVertices.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "smg/Error.h"
@@ -217,6 +218,24 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
   return writeParts(mesh, format, path, space, options.text);
 }
 
+/** Adds to the notes of a writer that the vertices of no cell of a .vsm file are not written, if
+ * there are any. */
+std::vector<std::string> withoutIsolated(WriteNotes notes, const WriteMeshOptions& options)
+{
+  const std::int64_t isolated =
+    options.isolatedFrom.empty()
+      ? 0
+      : VsmReader(options.isolatedFrom, nullptr, options.isolatedFingerprint).isolatedVertices();
+  if (isolated > 0)
+  {
+    notes.push_back(counted(isolated, "vertex belongs to no cell: it is",
+                      "vertices belong to no cell: they are") +
+                    " left out, since only .vsm files and formats in the order of the input have "
+                    "a place for them.");
+  }
+  return notes;
+}
+
 } // namespace
 
 std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
@@ -241,7 +260,7 @@ std::vector<std::string> writeMesh(
   const Format& format = *formatOfSuffix(lowerSuffix(path));
   if (format.turnOf(options.text) == PartTurn::AsTheyCome)
   {
-    return writeAsTheyCome(source, format, path, options.progress);
+    return withoutIsolated(writeAsTheyCome(source, format, path, options.progress), options);
   }
   Workers workers(options.threads);
   if (format.kind == MeshFileKind::Vsm)
@@ -274,7 +293,7 @@ std::vector<std::string> writeMesh(
   WriteMeshOptions rest = options;
   rest.scratch = scratch.path();
   rest.progress = partOf(options.progress, 0.6, 1.0);
-  return writeAgain(format, whole, path, rest);
+  return withoutIsolated(writeAgain(format, whole, path, rest), options);
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
@@ -294,7 +313,7 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   options.progress = progress;
   return format.kind == MeshFileKind::Vsm || format.turnOf(text) == PartTurn::AsTheyCome
            ? writeMesh(*reader.source(), path, options)
-           : writeAgain(format, vsm, path, options);
+           : withoutIsolated(writeAgain(format, vsm, path, options), options);
 }
 
 namespace

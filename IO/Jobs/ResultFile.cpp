@@ -245,14 +245,13 @@ std::vector<std::string> ResultFile::notesOn(
   const bool ordered = this->keepsOrder();
   const bool whole = ordered || kindOfOutput(this->Files.out) == MeshFileKind::Vsm;
   std::vector<std::string> notes;
-  if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
+  // That they are left out, write() says.
+  if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0 && whole)
   {
     notes.push_back(
       std::to_string(isolated) +
       (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
-      (whole            ? job.fateOfIsolated(isolated, ordered)
-        : isolated == 1 ? "is left out."
-                        : "are left out."));
+      job.fateOfIsolated(isolated, ordered));
   }
   if (!this->rewritesInput())
   {

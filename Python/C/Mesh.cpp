@@ -207,6 +207,27 @@ smg_status smg_elements(const smg_mesh* mesh, smg_progress progress, void* user,
     });
 }
 
+smg_status smg_merged(
+  smg_mesh* mesh, smg_progress progress, void* user, int64_t* count, int64_t* rows, int64_t* kept)
+{
+  return smg::guarded(
+    [&]
+    {
+      smg::SharedMesh& given = *smg::required(mesh, "mesh").shared;
+      std::vector<smg::MergedRow> merged;
+      if (given.options().weld)
+      {
+        merged = given.order(smg::progressOf(progress, user))->merged();
+      }
+      smg::required(count, "count") = static_cast<std::int64_t>(merged.size());
+      for (std::size_t i = 0; i < merged.size() && rows && kept; ++i)
+      {
+        rows[i] = merged[i].row;
+        kept[i] = merged[i].kept;
+      }
+    });
+}
+
 smg_status smg_save_mesh(smg_mesh* mesh, const char* path, const char* options,
   smg_progress progress, void* user, const char** notes)
 {

@@ -156,6 +156,12 @@ extern "C"
   SMG_C_EXPORT smg_status smg_elements(
     const smg_mesh* mesh, smg_progress progress, void* user, int64_t* elements);
 
+  /* The points that "weld" has merged: their number, and their rows in the original order,
+   * ascending, with the row of the vertex that each has become. rows, kept: NULL, or with room for
+   * as many. */
+  SMG_C_EXPORT smg_status smg_merged(smg_mesh* mesh, smg_progress progress, void* user,
+    int64_t* count, int64_t* rows, int64_t* kept);
+
   /* The files of a mesh, which are several of TetGen, or of VTK in pieces: a JSON list of paths,
    * the given one first. The text is valid until the next call on this thread. */
   SMG_C_EXPORT smg_status smg_files(const char* path, const char** json);

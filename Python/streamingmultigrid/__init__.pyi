@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _types as types
+from . import progress as progress
 
 __version__: str
 

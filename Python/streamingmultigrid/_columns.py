@@ -157,6 +157,11 @@ class Columns:
             )
         if of_cells and len(array) != self.mesh.n_cells:
             array = array[self.mesh.elements]
+        if name is None and not of_cells:
+            if what == "mask":
+                array = self.mesh.merged().mask(array)
+            else:
+                self.mesh.merged().warn_of(array, what)
         column = Column(name or self._free_name(what), of_cells, array, name is None)
         self.added.append(column)
         return column
@@ -181,6 +186,7 @@ class Columns:
 
     def _result(self, values: Any, what: str, name: str) -> str:
         column = self.add(values, what, cells=False, name=name)
+        self.mesh.merged().warn_of(column.values, what)
         self.shape_as(column.values)
         return name
 

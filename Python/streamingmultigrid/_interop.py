@@ -8,8 +8,8 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._arrays import numbers, points_and_cells, table
-from ._errors import Error, InputError
+from ._arrays import counted, numbers, points_and_cells, table
+from ._errors import Error, InputError, ReportWarning, warn
 from ._library import call_reporting
 from ._mesh import Mesh
 from ._opening import mesh
@@ -72,18 +72,27 @@ def _of_vtk(dataset: Any, points: Any) -> Tuple[np.ndarray, Optional[np.ndarray]
         raise InputError("The cells have triangle strips: give dataset.triangulate().")
     simplices, polygon = _triangles(points, *_counted(numbers(dataset.faces, "faces")))
     # VTK numbers vertices and lines of a PolyData before its polygons.
-    return simplices, polygon + getattr(dataset, "n_verts", 0) + getattr(dataset, "n_lines", 0)
+    others = getattr(dataset, "n_verts", 0) + getattr(dataset, "n_lines", 0)
+    _warn_of_others(others)
+    return simplices, polygon + others
+
+
+def _warn_of_others(cells: int) -> None:
+    if cells > 0:
+        words = ("cell of another type is", "cells of other types are")
+        warn("%s left out." % counted(cells, *words), ReportWarning)
 
 
 def _of_blocks(blocks: Any, points: Any) -> Tuple[np.ndarray, Optional[np.ndarray]]:
     """Simplices of meshio's list of cell blocks, tetrahedra if there are any, and the cell of each."""
     solid = any(block.type == "tetra" for block in blocks)
+    used = {"tetra"} if solid else set(_FLAT)
     chosen: List[np.ndarray] = []
     cells: List[np.ndarray] = []
     first = 0
     for block in blocks:
         data = np.asarray(block.data)
-        if block.type in ({"tetra"} if solid else _FLAT):
+        if block.type in used:
             if solid:
                 simplices, of = data, np.arange(len(data))
             else:
@@ -100,6 +109,7 @@ def _of_blocks(blocks: Any, points: Any) -> Tuple[np.ndarray, Optional[np.ndarra
     if not chosen:
         raise InputError("cells: there are neither triangles nor tetrahedra.")
     of_all = np.concatenate(cells)
+    _warn_of_others(sum(len(block.data) for block in blocks if block.type not in used))
     plain = len(of_all) == first and np.array_equal(of_all, np.arange(first))
     return np.concatenate(chosen), None if plain else of_all
 
@@ -130,8 +140,9 @@ def _parts(thing: Any) -> Tuple[Any, np.ndarray, Optional[np.ndarray]]:
 
 
 def _data(thing: Any, cells: Optional[np.ndarray]) -> Dict[Tuple[str, bool], np.ndarray]:
-    """The numeric arrays that belong to vertices and cells; others stay behind."""
+    """The numeric arrays that belong to vertices and cells; others stay behind, with a warning."""
     found: Dict[Tuple[str, bool], np.ndarray] = {}
+    left: List[str] = []
     for attribute, of_cells in (("point_data", False), ("cell_data", True)):
         data: Any = getattr(thing, attribute, None)
         for name in list(data.keys()) if data is not None else []:
@@ -140,10 +151,13 @@ def _data(thing: Any, cells: Optional[np.ndarray]) -> Dict[Tuple[str, bool], np.
                 values = np.concatenate([np.asarray(each) for each in values])
             values = np.asarray(values)
             if values.dtype.kind not in "biuf" or values.ndim not in (1, 2):
+                left.append(repr(str(name)))
                 continue
             if of_cells and cells is not None:
                 values = values[cells]
             found[str(name), of_cells] = values
+    if left:
+        warn("Left out, since only numbers can be columns: %s." % ", ".join(left), ReportWarning)
     return found
 
 
@@ -175,11 +189,11 @@ def to_pyvista(source: Any) -> Any:
     except ImportError:
         raise Error("to_pyvista() needs PyVista: pip install pyvista.") from None
     points, cells = source.read("Position"), source.read("Corners", cells=True)
-    counted = np.concatenate([np.full((len(cells), 1), cells.shape[1]), cells], axis=1).reshape(-1)
+    with_counts = np.concatenate([np.full((len(cells), 1), cells.shape[1]), cells], axis=1).reshape(-1)
     if cells.shape[1] == 3:
-        made = pyvista.PolyData(points, counted)
+        made = pyvista.PolyData(points, with_counts)
     else:
-        made = pyvista.UnstructuredGrid(counted, np.full(len(cells), _TETRA, np.uint8), points)
+        made = pyvista.UnstructuredGrid(with_counts, np.full(len(cells), _TETRA, np.uint8), points)
     for place, data in (("vertices", made.point_data), ("cells", made.cell_data)):
         for name in source.columns[place]:
             if name != "Position":

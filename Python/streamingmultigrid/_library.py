@@ -38,6 +38,7 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_counts": [c_void_p, POINTER(c_int64), POINTER(c_int64)],
     "smg_conversion": [c_void_p, POINTER(c_char_p)],
     "smg_elements": [c_void_p, *_REPORTED, POINTER(c_int64)],
+    "smg_merged": [c_void_p, *_REPORTED, POINTER(c_int64), c_void_p, c_void_p],
     "smg_files": [c_char_p, POINTER(c_char_p)],
     "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],
     "smg_estimate_file": [c_char_p] * 5 + [POINTER(c_char_p)],
@@ -173,7 +174,11 @@ def json_file(path: Any, what: str) -> Any:
 
 
 def readable(text: str) -> str:
-    """A sentence of the library, with the arguments that it knows as columns called so."""
+    """A sentence of the library, with the arguments that it knows as columns called so, and those that it
+    knows as options of the command line."""
+    text = re.sub(
+        r"\(option --([a-z-]+)(?:, property \w+)?\)", lambda option: "(argument %s)" % option[1].replace("-", "_"), text
+    )
     return re.sub(r"(?:the column )?'#([^'\"\n]+)'+", r"the array given as \1", text)
 
 

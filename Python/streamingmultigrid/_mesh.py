@@ -23,6 +23,7 @@ from ._display import mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning, warn
 from ._field import OF_EVERY_MESH, Block, Field, names_of, read_blocks, read_column, read_columns
 from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse
+from ._merged import Merged
 from ._process import HandleLock, require_no_call
 from ._solver import Solver
 from .progress import part, reporting
@@ -48,7 +49,7 @@ class _Folder:
             self.path = tempfile.mkdtemp(prefix="smg-simplified-", dir=place)
         except OSError as error:
             raise Error("scratch: %s: %s." % (error.filename, error.strerror)) from None
-        weakref.finalize(self, _remove_folder, self.path, os.getpid())
+        self.remove = weakref.finalize(self, _remove_folder, self.path, os.getpid())
 
 
 def _remove_folder(path: str, maker: int) -> None:
@@ -81,6 +82,7 @@ class Mesh:
         self._facts: Dict[bool, Dict[str, Any]] = {}
         self._elements: Optional[np.ndarray] = None
         self._n_elements: Optional[int] = None
+        self._merged: Optional[Merged] = None
         self.report = None
 
     # Opening, which is done at the first use.
@@ -254,6 +256,20 @@ class Mesh:
                 call_reporting("smg_elements", (mesh,), None, byref(count))
             self._n_elements = count.value
         return self._n_elements
+
+    def merged(self) -> Merged:
+        """The points that were merged with others, for which a mesh is read only where this was asked for."""
+        if self._opened is None and (self._reopening or {}).get("weld") is None:
+            return Merged(np.empty(0, np.int64), np.empty(0, np.int64))
+        if self._merged is None:
+            count = c_int64()
+            with self._handle() as mesh:
+                call_reporting("smg_merged", (mesh,), None, byref(count), None, None)
+                rows, kept = np.empty(count.value, np.int64), np.empty(count.value, np.int64)
+                pointers = rows.ctypes.data_as(c_void_p), kept.ctypes.data_as(c_void_p)
+                call_reporting("smg_merged", (mesh,), None, byref(count), *pointers)
+            self._merged = Merged(rows, kept)
+        return self._merged
 
     def read(
         self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
@@ -479,7 +495,7 @@ class Mesh:
 
         Returns:
             The simplified surface, whose column OriginalId has the numbers of its vertices in this
-            mesh; each triangle has the columns of one of this mesh whose corners have moved. Its
+            mesh, or, if this one has such a column of a larger mesh, those in that one; each triangle has the columns of one of this mesh whose corners have moved. Its
             `report` says more.
         """
         options = {"memory": memory, "threads": threads, "scratch": scratch, "checkpoint": checkpoint}
@@ -498,16 +514,21 @@ class Mesh:
             path = os.path.join(folder.path, "simplified.vsm")
         self.check_output(path)
         result = c_char_p()
-        with reporting(progress, "simplify") as report:
-            opening = 0.0 if self._opened else 0.3
-            with self._handle(part(report, 0, opening)) as mesh:
-                call_reporting(
-                    "smg_simplify",
-                    (mesh, json_text(description), encoded(path)),
-                    part(report, opening, 1),
-                    byref(result),
-                )
-                facts = Report(parse(result))
+        try:
+            with reporting(progress, "simplify") as report:
+                opening = 0.0 if self._opened else 0.3
+                with self._handle(part(report, 0, opening)) as mesh:
+                    call_reporting(
+                        "smg_simplify",
+                        (mesh, json_text(description), encoded(path)),
+                        part(report, opening, 1),
+                        byref(result),
+                    )
+                    facts = Report(parse(result))
+        except BaseException:  # whose traceback would keep the folder
+            if folder:
+                folder.remove()
+            raise
         from ._opening import open
 
         simplified = open(path, **self._defaults)

@@ -58,13 +58,13 @@ class _Data:
         self.width = width
 
     def _ids(self, region: Region) -> Optional[np.ndarray]:
-        return region._value if region._kind == "vertices" else None
+        return self.columns.mesh.merged().vertices(region._value) if region._kind == "vertices" else None
 
-    def widths(self, region: Region, value: Any) -> Optional[int]:
-        """The components that a value has; None if it may have any."""
+    def widths(self, region: Region, value: Any, what: str) -> Optional[int]:
+        """The components that a value of the argument `what` has; None if it may have any."""
         if isinstance(value, str):
             return 3 if value == "position" else self.columns.components(value)
-        array = numbers(value, "value")
+        array = numbers(value, what)
         if array.ndim == 0:
             return None
         if array.ndim == 2:
@@ -106,17 +106,18 @@ class _Data:
     def place(self, region: Region, what: str, write: Callable[..., Dict[str, Any]], *values: Any) -> list:
         """The entries of a region: one, or for values of single vertices one for each value."""
         ids = self._ids(region)
-        apart = [self._per_vertex(ids, value) for value in values]
+        apart = [self._per_vertex(ids, value, what) for value in values]
         if ids is None or not any(apart):
             return [{**region.where(self.columns), **write(*values)}]
-        if len(np.unique(ids)) != len(ids):
-            raise InputError("%s: a vertex has several values: give each vertex once." % what)
         rows: List[Any] = [
             numbers(value, what) if own else [value] * len(ids) for own, value in zip(apart, values)
         ]
         groups: Dict[tuple, list] = {}
+        keys: Dict[int, tuple] = {}
         for number, row in zip(ids.tolist(), zip(*rows)):
             key = tuple(item for value in row for item in np.ravel(value).tolist())
+            if keys.setdefault(number, key) != key:
+                raise InputError("%s: vertex %d has several values: give each vertex once." % (what, number))
             groups.setdefault(key, [row]).append(number)
         if len(groups) <= _FEW:
             return [{"vertices": numbers_, **write(*row)} for row, *numbers_ in groups.values()]
@@ -127,10 +128,10 @@ class _Data:
             }
         ]
 
-    def _per_vertex(self, ids: Optional[np.ndarray], value: Any) -> bool:
+    def _per_vertex(self, ids: Optional[np.ndarray], value: Any, what: str) -> bool:
         if ids is None or isinstance(value, str) or np.ndim(value) == 0:
             return False
-        array = numbers(value, "value")
+        array = numbers(value, what)
         return len(array) == len(ids) and (array.ndim == 2 or (self.width or 1) == 1)
 
     def _spread(self, ids: np.ndarray, values: Any) -> np.ndarray:
@@ -196,11 +197,14 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
         "robin": _coefficients(given.get("robin"), "robin", "smg.boundary >> (coefficient, ambient)"),
         "soft": _coefficients(given.get("soft"), "soft", "region >> (weight, value)"),
     }
-    data = _Data(columns, given.get("columns") or base.get("columns"))
+    asked = given.get("columns")
+    data = _Data(columns, base.get("columns") if asked is None else asked)
     if data.width is None:
         found_widths = {
-            data.widths(region, value)
-            for entries in (*placed.values(), *([(r, v) for r, _, v in p] for p in pairs.values()))
+            data.widths(region, value, what)
+            for what, entries in [
+                *placed.items(), *((what, [(r, v) for r, _, v in each]) for what, each in pairs.items())
+            ]
             for region, value in entries
         }
         widths = {width for width in found_widths if width is not None and width != 1}
@@ -294,11 +298,22 @@ class Handle:
         written: Dict[str, Any] = {"region": self.region.where(columns)}
         for key, value in self.motion.items():
             if key in ("target", "rotation", "logScale") and not isinstance(value, str):
-                array = numbers(value, key)
-                if columns.has_rows(array, columns.side(value, key, False)):
-                    value = columns.add(array, key, False, (1,) if key == "logScale" else (3,)).name
+                value = self._of_vertices(value, key, columns)
             written[key] = value
         return written
+
+
+    def _of_vertices(self, value: Any, key: str, columns: Columns) -> Any:
+        """One value for all vertices of the handle, the column with one for each, or those for points."""
+        array = numbers(value, key)
+        if columns.has_rows(array, columns.side(value, key, False)):
+            return columns.add(array, key, False, (1,) if key == "logScale" else (3,)).name
+        if array.ndim > 1 and self.region._kind != "nearest":
+            raise InputError(
+                "handle: %s: the shape is %s; it must have a row for each of the %d vertices, or be one value."
+                % ({"logScale": "log_scale"}.get(key, key), array.shape, columns.mesh.n_vertices)
+            )
+        return value
 
 
 def handle(

@@ -79,6 +79,8 @@ class Region:
 
     def where(self, context: Any) -> Dict[str, Any]:
         """WHERE of a problem file; `context` (columns.Columns) adds masks and knows the bounds."""
+        if self._kind == "vertices":
+            return {"vertices": context.mesh.merged().vertices(self._value)}
         return {self._kind: self._value}
 
     def selected(self, mesh: Any, progress: Any = None) -> Tuple[np.ndarray, bool]:

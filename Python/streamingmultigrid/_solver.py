@@ -99,7 +99,8 @@ class Solver:
             b: (n,), or (n, k) of k right-hand sides, numbers of any type.
             x0: initial values, of the shape of b; default 0.
             tol: the relative residual to stop at, ||b - A x|| / ||b - A x0||, between 0 and 1.
-            max_cycles: the most V-cycles of each right-hand side; default 50.
+            max_cycles: the most V-cycles of each right-hand side; default 50. `report.cycles` counts those
+                of all together.
             progress: a function of the part that is done, a bar of tqdm or rich, or True.
             strict: raise NotConverged instead of a warning NotConvergedWarning.
 

@@ -69,7 +69,7 @@ private:
 /** The name of a vertex or cell in messages: its index in the original file or in the stream. */
 inline std::string nameOfRow(std::int64_t number, bool original)
 {
-  return std::to_string(number) + (original ? " of the mesh's file" : " of the stream");
+  return std::to_string(number) + (original ? " of the original mesh" : " of the stream");
 }
 
 /** The same for row `i` of a block that begins with row `first`: its original index if the block

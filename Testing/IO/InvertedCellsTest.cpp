@@ -226,7 +226,7 @@ TEST(InvertedCells, AreNumberedAsInTheFile)
   { return report.notes[0].find(part) != std::string::npos; };
   EXPECT_TRUE(says(plain, "cell " + std::to_string(plain.inverted->worst) + " of the stream"));
   EXPECT_TRUE(
-    says(numbered, "cell " + std::to_string(numbered.inverted->worst) + " of the mesh's file"));
+    says(numbered, "cell " + std::to_string(numbered.inverted->worst) + " of the original mesh"));
   EXPECT_TRUE(says(plain,
     std::to_string(plain.inverted->cells) + " of " + std::to_string(mesh.cells()) + " tetrahedra"));
   EXPECT_NE(numbered.json().find("\"inverted\""), std::string::npos);

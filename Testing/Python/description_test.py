@@ -11,6 +11,7 @@ need("jsonschema")
 import jsonschema  # noqa: E402
 
 from streamingmultigrid._columns import Columns  # noqa: E402
+from streamingmultigrid._merged import Merged  # noqa: E402
 from streamingmultigrid._problem import handles, problem  # noqa: E402
 from streamingmultigrid._regions import as_region  # noqa: E402
 
@@ -24,6 +25,7 @@ class Mesh:
     n_vertices, n_cells, n_elements = 8, 12, 12
     elements = np.arange(12)
     bounds = (0, 3, 0, 4, 0, 0)
+    merged = staticmethod(lambda: Merged(np.empty(0, int), np.empty(0, int)))
     columns = {"vertices": {"T": {"type": "float64", "components": 1}, "Flow": {
         "type": "float32", "components": 3}}, "cells": {"part": {"type": "int32", "components": 1}}}
 
@@ -260,7 +262,9 @@ class ProblemTest(unittest.TestCase):
             ({"source": np.ones(99)}, r"\(99,\).*8 vertices or 12 cells"),
             ({"source": np.ones(7)}, r"\(7,\).*8 vertices or 12 cells"),
             ({"source": np.ones((99, 2))}, r"\(99, 2\).*8 vertices or 12 cells"),
-            ({"source": np.ones(8) * 1j}, "complex"),
+            ({"source": np.ones(8) * 1j}, "source: .*complex"),
+            ({"robin": smg.boundary >> (1, np.ones(8) * 1j)}, "robin: .*complex"),
+            ({"dirichlet": smg.vertices([1, 2]) >> ["a", "b"]}, "dirichlet: .*real numbers"),
             ({"source": np.array([None] * 8)}, "objects"),
             ({"source": ["a", 1]}, "only real numbers"),
             ({"source": np.ma.array(np.ones(8), mask=[1] + [0] * 7)}, "1 values are masked"),
@@ -328,6 +332,8 @@ class HandlesTest(unittest.TestCase):
     def test_errors(self):
         self.assertRaises(smg.InputError, smg.handle, smg.boundary)
         self.assertRaises(smg.InputError, handles, Columns(Mesh()), [1])
+        with self.assertRaisesRegex(smg.InputError, r"handle: target: the shape is \(5, 3\).*of the 8 vertices"):
+            handles(Columns(Mesh()), smg.handle([1, 2], target=np.zeros((5, 3))))
         for motion in ({"scale": 2}, {"rotate": ((0, 0, 1), 90)}, {"rotate": {"axis": [0, 0, 1], "degrees": 9}}):
             with self.assertRaisesRegex(smg.InputError, r"smg.plane\(z=0.0\) has no center"):
                 smg.handle(smg.plane(z=0), **motion)

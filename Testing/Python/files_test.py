@@ -138,6 +138,32 @@ class LeftOutTest(unittest.TestCase):
                     self.assertRegex("".join(found), words)
                     self.assertTrue(all("left.vtk: " in sentence for sentence in found))
 
+    def test_what_no_mesh_has_is_said(self):
+        """Lists and elements of PLY files; groups, materials and lines of OBJ files."""
+        names = ["x", "y", "z"]
+        header = ["ply", "format ascii 1.0", "element vertex 3", *("property float " + name for name in names),
+                  "%s", "element face 1", "property list uchar int vertex_indices", "%s", "%s", "end_header", ""]
+        for parts, rows, words in (
+            (("", "", ""), ("", "", ""), None),
+            (("property list uchar int near", "", ""), (" 0", "", ""), "the list 'near' of the element 'vertex'"),
+            (("", "property list uchar float texcoord", ""), ("", " 0", ""), "the list 'texcoord' of the element 'face'"),
+            (("", "", "element camera 1\nproperty float f"), ("", "", "3\n"), "the element 'camera'"),
+            (("", "", "element camera 0\nproperty float f"), ("", "", ""), None),
+        ):
+            with self.subTest(parts), open("left.ply", "w", encoding="ascii") as file:
+                lines = "\n".join(header) % parts
+                file.write("\n".join(line for line in lines.split("\n") if line) + "\n")
+                file.write("0 0 0%s\n1 0 0%s\n0 1 0%s\n3 0 1 2%s\n%s" % (*[rows[0]] * 3, rows[1], rows[2]))
+                file.flush()
+                found = self.sentences(lambda: smg.open("left.ply"))
+                self.assertEqual(found, []) if words is None else self.assertRegex("".join(found), words)
+        for more, words in (("g a\n", "groups and materials"), ("usemtl steel\n", "groups and materials"),
+                            ("l 1 2\nl 2 3\n", "2 elements of lines"), ("p 1\n", "1 element of lines or points")):
+            with self.subTest(more), open("left.obj", "w", encoding="ascii") as file:
+                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\n%sf 1 2 3\n" % more)
+                file.flush()
+                self.assertRegex("".join(self.sentences(lambda: smg.open("left.obj"))), words)
+
     def test_arrays(self):
         triangles = [cell[1:] for cell in self.HALVES]
         self.assertEqual(self.sentences(lambda: smg.mesh(self.SQUARE, triangles)), [])

@@ -9,6 +9,7 @@ import pathlib
 import sys
 import types
 import unittest
+import warnings
 
 from testing import bits, cube, np, smg, sphere
 
@@ -110,7 +111,9 @@ class PyVistaTest(unittest.TestCase):
         dataset.n_verts, dataset.n_lines, dataset.GetPolys = 1, 2, None  # as a vtkPolyData has it
         part = np.arange(3 + len(cells))
         dataset.cell_data["part"] = part
-        np.testing.assert_array_equal(smg.from_pyvista(dataset).read("part", cells=True), part[3:])
+        with self.assertWarnsRegex(smg.ReportWarning, "3 cells of other types are left out"):
+            mesh = smg.from_pyvista(dataset)
+        np.testing.assert_array_equal(mesh.read("part", cells=True), part[3:])
         dataset.n_strips = 1
         self.assertRaisesRegex(smg.InputError, "strips", smg.from_pyvista, dataset)
 
@@ -168,7 +171,11 @@ class OthersTest(unittest.TestCase):
             point_data={"T": points[:, 0], "names": np.array(["a"] * 27)},
             cell_data={"part": [np.full(5, 9), np.arange(20), np.arange(20, 48)]},
         )
-        mesh = smg.from_pyvista(solid)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            mesh = smg.from_pyvista(solid)
+        said = "".join(str(each.message) for each in caught)
+        self.assertRegex(said, "5 cells of other types are left out.*only numbers can be columns: 'names'")
         np.testing.assert_array_equal(mesh.cells, cells)
         self.assertEqual(mesh["part"].tolist(), list(range(48)))
         self.assertIn("T", mesh.columns["vertices"])

@@ -28,6 +28,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _types as types
+from . import progress as progress
 
 __version__: str
 """
@@ -39,7 +40,7 @@ _SPECIAL = {
 }  # fmt: skip
 #: What the parts of the package have for each other.
 _INTERNAL = {
-    "check_output", "defaults", "description", "lines", "of_datum", "preview_svg", "saving", "select_vertices",
+    "check_output", "defaults", "description", "lines", "merged", "of_datum", "preview_svg", "saving", "select_vertices",
     "selected", "where", "with_columns",
 }  # fmt: skip
 

@@ -335,6 +335,30 @@ class ArgumentsTest(unittest.TestCase):
             mesh.simplify("small.ply")
 
 
+class NoCellTest(unittest.TestCase):
+    def test_a_vertex_of_no_cell_is_in_the_file_or_its_loss_is_said(self):
+        """Of meshes and of results, from arrays and from files."""
+        for kind, (points, cells) in MESHES.items():
+            arrays = smg.mesh(np.concatenate([points, [[7.0, 8.0, 9.0]]]), cells)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", smg.ReportWarning)
+                arrays.save("loose.vsm")
+                moving = [smg.handle([0], fixed=True), smg.handle([9], translate=[0, 0, 0.1])]
+                for mesh in (arrays, smg.open("loose.vsm")):
+                    for source in (mesh, mesh.solve(dirichlet={0: 0, 9: 1}), mesh.deform(moving)):
+                        moves = not isinstance(source, smg.Field) or source.name == "Position"
+                        for suffix in SUFFIXES[kind] if moves else HOLD_COLUMNS[kind]:
+                            with self.subTest(kind, mesh=mesh, source=source, suffix=suffix):
+                                with warnings.catch_warnings(record=True) as caught:
+                                    warnings.simplefilter("always")
+                                    source.save("loose_out." + suffix)
+                                said = any("left out" in str(each.message) and "vert" in str(each.message)
+                                           for each in caught)
+                                with smg.open("loose_out." + suffix) as found:
+                                    kept = found.n_vertices == len(points) + 1
+                                self.assertNotEqual(kept, said)
+
+
 class SimplifiedTest(unittest.TestCase):
     """A simplified mesh names vertices of a larger one; it goes everywhere a mesh goes."""
 

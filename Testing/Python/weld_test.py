@@ -111,6 +111,43 @@ class WeldTest(unittest.TestCase):
                 self.assertEqual(bits(selected[:-1]), bits(by_original[original[:-1]]))
                 self.assertTrue(0 < selected.sum() < len(selected))
 
+    def test_any_point_of_a_place_names_its_vertex(self):
+        """Numbers, masks and values of points that were merged with others."""
+        for what, mesh, original, _ in self.meshes():
+            corner, far = original[0], original[-2]
+            ends = [np.flatnonzero(original == each) for each in (corner, far)]
+            self.assertTrue(all(len(rows) > 1 for rows in ends))
+            results = []
+            for pick in (0, -1):
+                rows = [int(each[pick]) for each in ends]
+                masks = [np.arange(len(original)) == row for row in rows]
+                with self.subTest(what, rows=rows):
+                    self.assertEqual(np.flatnonzero(mesh.select(smg.vertices([rows[0]]))).tolist(), ends[0].tolist())
+                    self.assertEqual(np.flatnonzero(mesh.select(masks[0])).tolist(), ends[0].tolist())
+                    held = [smg.handle(masks[0], fixed=True), smg.handle([rows[1]], translate=[0, 0, 1])]
+                    results.append([
+                        mesh.solve(dirichlet=dict(zip(rows, (0.0, 1.0)))).to_numpy(),
+                        mesh.solve(dirichlet=[smg.mask(mask) >> value for mask, value in zip(masks, (0, 1))]).to_numpy(),
+                        mesh.distance([rows[0]]).to_numpy(),
+                        mesh.distance(masks[0]).to_numpy(),
+                        mesh.deform(held).to_numpy(),
+                    ])
+            for first, last in zip(*results):
+                self.assertEqual(bits(first), bits(last))
+            self.assertEqual(bits(results[0][0]), bits(results[0][1]))
+            both = {int(row): 2.0 for row in ends[0]}
+            mesh.solve(dirichlet=both, screening=1.0)
+            with self.subTest(what), self.assertRaisesRegex(smg.InputError, "several values"):
+                mesh.solve(dirichlet={**both, int(ends[0][-1]): 3.0})
+            source = np.zeros(len(original))
+            source[ends[0]] = 1.0
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                mesh.solve(source=source, screening=1.0)
+            source[ends[0][-1]] = 2.0
+            with self.assertWarnsRegex(smg.ReportWarning, "source: 1 point was merged"):
+                mesh.solve(source=source, screening=1.0)
+
     def test_pyvista(self):
         try:
             import pyvista  # noqa: F401

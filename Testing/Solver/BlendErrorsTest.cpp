@@ -70,7 +70,7 @@ TEST(BlendErrors, OfPatchesAndValues)
   };
   EXPECT_TRUE(contains(patchError("none"), "patch: the mesh has no column 'none'"));
   EXPECT_TRUE(contains(patchError("wide"), "has 60 components, but must have one"));
-  EXPECT_TRUE(contains(patchError("nan"), "'nan' is not a number at vertex 5 of the mesh's file"))
+  EXPECT_TRUE(contains(patchError("nan"), "'nan' is not a number at vertex 5 of the original mesh"))
     << patchError("nan");
   EXPECT_TRUE(contains(patchError("ofCells"), "'ofCells' is not a number in cell 0"));
   EXPECT_TRUE(contains(patchError("large"), "has an integer of 2^53 or more at vertex 5"));

@@ -118,19 +118,19 @@ TEST_F(DescribedErrors, ValuesOfColumnsAreNamedByTheNumbersOfTheFile)
   this->Source = MemorySource(mesh);
   EXPECT_SAYS(this->errorOfConductivity("K"),
     "conductivity: the column 'K' must be a positive number or a positive "
-    "definite tensor in cell 1020 of the mesh's file");
+    "definite tensor in cell 1020 of the original mesh");
   ProblemDescription description;
   description.screening = "one";
-  EXPECT_SAYS(this->errorOf(description),
-    "screening: the column 'one' must be finite and not negative at vertex 507 of the mesh's file");
+  EXPECT_SAYS(this->errorOf(description), "screening: the column 'one' must be finite and not "
+                                          "negative at vertex 507 of the original mesh");
 
   mesh.vertexColumns[0].as<double>()[7] = NAN;
   mesh.cellColumns[0].as<double>()[3] = NAN;
   this->Source = MemorySource(mesh);
   EXPECT_SAYS(this->errorOfDirichlet(ColumnMask{ "one" }),
-    "dirichlet[1].mask: is not a number at vertex 507 of the mesh's file");
+    "dirichlet[1].mask: is not a number at vertex 507 of the original mesh");
   EXPECT_SAYS(this->errorOfConductivity({ { ColumnMask{ "k" }, 2.0 } }),
-    "conductivity[0].mask: is not a number in cell 1003 of the mesh's file");
+    "conductivity[0].mask: is not a number in cell 1003 of the original mesh");
 }
 
 TEST_F(DescribedErrors, ValuesOfTheBoundaryAreNamedByTheNumbersOfTheFile)
@@ -151,7 +151,7 @@ TEST_F(DescribedErrors, ValuesOfTheBoundaryAreNamedByTheNumbersOfTheFile)
   source.rewind(7);
   const std::string error = messageOf([&] { solve(source, problem, {}); });
   EXPECT_SAYS(error, "flux[0]: is not a finite number on the boundary of cell 10");
-  EXPECT_SAYS(error, "of the mesh's file");
+  EXPECT_SAYS(error, "of the original mesh");
 }
 
 TEST_F(DescribedErrors, PlacesThatSelectNothing)

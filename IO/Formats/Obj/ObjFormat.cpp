@@ -9,6 +9,7 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
 #include <array>
@@ -42,6 +43,15 @@ public:
                          "belong to corners of faces: save the mesh as PLY to have them of "
                          "vertices.");
     }
+    if (this->HasGroups)
+    {
+      this->Builder.note("The groups and materials of the faces are left out.");
+    }
+    if (this->Lines > 0)
+    {
+      this->Builder.note(counted(this->Lines, "element of lines or points is left out.",
+        "elements of lines or points are left out."));
+    }
     if (this->Degenerate > 0)
     {
       this->Builder.note(
@@ -69,6 +79,14 @@ private:
       else if (keyword == "vn" || keyword == "vt")
       {
         this->HasCornerAttributes = true;
+      }
+      else if (keyword == "l" || keyword == "p")
+      {
+        ++this->Lines;
+      }
+      else if (keyword == "g" || keyword == "usemtl")
+      {
+        this->HasGroups = true;
       }
       this->Scanner.skipLine();
     }
@@ -154,6 +172,8 @@ private:
   RawMeshBuilder& Builder;
   TextColors Colors;
   bool HasCornerAttributes = false;
+  bool HasGroups = false;
+  std::int64_t Lines = 0;      ///< elements of lines or points
   std::int64_t Degenerate = 0; ///< faces of fewer than three vertices
   bool Continues = false;      ///< whether the next line continues this one
 };

@@ -341,6 +341,36 @@ const PlyProperty* findNumber(const PlyElement& element, std::string_view name)
   return found == element.properties.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> leftOutOf(const PlyHeader& header)
+{
+  std::vector<std::string> found;
+  for (const PlyElement& element : header.elements)
+  {
+    const bool isOfCells = element.name == "face" || element.name == "tristrips";
+    if (element.count > 0 && !isOfCells && element.name != "vertex")
+    {
+      found.push_back("the element " + inQuotes(element.name));
+      continue;
+    }
+    bool mayBeCorners = isOfCells;
+    for (const PlyProperty& property : element.properties)
+    {
+      if (!property.list || element.count == 0)
+      {
+        continue;
+      }
+      if (stepOfList(property, mayBeCorners).kind == PlyStep::Corners)
+      {
+        mayBeCorners = false;
+        continue;
+      }
+      found.push_back(
+        "the list " + inQuotes(property.name) + " of the element " + inQuotes(element.name));
+    }
+  }
+  return found;
+}
+
 PlyPlan planOf(
   const PlyElement& element, PlyRole role, const std::function<int(const ColumnSpec&)>& addColumn)
 {

@@ -120,6 +120,10 @@ enum class PlyRole
 PlyPlan planOf(const PlyElement& element, PlyRole role,
   const std::function<int(const ColumnSpec&)>& addColumn = {});
 
+/** What a mesh has no place for: lists other than corners, and elements other than vertices, faces
+ * and strips, as a note calls them. */
+std::vector<std::string> leftOutOf(const PlyHeader& header);
+
 /** The property of this name that is a number; null if there is none. */
 const PlyProperty* findNumber(const PlyElement& element, std::string_view name);
 

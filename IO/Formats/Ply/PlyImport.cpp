@@ -267,6 +267,22 @@ void checkLength(const InputFile& file, const PlyHeader& header)
   }
 }
 
+void noteLeftOut(const PlyHeader& header, RawMeshBuilder& builder)
+{
+  const std::vector<std::string> leftOut = leftOutOf(header);
+  constexpr std::size_t MostNames = 10;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(leftOut.size(), MostNames); ++i)
+  {
+    names += (i == 0 ? " " : ", ") + leftOut[i];
+  }
+  if (!names.empty())
+  {
+    builder.note("Left out, since a mesh has no place for them:" + names +
+                 (leftOut.size() > MostNames ? " ..." : "."));
+  }
+}
+
 } // namespace
 
 void importPly(InputFile& file, RawMeshBuilder& builder)
@@ -278,6 +294,7 @@ void importPly(InputFile& file, RawMeshBuilder& builder)
     builder.note("The line of the header that begins with " + inQuotes(keyword) +
                  " is none of PLY and is left out.");
   }
+  noteLeftOut(header, builder);
   withPlyBody(file, header, &builder.workspace(),
     [&](auto& cursor) { BodyReader(header, cursor, builder).read(); });
 }

@@ -77,6 +77,8 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   expectInvalid(smg_conversion(m, nullptr), null);
   expectInvalid(smg_elements(nullptr, nullptr, nullptr, &number), null);
   expectInvalid(smg_elements(m, nullptr, nullptr, nullptr), null);
+  expectInvalid(smg_merged(nullptr, nullptr, nullptr, &number, nullptr, nullptr), null);
+  expectInvalid(smg_merged(m, nullptr, nullptr, nullptr, nullptr, nullptr), null);
   expectInvalid(smg_estimate(nullptr, "solve", nullptr, nullptr, &text), null);
   expectInvalid(smg_estimate(m, nullptr, nullptr, nullptr, &text), null);
   expectInvalid(smg_estimate(m, "solve", nullptr, nullptr, nullptr), null);
