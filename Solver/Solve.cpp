@@ -106,8 +106,7 @@ std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSour
   PoissonSolver solver(operators, problem.columns(), options);
   std::unique_ptr<Solution> solution = solver.solve(mesh, problem);
   return options.again && solver.norms().flow > 0.0 && solution->report().converged
-           ? corrected(
-               operators, problem, options, std::move(solution), solver.norms(), solver.usedBytes())
+           ? corrected(operators, problem, options, std::move(solution), solver)
            : std::move(solution);
 }
 

@@ -95,6 +95,7 @@ class Report(_Facts):
     energy: List[float]
     mean: List[float]
     minimum: List[Dict[str, Any]]
+    parts: List[Dict[str, Any]]
     maximum: List[Dict[str, Any]]
     source: List[float]
     screening: List[float]

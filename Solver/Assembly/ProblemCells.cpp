@@ -46,6 +46,7 @@ ProblemCells::ProblemCells(Problem& problem, CellType type, bool conductivities)
   , Kind(problem.weights())
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Conductivities(conductivities)
+  , Parts(problem.conditionCounts().parts)
 {
 }
 
@@ -183,6 +184,11 @@ void ProblemCells::requireValid(std::size_t k, const MeshBlock& block, std::size
   if (!allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
   {
     throw Error("the field of " + nameOf(block, c) + " is not a finite number");
+  }
+  if (this->Part[k] < -1 || this->Part[k] >= this->Parts)
+  {
+    throw Error("the problem's part of " + nameOf(block, c) + " is " +
+                std::to_string(this->Part[k]) + ", of " + std::to_string(this->Parts));
   }
 }
 

@@ -77,6 +77,7 @@ private:
   Weights Kind;
   std::size_t Columns;
   bool Conductivities;
+  int Parts;
   std::size_t Current = 0;
   std::vector<Cell> Cells; // of the batch
   std::vector<double> Points, Weight, Measure, Field, Conductivity;

@@ -104,7 +104,7 @@ def test_errors():
     run("distance", "torus.obj", "out.vtp", *places, "--memory", "20.5MB", "--dry-run", "--report", "dry.json")
     assert load("dry.json")["memory_limit"] == 20_500_000  # not whole MiB
     os.remove("out.vtp")
-    for size, sentence in (("2000000T", "range"), ("2X", "'2X' has another unit"), ("1K", "'1K' is not a size"), ("0", "range"),
+    for size, sentence in (("2000000T", "is no size from 1 to"), ("2X", "'2X' has another unit"), ("1K", "'1K' is not a size"), ("0", "is no size from 1 to"),
                            ("-3G", "'-3G' is not a size"), ("nanG", "'nanG' is not a size"), ("M", "M")):
         assert sentence in run("distance", "torus.obj", "out.vtp", *places, "--memory", size,
                                code=2).stderr

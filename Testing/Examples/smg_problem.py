@@ -185,9 +185,9 @@ def test_errors():
     tensors[17] = (1, 1, 1, 2, 0, 0)
     write_vtk("bad.vtk", K=tensors)
     error = solve(mesh="bad.vtk", conductivity="K", dirichlet=[BOTTOM], code=1)
-    assert "conductivity: the column 'K' must be" in error and "cell 17 of the mesh's file" in error
+    assert "conductivity: the column 'K' must be" in error and "cell 17 of the original mesh" in error
     error = solve(conductivity=1e30, dirichlet=[BOTTOM], code=1)
-    assert "the weights of cell " in error and " of the mesh's file are outside" in error, error
+    assert "the weights of cell " in error and " of the original mesh are outside" in error, error
     for members, words in (
             ({"conductivity": [{"tag": ["layer", 3], "value": 1}], "source": [1]}, "conductivity[0]: no cell"),
             ({"dirichlet": [{"tag": ["layer", 3], "value": [0]}]}, "dirichlet[0]: no vertex"),

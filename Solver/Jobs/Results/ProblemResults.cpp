@@ -33,7 +33,7 @@ ProblemResults::ProblemResults(
   , Memory(options.memoryLimit, ResultMemory)
   , Vertices(this->Memory, problem, &solution)
   , Reach(this->Memory)
-  , EdgeWeights(this->Memory)
+  , Flows(this->Memory, problem.columns())
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux,
@@ -84,10 +84,7 @@ void ProblemResults::addVertices(const MeshBlock& block)
   const std::int64_t end = this->Vertices.end();
   this->Facets.extend(end);
   this->Edges.extend(end);
-  if (this->FacetLoads)
-  {
-    this->EdgeWeights.extend(end);
-  }
+  this->Flows.extend(end);
   for (auto* loads : { &this->CellLoads, &this->FacetLoads })
   {
     if (*loads)
@@ -188,17 +185,19 @@ void ProblemResults::relateToFirst(const std::int64_t* corners, const double** v
 }
 
 /** Collects the weights, as in the solve, of the edges that carry a flow out of a condition. Most
- * cells have no such edge, which the comparison of their corners shows at once. */
+ * cells have no such edge, which the comparison of their corners shows at once. What flows along
+ * others is a sum over the cells, unless the weights of edges are no sums. */
 void ProblemResults::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
-  if (this->FacetLoads)
+  const bool areSums = this->Kind == Weights::Cotangent;
+  if (areSums)
   {
-    this->weighEdges(corners, cell);
+    this->addFlows(corners, cell);
   }
   const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
   const std::int32_t first = dirichlet[corners[0]];
-  bool same = true;
+  bool same = areSums;
   for (int k = 1; k < cornersOf(this->Type); ++k)
   {
     same = same && dirichlet[corners[k]] == first;
@@ -206,19 +205,22 @@ void ProblemResults::connect(
   if (!same)
   {
     this->Edges.add(corners, points, cell, this->Own ? this->Own->scale() : 1.0,
-      [&](std::int64_t a, std::int64_t b) { return dirichlet[a] != dirichlet[b]; });
+      [&](std::int64_t a, std::int64_t b) { return !areSums || dirichlet[a] != dirichlet[b]; });
   }
 }
 
-/** Adds the magnitudes of the weights at both ends of each edge, for the share of these rows in the
- * residual: see commonShare(). */
-void ProblemResults::weighEdges(const std::int64_t* corners, const CellWeights& cell)
+/** Adds what flows along the edges of a cell to the residuals of its corners. */
+void ProblemResults::addFlows(const std::int64_t* corners, const CellWeights& cell)
 {
   for (int e = 0; e < edgesOf(this->Type); ++e)
   {
-    for (const int k : { edgeCorners(this->Type, e)[0], edgeCorners(this->Type, e)[1] })
+    const int* ends = edgeCorners(this->Type, e);
+    const std::int64_t from = corners[ends[0]], to = corners[ends[1]];
+    for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      this->EdgeWeights[corners[k]] += std::fabs(cell.weight[e]);
+      const double flow = cell.weight[e] * this->Vertices.difference(from, to, k);
+      this->Flows.at(from)[k] += flow;
+      this->Flows.at(to)[k] -= flow;
     }
   }
 }
@@ -241,7 +243,7 @@ void ProblemResults::finalize(std::int64_t end)
       (*loads)->release(this->Final);
     }
   }
-  this->EdgeWeights.release(this->Final);
+  this->Flows.release(this->Final);
   this->Facets.release(this->Final);
   this->Edges.release(this->Final);
 }
@@ -281,7 +283,6 @@ void ProblemResults::close(std::int64_t i, double* numbers)
   terms.screening() = this->Vertices.densities[ScreeningDensity][i] * mass +
                       (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
   terms.transfer() = this->FacetLoads ? this->FacetLoads->rowSum(i) : 0.0;
-  terms.edges() = this->FacetLoads ? this->EdgeWeights[i] : 0.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     terms.source(k) = mass * this->Vertices.densities[SourceDensity].at(i)[k] +
@@ -289,32 +290,39 @@ void ProblemResults::close(std::int64_t i, double* numbers)
     terms.inflow(k) = this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0;
     terms.outflow(k) = terms.outflowTerms(k) = 0.0;
   }
-  // Only edges out of a condition are stored, so most vertices have none.
+  // As a rule only edges out of a condition are stored, so most vertices have none.
   this->Neighbours.clear();
   this->Edges.take(i, this->Vertices.points, this->Neighbours);
   this->Reach.close(i, this->Neighbours.empty() ? i : std::max(i, this->Neighbours.back().to));
-  if (this->Vertices.dirichlet[i] >= 0)
+  if (this->Vertices.dirichlet[i] >= 0 || this->Kind != Weights::Cotangent)
   {
     this->addEdges(i, terms);
+    return;
+  }
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    terms.outflow(k) = this->Flows.at(i)[k];
   }
 }
 
-/** Adds what flows along the edges of a prescribed vertex, by the weights of the matrix. */
+/** Adds what flows along the edges of a vertex, by the weights of the matrix; of a prescribed one
+ * along those that lead out of its condition. */
 void ProblemResults::addEdges(std::int64_t i, VertexTerms terms)
 {
   const double* u = this->Vertices.values.at(i);
   for (const RowNeighbour& neighbour : this->Neighbours)
   {
+    const std::int32_t condition = this->Vertices.dirichlet[i];
+    if (condition >= 0 && this->Vertices.dirichlet[neighbour.to] == condition)
+    {
+      continue;
+    }
     const double weight = knownWeight(this->Kind, neighbour);
     const double* other = this->Vertices.values.at(neighbour.to);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      const double flow = weight * this->Vertices.difference(i, neighbour.to, k);
-      terms.outflow(k) += flow;
-      // What is rounded: values, or with the rest of them, what flows.
-      terms.outflowTerms(k) += this->Vertices.hasRest()
-                                 ? std::fabs(flow)
-                                 : std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other[k]));
+      terms.outflow(k) += weight * this->Vertices.difference(i, neighbour.to, k);
+      terms.outflowTerms(k) += std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other[k]));
     }
   }
 }

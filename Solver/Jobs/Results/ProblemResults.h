@@ -86,7 +86,7 @@ private:
   void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
   void relateToFirst(const std::int64_t* corners, const double** values);
   void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
-  void weighEdges(const std::int64_t* corners, const CellWeights& cell);
+  void addFlows(const std::int64_t* corners, const CellWeights& cell);
   void finalize(std::int64_t end);
   void addBoundary(std::int64_t i);
   void close(std::int64_t i, double* numbers);
@@ -104,9 +104,9 @@ private:
   NeighbourReach Reach;
   std::optional<ProblemCells> Own;
   std::optional<VertexLoads> CellLoads, FacetLoads;
-  Ring<double> EdgeWeights; // magnitudes of the edge weights, if there are facet loads
+  Ring<double> Flows; // along the edges of a vertex, if their weights are sums over cells
   ProblemFacets Facets;
-  EdgeStiffness Edges; // from Dirichlet vertices to vertices outside the condition
+  EdgeStiffness Edges; // from Dirichlet vertices to vertices outside the condition, or all
 
   FacetSet Inner; // facets that other parts have as well
 

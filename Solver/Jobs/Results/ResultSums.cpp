@@ -2,7 +2,6 @@
 #include "Solver/Jobs/Results/ResultSums.h"
 
 #include "Solver/Assembly/Elements.h"
-#include "Solver/Multigrid/Cycle/RowShare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +105,7 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
   , RobinTerms(this->Columns)
 {
   const std::vector<double> zeros(this->Columns);
-  const Sums none{ 0.0, zeros, zeros, zeros, 0.0, zeros };
+  const Sums none{ 0.0, zeros, zeros, zeros, 0.0 };
   this->Dirichlet.assign(static_cast<std::size_t>(counts.dirichlet), none);
   this->Flux.assign(static_cast<std::size_t>(counts.flux), none);
   this->Robin.assign(static_cast<std::size_t>(counts.robin), none);
@@ -154,25 +153,19 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
       const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
       this->addFlux(sums, k, factor * vertices.below(ambient, facet.corners[c], k));
       // The flux is a small difference of these where u is close to the ambient value.
-      const double terms = vertices.hasRest()
-                             ? factor * std::fabs(vertices.below(ambient, facet.corners[c], k))
-                             : factor * (std::fabs(ambient) + std::fabs(value[k]));
-      this->RobinTerms[k] += terms;
-      sums.terms[k] += terms;
+      this->RobinTerms[k] += factor * (std::fabs(ambient) + std::fabs(value[k]));
     }
   }
 }
 
 /** Adds a prescribed vertex; its reaction is the flow through the condition there. */
-void ConditionSums::add(
-  std::int32_t dirichlet, const double* value, const double* reaction, const double* terms)
+void ConditionSums::add(std::int32_t dirichlet, const double* value, const double* reaction)
 {
   Sums& sums = this->Dirichlet[static_cast<std::size_t>(dirichlet)];
   sums.vertices += 1.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     sums.vertexValue[k] += value[k];
-    sums.terms[k] += terms[k];
     this->addFlux(sums, k, reaction[k]);
   }
 }
@@ -220,7 +213,6 @@ void ConditionSums::appendNumbers(std::vector<double*>& numbers)
       append(sums.value);
       append(sums.flux);
       append(sums.vertexValue);
-      append(sums.terms);
     }
   }
   append(this->Inflow);
@@ -235,17 +227,6 @@ std::vector<Report::Condition> ConditionSums::conditions() const
   this->append("flux", this->Flux, conditions);
   this->append("robin", this->Robin, conditions);
   return conditions;
-}
-
-std::vector<std::vector<double>> ConditionSums::terms() const
-{
-  std::vector<std::vector<double>> terms;
-  for (const auto* all : { &this->Dirichlet, &this->Flux, &this->Robin })
-  {
-    std::ranges::transform(
-      *all, std::back_inserter(terms), [](const Sums& sums) { return sums.terms; });
-  }
-  return terms;
 }
 
 /** The means of a condition: over its facets if it has any, else over its vertices; NaN if it holds
@@ -286,9 +267,7 @@ std::string percent(double share)
 ResultSums::ResultSums(CellType type, Problem& problem)
   : conditions(type, problem.conditionCounts(), problem.columns())
   , Columns(static_cast<std::size_t>(problem.columns()))
-  , HasFacets(problem.hasFacets())
-  , Reaction(this->Columns)
-  , Terms(this->Columns)
+  , Residual(this->Columns)
   , Mean(this->Columns)
   , Source(this->Columns)
   , Screening(this->Columns)
@@ -297,7 +276,8 @@ ResultSums::ResultSums(CellType type, Problem& problem)
   , CellEnergy(this->Columns)
   , LeftOut(this->Columns)
   , ReactionTerms(this->Columns)
-  , RobinTerms(this->Columns)
+  , ResidualSum(this->Columns)
+  , ResidualSquares(this->Columns)
 {
   // Extremes begin with values that every number replaces; the vertex stays -1 if there is none.
   constexpr double Far = std::numeric_limits<double>::infinity();
@@ -323,40 +303,31 @@ void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
     this->ScreeningEnergy[k] += 0.5 * screening * u[k];
     this->Magnitude[k] += std::fabs(source) + std::fabs(screening);
   }
-  if (this->HasFacets)
+  this->addResidual(terms, u, dirichlet);
+}
+
+/** Adds the residual ((L + S) u - F)_i of a vertex, of a prescribed one as the reaction of its
+ * condition: edges within that are left out, since what they carry cancels in the sum over its
+ * vertices. */
+void ResultSums::addResidual(VertexTerms terms, const double* u, std::int32_t dirichlet)
+{
+  for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    this->addRobinTerms(terms, u);
+    const double residual = (terms.screening() + terms.transfer()) * u[k] -
+                            (terms.source(k) + terms.inflow(k)) + terms.outflow(k);
+    this->Residual[k] = residual;
+    if (dirichlet >= 0)
+    {
+      this->ReactionTerms[k] += terms.outflowTerms(k);
+      continue;
+    }
+    this->ResidualSum[k] += residual;
+    this->ResidualSquares[k] += residual * residual;
   }
   if (dirichlet >= 0)
   {
-    this->addDirichlet(terms, u, dirichlet);
+    this->conditions.add(dirichlet, u, this->Residual.data());
   }
-}
-
-/** Adds the Robin terms of a vertex with the share by which its row counts in the residual, see
- * commonShare(). */
-void ResultSums::addRobinTerms(VertexTerms terms, const double* u)
-{
-  const double share = commonShare(terms.transfer(), terms.edges());
-  for (std::size_t k = 0; k < this->Columns; ++k)
-  {
-    this->RobinTerms[k] +=
-      share * (std::fabs(terms.inflow(k)) + terms.transfer() * std::fabs(u[k]));
-  }
-}
-
-/** Adds the reaction ((L + S) u - F)_i of a prescribed vertex. Edges within the condition are left
- * out, since what they carry cancels in the sum over its vertices. */
-void ResultSums::addDirichlet(VertexTerms terms, const double* u, std::int32_t dirichlet)
-{
-  for (std::size_t k = 0; k < this->Columns; ++k)
-  {
-    this->Reaction[k] = (terms.screening() + terms.transfer()) * u[k] -
-                        (terms.source(k) + terms.inflow(k)) + terms.outflow(k);
-    this->Terms[k] = terms.outflowTerms(k);
-    this->ReactionTerms[k] += this->Terms[k];
-  }
-  this->conditions.add(dirichlet, u, this->Reaction.data(), this->Terms.data());
 }
 
 /** The cells have been summed on their own, over all blocks. */
@@ -371,9 +342,9 @@ void ResultSums::setCells(const CellResults& cells)
 std::vector<double*> ResultSums::numbers()
 {
   std::vector<double*> all{ &this->Mass };
-  for (auto* sums :
-    { &this->Mean, &this->Source, &this->Screening, &this->ScreeningEnergy, &this->Magnitude,
-      &this->CellEnergy, &this->LeftOut, &this->ReactionTerms, &this->RobinTerms })
+  for (auto* sums : { &this->Mean, &this->Source, &this->Screening, &this->ScreeningEnergy,
+         &this->Magnitude, &this->CellEnergy, &this->LeftOut, &this->ReactionTerms,
+         &this->ResidualSum, &this->ResidualSquares })
   {
     std::ranges::transform(*sums, std::back_inserter(all), [](double& sum) { return &sum; });
   }
@@ -463,59 +434,69 @@ void ResultSums::reportParts(Report& report) const
   }
 }
 
-/** What flows in column k at least: the power, twice the energy, over the range of u; 0 if that is
- * rounding. So a flux that is as small as its rounding is no flux where nothing flows, and not
- * known where something does. */
-double ResultSums::leastFlow(const Report& report, std::size_t k) const
+/**
+ * What flows in column k, all 0 if nothing does. With phi the solution for 1 on a condition and 0
+ * on the others, without sources, the flux through that condition is wrong by the sum of phi_i r_i
+ * over the residuals r, where phi is between 0 and 1. Rounding has residuals of random signs, an
+ * unfinished solve of one sign: the larger one of both sums is what a flux may be wrong by.
+ *
+ * The power, twice the energy, over the range of u is what flows at least through the whole. It has
+ * twice the digits of a flux, and tells a flux that is lost from none: if what flows is small
+ * beside its terms and much more than the power tells, it is only what the solve has left.
+ */
+ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
 {
-  // Values differ by what the solve leaves, and a flow that is so small beside its terms is due to
-  // their rounding.
-  constexpr double OfValues = 1e-6, OfFlow = 1e-24;
+  constexpr double Sure = 3.0, OfValues = 1e-6, OfDoubt = 1e-7;
+  Flow flow;
+  flow.all = this->conditions.magnitude()[k] + this->Magnitude[k];
+  // Of components without a condition, where the solve has changed the sources.
+  const bool isShifted = !report.removed_source.empty() && report.removed_source[k] != 0.0;
+  flow.doubt = isShifted ? 0.0
+                         : std::max(std::fabs(this->ResidualSum[k]),
+                             Sure * std::sqrt(this->ResidualSquares[k]));
   const double most = this->maximum[k].value, least = this->minimum[k].value;
-  const double range = most - least;
-  if (!(range > OfValues * std::max(std::fabs(most), std::fabs(least))))
+  if (const double range = most - least;
+      range > OfValues * std::max(std::fabs(most), std::fabs(least)))
   {
-    return 0.0;
+    flow.least = 2.0 * report.energy[k] / range;
   }
-  const double flow = 2.0 * report.energy[k] / range;
-  return flow > OfFlow * (this->ReactionTerms[k] + this->conditions.robinTerms()[k]) ? flow : 0.0;
+  const double left = std::clamp(100.0 * report.residual(), 1e-9, 1e-6);
+  const double terms = this->ReactionTerms[k] + this->conditions.robinTerms()[k];
+  const bool isLeft = report.converged && flow.all <= left * terms;
+  return isLeft && flow.least <= OfDoubt * flow.doubt ? Flow() : flow;
 }
 
-/** Makes the fluxes of column k that are lost in the rounding of the solution NaN; returns whether
- * there are any. `flow`: leastFlow(). */
-bool ResultSums::markLost(Report& report, std::size_t k, double flow) const
+/** Makes the fluxes of column k NaN of which no digit is known; returns whether there are any. */
+bool ResultSums::markLost(Report& report, std::size_t k, const Flow& flow)
 {
-  // Of each of many terms; and the part of a flux, or of all that flows, that it may be.
-  constexpr double Rounding = 1e-14, Known = 1e-3;
-  const std::vector<std::vector<double>> terms = this->conditions.terms();
-  bool any = false;
-  for (std::size_t c = 0; flow > 0.0 && c < report.conditions.size(); ++c)
+  constexpr double Unknown = 0.1;
+  std::string lost;
+  for (Report::Condition& condition : report.conditions)
   {
-    Report::Condition& condition = report.conditions[c];
-    const double noise = Rounding * terms[c][k];
-    if (noise <= Known * std::max(std::fabs(condition.flux[k]), flow))
+    const bool isGiven = condition.name.starts_with("flux");
+    if (isGiven || flow.doubt <= Unknown * std::max(std::fabs(condition.flux[k]), flow.least))
     {
       continue;
     }
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.1e", noise);
-    report.warn("the flux of " + condition.name +
-                " is not known: it is a difference of numbers so large that their rounding is up "
-                "to " +
-                text);
+    lost += (lost.empty() ? "" : ", ") + condition.name;
     condition.flux[k] = std::numeric_limits<double>::quiet_NaN();
-    any = true;
   }
-  return any;
+  if (lost.empty())
+  {
+    return false;
+  }
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1e", flow.doubt);
+  report.warn("the flux of " + lost +
+              " is not known: what the solve has left may change it by up to " + text);
+  return true;
 }
 
 /** The balance of each column: what flows in through conditions and sources, minus what screening
  * takes, relative to all that flows. */
 void ResultSums::reportBalance(Report& report) const
 {
-  // A flux is a difference of larger terms. Below these shares of them it is rounding, or what the
-  // residual of the solve leaves: it counts as no flow.
-  constexpr double Rounding = 1e-12, Noted = 1e-3;
+  constexpr double Noted = 1e-3;
   double largest = 0.0;
   report.source = this->Source;
   report.screening = this->Screening;
@@ -527,25 +508,24 @@ void ResultSums::reportBalance(Report& report) const
     {
       report.source[k] -= report.removed_source[k];
     }
-    const double rest = this->conditions.inflow()[k] + report.source[k] - report.screening[k];
-    // With no flow at all, rest / all would be a quotient of rounding errors.
-    const double all = this->conditions.magnitude()[k] + this->Magnitude[k];
-    const double noise =
-      std::max(Rounding * (this->ReactionTerms[k] + this->conditions.robinTerms()[k]),
-        report.residual() * (this->ReactionTerms[k] + this->RobinTerms[k]));
-    const double flow = this->leastFlow(report, k);
-    if (this->markLost(report, k, flow))
+    const Flow flow = this->flowIn(report, k);
+    if (flow.all <= 0.0)
+    {
+      continue; // a quotient of rounding errors
+    }
+    if (markLost(report, k, flow))
     {
       report.balance[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    report.balance[k] = all > noise || (all > 0.0 && flow > 0.0) ? rest / all : 0.0;
-    largest = std::max(largest, std::fabs(report.balance[k]));
+    const double rest = this->conditions.inflow()[k] + report.source[k] - report.screening[k];
+    report.balance[k] = rest / flow.all;
+    largest = std::max(largest, std::max(std::fabs(rest), flow.doubt) / flow.all);
   }
   if (largest > Noted && report.converged)
   {
-    report.warn("the fluxes of the conditions miss their balance by " + percent(largest) +
-                " % of all that flows: a smaller tolerance makes them better");
+    report.warn("the fluxes of the conditions are known up to " + percent(largest) +
+                " % of all that flows: a smaller tolerance may make them better");
   }
 }
 

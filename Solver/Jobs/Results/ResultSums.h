@@ -72,14 +72,11 @@ public:
 
   /** Adds a boundary facet of this length or area; the values of `vertices` are the solution. */
   void add(const BoundaryFacet& facet, double area, const OpenVertices& vertices);
-  /** Adds a vertex of a Dirichlet condition with its value, its reaction, and the magnitudes of the
-   * terms of that, `columns` numbers each. */
-  void add(
-    std::int32_t dirichlet, const double* value, const double* reaction, const double* terms);
+  /** Adds a vertex of a Dirichlet condition with its value and its reaction, `columns` numbers
+   * each. */
+  void add(std::int32_t dirichlet, const double* value, const double* reaction);
 
   std::vector<Report::Condition> conditions() const;
-  /** The magnitudes of the terms of the flux of each of these conditions, per column. */
-  std::vector<std::vector<double>> terms() const;
   /** Appends pointers to all sums, so that those of the parts of a mesh can be added up. */
   void appendNumbers(std::vector<double*>& numbers);
   /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
@@ -94,7 +91,6 @@ private:
     double area = 0.0;
     std::vector<double> value, flux, vertexValue; ///< value: times area
     double vertices = 0.0;                        ///< their number
-    std::vector<double> terms; ///< magnitudes of what the flux is a difference of
   };
 
   void addMean(Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices);
@@ -125,20 +121,18 @@ public:
   double& mass() { return this->Numbers[0]; }
   double& screening() { return this->Numbers[1]; } ///< its part of the diagonal
   double& transfer() { return this->Numbers[2]; }  ///< the part of Robin conditions in the diagonal
-  /** The sum of the magnitudes of the weights of all edges, if the problem has data on facets. */
-  double& edges() { return this->Numbers[3]; }
 
   // Of column k:
 
   double& source(std::size_t k) { return this->at(k, 0); } ///< on the right-hand side
   double& inflow(std::size_t k) { return this->at(k, 1); } ///< on the right-hand side, by facets
-  /** The flow along the edges of a Dirichlet vertex that lead out of the condition, and the sum of
-   * the magnitudes of its terms. */
+  /** The flow along the edges of the vertex, of a Dirichlet vertex along those that lead out of the
+   * condition; and, of the latter, the sum of the magnitudes of its terms. */
   double& outflow(std::size_t k) { return this->at(k, 2); }
   double& outflowTerms(std::size_t k) { return this->at(k, 3); }
 
 private:
-  static constexpr std::size_t OfColumns = 4;
+  static constexpr std::size_t OfColumns = 3;
 
   double& at(std::size_t k, std::size_t place) { return this->Numbers[OfColumns + 4 * k + place]; }
 
@@ -176,26 +170,32 @@ public:
   std::vector<Report::Extreme> minimum, maximum; ///< per column
 
 private:
-  void addRobinTerms(VertexTerms terms, const double* u);
-  void addDirichlet(VertexTerms terms, const double* u, std::int32_t dirichlet);
+  /** What flows in a column, and how much of a flux the residual of the solution may be. */
+  struct Flow
+  {
+    double all = 0.0;   ///< sum of the magnitudes of what flows in and out; 0: nothing does
+    double least = 0.0; ///< what flows through the whole
+    double doubt = 0.0; ///< of each flux
+  };
+
+  void addResidual(VertexTerms terms, const double* u, std::int32_t dirichlet);
   void reportBalance(Report& report) const;
   void reportParts(Report& report) const;
-  double leastFlow(const Report& report, std::size_t k) const;
-  bool markLost(Report& report, std::size_t k, double flow) const;
+  Flow flowIn(const Report& report, std::size_t k) const;
+  static bool markLost(Report& report, std::size_t k, const Flow& flow);
   static void noteConditionsWithoutEffect(Report& report);
   void noteFlatCells(Report& report) const;
 
   std::size_t Columns;
-  bool HasFacets;
-  std::vector<double> Reaction, Terms; // of a vertex
+  std::vector<double> Residual; // of a vertex
   double Mass = 0.0;
   // Per column.
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude;
   std::vector<double> CellEnergy, LeftOut; // see CellResults
   std::vector<PartSums> Parts;             // likewise
   std::vector<double> ReactionTerms;       // magnitudes of the terms of the reactions
-  // Terms of Robin conditions as the residual of the solve counts them, see commonShare().
-  std::vector<double> RobinTerms;
+  // Of the residuals of vertices without a condition: the sum, and that of the squares.
+  std::vector<double> ResidualSum, ResidualSquares;
 };
 
 } // namespace smg

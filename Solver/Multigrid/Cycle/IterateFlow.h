@@ -32,16 +32,21 @@ public:
   explicit IterateFlow(int columns)
     : Columns(static_cast<std::size_t>(columns))
     , Squares(static_cast<std::size_t>(strideOf(columns)))
+    , TermSquares(static_cast<std::size_t>(strideOf(columns)))
   {
   }
 
-  void startPass() { std::ranges::fill(this->Squares, 0.0); }
+  void startPass()
+  {
+    std::ranges::fill(this->Squares, 0.0);
+    std::ranges::fill(this->TermSquares, 0.0);
+  }
 
   /** Adds row k of a block, which counts as `share`; x and b point to its node 0, `lane` is the
-   * first of their columns. */
+   * first of their columns, `term` is A_kk x_k. */
   template <class Vectors, class Arrays>
   void add(const RowBlock::Header& h, const Arrays& a, std::int64_t k, std::int64_t stride,
-    const double* x, const double* b, double share, int lane)
+    const double* x, const double* b, typename Vectors::Vector term, double share, int lane)
   {
     using Vector = typename Vectors::Vector;
     const auto magnitude = [](const Vector& v) { return v < 0.0 ? -v : v; };
@@ -55,19 +60,23 @@ public:
     }
     double* sum = this->Squares.data() + lane;
     Vectors::store(sum, Vectors::load(sum) + share * flow * (share * flow));
+    double* terms = this->TermSquares.data() + lane;
+    Vectors::store(terms, Vectors::load(terms) + share * term * (share * term));
   }
 
-  /** The norm of the column in which least flows, of those in which something does; 0 if nothing
-   * flows in any. */
+  /** The norm of the column in which least flows, of those in which more does than the rounding of
+   * values makes flow; 0 if there is none. */
   double norm() const
   {
+    constexpr double OfTerms = 8e-16;
     double least = 0.0;
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      const double square = this->Squares[k];
-      least = square > 0.0 && (least == 0.0 || square < least) ? square : least;
+      const double flow = std::sqrt(this->Squares[k]);
+      const bool flows = flow > OfTerms * std::sqrt(this->TermSquares[k]);
+      least = flows && (least == 0.0 || flow < least) ? flow : least;
     }
-    return std::sqrt(least);
+    return least;
   }
 
   template <class State>
@@ -75,16 +84,16 @@ public:
   {
     state.part("flow");
     const std::size_t lanes = this->Squares.size();
-    state(this->Squares);
+    state(this->Squares, this->TermSquares);
     if constexpr (requires { state.require(true); })
     {
-      state.require(this->Squares.size() == lanes);
+      state.require(this->Squares.size() == lanes && this->TermSquares.size() == lanes);
     }
   }
 
 private:
   std::size_t Columns;
-  std::vector<double> Squares;
+  std::vector<double> Squares, TermSquares;
 };
 
 } // namespace smg

@@ -138,7 +138,8 @@ private:
           }
           if (this->flow)
           {
-            this->flow->template add<Vectors>(h, a, k, stride, part.x, part.b, share, part.lane);
+            this->flow->template add<Vectors>(
+              h, a, k, stride, part.x, part.b, term, share, part.lane);
           }
         }
       }

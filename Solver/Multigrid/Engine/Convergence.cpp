@@ -154,9 +154,9 @@ void Convergence::watch(double relative)
   }
   else if (this->Converged)
   {
-    this->Note = "converged, but the solution varies little beside its distance from the initial "
-                 "values, of which the tolerance is a share: initial values nearer to it make it "
-                 "more exact; " +
+    this->Note = "converged, but the solution varies little, or little flows in it, beside its "
+                 "distance from the initial values, of which the tolerance is a share: initial "
+                 "values nearer to it make it more exact; " +
                  residual + "is " + scientific(relative);
   }
   else if (stagnates)

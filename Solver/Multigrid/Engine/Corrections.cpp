@@ -48,6 +48,14 @@ void addCosts(Report& report, const Report& correction, double scale)
     report.by_pass.push_back(pass);
   }
   report.converged = correction.converged; // only what has converged is corrected
+  for (const std::string& note : correction.notes)
+  {
+    // What the assembly says of the mesh, it has said before.
+    if (std::ranges::find(report.notes, note) == report.notes.end())
+    {
+      report.notes.push_back("the correction of rounding: " + note);
+    }
+  }
   report.peak_nodes = std::max(report.peak_nodes, correction.peak_nodes);
   report.pool_bytes_peak = std::max(report.pool_bytes_peak, correction.pool_bytes_peak);
   report.rss_bytes_peak = std::max(report.rss_bytes_peak, correction.rss_bytes_peak);
@@ -141,12 +149,12 @@ void CorrectedSolution::readRest(std::int64_t first, std::int64_t count, std::sp
 }
 
 std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem& problem,
-  const SolveOptions& options, std::unique_ptr<Solution> solution, const SolveNorms& norms,
-  std::int64_t usedBytes)
+  const SolveOptions& options, std::unique_ptr<Solution> solution, const PoissonSolver& solver)
 {
   // A residual that is somewhat larger than the goal is no reason to build the hierarchy once more.
   constexpr double Enough = 10.0;
   constexpr int Most = 4;
+  const SolveNorms& norms = solver.norms();
   const double goal = options.tolerance * IterateFlow::Judged * norms.flow;
   // The rounding of independent terms is a bound of what it does to their sums.
   double left = std::max(norms.residual, 0.1 * norms.rounding);
@@ -154,15 +162,28 @@ std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem&
   again.checkpoint = {};
   again.progress =
     options.progress ? [&](double) { return options.progress(1.0); } : ProgressFunction();
-  again.memoryLimit = std::max<std::int64_t>(1, options.memoryLimit - usedBytes);
+  const auto leave = [&again](const PoissonSolver& kept)
+  {
+    again.memoryLimit = std::max<std::int64_t>(1, again.memoryLimit - kept.usedBytes());
+    again.scratchLimit = again.scratchLimit > 0
+                           ? std::max<std::int64_t>(1, again.scratchLimit - kept.usedScratch())
+                           : 0;
+  };
+  leave(solver);
   for (int n = 0; n < Most && left > Enough * goal; ++n)
   {
-    PoissonSolver solver(operators, problem.columns(), again);
+    again.maxCycles = options.maxCycles - solution->report().cycles;
+    if (again.maxCycles < 1)
+    {
+      return std::make_unique<UncorrectedSolution>(
+        std::move(solution), "no V-cycle is left of those that are allowed");
+    }
+    PoissonSolver next(operators, problem.columns(), again);
     std::unique_ptr<Solution> correction;
     try
     {
       const std::unique_ptr<MeshSource> mesh = options.again();
-      correction = solver.correct(*mesh, problem, *solution, goal);
+      correction = next.correct(*mesh, problem, *solution, goal);
     }
     catch (const Cancelled&)
     {
@@ -172,9 +193,10 @@ std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem&
     {
       return std::make_unique<UncorrectedSolution>(std::move(solution), error.what());
     }
-    const double before = std::exchange(left, solver.norms().residual);
+    leave(next);
+    const double before = std::exchange(left, next.norms().residual);
     solution = std::make_unique<CorrectedSolution>(
-      std::move(solution), std::move(correction), solver.norms().initial, norms.initial);
+      std::move(solution), std::move(correction), next.norms().initial, norms.initial);
     if (left > 0.1 * before)
     {
       break; // what is left is not due to rounding

@@ -15,6 +15,8 @@
 namespace smg
 {
 
+class PoissonSolver;
+
 /** How far a solve has come: norms over the rows of the finest level. */
 struct SolveNorms
 {
@@ -80,11 +82,10 @@ private:
  * Solves for corrections of a solution until its residual is small beside what flows, which the
  * rounding of its values to doubles may not permit: iterative refinement, with the residual summed
  * up in differences of the values (Assembly). As a rule one suffices for coefficients that differ
- * by up to 1e15. A correction that fails, for want of memory or of room for scratch files, leaves
- * the solution as it is. `usedBytes`: of the memory limit, by the solution.
+ * by up to 1e15. A correction that fails, for want of memory, of room for scratch files or of
+ * V-cycles, leaves the solution as it is. `solver` has solved for the solution.
  */
 std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem& problem,
-  const SolveOptions& options, std::unique_ptr<Solution> solution, const SolveNorms& norms,
-  std::int64_t usedBytes);
+  const SolveOptions& options, std::unique_ptr<Solution> solution, const PoissonSolver& solver);
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 
+#include "Solver/Files/ScratchAccount.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/FirstPass.h"
 #include "Solver/Multigrid/Engine/Iteration.h"
@@ -76,13 +77,14 @@ std::unique_ptr<Solution> PoissonSolver::correct(
 }
 
 /** To be called after the first pass. The residual after its sweeps does not count if the
- * right-hand side was projected after them. */
+ * right-hand side was projected after them, and cannot be judged by what flows, which the passes
+ * after it measure. */
 void PoissonSolver::begin(
   Convergence& convergence, const Stopping& stopping, const FirstResidual& first)
 {
   SolveContext& run = *this->Run;
   convergence = Convergence(stopping, first);
-  convergence.begin(this->Levels.residualNorm(), !run.components.shiftsRightSide(),
+  convergence.begin(this->Levels.residualNorm(), !run.components.shiftsRightSide() && !run.flow,
     run.shareOfTolerance(convergence.reference()));
   run.endPass(1.0);
 }
@@ -110,6 +112,7 @@ std::unique_ptr<Solution> PoissonSolver::finish(
     std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
   run.progress.finish();
   this->Used = run.pool.used();
+  this->ScratchUsed = run.scratch ? run.scratch->account().used() : 0;
   return solution;
 }
 

@@ -44,8 +44,9 @@ public:
   // Afterwards:
 
   const SolveNorms& norms() const { return this->Norms; }
-  /** The bytes of the pool that the solution has. */
+  /** The bytes of the pool and of scratch files that the solution has. */
   std::int64_t usedBytes() const { return this->Used; }
+  std::int64_t usedScratch() const { return this->ScratchUsed; }
 
 private:
   EnergySquares discretisation(Problem& problem);
@@ -57,7 +58,7 @@ private:
   std::unique_ptr<SolveContext> Run;
   Hierarchy Levels;
   SolveNorms Norms;
-  std::int64_t Used = 0;
+  std::int64_t Used = 0, ScratchUsed = 0;
 };
 
 } // namespace smg

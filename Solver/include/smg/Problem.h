@@ -136,7 +136,8 @@ struct ConditionCounts
  * (K grad u - q) . n = 0.
  *
  * A problem is asked block by block in stream order, on the thread of the caller: once for a
- * solve and once more for its results (see SolvedMesh), each time from the first block on. For each
+ * solve, more often as SolveOptions::again says, and once more for its results (see SolvedMesh),
+ * each time from the first block on. For each
  * block conditions() is called first, then cells() and facets(). What a problem returns must not
  * depend on how the stream is cut into blocks and batches; then the solution does not either, to
  * the last bit. An exception that it throws ends the solve.

@@ -157,7 +157,7 @@ struct SMG_EXPORT Report
     std::vector<double> mean;
     /** Per column: the total of (K grad u - q) . n, positive into the body. Of a Dirichlet
      * condition the reaction of its vertices, so that all fluxes balance. NaN, with a warning, if
-     * it is lost in the rounding of the solution. */
+     * the residual that the solution leaves may be a tenth of it. */
     std::vector<double> flux;
   };
 

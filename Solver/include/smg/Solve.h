@@ -8,6 +8,7 @@
 #include "smg/ProblemDescription.h"
 #include "smg/Report.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -103,9 +104,11 @@ struct SolveOptions
    */
   static constexpr double AutomaticTolerance = 0.0;
   /** Opens the mesh that is solved on once more, from its first block. With AutomaticTolerance it
-   * is read, and the problem is asked, once to six times after some V-cycles. */
+   * is read, and the problem is asked, once to six times after some V-cycles. With another one it
+   * is up to four times if conductivities differ by more than 100 and fluxes need more digits than
+   * a double: without `again` those that are lost are NaN. */
   std::function<std::unique_ptr<MeshSource>()> again{};
-  /** Largest number of V-cycles, at least 1. */
+  /** Largest number of V-cycles, at least 1; with those of corrections (Solution::hasRest()). */
   int maxCycles = 50;
   /** How V-cycles are accelerated. */
   AccelerationKind acceleration = AccelerationKind::Automatic;
@@ -170,9 +173,9 @@ public:
    * solution. Where conductivities differ by 1e8 and more, what flows in the good conductors is in
    * these digits. Only to be called if hasRest().
    */
-  virtual void readRest(
-    std::int64_t /*first*/, std::int64_t /*count*/, std::span<double> /*values*/)
+  virtual void readRest(std::int64_t /*first*/, std::int64_t /*count*/, std::span<double> values)
   {
+    std::ranges::fill(values, 0.0);
   }
   /** Removes the checkpoint, if there is one, when the solution is destroyed: to be called when the
    * result is complete on disk. */
