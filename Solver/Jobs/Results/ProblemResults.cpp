@@ -166,6 +166,10 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
       weight *= flatness;
     }
   }
+  if (this->Kind == Weights::Cotangent)
+  {
+    this->addFlows(corners, values, cell);
+  }
   this->connect(corners, points, cell);
 }
 
@@ -191,10 +195,6 @@ void ProblemResults::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
   const bool areSums = this->Kind == Weights::Cotangent;
-  if (areSums)
-  {
-    this->addFlows(corners, cell);
-  }
   const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
   const std::int32_t first = dirichlet[corners[0]];
   bool same = areSums;
@@ -209,18 +209,24 @@ void ProblemResults::connect(
   }
 }
 
-/** Adds what flows along the edges of a cell to the residuals of its corners. */
-void ProblemResults::addFlows(const std::int64_t* corners, const CellWeights& cell)
+/** Adds what flows along the edges of a cell to the residuals of its corners, which have these
+ * values. */
+void ProblemResults::addFlows(
+  const std::int64_t* corners, const double* const* values, const CellWeights& cell)
 {
+  double* flows[4] = {};
+  for (int k = 0; k < cornersOf(this->Type); ++k)
+  {
+    flows[k] = this->Flows.at(corners[k]);
+  }
   for (int e = 0; e < edgesOf(this->Type); ++e)
   {
-    const int* ends = edgeCorners(this->Type, e);
-    const std::int64_t from = corners[ends[0]], to = corners[ends[1]];
+    const int from = edgeCorners(this->Type, e)[0], to = edgeCorners(this->Type, e)[1];
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      const double flow = cell.weight[e] * this->Vertices.difference(from, to, k);
-      this->Flows.at(from)[k] += flow;
-      this->Flows.at(to)[k] -= flow;
+      const double flow = cell.weight[e] * (values[from][k] - values[to][k]);
+      flows[from][k] += flow;
+      flows[to][k] -= flow;
     }
   }
 }

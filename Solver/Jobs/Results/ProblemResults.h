@@ -86,7 +86,7 @@ private:
   void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
   void relateToFirst(const std::int64_t* corners, const double** values);
   void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
-  void addFlows(const std::int64_t* corners, const CellWeights& cell);
+  void addFlows(const std::int64_t* corners, const double* const* values, const CellWeights& cell);
   void finalize(std::int64_t end);
   void addBoundary(std::int64_t i);
   void close(std::int64_t i, double* numbers);
