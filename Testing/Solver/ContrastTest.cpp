@@ -98,6 +98,28 @@ std::vector<Shape> shapes()
         p.RobinConditions.push_back({ above(0, 0.7 * size[0]), [](const Point&) { return 3.0; },
           [](const Point&) { return Eigen::VectorXd::Constant(1, 20.0); } });
       } },
+    { "good conductor held by a bad one",
+      [=](ElementProblem& p, const Point& size)
+      {
+        // What flows differs little from rounding, which must not push the good conductor as a
+        // whole up or down.
+        halves(p, size);
+        hold(p, below(0, 0.5), 20.0);
+        p.RobinConditions.push_back({ above(0, size[0] - 0.5), [](const Point&) { return 0.1; },
+          [](const Point&) { return Eigen::VectorXd::Constant(1, 23.0); } });
+      } },
+    { "good conductor in a bad one",
+      [=](ElementProblem& p, const Point& size)
+      {
+        p.Part = [size](const Point& x)
+        { return (x - 0.5 * size).norm() < 0.25 * size.norm() ? 1 : 0; };
+        for (const bool isFirst : { true, false })
+        {
+          p.RobinConditions.push_back({ isFirst ? below(0, 0.5) : above(0, size[0] - 0.5),
+            [](const Point&) { return 0.1; },
+            [isFirst](const Point&) { return Eigen::VectorXd::Constant(1, isFirst ? 0 : 100); } });
+        }
+      } },
   };
 }
 
@@ -314,7 +336,8 @@ TEST(Contrast, ColumnsAreJudgedApart)
       }
       for (ElementProblem::Robin& robin : problem.RobinConditions)
       {
-        robin.ambient = [](const Point&) { return Eigen::Vector2d(20.0, 0.0); };
+        robin.ambient = [ambient = robin.ambient](const Point& x)
+        { return Eigen::Vector2d(ambient(x)[0], 0.0); };
       }
       const Report two = resultsOf(problem);
       EXPECT_EQ(two.warnings, std::vector<std::string>());

@@ -68,7 +68,7 @@ public:
    * values makes flow; 0 if there is none. */
   double norm() const
   {
-    constexpr double OfTerms = 8e-16;
+    constexpr double OfTerms = 3e-16;
     double least = 0.0;
     for (std::size_t k = 0; k < this->Columns; ++k)
     {

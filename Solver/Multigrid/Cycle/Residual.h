@@ -61,10 +61,10 @@ struct ResidualOfDifferences
 
 /** Calls f(residual, rows, nodes) for runs of nodes of a part, with the residual that is theirs and
  * the arrays of their rows: on the finest level special nodes get the residual by differences, all
- * others the plain one. */
+ * others the plain one, or the same if `differs`. */
 template <class Real, class Arrays, class F>
 [[gnu::always_inline]] inline void forResiduals(
-  const Arrays& a, const BlockPart<Real>& part, const F& f)
+  const Arrays& a, const BlockPart<Real>& part, const F& f, bool differs = false)
 {
   if constexpr (std::is_same_v<Real, double>)
   {
@@ -72,7 +72,7 @@ template <class Real, class Arrays, class F>
     {
       if (!runs.special())
       {
-        f(PlainResidual(), a, runs.nodes());
+        differs ? f(ResidualOfDifferences(), a, runs.nodes()) : f(PlainResidual(), a, runs.nodes());
         continue;
       }
       visitSpecial<Real>(part.header(), a, *runs.special(),

@@ -80,7 +80,9 @@ double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t 
  * the finest level both with the share of the row, see residualShare(). Both are summed in node
  * order, so the norm of the residual does not depend on windows or threads. The history and the
  * energy of the iterates, if there are some, get each residual, too, and their range and their flow
- * each unknown.
+ * each unknown. Where what flows is measured, residuals are sums of differences: what rounding of a
+ * value takes from a row, it then adds to the rows of neighbours, and a good conductor as a whole
+ * is not pushed up or down by it.
  */
 template <class Real>
 struct Restriction
@@ -97,9 +99,11 @@ struct Restriction
   void operator()(const Arrays& a, Vectors, const BlockPart<Real>& part) const
   {
     ResidualKeeper<Vectors> keeper(this->history, part.header().first, part.lane);
-    forResiduals(a, part,
+    forResiduals(
+      a, part,
       [&](auto residual, const auto& rows, BlockRange nodes)
-      { this->restrictNodes<decltype(residual), Vectors>(rows, nodes, part, keeper); });
+      { this->restrictNodes<decltype(residual), Vectors>(rows, nodes, part, keeper); },
+      this->flow != nullptr);
   }
 
 private:

@@ -102,7 +102,10 @@ void Convergence::add(double norm, double rounding, double share)
                 ": coarse levels compute in single precision, up to 3e38; scale the prescribed "
                 "values, the sources or the screening");
   }
-  if (norm > Diverged * this->FirstNorm && !this->Converged)
+  // The first coarse-grid correction is as rough as single precision in a good conductor, where a
+  // small roughness is a large residual: the next one is smaller.
+  if (norm > Diverged * this->FirstNorm && norm > this->NormBefore && this->cycles() > 1 &&
+      !this->Converged)
   {
     throw Error(
       "the solve diverges (relative residual " + scientific(relative) + " after " +
