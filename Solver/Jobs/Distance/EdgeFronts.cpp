@@ -122,7 +122,7 @@ public:
       this->Rest = this->All.Nodes[number].next;
       this->All.at(number).end <= this->New.begin ? this->append(number) : this->meet(number);
     }
-    if (this->IsNewOpen)
+    if (this->IsNewOpen && !this->growsRest())
     {
       this->appendNew(this->New.end);
     }
@@ -213,8 +213,8 @@ private:
     this->IsOldKept = true;
   }
 
-  /** Appends the open part of the new interval up to this place, or lets a neighbour grow that sees
-   * the same image: as paths past both sides of a vertex do where the surface is flat. */
+  /** Appends the open part of the new interval up to this place, or lets the one before grow that
+   * sees the same image: as paths past both sides of a vertex do where the surface is flat. */
   void appendNew(double end)
   {
     const double begin = this->NewBegin;
@@ -227,15 +227,24 @@ private:
       this->All.Nodes[this->Last].interval.end = end;
       this->All.Added.push_back(this->Last);
     }
-    else if (this->isSame(this->Rest) && isEmpty(end, this->All.at(this->Rest).begin))
-    {
-      this->All.Nodes[this->Rest].interval.begin = begin;
-      this->All.Added.push_back(this->Rest);
-    }
     else
     {
       this->appendPart(this->New, begin, end, Waiting);
     }
+  }
+
+  /** Lets the interval that comes next grow instead, if it sees the same image: at the end alone,
+   * since an interval that has grown must not be walked past. */
+  bool growsRest()
+  {
+    if (isEmpty(this->NewBegin, this->New.end) || !this->isSame(this->Rest) ||
+        !isEmpty(this->New.end, this->All.at(this->Rest).begin))
+    {
+      return false;
+    }
+    this->All.Nodes[this->Rest].interval.begin = this->NewBegin;
+    this->All.Added.push_back(this->Rest);
+    return true;
   }
 
   bool isSame(std::uint32_t number) const

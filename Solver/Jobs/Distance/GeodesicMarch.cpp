@@ -42,9 +42,17 @@ constexpr double Excess = 1e-9;
 /** How far from the end of an interval, relative to the distance from its image, its paths still
  * see a corner: more than what the gap behind a vertex of a smaller excess hides. Distances are
  * wrong by the square of that. */
-constexpr double Reach = 1e-8;
+constexpr double Reach = 1e-6;
 /** Distances that differ by less are equal, relative to them. */
 constexpr double Same = 1e-14;
+/** Whether a path is longer than that by way of a corner. One that only rounding makes longer, as
+ * along an edge, may lead on to where no path by way of the corner does. */
+bool isLonger(double path, double byCorner)
+{
+  constexpr double Rounding = 1e-10;
+  return path > (1 + Rounding) * byCorner;
+}
+
 /** What vertices keep of the front that has reached them, for the directions. */
 constexpr std::uint8_t FrontFlags = Straight | OfRegion;
 
@@ -323,9 +331,9 @@ void GeodesicMarch::add(FrontInterval interval, double length)
     return;
   }
   if (interval.from != FrontInterval::None &&
-      (image.at(interval.end) >= atFirst + interval.end ||
-        image.at(interval.begin) >= atSecond + (length - interval.begin) ||
-        2 * least >= atFirst + atSecond + length))
+      (isLonger(image.at(interval.end), atFirst + interval.end) ||
+        isLonger(image.at(interval.begin), atSecond + (length - interval.begin)) ||
+        isLonger(2 * least, atFirst + atSecond + length)))
   {
     return;
   }
@@ -432,7 +440,7 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
   const double known = this->Window.distance()[triangle.corner];
   const std::uint32_t a = interval.first, b = interval.second, c = triangle.corner;
   // Paths to the one side of the third corner, unless those by way of it are shorter.
-  if (isLeft && image.at(interval.begin) < known + norm(x - interval.begin, y))
+  if (isLeft && !isLonger(image.at(interval.begin), known + norm(x - interval.begin, y)))
   {
     const double all = norm(x, y);
     const double begin = image.shareBeyond(x, y, interval.begin);
@@ -442,7 +450,7 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
                   interval.isOfRegion },
       all);
   }
-  if (isRight && image.at(interval.end) < known + norm(x - interval.end, y))
+  if (isRight && !isLonger(image.at(interval.end), known + norm(x - interval.end, y)))
   {
     const FrontImage mirrored = image.reversed(length);
     const double mx = length - x, all = norm(mx, y);
