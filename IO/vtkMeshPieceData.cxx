@@ -6,6 +6,7 @@
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 
+#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
@@ -123,6 +124,7 @@ void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
   vtkNew<vtkIntArray> mark;
   mark->SetName(PreviewName);
   mark->InsertNextValue(1);
+  mark->InsertNextValue(cornersOf(full.cellType)); // filters turn surfaces into grids
   addFieldArray(mesh, *mark);
   addCount(mesh, FullNumberOfPointsName, full.vertices);
   addCount(mesh, FullNumberOfCellsName, full.cells);
@@ -151,8 +153,13 @@ std::int64_t cellsBehind(vtkPointSet& mesh)
 
 bool isSurfaceOfSolid(vtkPointSet& mesh)
 {
-  return isPreview(mesh) && mesh.IsA("vtkUnstructuredGrid") && mesh.GetNumberOfCells() > 0 &&
-         mesh.GetCellType(0) == VTK_TRIANGLE;
+  if (!isPreview(mesh) || mesh.GetNumberOfCells() == 0)
+  {
+    return false;
+  }
+  vtkDataArray* mark = mesh.GetFieldData()->GetArray(PreviewName);
+  const bool isOfSolid = mark->GetNumberOfTuples() > 1 && mark->GetComponent(1, 0) == 4.0;
+  return isOfSolid && mesh.GetCell(0)->GetCellDimension() == 2;
 }
 
 } // namespace smg

@@ -25,7 +25,10 @@ namespace
 [[noreturn]] void refuse(const std::string& where)
 {
   throw Error(
-    where + " has cells that are neither all triangles nor all tetrahedra: triangulate it first.");
+    where +
+    " has cells that are neither all triangles nor all tetrahedra: triangulate it first, or, "
+    "behind a filter that cuts the cells of a preview, raise Maximum Points In Memory of the "
+    "reader, so that it shows the mesh as a whole.");
 }
 
 /** The cells of the piece; the caller checks their number of corners. */

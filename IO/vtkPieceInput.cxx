@@ -23,6 +23,7 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -117,13 +118,23 @@ PieceInput::PieceInput(vtkAlgorithmOutput& output)
   }
 }
 
+/** Whoever has solved asks for what is shown next; whoever has failed leaves the last piece as the
+ * output of all filters before, so that what these show is made again here. */
 PieceInput::~PieceInput()
 {
-  if (this->IsStreaming)
+  if (!this->IsStreaming)
   {
-    this->Executive->GetOutputInformation(this->ProducerPort)
-      ->Set(vtkStreamingMeshKeys::STREAMED(), 0);
-    this->Executive->PropagateUpdateExtent(this->ProducerPort);
+    return;
+  }
+  vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
+  info->Set(vtkStreamingMeshKeys::STREAMED(), 0);
+  this->Executive->PropagateUpdateExtent(this->ProducerPort);
+  if (std::uncaught_exceptions() > this->Exceptions && this->isPreviewed())
+  {
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    this->Executive->Update(this->ProducerPort);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -110,9 +111,10 @@ private:
 
   vtkAlgorithm* Producer;
   int ProducerPort;
-  bool NamesPieces = true;            ///< whether messages count them
-  bool Differs = false;               ///< whether two pieces do at a point of both
-  bool IsStreaming = false;           ///< whether the last request was streamed
+  bool NamesPieces = true;                     ///< whether messages count them
+  bool Differs = false;                        ///< whether two pieces do at a point of both
+  bool IsStreaming = false;                    ///< whether the last request was streamed
+  int Exceptions = std::uncaught_exceptions(); ///< that are in flight while this is made
   vtkSmartPointer<vtkPointSet> Block; ///< of an input of several blocks, once it was requested
   vtkStreamingDemandDrivenPipeline* Executive;
 };

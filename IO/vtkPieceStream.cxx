@@ -427,7 +427,8 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
     throw Error(
       where +
       " has no point GlobalIds, so it is not a piece of a mesh stream: read the mesh with the "
-      "Streaming Mesh Reader, which makes them, and keep them in the filters between; save a "
+      "Streaming Mesh Reader, which makes them, and keep them in the filters between, or "
+      "raise Maximum Points In Memory of the reader, so that it shows the mesh as a whole; save a "
       "mesh of another source as .vsm first.");
   }
   return integersOf(*array);

@@ -42,9 +42,10 @@
  * A request for a piece of more than MaximumPointsInMemory points returns a preview, unless it
  * comes from a streaming filter (see vtkStreamingMeshKeys): the surface simplified to at most
  * PreviewPoints points of the mesh (see smg::simplify()), with their GlobalIds and point arrays,
- * all of it in piece 0. The field data then has the arrays `Preview` (int, 1), `FullNumberOfPoints`
- * and `FullNumberOfCells` (vtkIdType: the counts of the mesh); the field data of a real piece has
- * none of them. The preview takes one pass over the file and is kept.
+ * all of it in piece 0. The field data then has the arrays `Preview` (int: 1, and the corners of
+ * the cells of the mesh), `FullNumberOfPoints` and `FullNumberOfCells` (vtkIdType: the counts of
+ * the mesh); the field data of a real piece has none of them. The preview takes one pass over the
+ * file and is kept.
  *
  * Any other source is a valid input of the streaming filters if it fulfils this contract, every
  * point belongs to a cell, and the GlobalIds number the points in the order of their first use by

@@ -32,22 +32,28 @@ struct HeldPoints
   std::vector<double> anchors;
 };
 
-/** The held points of a displayed mesh, kept as long as the request and the stamp are the same. */
+/** The held points of a displayed mesh, kept as long as the request, the stamp and the number of
+ * points are the same: a filter that takes points away gives others to whoever solves. */
 class KeptHeldPoints
 {
 public:
   /** Those that are kept, or else those that `find()` returns. */
   template <class Find>
-  const HeldPoints& of(const PieceRequest& request, const InputStamp& stamp, Find&& find)
+  const HeldPoints& of(
+    vtkPointSet& mesh, const PieceRequest& request, const InputStamp& stamp, Find&& find)
   {
+    const vtkIdType points = mesh.GetNumberOfPoints();
     if (!this->IsKept || this->Stamp != stamp || this->Piece != request.Piece ||
-        this->Pieces != request.Pieces)
+        this->Pieces != request.Pieces || this->IsStreamed != request.IsStreamed ||
+        this->Points != points)
     {
       this->reset(); // find() may throw
       this->Held = find();
       this->Stamp = stamp;
       this->Piece = request.Piece;
       this->Pieces = request.Pieces;
+      this->IsStreamed = request.IsStreamed;
+      this->Points = points;
       this->IsKept = true;
     }
     return this->Held;
@@ -59,6 +65,8 @@ private:
   HeldPoints Held;
   InputStamp Stamp;
   int Piece = 0, Pieces = 1;
+  bool IsStreamed = false;
+  vtkIdType Points = 0;
   bool IsKept = false;
 };
 

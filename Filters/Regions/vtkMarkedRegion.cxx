@@ -78,7 +78,8 @@ vtkPointSet& MarkedRegion::fetchPiece(
   }
   else if (this->isByItself(*piece, request))
   {
-    held = this->OnDisplay.of(request, context.stamp(), [&] { return this->holdShown(*piece); });
+    held =
+      this->OnDisplay.of(*piece, request, context.stamp(), [&] { return this->holdShown(*piece); });
   }
   else
   {

@@ -42,7 +42,8 @@ void DisplayedRegion::set(const PointRegionSettings& settings)
 const HeldPoints& DisplayedRegion::hold(vtkPointSet& mesh, const PieceRequest& request,
   const std::vector<double>& places, const RegionContext& context)
 {
-  return this->Last.of(request, context.stamp(), [&] { return this->find(mesh, places, context); });
+  return this->Last.of(
+    mesh, request, context.stamp(), [&] { return this->find(mesh, places, context); });
 }
 
 HeldPoints DisplayedRegion::find(

@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -294,6 +295,37 @@ void openAgain(Conversion& conversion)
   }
 }
 
+void noteWinding(
+  const Orientation& winding, const StreamInfo& mesh, std::vector<std::string>& notes)
+{
+  if (winding.turned() > 0)
+  {
+    notes.push_back(counted(winding.turned(), "triangle was turned.", "triangles were turned."));
+    for (const auto* columns : { &mesh.vertexColumns, &mesh.cellColumns })
+    {
+      if (std::ranges::find(*columns, NormalsName, &ColumnSpec::name) != columns->end())
+      {
+        notes.push_back(std::string("The column ") + NormalsName + " of the " +
+                        (columns == &mesh.vertexColumns ? "vertices" : "cells") +
+                        " stays as it was: where triangles were turned, it points to their back.");
+      }
+    }
+  }
+  if (winding.unorientable() > 0)
+  {
+    notes.push_back(counted(winding.unorientable(), "body has", "bodies have") +
+                    " no two sides, and stayed as wound.");
+  }
+  if (winding.cavities() > 0.0)
+  {
+    char volume[32];
+    std::snprintf(volume, sizeof(volume), "%.4g", winding.cavities());
+    notes.push_back("Bodies that are wound inwards within the bounds of larger ones may be "
+                    "cavities, and stayed as wound: they enclose " +
+                    std::string(volume) + '.');
+  }
+}
+
 /** The stream that `open` opens, oriented if that is asked for: for that it is read once before. */
 std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientation>& winding,
   const std::function<std::unique_ptr<MeshSource>()>& open)
@@ -312,13 +344,7 @@ std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientat
     reported.update(0.0); // asks whether to go on
   }
   winding->finish();
-  std::vector<std::string>& notes = conversion.report().notes;
-  notes.push_back(counted(winding->turned(), "triangle was turned.", "triangles were turned."));
-  if (winding->unorientable() > 0)
-  {
-    notes.push_back(counted(winding->unorientable(), "body has", "bodies have") +
-                    " no two sides, and stayed as wound.");
-  }
+  noteWinding(*winding, source->info(), conversion.report().notes);
   return oriented(open(), *winding);
 }
 

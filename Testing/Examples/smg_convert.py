@@ -282,7 +282,7 @@ def test_orient():
             assert same_points(restored.points, points)
             assert [sorted(cell) for cell in restored.cells] == [sorted(cell) for cell in wound]
     again = convert("oriented.vsm", "again.vsm", "--orient", "--order", "keep")
-    assert "0 triangles were turned." in again["notes"], again["notes"]
+    assert not [note for note in again["notes"] if "turned" in note], again["notes"]
     error = run("convert", "oriented.vsm", "o.ply", "--restore-order", "--orient", code=2).stderr
     assert "--orient" in error, error
 

@@ -7,7 +7,6 @@ import sys
 
 import smg_testing as t
 from paraview.simple import *
-from paraview.vtk import vtkStringOutputWindow, vtkOutputWindow
 
 LoadPlugin(sys.argv[1], ns=globals())
 folder = t.make_folder()
@@ -54,18 +53,6 @@ CONSUMERS = (line, probe, lambda source: ResampleWithDataset(SourceDataArrays=so
              lambda source: GroupDatasets(Input=[source, Sphere()]))
 
 
-class Silence:
-    """Messages are collected, and not shown."""
-
-    def __enter__(self):
-        self.window = vtkStringOutputWindow()
-        vtkOutputWindow.SetInstance(self.window)
-        return self.window
-
-    def __exit__(self, *_):
-        vtkOutputWindow.SetInstance(None)
-
-
 def check_complete(source, failed=True):
     data = t.client_object(source).GetOutputDataObject(0)
     assert data.GetNumberOfPoints() == 0 and data.GetNumberOfCells() == 0, source
@@ -91,7 +78,7 @@ def consume(source):
     Hide(source, view)
 
 
-with Silence():
+with t.Silence():
     # Filters of ParaView that are not for the type of the data say so.
     for mesh in Sphere(), Tetrahedralize(Input=Wavelet(WholeExtent=[-2, 2, -2, 2, -2, 2])):
         mesh.UpdatePipeline()

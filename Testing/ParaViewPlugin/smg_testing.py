@@ -9,6 +9,7 @@ import tempfile
 
 from paraview import servermanager
 from paraview.simple import *
+from paraview.vtk import vtkOutputWindow, vtkStringOutputWindow
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 BUNNY = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "bunny.smb")
@@ -89,6 +90,18 @@ def make_poisson(source):
     poisson.DirichletValues = ["POINTS", "Values"]
     poisson.InitialGuess = ["POINTS", "Values"]
     return poisson
+
+
+class Silence:
+    """Messages are collected, and not shown."""
+
+    def __enter__(self):
+        self.window = vtkStringOutputWindow()
+        vtkOutputWindow.SetInstance(self.window)
+        return self.window
+
+    def __exit__(self, *_):
+        vtkOutputWindow.SetInstance(None)
 
 
 def client_object(proxy):
