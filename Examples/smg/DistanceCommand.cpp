@@ -49,7 +49,14 @@ public:
     command
       .add_option("--within", this->Job.description.within,
         "Of paths, in the unit of the mesh: vertices farther than this are not reached")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Validator(
+        [](const std::string& text)
+        {
+          double length = 0.0;
+          const bool isLength = CLI::detail::lexical_cast(text, length) && length > 0.0;
+          return isLength ? std::string() : '\'' + text + "' is no length above 0";
+        },
+        ""));
     command
       .add_option(
         "--max-passes", this->Job.options.maxPasses, "Maximum number of passes over the mesh")

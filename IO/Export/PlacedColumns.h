@@ -3,6 +3,7 @@
 
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Files/FileNames.h"
+#include "IO/Mesh/Columns.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -37,11 +38,20 @@ public:
   // The index of the column with this name and number of components; -1 if there is none.
   std::ptrdiff_t ofVertices(std::string_view name, int least, int most)
   {
-    return this->OfVertices.place(name, least, most, false);
+    return this->OfVertices.place(name, least, most, Numbers::Any);
   }
   std::ptrdiff_t ofElements(std::string_view name, int least, int most)
   {
-    return this->OfElements.place(name, least, most, false);
+    return this->OfElements.place(name, least, most, Numbers::Any);
+  }
+  // The index of the colours: bytes, or shares of 1, of three or four components.
+  std::ptrdiff_t colorsOfVertices()
+  {
+    return this->OfVertices.place(ColorsName, 3, 4, Numbers::Colors);
+  }
+  std::ptrdiff_t colorsOfElements()
+  {
+    return this->OfElements.place(ColorsName, 3, 4, Numbers::Colors);
   }
   // The index of the first of these columns with one integer per tuple, since the names of labels
   // differ between formats.
@@ -68,6 +78,13 @@ public:
   }
 
 private:
+  enum class Numbers
+  {
+    Any,
+    Integers,
+    Colors
+  };
+
   struct Places
   {
     explicit Places(const std::vector<ColumnSpec>& columns)
@@ -76,14 +93,18 @@ private:
     {
     }
 
-    std::ptrdiff_t place(std::string_view name, int least, int most, bool integer)
+    std::ptrdiff_t place(std::string_view name, int least, int most, Numbers numbers)
     {
       const auto found = std::ranges::find_if(this->Specs,
         [&](const ColumnSpec& spec)
         {
           const bool isReal = spec.type == ScalarType::Float32 || spec.type == ScalarType::Float64;
+          const bool isAllowed = numbers == Numbers::Integers ? !isReal
+                                 : numbers == Numbers::Colors
+                                   ? isReal || spec.type == ScalarType::UInt8
+                                   : true;
           return spec.name == name && spec.components >= least && spec.components <= most &&
-                 !(integer && isReal);
+                 isAllowed;
         });
       if (found == this->Specs.end())
       {
@@ -99,7 +120,7 @@ private:
       std::ptrdiff_t found = -1;
       for (const std::string_view* name = names.begin(); name != names.end() && found < 0; ++name)
       {
-        found = this->place(*name, 1, 1, true);
+        found = this->place(*name, 1, 1, Numbers::Integers);
       }
       return found;
     }

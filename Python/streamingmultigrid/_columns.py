@@ -153,7 +153,7 @@ class Columns:
         if components and width not in components:
             raise InputError(
                 "%s: an array of %d components; it must have %s."
-                % (what, width, " or ".join(map(str, components)))
+                % (what, width, " or ".join(map(str, sorted(set(components)))))
             )
         if of_cells and len(array) != self.mesh.n_cells:
             array = array[self.mesh.elements]

@@ -344,8 +344,9 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
 
     __hash__ = object.__hash__  # == compares values, as that of arrays
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self.read(name)
+    def __getitem__(self, name: Any) -> Any:
+        """A column by its name; with anything else, as a slice or a mask, a part of the values."""
+        return self.read(name) if isinstance(name, str) else self.to_numpy()[name]
 
     __iter__ = None  # of numbers, as Python would try them
 

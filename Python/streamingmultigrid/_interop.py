@@ -143,7 +143,9 @@ def _data(thing: Any, cells: Optional[np.ndarray]) -> Dict[Tuple[str, bool], np.
     """The numeric arrays that belong to vertices and cells; others stay behind, with a warning."""
     found: Dict[Tuple[str, bool], np.ndarray] = {}
     left: List[str] = []
-    for attribute, of_cells in (("point_data", False), ("cell_data", True)):
+    for attribute, of_cells in (
+        ("point_data", False), ("cell_data", True), ("vertex_attributes", False), ("face_attributes", True)
+    ):  # fmt: skip
         data: Any = getattr(thing, attribute, None)
         for name in list(data.keys()) if data is not None else []:
             values = data[name]

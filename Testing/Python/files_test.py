@@ -173,6 +173,38 @@ class LeftOutTest(unittest.TestCase):
         self.assertRegex("".join(found), "1 cell is degenerate")
 
 
+class ColoursTest(unittest.TestCase):
+    def test_what_is_written_is_read(self):
+        """Colours of any type and size: in the file, clamped with a warning, or left out with one."""
+        points, triangles = sphere(1)
+        chance = np.random.default_rng(3)
+        for suffix in ("off", "obj"):
+            for type_ in ("u1", "i4", "i8", "f4", "f8"):
+                for width in (3, 4):
+                    for scale in (1.0, 1e-6, 255.0, 1e6, 1e20 if type_[0] == "f" else 1.0):
+                        with self.subTest(suffix, type=type_, width=width, scale=scale):
+                            with np.errstate(all="ignore"):
+                                colours = (scale * chance.uniform(size=(len(points), width))).astype(type_)
+                            mesh = smg.mesh(points, triangles)
+                            mesh.add("Colors", colours, False)
+                            with warnings.catch_warnings(record=True) as caught:
+                                warnings.simplefilter("always")
+                                mesh.save("coloured." + suffix)
+                            said = "".join(str(each.message) for each in caught)
+                            with warnings.catch_warnings():
+                                warnings.simplefilter("error")
+                                found = smg.open("coloured." + suffix)
+                                if "Colors" not in found:
+                                    self.assertIn("left out", said)
+                                    continue
+                                shares = found["Colors"] / (255.0 if found["Colors"].dtype == np.uint8 else 1.0)
+                            expected = colours / (255.0 if type_ == "u1" else 1.0)
+                            if (expected > 1).any():
+                                self.assertIn("outside 0 to 1", said)
+                            expected = np.clip(expected, 0, 1)[:, : shares.shape[1]]
+                            np.testing.assert_allclose(shares, expected, atol=1e-6)
+
+
 class RowsTest(unittest.TestCase):
     def test_rows_are_those_of_the_file(self):
         """With numbering="rows", whatever numbers of another file or order it has."""

@@ -153,6 +153,14 @@ class OthersTest(unittest.TestCase):
         mesh = smg.from_pyvista(types.SimpleNamespace(vertices=points, faces=cells))
         np.testing.assert_array_equal(mesh.cells, cells)
 
+    def test_attributes_are_columns(self):
+        points, cells = sphere(1)
+        mesh = smg.from_pyvista(types.SimpleNamespace(
+            vertices=points, faces=cells, vertex_attributes={"q": points[:, 0]},
+            face_attributes={"part": np.arange(len(cells))}))
+        np.testing.assert_array_equal(mesh["q"], points[:, 0])
+        np.testing.assert_array_equal(mesh["part"], np.arange(len(cells)))
+
     def test_faces_of_four_corners_are_quadrilaterals(self):
         points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]], float)
         faces = np.array([[0, 1, 2, 3], [1, 4, 5, 2]])

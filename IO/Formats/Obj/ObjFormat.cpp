@@ -3,6 +3,7 @@
 
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
+#include "IO/Export/WrittenColors.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
@@ -191,16 +192,6 @@ namespace
 /** Red, green and blue: other programs refuse a vertex with seven numbers. */
 constexpr int ObjColorComponents = 3;
 
-/** Writes a colour, from 0 to 1. */
-void writeColor(TextOutput& out, const Column& colors, std::size_t tuple)
-{
-  const double one = colors.spec.type == ScalarType::UInt8 ? 255.0 : 1.0;
-  for (int k = 0; k < ObjColorComponents; ++k)
-  {
-    out << ' ' << static_cast<float>(colors.value(tuple, k) / one);
-  }
-}
-
 /** Polygons; vertices with their colours. */
 class ObjWriter : public MeshFileWriter
 {
@@ -209,7 +200,7 @@ public:
     : Out(path)
     , DoublePositions(info.doublePositions)
     , Columns(info)
-    , Colors(this->Columns.ofVertices(ColorsName, 3, 4))
+    , Colors(this->Columns.colorsOfVertices())
     , HasOpacity(this->Colors >= 0 &&
                  info.vertexColumns[static_cast<std::size_t>(this->Colors)].components > 3)
   {
@@ -222,9 +213,10 @@ public:
       {
         this->Out << "v ";
         this->Out.position(position, this->DoublePositions);
-        if (this->Colors >= 0)
+        for (int k = 0; this->Colors >= 0 && k < ObjColorComponents; ++k)
         {
-          writeColor(this->Out, chunk.columns[static_cast<std::size_t>(this->Colors)], vertex);
+          const Column& colors = chunk.columns[static_cast<std::size_t>(this->Colors)];
+          this->Out << ' ' << this->Written.share(colors, vertex, k);
         }
         this->Out << '\n';
       });
@@ -250,6 +242,7 @@ public:
       notes.push_back("The opacity of the colours is left out, since .obj files have no place for "
                       "it.");
     }
+    this->Written.addNote(notes);
     return notes;
   }
 
@@ -259,6 +252,7 @@ private:
   PlacedColumns Columns;
   std::ptrdiff_t Colors;
   bool HasOpacity;
+  WrittenColors Written;
 };
 
 std::int64_t bytesOfObj(const MeshToWrite& written)
@@ -266,7 +260,7 @@ std::int64_t bytesOfObj(const MeshToWrite& written)
   constexpr double Keyword = 2;
   const StreamInfo& mesh = written.mesh;
   PlacedColumns columns(mesh);
-  const bool hasColors = columns.ofVertices(ColorsName, 3, 4) >= 0;
+  const bool hasColors = columns.colorsOfVertices() >= 0;
   const double colorCharacters = hasColors ? realCharacters(false) * ObjColorComponents : 0;
   return textBytes(
            mesh.vertices, Keyword + positionCharacters(mesh.doublePositions) + colorCharacters) +

@@ -3,6 +3,7 @@
 
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
+#include "IO/Export/WrittenColors.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Files/TextScanner.h"
@@ -144,8 +145,8 @@ namespace
 {
 
 /** Writes a colour; numbers from 0 to 1 with a decimal point, since those without are bytes. */
-void writeColor(
-  TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
+void writeColor(TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column,
+  std::size_t tuple, WrittenColors& written)
 {
   if (column < 0 || columns[static_cast<std::size_t>(column)].spec.type == ScalarType::UInt8)
   {
@@ -155,7 +156,7 @@ void writeColor(
   const Column& colors = columns[static_cast<std::size_t>(column)];
   for (int k = 0; k < colors.spec.components; ++k)
   {
-    const auto value = static_cast<float>(colors.value(tuple, k));
+    const float value = written.share(colors, tuple, k);
     out << ' ' << value << (value == std::floor(value) ? ".0" : "");
   }
 }
@@ -169,9 +170,9 @@ public:
     , DoublePositions(info.doublePositions)
     , Columns(info)
     , Normals(this->Columns.ofVertices(NormalsName, 3, 3))
-    , Colors(this->Columns.ofVertices(ColorsName, 3, 4))
+    , Colors(this->Columns.colorsOfVertices())
     , Texture(this->Columns.ofVertices(TextureCoordinatesName, 2, 2))
-    , FaceColors(this->Columns.ofElements(ColorsName, 3, 4))
+    , FaceColors(this->Columns.colorsOfElements())
   {
     this->Out << (this->Texture < 0 ? "" : "ST") << (this->Colors < 0 ? "" : "C")
               << (this->Normals < 0 ? "" : "N") << "OFF\n"
@@ -185,7 +186,7 @@ public:
       {
         this->Out.position(position, this->DoublePositions);
         this->Out.tuple(chunk.columns, this->Normals, vertex);
-        writeColor(this->Out, chunk.columns, this->Colors, vertex);
+        writeColor(this->Out, chunk.columns, this->Colors, vertex, this->Written);
         this->Out.tuple(chunk.columns, this->Texture, vertex);
         this->Out << '\n';
       });
@@ -198,7 +199,7 @@ public:
       {
         this->Out << corners.size();
         this->Out.corners(corners, 0);
-        writeColor(this->Out, chunk.columns, this->FaceColors, element);
+        writeColor(this->Out, chunk.columns, this->FaceColors, element, this->Written);
         this->Out << '\n';
       });
   }
@@ -206,7 +207,9 @@ public:
   WriteNotes finish() override
   {
     this->Out.finish();
-    return this->Columns.leftOut(".off");
+    WriteNotes notes = this->Columns.leftOut(".off");
+    this->Written.addNote(notes);
+    return notes;
   }
 
 private:
@@ -214,6 +217,7 @@ private:
   bool DoublePositions;
   PlacedColumns Columns;
   std::ptrdiff_t Normals, Colors, Texture, FaceColors;
+  WrittenColors Written;
 };
 
 std::int64_t bytesOfOff(const MeshToWrite& written)
@@ -223,11 +227,11 @@ std::int64_t bytesOfOff(const MeshToWrite& written)
   PlacedColumns columns(mesh);
   double ofVertices = positionCharacters(mesh.doublePositions);
   for (const std::ptrdiff_t column : { columns.ofVertices(NormalsName, 3, 3),
-         columns.ofVertices(ColorsName, 3, 4), columns.ofVertices(TextureCoordinatesName, 2, 2) })
+         columns.colorsOfVertices(), columns.ofVertices(TextureCoordinatesName, 2, 2) })
   {
     ofVertices += tupleCharacters(mesh.vertexColumns, column);
   }
-  const std::ptrdiff_t faceColors = columns.ofElements(ColorsName, 3, 4);
+  const std::ptrdiff_t faceColors = columns.colorsOfElements();
   return textBytes(mesh.vertices, ofVertices) +
          textBytes(mesh.cells, CountOfCorners + 3 * numberCharacters(mesh.vertices) +
                                  tupleCharacters(mesh.cellColumns, faceColors));
