@@ -337,10 +337,11 @@ const char* vtkRegionFilter::GetOutcome()
 {
   const std::string& error = this->Internal->Failures.error();
   std::string& text = this->Internal->Outcome;
-  text = !error.empty()                 ? "Failed: " + error
-         : this->NumberOfHeldPoints > 0 ? this->Internal->countText(this->NumberOfHeldPoints)
-         : this->IsElsewhere()          ? "The region is sought when the mesh is solved on."
-                                        : "Not applied yet.";
+  const bool isCounted = this->Internal->Count.allPoints() > 0 && !this->IsElsewhere();
+  text = !error.empty()        ? "Failed: " + error
+         : isCounted           ? this->Internal->countText(this->NumberOfHeldPoints)
+         : this->IsElsewhere() ? "The region is sought when the mesh is solved on."
+                               : "Not applied yet.";
   return text.c_str();
 }
 

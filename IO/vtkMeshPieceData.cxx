@@ -93,7 +93,18 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   }
   for (const Column& column : piece.vertexColumns)
   {
-    points.AddArray(makeArray(column));
+    const int place = points.AddArray(makeArray(column));
+    // Views shade by active normals, and map textures by active coordinates.
+    const bool isReal =
+      column.spec.type == ScalarType::Float32 || column.spec.type == ScalarType::Float64;
+    if (isReal && isNormals(column.spec))
+    {
+      points.SetActiveAttribute(place, vtkDataSetAttributes::NORMALS);
+    }
+    else if (isReal && column.spec.name == TextureCoordinatesName && column.spec.components <= 3)
+    {
+      points.SetActiveAttribute(place, vtkDataSetAttributes::TCOORDS);
+    }
   }
   if (!piece.normals.empty() && !points.HasArray(NormalsName))
   {
