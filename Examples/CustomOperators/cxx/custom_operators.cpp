@@ -25,9 +25,9 @@ Run it:
     sheet, extended: converged after 8 cycles, relative residual 2.74882e-11
     sheet, over-relaxed: converged after 8 cycles, relative residual 9.97187e-12
     sheet, direct: converged after 14 cycles, relative residual 7.25853e-11
-    wires, extended: converged after 9 cycles, relative residual 1.57746e-13
-    wires, over-relaxed: converged after 8 cycles, relative residual 1.54293e-12
-    wires, direct: converged after 14 cycles, relative residual 1.72205e-12
+    wires, extended: converged after 9 cycles, relative residual 1.57788e-13
+    wires, over-relaxed: converged after 8 cycles, relative residual 1.5429e-12
+    wires, direct: converged after 14 cycles, relative residual 1.72203e-12
 */
 
 #include <smg/Convert.h>

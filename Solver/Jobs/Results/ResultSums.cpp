@@ -455,15 +455,14 @@ ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
                          : std::max(std::fabs(this->ResidualSum[k]),
                              Sure * std::sqrt(this->ResidualSquares[k]));
   const double most = this->maximum[k].value, least = this->minimum[k].value;
-  if (const double range = most - least;
-      range > OfValues * std::max(std::fabs(most), std::fabs(least)))
-  {
-    flow.least = 2.0 * report.energy[k] / range;
-  }
+  const double range = most - least;
+  const bool varies = range > OfValues * std::max(std::fabs(most), std::fabs(least));
+  const double power = varies ? 2.0 * report.energy[k] / range : 0.0;
+  flow.least = varies ? power : flow.all;
   const double left = std::clamp(100.0 * report.residual(), 1e-9, 1e-6);
   const double terms = this->ReactionTerms[k] + this->conditions.robinTerms()[k];
   const bool isLeft = report.converged && flow.all <= left * terms;
-  return isLeft && flow.least <= OfDoubt * flow.doubt ? Flow() : flow;
+  return isLeft && power <= OfDoubt * flow.doubt ? Flow() : flow;
 }
 
 /** Makes the fluxes of column k NaN of which no digit is known; returns whether there are any. */
@@ -474,7 +473,9 @@ bool ResultSums::markLost(Report& report, std::size_t k, const Flow& flow)
   for (Report::Condition& condition : report.conditions)
   {
     const bool isGiven = condition.name.starts_with("flux");
-    if (isGiven || flow.doubt <= Unknown * std::max(std::fabs(condition.flux[k]), flow.least))
+    const bool isNowhere = condition.vertices == 0 && condition.area == 0.0;
+    if (isGiven || isNowhere ||
+        flow.doubt <= Unknown * std::max(std::fabs(condition.flux[k]), flow.least))
     {
       continue;
     }
