@@ -4,7 +4,6 @@
 
 #include "Solver/Core/Vector.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,36 +21,6 @@ namespace smg::testing
 {
 namespace
 {
-
-/** A surface, and the exact distance between two of its vertices, where that is known. */
-struct KnownSurface
-{
-  std::string name;
-  StreamMesh mesh;
-  std::function<double(std::int64_t, std::int64_t)> exact; ///< empty: not known
-};
-
-/** The stream, and for each of its vertices the point of `plane`, of the mesh before. */
-KnownSurface unfolding(std::string name, const IndexedTestMesh& mesh,
-  std::vector<std::array<double, 2>> plane,
-  std::function<double(const std::array<double, 2>&, const std::array<double, 2>&)> distance)
-{
-  StreamMesh stream = toStream(mesh);
-  std::vector<std::array<double, 2>> points;
-  for (const std::int64_t id : stream.originalIds)
-  {
-    points.push_back(plane[static_cast<std::size_t>(id)]);
-  }
-  return { std::move(name), std::move(stream),
-    [points = std::move(points), distance = std::move(distance)](std::int64_t a, std::int64_t b) {
-      return distance(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
-    } };
-}
-
-double straight(const std::array<double, 2>& a, const std::array<double, 2>& b)
-{
-  return std::hypot(a[0] - b[0], a[1] - b[1]);
-}
 
 /** A rectangle of random triangles, y divided by `flatness`. */
 KnownSurface flatSurface(double flatness, double jitter)
@@ -189,14 +158,6 @@ std::vector<KnownSurface> surfaces()
   all.push_back(tornSurface(1));
   all.push_back(tornSurface(2));
   return all;
-}
-
-DistanceDescription fromPoints(std::vector<std::int64_t> ids, PathAccuracy accuracy)
-{
-  DistanceDescription description = fromVertices(std::move(ids));
-  description.accuracy = accuracy;
-  description.source = true;
-  return description;
 }
 
 std::vector<std::int64_t> someVertices(const StreamMesh& mesh, int count, Random& random)
@@ -379,97 +340,6 @@ TEST(DistanceLaws, ExactOnesAreRightOnNearlyFlatSurfaces)
         EXPECT_NEAR(found[v], line, (100 * noise * noise + 1e-11) * line) << noise;
       }
     }
-  }
-}
-
-/** A regular grid, folded at random along its rows and rounded to single precision: its straight
- * paths pass through vertices, around which the angles are a full turn but for rounding. */
-KnownSurface foldedStrip(Random& random)
-{
-  const int columns = 4 + static_cast<int>(random.below(26));
-  const int rows = 4 + static_cast<int>(random.below(26));
-  const double most = random.below(2) == 0 ? 0.1 : 1.2;
-  const Eigen::Matrix3d frame = Eigen::Quaterniond(
-    random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
-                                  .normalized()
-                                  .toRotationMatrix();
-  IndexedTestMesh mesh;
-  std::vector<std::array<double, 2>> flat;
-  Eigen::Vector3d place(0, 0, 0);
-  for (int i = 0; i <= columns; ++i)
-  {
-    for (int j = 0; j <= rows; ++j)
-    {
-      flat.push_back({ double(i) / columns, double(j) / rows });
-      const Eigen::Vector3d p = frame * (place + Eigen::Vector3d(0, double(j) / rows, 0));
-      for (const double x : p)
-      {
-        mesh.positions.push_back(static_cast<double>(static_cast<float>(x)));
-      }
-      if (i < columns && j < rows)
-      {
-        const std::int64_t a = i * (rows + 1) + j, b = a + 1, c = a + rows + 1, d = c + 1;
-        mesh.corners.insert(mesh.corners.end(), { a, c, d, a, d, b });
-      }
-    }
-    const double angle = random.uniform(-most, most);
-    place += Eigen::Vector3d(std::cos(angle), 0, std::sin(angle)) / columns;
-  }
-  return unfolding("strip", mesh, flat, straight);
-}
-
-TEST(DistanceLaws, ExactOnesAreRightOnFoldedStripsInSinglePrecision)
-{
-  Random random(29);
-  for (int run = 0; run < 250; ++run)
-  {
-    const KnownSurface surface = foldedStrip(random);
-    const MemoryMesh mesh(surface.mesh);
-    const std::int64_t a = random.below(surface.mesh.vertices());
-    const Eigen::MatrixXd from = measure(mesh, fromPoints({ a }, PathAccuracy::Exact)).values;
-    double worst = 0;
-    std::int64_t b = 0;
-    for (std::int64_t v = 0; v < surface.mesh.vertices(); ++v)
-    {
-      const double error = from(v, 0) - surface.exact(a, v);
-      b = std::abs(error) > worst ? v : b;
-      worst = std::max(worst, std::abs(error));
-    }
-    EXPECT_LT(worst, 2e-6) << "run " << run << " from " << a << " to " << b; // of the rounding
-    const double back = measure(mesh, fromPoints({ b }, PathAccuracy::Exact)).values(a, 0);
-    EXPECT_NEAR(from(b, 0), back, 1e-10);
-  }
-}
-
-TEST(DistanceLaws, ExactOnesOfARegionDoNotDependOnTheFrame)
-{
-  Random random(31);
-  for (int run = 0; run < 150; ++run)
-  {
-    const double stretch = std::pow(10.0, random.uniform(0, 3));
-    IndexedTestMesh flat = unitSquare(3 + static_cast<int>(random.below(12)), 0.45);
-    for (std::size_t k = 0; k < flat.positions.size(); k += 3)
-    {
-      flat.positions[k] *= stretch;
-    }
-    const Eigen::Matrix3d frame = Eigen::Quaterniond(
-      random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
-                                    .normalized()
-                                    .toRotationMatrix();
-    IndexedTestMesh turned = flat;
-    for (std::size_t k = 0; k < flat.positions.size(); k += 3)
-    {
-      Eigen::Vector3d::Map(&turned.positions[k]) = frame * Eigen::Vector3d::Map(&flat.positions[k]);
-    }
-    const StreamMesh one = toStream(flat), other = toStream(turned);
-    DistanceDescription boundary;
-    boundary.from.emplace_back(OnBoundary());
-    boundary.accuracy = PathAccuracy::Exact;
-    const Eigen::VectorXd there = measure(MemoryMesh(one), boundary).values.col(0);
-    const Eigen::VectorXd here = measure(MemoryMesh(other), boundary).values.col(0);
-    // In the same order: that of the stream does not look at positions.
-    ASSERT_EQ(one.originalIds, other.originalIds);
-    EXPECT_LT((there - here).cwiseAbs().maxCoeff(), 1e-9) << "run " << run;
   }
 }
 

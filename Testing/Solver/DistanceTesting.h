@@ -8,8 +8,12 @@
 #include "smg/Distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +43,45 @@ inline Solved measureInChunks(const StoredMesh& mesh, const DistanceDescription&
   const std::unique_ptr<Solution> solution = pathDistance(
     mesh, description, std::make_unique<DistanceRun>(options), "distance", chunkVertices);
   return { valuesOf(*solution), solution->report() };
+}
+
+/** The same of points, with the sources. */
+inline DistanceDescription fromPoints(std::vector<std::int64_t> ids, PathAccuracy accuracy)
+{
+  DistanceDescription description = fromVertices(std::move(ids));
+  description.accuracy = accuracy;
+  description.source = true;
+  return description;
+}
+
+/** A surface, and the exact distance between two of its vertices, where that is known. */
+struct KnownSurface
+{
+  std::string name;
+  StreamMesh mesh;
+  std::function<double(std::int64_t, std::int64_t)> exact; ///< empty: not known
+};
+
+/** The stream, and for each of its vertices the point of `plane`, of the mesh before. */
+inline KnownSurface unfolding(std::string name, const IndexedTestMesh& mesh,
+  std::vector<std::array<double, 2>> plane,
+  std::function<double(const std::array<double, 2>&, const std::array<double, 2>&)> distance)
+{
+  StreamMesh stream = toStream(mesh);
+  std::vector<std::array<double, 2>> points;
+  for (const std::int64_t id : stream.originalIds)
+  {
+    points.push_back(plane[static_cast<std::size_t>(id)]);
+  }
+  return { std::move(name), std::move(stream),
+    [points = std::move(points), distance = std::move(distance)](std::int64_t a, std::int64_t b) {
+      return distance(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
+    } };
+}
+
+inline double straight(const std::array<double, 2>& a, const std::array<double, 2>& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1]);
 }
 
 /** Moves the inner vertices of a mesh in the unit square or cube by up to `jitter`, in the first
