@@ -134,7 +134,14 @@ PieceInput::~PieceInput()
     info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
     info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    this->Executive->Update(this->ProducerPort);
+    try
+    {
+      this->Executive->Update(this->ProducerPort);
+    }
+    catch (...)
+    {
+      // The first error is the one to report; what is shown is made at the next update.
+    }
   }
 }
 

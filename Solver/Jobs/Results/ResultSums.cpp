@@ -255,6 +255,11 @@ void ConditionSums::append(
 namespace
 {
 
+bool isNowhere(const Report::Condition& condition)
+{
+  return condition.vertices == 0 && condition.area == 0.0;
+}
+
 std::string percent(double share)
 {
   char text[32];
@@ -440,42 +445,56 @@ void ResultSums::reportParts(Report& report) const
  * over the residuals r, where phi is between 0 and 1. Rounding has residuals of random signs, an
  * unfinished solve of one sign: the larger one of both sums is what a flux may be wrong by.
  *
- * The power, twice the energy, over the range of u is what flows at least through the whole. It has
- * twice the digits of a flux, and tells a flux that is lost from none: if what flows is small
- * beside its terms and much more than the power tells, it is only what the solve has left.
+ * The power, twice the energy, over the range of u is what flows at least through the whole.
+ * Nothing flows where the values are one number, up to what the solve leaves, and nothing is
+ * prescribed to flow: then what flows is only that.
  */
 ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
 {
-  constexpr double Sure = 3.0, OfValues = 1e-6, OfDoubt = 1e-7;
+  constexpr double Sure = 3.0, OfValues = 1e-6, OfTerms = 1e-6;
   Flow flow;
   flow.all = this->conditions.magnitude()[k] + this->Magnitude[k];
+  double given = this->Magnitude[k];
+  int free = 0; // conditions whose flux is not given
+  for (const Report::Condition& condition : report.conditions)
+  {
+    const bool isGiven = condition.name.starts_with("flux");
+    given += isGiven ? std::fabs(condition.flux[k]) : 0.0;
+    free += isGiven || isNowhere(condition) ? 0 : 1;
+  }
   // Of components without a condition, where the solve has changed the sources.
   const bool isShifted = !report.removed_source.empty() && report.removed_source[k] != 0.0;
-  flow.doubt = isShifted ? 0.0
-                         : std::max(std::fabs(this->ResidualSum[k]),
-                             Sure * std::sqrt(this->ResidualSquares[k]));
+  // The only flux that is not given is what balances the others: phi is 1 there.
+  const bool isAlone = free < 2 && report.screening[k] == 0.0;
+  flow.doubt = isShifted ? 0.0 : std::fabs(this->ResidualSum[k]);
+  if (!isShifted && !isAlone && free > 0)
+  {
+    flow.doubt = std::max(flow.doubt, Sure * std::sqrt(this->ResidualSquares[k]));
+  }
   const double most = this->maximum[k].value, least = this->minimum[k].value;
   const double range = most - least;
   const bool varies = range > OfValues * std::max(std::fabs(most), std::fabs(least));
-  const double power = varies ? 2.0 * report.energy[k] / range : 0.0;
-  flow.least = varies ? power : flow.all;
-  const double left = std::clamp(100.0 * report.residual(), 1e-9, 1e-6);
   const double terms = this->ReactionTerms[k] + this->conditions.robinTerms()[k];
-  const bool isLeft = report.converged && flow.all <= left * terms;
-  return isLeft && power <= OfDoubt * flow.doubt ? Flow() : flow;
+  if (!varies && given == 0.0 && report.converged && flow.all <= OfTerms * terms)
+  {
+    return {};
+  }
+  flow.least = varies ? 2.0 * report.energy[k] / range : flow.all;
+  return flow;
 }
 
 /** Makes the fluxes of column k NaN of which no digit is known; returns whether there are any. */
 bool ResultSums::markLost(Report& report, std::size_t k, const Flow& flow)
 {
+  // Of the flux, of what flows through the whole, and of a tenth of all that flows.
   constexpr double Unknown = 0.1;
+  const double large = std::max(flow.least, Unknown * flow.all);
   std::string lost;
   for (Report::Condition& condition : report.conditions)
   {
     const bool isGiven = condition.name.starts_with("flux");
-    const bool isNowhere = condition.vertices == 0 && condition.area == 0.0;
-    if (isGiven || isNowhere ||
-        flow.doubt <= Unknown * std::max(std::fabs(condition.flux[k]), flow.least))
+    if (isGiven || isNowhere(condition) ||
+        flow.doubt <= Unknown * std::max(std::fabs(condition.flux[k]), large))
     {
       continue;
     }
