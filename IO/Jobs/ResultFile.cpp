@@ -243,7 +243,9 @@ std::vector<std::string> ResultFile::notesOn(
   const ConversionReport& conversion, const MeshJob& job) const
 {
   const bool ordered = this->keepsOrder();
-  const bool whole = ordered || kindOfOutput(this->Files.out) == MeshFileKind::Vsm;
+  const bool hasVertices =
+    lowerSuffix(this->Files.out) != ".stl"; // else corners of triangles alone
+  const bool whole = (ordered && hasVertices) || kindOfOutput(this->Files.out) == MeshFileKind::Vsm;
   std::vector<std::string> notes;
   // That they are left out, write() says.
   if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0 && whole)
