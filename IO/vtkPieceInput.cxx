@@ -126,17 +126,14 @@ PieceInput::~PieceInput()
   {
     return;
   }
-  vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
-  info->Set(vtkStreamingMeshKeys::STREAMED(), 0);
+  this->Executive->GetOutputInformation(this->ProducerPort)
+    ->Set(vtkStreamingMeshKeys::STREAMED(), 0);
   this->Executive->PropagateUpdateExtent(this->ProducerPort);
   if (std::uncaught_exceptions() > this->Exceptions && this->isPreviewed())
   {
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
     try
     {
-      this->Executive->Update(this->ProducerPort);
+      this->update(0, 1, false);
     }
     catch (...)
     {

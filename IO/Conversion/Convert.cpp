@@ -303,7 +303,7 @@ void noteWinding(
     notes.push_back(counted(winding.turned(), "triangle was turned.", "triangles were turned."));
     for (const auto* columns : { &mesh.vertexColumns, &mesh.cellColumns })
     {
-      if (std::ranges::find(*columns, NormalsName, &ColumnSpec::name) != columns->end())
+      if (std::ranges::any_of(*columns, isNormals))
       {
         notes.push_back(std::string("The column ") + NormalsName + " of the " +
                         (columns == &mesh.vertexColumns ? "vertices" : "cells") +

@@ -5,7 +5,6 @@
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Text.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

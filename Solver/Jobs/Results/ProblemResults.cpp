@@ -316,9 +316,9 @@ void ProblemResults::close(std::int64_t i, double* numbers)
 void ProblemResults::addEdges(std::int64_t i, VertexTerms terms)
 {
   const double* u = this->Vertices.values.at(i);
+  const std::int32_t condition = this->Vertices.dirichlet[i];
   for (const RowNeighbour& neighbour : this->Neighbours)
   {
-    const std::int32_t condition = this->Vertices.dirichlet[i];
     if (condition >= 0 && this->Vertices.dirichlet[neighbour.to] == condition)
     {
       continue;

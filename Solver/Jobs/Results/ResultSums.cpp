@@ -465,12 +465,10 @@ ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
   // Of components without a condition, where the solve has changed the sources.
   const bool isShifted = !report.removed_source.empty() && report.removed_source[k] != 0.0;
   // The only flux that is not given is what balances the others: phi is 1 there.
-  const bool isAlone = free < 2 && report.screening[k] == 0.0;
-  flow.doubt = isShifted ? 0.0 : std::fabs(this->ResidualSum[k]);
-  if (!isShifted && !isAlone && free > 0)
-  {
-    flow.doubt = std::max(flow.doubt, Sure * std::sqrt(this->ResidualSquares[k]));
-  }
+  const bool isShared = free > 1 || (free == 1 && report.screening[k] != 0.0);
+  const double squares = isShared ? this->ResidualSquares[k] : 0.0;
+  flow.doubt =
+    isShifted ? 0.0 : std::max(std::fabs(this->ResidualSum[k]), Sure * std::sqrt(squares));
   const double most = this->maximum[k].value, least = this->minimum[k].value;
   const double range = most - least;
   const bool varies = range > OfValues * std::max(std::fabs(most), std::fabs(least));
