@@ -45,6 +45,8 @@ void checkOptions(const Smoothing& options)
     "the angle of the edges to keep must lie between 0 and 180 degrees, both excluded");
   requireThat(options.column.empty() || !options.keepEdges,
     "edges are kept when positions are smoothed: name no column, or keep no edges");
+  requireThat(options.column.empty() || !options.orient,
+    "triangles are turned when positions are smoothed: name no column, or turn no triangles");
   // Curves are smoothed by moving their vertices, which a column does not do.
   requireThat(options.column.empty() || options.boundary != SmoothedBoundary::Smooth,
     "the boundary is smoothed as curves only with the positions: of a column, fix it or leave it "

@@ -87,6 +87,9 @@ private:
       ->type_name("DEGREES");
     command.add_flag("--keep-volume,!--no-keep-volume", this->Job.smoothing.keepVolume,
       "Move the surface along its normals so that it keeps its volume (default), or do not");
+    command.add_flag("--orient", this->Job.smoothing.orient,
+      "Turn triangles of OUT so that those of a body are wound alike, and outwards if it is "
+      "closed");
     this->Hold.addTo(command, "A part of the mesh that does not move");
     command
       .add_option_function<std::string>(

@@ -21,7 +21,7 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
-#include "Solver/Jobs/Fairing/Orientation.h"
+#include "Solver/Jobs/Fairing/OrientedMesh.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
@@ -345,7 +345,7 @@ std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientat
   }
   winding->finish();
   noteWinding(*winding, source->info(), conversion.report().notes);
-  return oriented(open(), *winding);
+  return numberedByFirstUse(oriented(open(), *winding));
 }
 
 } // namespace

@@ -51,6 +51,8 @@ public:
   virtual std::string resultColumns() const = 0;
   /** The names of these columns, of the vertices, if the mesh has them already. */
   virtual std::vector<std::string> changedColumns() const { return {}; }
+  /** Whether the result may have the corners of a cell in another order. */
+  virtual bool turnsCells() const { return false; }
   /** The columns whose components are those of the solution, in order; of other positions the
    * column "Position". */
   virtual std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const = 0;

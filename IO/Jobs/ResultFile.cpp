@@ -25,6 +25,7 @@ ResultFile::ResultFile(const MeshJob& job, Options options)
       {
         options.columns = job.resultColumns();
         options.changed = job.changedColumns();
+        options.adds = options.adds || job.turnsCells();
         return std::move(options);
       }())
 {

@@ -43,8 +43,8 @@ public:
     std::vector<std::string> changed = {};
     int threads = 0;   ///< that write; 0: one per core
     bool text = false; ///< see WriteMeshOptions
-    /** Whether the mesh has columns that are not in its file, so that this cannot be written again
-     * with other positions. */
+    /** Whether the mesh with the result has columns or cells that are not in its file, so that this
+     * cannot be written again with other positions. */
     bool adds = false;
     /** Adds columns to vertices of no cell; see WriteMeshOptions. */
     CompleteIsolated isolated = {};

@@ -24,6 +24,7 @@ public:
   void check() const override { checkOptions(this->smoothing); }
   std::string resultColumns() const override;
   std::vector<std::string> changedColumns() const override;
+  bool turnsCells() const override { return this->smoothing.orient; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
   Costs costsOn(const StreamInfo& info) const override;
   AddedValues addedTo(const StreamInfo& info) const override;

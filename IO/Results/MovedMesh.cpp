@@ -3,6 +3,7 @@
 
 #include "IO/Results/MovedPoints.h"
 #include "IO/Results/VertexNormals.h"
+#include "Solver/Jobs/Fairing/OrientedMesh.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
@@ -42,7 +43,17 @@ std::vector<std::string> namesWithoutNormals(const std::vector<ColumnSpec>& spec
 
 struct MovedMesh::Implementation
 {
-  const StoredMesh& mesh;
+  Implementation(const StoredMesh& given, Solution& moved, const NormalsOptions& how)
+    : oriented(moved.winding() ? std::optional<OrientedMesh>(std::in_place, given, *moved.winding())
+                               : std::nullopt)
+    , mesh(this->oriented ? *this->oriented : given)
+    , positions(moved)
+    , options(how)
+  {
+  }
+
+  std::optional<OrientedMesh> oriented; ///< if the result is wound otherwise
+  const StoredMesh& mesh;               ///< wound as the result
   Solution& positions;
   NormalsOptions options;
   std::optional<VertexNormals> ofVertices; ///< if the stream has these
@@ -59,7 +70,7 @@ struct MovedMesh::Implementation
 
 MovedMesh::MovedMesh(
   const StoredMesh& mesh, Solution& positions, MovedNormals normals, const NormalsOptions& options)
-  : Self(new Implementation{ mesh, positions, options, {} })
+  : Self(std::make_unique<Implementation>(mesh, positions, options))
 {
   const StreamInfo& info = mesh.info();
   if (positions.columns() != 3 || positions.vertices() != info.vertices)
@@ -76,7 +87,7 @@ MovedMesh::MovedMesh(
   this->Self->ofCells = hasNormals(info.cellColumns);
   if (hasNormals(info.vertexColumns))
   {
-    MovedPoints moved(mesh.source({}, {}), positions);
+    MovedPoints moved(this->Self->mesh.source({}, {}), positions);
     this->Self->ofVertices.emplace(moved, options);
   }
 }
@@ -104,7 +115,7 @@ std::unique_ptr<MeshSource> MovedMesh::source(Report* report) const
         normals->release(block);
       });
   }
-  return source;
+  return self->oriented ? numberedByFirstUse(std::move(source)) : std::move(source);
 }
 
 } // namespace smg

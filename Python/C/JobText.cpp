@@ -146,8 +146,8 @@ SmoothingSize sizeIn(const JsonNode& node)
 
 std::unique_ptr<MeshJob> smoothJob(const JsonNode& node)
 {
-  requireKeys(node,
-    { "size", "steps", "hold", "boundary", "keep_volume", "keep_edges", "column", "normals" });
+  requireKeys(node, { "size", "steps", "hold", "boundary", "keep_volume", "keep_edges", "orient",
+                      "column", "normals" });
   auto job = std::make_unique<SmoothJob>();
   Smoothing& smoothing = job->smoothing;
   readSolving(node, *job);
@@ -173,6 +173,7 @@ std::unique_ptr<MeshJob> smoothJob(const JsonNode& node)
   {
     smoothing.keepEdges = node.member("keep_edges").number();
   }
+  smoothing.orient = node.has("orient") && flagIn(node.member("orient"));
   if (node.has("column"))
   {
     smoothing.column = node.member("column").columnName();

@@ -185,7 +185,7 @@ extern "C"
    *               "normals" ("recompute", "drop")
    *   "smooth"    "size" (a number, in the unit of the mesh, or a text as "4edges", "1%"), "steps",
    *               "hold" (WHERE or a list), "boundary" ("smooth", "fixed", "free"), "keep_volume",
-   *               "keep_edges" (degrees), "column", "tolerance", "normals"
+   *               "keep_edges" (degrees), "orient", "column", "tolerance", "normals"
    *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
    *   "distance"  "from" (WHERE or a list), "wall", "source", "direction",
    *               "accuracy" ("auto", "exact", "approximate"), "within", "max_passes"

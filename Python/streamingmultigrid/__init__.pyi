@@ -101,7 +101,7 @@ class Mesh:
     def smooth(
         self, *, size: Union[float, str, None] = None, steps: Optional[int] = None,
         hold: Optional[types.Places] = None, boundary: Optional[types.SmoothedBoundary] = None,
-        keep_volume: Optional[bool] = None, keep_edges: Optional[float] = None,
+        keep_volume: Optional[bool] = None, keep_edges: Optional[float] = None, orient: Optional[bool] = None,
         column: Optional[types.Columns] = None, normals: Optional[types.Normals] = None,
         tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
         in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
@@ -244,7 +244,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     def smooth(
         self, *, size: Union[float, str, None] = None, steps: Optional[int] = None,
         hold: Optional[types.Places] = None, boundary: Optional[types.SmoothedBoundary] = None,
-        keep_volume: Optional[bool] = None, keep_edges: Optional[float] = None,
+        keep_volume: Optional[bool] = None, keep_edges: Optional[float] = None, orient: Optional[bool] = None,
         column: Optional[types.Columns] = None, normals: Optional[types.Normals] = None,
         tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
         in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
@@ -466,7 +466,7 @@ def smooth(
     points: npt.ArrayLike, cells: npt.ArrayLike, *, size: Union[float, str, None] = None,
     steps: Optional[int] = None, hold: Optional[types.Places] = None,
     boundary: Optional[types.SmoothedBoundary] = None, keep_volume: Optional[bool] = None,
-    keep_edges: Optional[float] = None, column: Optional[types.Columns] = None,
+    keep_edges: Optional[float] = None, orient: Optional[bool] = None, column: Optional[types.Columns] = None,
     normals: Optional[types.Normals] = None, tolerance: Optional[float] = None,
     max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
     memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,

@@ -217,6 +217,7 @@ def smooth(
     boundary: Optional[types.SmoothedBoundary] = None,
     keep_volume: Optional[bool] = None,
     keep_edges: Optional[float] = None,
+    orient: Optional[bool] = None,
     column: Optional[types.Columns] = None,
     normals: Optional[types.Normals] = None,
     tolerance: Optional[float] = None,
@@ -238,6 +239,9 @@ def smooth(
         boundary: "smooth" (default of positions), "fixed", or "free" (default of a column).
         keep_volume: each step moves the surface so that it sweeps no volume; default True.
         keep_edges: degrees: edges at which the surface turns by more are kept.
+        orient: in the mesh with the result, triangles are turned so that those of a body are wound
+            alike, and outwards if it is closed. Some vertices may have other places in a file that
+            is in stream order.
         column: smooths a column of the vertices instead of the positions: its name, an array (n,) or
             (n, k), which becomes the column Values, or {name: array}.
         normals: "recompute" (default) or "drop" a column Normals.

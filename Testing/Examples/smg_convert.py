@@ -276,7 +276,8 @@ def test_orient():
             # The torus of the test is wound outwards or inwards as a whole.
             counts = {f"{n} triangle{'s were' if n != 1 else ' was'} turned." for n in (turned, len(both) - turned)}
             assert counts & set(report["notes"]), (number, report["notes"])
-            facts = json.loads(run("info", "oriented.vsm", "--json", "--full").stdout)
+            run("info", "oriented.vsm", "--full", "--quiet", "--report", "info.json")
+            facts = load("info.json")["description"]
             assert facts["consistently_wound"] and facts["turned_volume"] == 0, facts
             restored = restore("oriented.vsm", ".ply")
             assert same_points(restored.points, points)
@@ -374,7 +375,7 @@ def test_too_many_vertices_are_said_at_once():
 
 for each in (test_too_many_vertices_are_said_at_once, test_restored_order, test_restored_solids, test_restored_is_the_same_file,
              test_moved_meshes_keep_their_order, test_other_formats_in_the_order_of_the_stream, test_gzip_and_wrong_suffixes,
-             test_compressed_streams, test_own_name, test_weld,
+             test_compressed_streams, test_own_name, test_weld, test_orient,
              test_cells_of_both_kinds, test_parts, test_same_mesh_for_any_memory):
     each()
     print("passed", each.__name__)

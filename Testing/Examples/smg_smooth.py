@@ -8,7 +8,7 @@ import random
 import sys
 
 from mesh_files import read_mesh
-from program import load, read_vtk_xml, run, write_medit
+from program import load, read_vtk_xml, run, write_medit, write_ply
 from tetrahedra import tetrahedra
 from torus import torus
 
@@ -186,10 +186,48 @@ def test_edges_are_kept():
     assert points_of("sharp.obj") != points_of("round.obj")
 
 
+def test_the_winding_is_mended():
+    """The smoothed points do not depend on it, and with --orient the winding of OUT not either."""
+    points, quadrangles = torus(60, 30)
+    triangles = [cell for a, b, c, d in quadrangles for cell in ((a, b, c), (a, c, d))]
+    numbers = random.Random(3)
+    wound = [cell[::-1] if numbers.random() < 0.4 else cell for cell in triangles]
+    write_ply("wound.ply", points, wound, {name: ("float", [0] * len(points)) for name in ("nx", "ny", "nz")})
+    plain = smooth("wound.ply", "plain.ply", "--size", "0.5")
+    assert read_mesh("plain.ply").cells == wound, plain["notes"]
+    run("convert", "wound.ply", "wound.vsm", "--quiet")
+    for mesh, outs in (("wound.ply", ("o.ply", "o.obj", "o.vsm")), ("wound.vsm", ("o.ply", "o.vsm", "o.vtp"))):
+        for out in outs:
+            report = smooth(mesh, out, "--size", "0.5", "--orient")
+            assert any("turned." in note for note in report["notes"]), report["notes"]
+            assert math.isclose(report["volume"]["after"], plain["volume"]["after"], rel_tol=1e-12)
+            run("info", out, "--full", "--quiet", "--report", "info.json")
+            facts = load("info.json")["description"]
+            assert facts["consistently_wound"] and facts["turned_volume"] == 0, (mesh, out)
+            if mesh == "wound.ply" and out != "o.vsm":
+                found = read_mesh(out)
+                assert max(math.dist(a, b) for a, b in zip(found.points, points_of("plain.ply"))) < 1e-6
+                assert [sorted(cell) for cell in found.cells] == [sorted(cell) for cell in wound]
+    arrays = read_vtk_xml("o.vtp")
+    outside = [sum(n * (x - c) for n, x, c in zip(normal, p, centre_of(p)))
+               for normal, p in zip(arrays["Normals"], arrays["Points"])]
+    assert min(outside) > 0 or max(outside) < 0, (min(outside), max(outside))
+    assert smooth("o.vsm", "again.vsm", "--orient")["notes"] == smooth("o.vsm", "again.vsm")["notes"]
+    error = run("smooth", "wound.vsm", "c.vsm", "--orient", "--column", "x", code=2).stderr
+    assert "name no column, or turn no triangles" in error, error
+
+
+def centre_of(point):
+    """The nearest point of the circle in the torus."""
+    x, y, _ = point
+    return 2 * x / math.hypot(x, y), 2 * y / math.hypot(x, y), 0.0
+
+
 for each in (test_noise_goes_and_volume_stays, test_what_would_leave_nothing_of_the_shape_is_refused,
              test_the_order_and_the_polygons_of_the_input_stay, test_every_way_gives_the_same_points, test_sizes,
              test_what_is_held_does_not_move, test_a_column_keeps_its_type, test_whole_numbers_are_rounded,
-             test_errors, test_edges_are_kept):
+             test_errors, test_edges_are_kept,
+             test_the_winding_is_mended):
     each()
     print("passed", each.__name__)
 sys.exit(0)

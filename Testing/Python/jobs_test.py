@@ -70,6 +70,18 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(bits(file_result("python.vsm", "Position")),
                          bits(file_result("smooth.vsm", "Position")))
 
+    def test_smooth_with_the_winding_mended(self):
+        points, cells = sphere(3)
+        wound = cells.copy()
+        wound[::3] = wound[::3, ::-1]
+        well, badly = smg.mesh(points, cells).smooth(size=0.5), smg.mesh(points, wound).smooth(size=0.5, orient=True)
+        np.testing.assert_allclose(badly.to_numpy(), well.to_numpy(), rtol=0, atol=1e-6)
+        badly.save("oriented.ply")
+        for mesh in (smg.open("oriented.ply"), badly.simplify(600)):
+            a, b, c = np.moveaxis(mesh.points[mesh.cells], 1, 0)
+            self.assertTrue((np.einsum("ij,ij->i", np.cross(b - a, c - a), a) > 0).all())
+        self.assertRaisesRegex(smg.Error, "name no column", badly.smooth, column=points[:, 0], orient=True)
+
     def test_smooth_a_column(self):
         mesh = smg.open(BUNNY)
         noise = np.random.default_rng(1).random(mesh.n_vertices)

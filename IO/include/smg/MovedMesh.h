@@ -37,7 +37,9 @@ struct NormalsOptions
 
 /**
  * A mesh with its vertices moved: the same stream with all its columns, but with the positions of a
- * solution of three columns, in the precision of the mesh, and with normals that fit.
+ * solution of three columns, in the precision of the mesh, and with normals that fit. If the
+ * solution winds triangles otherwise (SmoothingDescription::orient), they begin with any of their
+ * corners, and a few vertices have other numbers in the stream, which are by first use.
  */
 class SMG_EXPORT MovedMesh
 {

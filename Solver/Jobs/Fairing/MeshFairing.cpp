@@ -190,34 +190,38 @@ void MeshFairing::survey(Part part)
     const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
     this->Result->total.volume = Report::Volume{};
     this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
-    if (facets->turnedEdges() > 0 || (isClosed && measures.turnedVolume() > 0.0))
+    if (this->Options.orient || facets->turnedEdges() > 0 ||
+        (isClosed && measures.turnedVolume() > 0.0))
     {
       this->orient(part.of(0.8, 1.0));
     }
   }
 }
 
-/** Finds how a surface is to be wound whose triangles are wound against each other, or inwards: the
- * steps are those of the surface that is wound like that. */
+/** Finds how a surface is to be wound, if its triangles are wound against each other, or inwards:
+ * the steps are those of the surface that is wound like that. */
 void MeshFairing::orient(Part part)
 {
-  this->Winding.emplace(this->Result->memory,
+  Orientation& winding = this->Result->found.emplace(this->Result->memory,
     this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch);
-  this->read(part, [this](const MeshBlock& block) { this->Winding->add(block); });
-  this->Winding->finish();
+  this->read(part, [&winding](const MeshBlock& block) { winding.add(block); });
+  winding.finish();
   Report& report = this->Result->total;
-  if (this->Winding->turned() > 0)
+  if (winding.turned() > 0)
   {
-    this->Oriented.emplace(this->Mesh, *this->Winding);
-    report.notes.push_back(counted(this->Winding->turned(), "triangle was", "triangles were") +
-                           " turned to compute with: wound as in the mesh, its bodies have no "
-                           "sides, or are inside out. The result is wound as the mesh");
+    this->Oriented.emplace(this->Mesh, winding);
+    const std::string counts = counted(winding.turned(), "triangle was", "triangles were");
+    report.notes.push_back(
+      this->Options.orient
+        ? counts + " turned."
+        : counts + " turned to compute with: wound as in the mesh, its bodies have no sides, or "
+                   "are inside out. The result is wound as the mesh");
   }
   if (!std::isnan(report.volume->before))
   {
-    report.volume->before = this->Winding->volume();
+    report.volume->before = winding.volume();
   }
-  if (const std::int64_t bodies = this->Winding->unorientable(); bodies > 0)
+  if (const std::int64_t bodies = winding.unorientable(); bodies > 0)
   {
     report.volume->before = std::nan("");
     report.warn(counted(bodies, "body", "bodies") +
@@ -225,8 +229,7 @@ void MeshFairing::orient(Part part)
                 "is not kept there");
     return;
   }
-  this->noteCavities(
-    this->Winding->cavities(), this->Winding->volume() + this->Winding->cavities());
+  this->noteCavities(winding.cavities(), winding.volume() + winding.cavities());
 }
 
 /** Warns of cavities, whose volume counts as negative. */

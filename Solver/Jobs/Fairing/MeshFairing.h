@@ -7,7 +7,7 @@
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Jobs/Fairing/Orientation.h"
+#include "Solver/Jobs/Fairing/OrientedMesh.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/FixedVertices.h"
@@ -30,8 +30,9 @@ namespace smg
 class FairedValues final : public Solution
 {
 public:
-  FairedValues(const SolveOptions& options, int columns)
-    : memory(options.memoryLimit)
+  FairedValues(const Smoothing& options, int columns)
+    : orient(options.orient)
+    , memory(options.memoryLimit)
     , scratch(options.inCore ? std::nullopt
                              : std::optional<ScratchFolder>(
                                  std::in_place, options.scratch, options.scratchLimit))
@@ -48,13 +49,16 @@ public:
       first, count, to.size() / static_cast<std::size_t>(this->columns()), this->vertices());
     this->values.read(first, count, to.data());
   }
+  Orientation* winding() override { return this->orient && this->found ? &*this->found : nullptr; }
   const Report& report() const override { return this->total; }
 
+  bool orient; ///< whether triangles of the result are turned
   Pool memory;
   std::optional<ScratchFolder> scratch;
   IoStatistics traffic;
   VertexStorage storage; ///< for further values
   VertexFile values;
+  std::optional<Orientation> found; ///< how a surface that is wound badly is to be wound
   Report total;
 };
 
@@ -106,8 +110,7 @@ private:
   const StoredMesh& surface() const { return this->Oriented ? *this->Oriented : this->Mesh; }
 
   const StoredMesh& Mesh;
-  std::optional<Orientation> Winding; ///< of a surface that is wound badly
-  std::optional<OrientedMesh> Oriented;
+  std::optional<OrientedMesh> Oriented; ///< of a surface that is wound badly
   Smoothing Options;
   Timer Wall;
   double CpuAtStart = processSeconds();

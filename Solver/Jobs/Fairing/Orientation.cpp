@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <utility>
 
 // The winding of a surface in its stream. Triangles that share an edge are wound alike if they run
@@ -38,7 +37,7 @@ std::filesystem::path inFolder(const std::filesystem::path& folder, const char* 
 Orientation::Orientation(Pool& pool, const std::filesystem::path& folder)
   : Memory(pool)
   , Points(pool, 3)
-  , Heads(pool)
+  , Open(pool)
   , Edges(pool)
   , Members(pool)
   , Links(inFolder(folder, "links"), this->Traffic)
@@ -56,7 +55,7 @@ void Orientation::add(const MeshBlock& block)
   const std::int64_t end = block.firstVertex + block.vertices();
   this->Points.extendRaw(end);
   std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
-  this->Heads.extend(end);
+  this->Open.extend(end);
   const Column* flags = block.flags();
   for (std::size_t c = 0; c < block.corners.size() / 3; ++c)
   {
@@ -106,20 +105,18 @@ void Orientation::addCell(const std::int64_t* corners, unsigned flags)
 
 void Orientation::addEdge(std::int64_t a, std::int64_t b, std::int64_t cell)
 {
-  const std::int64_t low = std::min(a, b);
-  const auto high = static_cast<std::uint32_t>(std::max(a, b));
-  std::int32_t slot = this->Heads[low];
-  while (slot != 0 && this->Edges[slot].high != high)
-  {
-    slot = this->Edges[slot].next;
-  }
-  if (slot == 0)
-  {
-    slot = this->Edges.take();
-    this->Edges[slot] = { high, this->Heads[low], {}, {}, 0 };
-    this->Heads[low] = slot;
-  }
+  const std::int64_t low = std::min(a, b), high = std::max(a, b);
+  const std::int32_t fresh = this->Edges.take();
+  const std::int32_t slot = this->Open.join(low, high, 0, fresh);
   Edge& edge = this->Edges[slot];
+  if (slot == fresh)
+  {
+    edge = {};
+  }
+  else
+  {
+    this->Edges.give(fresh);
+  }
   if (edge.count < 2)
   {
     edge.cell[edge.count] = static_cast<std::uint32_t>(cell);
@@ -138,24 +135,24 @@ std::int64_t Orientation::cellOf(std::uint32_t low) const
 /** Finishes the edges whose lower vertex is final. */
 void Orientation::finishVertices(std::int64_t end)
 {
+  const auto finishEdge = [this](std::int64_t /*high*/, std::int64_t /*none*/, std::int32_t slot)
+  {
+    const Edge edge = this->Edges[slot];
+    this->Edges.give(slot);
+    if (edge.count == 2)
+    {
+      this->relate(edge);
+    }
+    else if (edge.count == 1)
+    {
+      ++this->Members[this->find(this->cellOf(edge.cell[0])).cell].sums.boundary;
+    }
+  };
   for (; this->Final < end; ++this->Final)
   {
-    for (std::int32_t slot = this->Heads[this->Final]; slot != 0;)
-    {
-      const Edge edge = this->Edges[slot];
-      this->Edges.give(slot);
-      slot = edge.next;
-      if (edge.count == 2)
-      {
-        this->relate(edge);
-      }
-      else if (edge.count == 1)
-      {
-        ++this->Members[this->find(this->cellOf(edge.cell[0])).cell].sums.boundary;
-      }
-    }
+    this->Open.take(this->Final, finishEdge);
   }
-  this->Heads.release(end);
+  this->Open.release(end);
 }
 
 Orientation::Root Orientation::find(std::int64_t cell)
@@ -377,7 +374,7 @@ void Orientation::resolve()
   this->Bodies = {};
   this->Kept.resize(0);
   this->Points = Ring<double>(this->Memory, 3);
-  this->Heads = Ring<std::int32_t>(this->Memory);
+  this->Open = OpenFacets(this->Memory);
   this->Edges = Slots<Edge>(this->Memory);
   this->Members = Ring<Member>(this->Memory);
 }
@@ -396,137 +393,6 @@ void Orientation::read(std::int64_t first, std::span<std::uint8_t> marks)
     marks = marks.subspan(count);
     first += static_cast<std::int64_t>(count);
   }
-}
-
-namespace
-{
-
-/** A stream whose marked triangles are turned. Its vertices keep their numbers, in the order of
- * which cells may then not use them for the first time. */
-class TurnedSource : public MeshSource
-{
-public:
-  TurnedSource(std::unique_ptr<MeshSource> source, Orientation& orientation)
-    : Source(std::move(source))
-    , By(orientation)
-  {
-  }
-
-  const StreamInfo& info() const override { return this->Source->info(); }
-  bool next(MeshBlock& block) override
-  {
-    if (!this->Source->next(block))
-    {
-      return false;
-    }
-    this->Marks.resize(block.corners.size() / 3);
-    this->By.read(block.firstCell, this->Marks);
-    this->turn(block);
-    return true;
-  }
-
-protected:
-  virtual void turn(MeshBlock& block)
-  {
-    for (std::size_t c = 0; c < this->Marks.size(); ++c)
-    {
-      if (this->Marks[c] != 0)
-      {
-        std::swap(block.corners[3 * c + 1], block.corners[3 * c + 2]);
-      }
-    }
-  }
-
-  std::vector<std::uint8_t> Marks; ///< of the block
-
-private:
-  std::unique_ptr<MeshSource> Source;
-  Orientation& By;
-};
-
-/** The same with vertices that are numbered by their first use, as a stream has them. A triangle
- * that uses some for the first time begins with another corner; of one that uses three, two
- * exchange their numbers. */
-class RenumberedSource final : public TurnedSource
-{
-public:
-  using TurnedSource::TurnedSource;
-
-private:
-  void turn(MeshBlock& block) override
-  {
-    std::int64_t used = block.firstVertex;
-    for (std::size_t c = 0; c < this->Marks.size(); ++c)
-    {
-      const std::span<std::int64_t, 3> corners(block.corners.data() + 3 * c, 3);
-      for (std::int64_t& corner : corners)
-      {
-        const auto exchanged = this->Exchanged.find(corner);
-        corner = exchanged == this->Exchanged.end() ? corner : exchanged->second;
-      }
-      if (this->Marks[c] != 0)
-      {
-        this->turn(block, corners, used);
-      }
-      used = std::max(used, std::ranges::max(corners) + 1);
-    }
-    std::erase_if(this->Exchanged,
-      [&block](const auto& pair) { return std::max(pair.first, pair.second) < block.finalized; });
-  }
-
-  void turn(MeshBlock& block, std::span<std::int64_t, 3> corners, std::int64_t used)
-  {
-    if (std::ranges::min(corners) >= used)
-    {
-      this->exchange(block, corners[1], corners[2]);
-      return;
-    }
-    std::swap(corners[1], corners[2]);
-    const auto isInOrder = [corners, used]
-    {
-      std::int64_t last = used - 1;
-      return std::ranges::all_of(corners, [&](std::int64_t corner)
-        { return corner < used || std::exchange(last, corner) == corner - 1; });
-    };
-    for (int k = 0; k < 3 && !isInOrder(); ++k)
-    {
-      std::ranges::rotate(corners, corners.begin() + 1);
-    }
-  }
-
-  /** Exchanges the numbers of two vertices of the block: in it their rows. */
-  void exchange(MeshBlock& block, std::int64_t a, std::int64_t b)
-  {
-    this->Exchanged[a] = b;
-    this->Exchanged[b] = a;
-    const auto first = static_cast<std::size_t>(a - block.firstVertex);
-    const auto second = static_cast<std::size_t>(b - block.firstVertex);
-    const auto swapRows = [&](auto* values, std::size_t size) {
-      std::swap_ranges(values + size * first, values + size * (first + 1), values + size * second);
-    };
-    swapRows(block.positions.data(), 3);
-    for (Column& column : block.vertexColumns)
-    {
-      swapRows(
-        column.bytes.data(), column.bytes.size() / static_cast<std::size_t>(block.vertices()));
-    }
-  }
-
-  std::map<std::int64_t, std::int64_t> Exchanged; ///< numbers of open vertices
-};
-
-} // namespace
-
-std::unique_ptr<MeshSource> oriented(std::unique_ptr<MeshSource> source, Orientation& orientation)
-{
-  return std::make_unique<RenumberedSource>(std::move(source), orientation);
-}
-
-std::unique_ptr<MeshSource> OrientedMesh::source(
-  std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
-{
-  return std::make_unique<TurnedSource>(
-    this->Mesh.source(std::move(vertexColumns), std::move(cellColumns)), this->By);
 }
 
 } // namespace smg

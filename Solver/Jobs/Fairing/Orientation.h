@@ -13,9 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace smg
@@ -76,12 +74,10 @@ private:
     std::uint32_t reach;   ///< its second corner in ascending order, by low 32 bits
     Sums sums;             ///< of the set that it represents
   };
-  /** An edge to a higher vertex. */
+  /** The triangles at an edge. */
   struct Edge
   {
-    std::uint32_t high; ///< low 32 bits
-    std::int32_t next;  ///< of the same lower vertex; 0: none
-    std::uint32_t cell[2];
+    std::uint32_t cell[2];   ///< low 32 bits
     std::uint8_t ascends[2]; ///< whether the triangle runs along it from the lower vertex on
     std::uint8_t count;      ///< of triangles; 3: more than two
   };
@@ -126,7 +122,7 @@ private:
 
   Pool& Memory;
   Ring<double> Points;
-  Ring<std::int32_t> Heads; ///< of the edges of a vertex
+  OpenFacets Open; ///< the edges, by their places in Edges
   Slots<Edge> Edges;
   Ring<Member> Members; ///< triangles
   BlockStore Links, Marks;
@@ -140,31 +136,6 @@ private:
   std::int64_t Turned = 0, Unorientable = 0, OpenBodies = 0;
   std::uint32_t Longest = 0; ///< of the links
   double Volume = 0.0, Cavities = 0.0;
-};
-
-/** A stream with the triangles turned that are to be; `orientation` must outlive it. Some vertices
- * have other numbers, since they are numbered by their first use. */
-SMG_EXPORT std::unique_ptr<MeshSource> oriented(
-  std::unique_ptr<MeshSource> source, Orientation& orientation);
-
-/** A surface with some of its triangles turned, and the vertices as they are. */
-class SMG_EXPORT OrientedMesh final : public StoredMesh
-{
-public:
-  /** Both must outlive it. */
-  OrientedMesh(const StoredMesh& mesh, Orientation& orientation)
-    : Mesh(mesh)
-    , By(orientation)
-  {
-  }
-
-  const StreamInfo& info() const override { return this->Mesh.info(); }
-  std::unique_ptr<MeshSource> source(
-    std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const override;
-
-private:
-  const StoredMesh& Mesh;
-  Orientation& By;
 };
 
 } // namespace smg

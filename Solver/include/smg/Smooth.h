@@ -57,6 +57,10 @@ struct SmoothingDescription
   /** Keeps edges at which the surface turns by more than this angle, in degrees, above 0 and below
    * 180: about 30 for machined parts. Needs about 5 steps. None: all edges become round. */
   std::optional<double> keepEdges;
+  /** Whether the triangles of the result are turned where those of a body are not wound alike, and
+   * all of a closed body that is wound inwards, unless it lies within the bounds of another one and
+   * may be a cavity: MovedMesh has them. Of positions only. */
+  bool orient = false;
   /** The vertex column to smooth, of any numeric type and at most 64 components; empty: the
    * positions. */
   std::string column;

@@ -20,6 +20,8 @@
 namespace smg
 {
 
+class Orientation; // private: Solver/Jobs/Fairing/Orientation.h
+
 /** Bytes of a mebibyte, for limits: 256 * MiB. */
 inline constexpr std::int64_t MiB = std::int64_t(1) << 20;
 
@@ -177,6 +179,8 @@ public:
   {
     std::ranges::fill(values, 0.0);
   }
+  /** How the mesh with the result is wound, if not as the mesh: for MovedMesh. Null by default. */
+  virtual Orientation* winding() { return nullptr; }
   /** Removes the checkpoint, if there is one, when the solution is destroyed: to be called when the
    * result is complete on disk. */
   virtual void removeCheckpoint() {}
