@@ -37,6 +37,7 @@ class DistanceTask : public smg::JobTask
 public:
   smg::DistanceDescription description; ///< without the sources
   int maxPasses = 0;
+  std::size_t regions = 0; ///< of `places`, on the mesh
 
   DistanceTask()
     : JobTask("these are distances on the preview", "measured")
@@ -92,7 +93,9 @@ protected:
 
   void adaptTo(vtkPointSet& /*preview*/, const smg::StreamInfo& /*info*/) override
   {
-    if (this->places.empty() && !this->description.wall)
+    // A region less would change the indices of those after it.
+    const bool misses = this->description.group && this->places.size() < this->regions;
+    if (misses || (this->places.empty() && !this->description.wall))
     {
       throw smg::Error(
         std::string("No point of the preview lies in the region from which to measure.") +
@@ -125,6 +128,7 @@ smg::DistanceDescription vtkStreamingDistance::Description() const
   smg::DistanceDescription description;
   description.wall = this->Wall;
   description.source = this->Source;
+  description.group = this->Group;
   description.direction = this->Direction;
   description.accuracy = static_cast<smg::PathAccuracy>(this->Accuracy);
   if (this->Within > 0.0)
@@ -157,6 +161,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& i
   {
     task->places.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
   }
+  task->regions = task->places.size();
   return task;
 }
 
@@ -166,6 +171,7 @@ void vtkStreamingDistance::Deliver(
   output.ShallowCopy(&piece);
   // Sources and directions of other distances would be taken for those of these.
   output.GetPointData()->RemoveArray(smg::DistanceSourceName);
+  output.GetPointData()->RemoveArray(smg::DistanceGroupName);
   output.GetPointData()->RemoveArray(smg::DistanceDirectionName);
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
@@ -175,10 +181,7 @@ void vtkStreamingDistance::Deliver(
     smg::Column column{ spec, {} };
     column.resize(points);
     const auto components = static_cast<std::size_t>(spec.components);
-    // As points that are not reached.
-    const double ofNoCell = spec.name == smg::DistanceName         ? HUGE_VAL
-                            : spec.name == smg::DistanceSourceName ? -1.0
-                                                                   : 0.0;
+    const double ofNoCell = spec.isolated.value_or(0.0);
     smg::dispatch(spec.type,
       [&]<class T>(T)
       {
@@ -201,6 +204,7 @@ void vtkStreamingDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "From: " << (this->From ? this->From : "(none)") << "\n";
   os << indent << "Wall: " << this->Wall << "\n";
   os << indent << "Source: " << this->Source << "\n";
+  os << indent << "Group: " << this->Group << "\n";
   os << indent << "Direction: " << this->Direction << "\n";
   os << indent << "Accuracy: "
      << (this->Accuracy == EXACT        ? "exact"

@@ -5,7 +5,8 @@
  *
  * The distance of every point from sources: along a surface, through a tetrahedral mesh, or (Wall)
  * to its boundary in a straight line. The output is the input with the point arrays Distance
- * (infinite where no source is reached) and, if wanted, DistanceSource and DistanceDirection.
+ * (infinite where no source is reached) and, if wanted, DistanceSource, DistanceGroup and
+ * DistanceDirection.
  *
  * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
  *   the distances of the whole mesh are computed once, out of core, as described at
@@ -63,6 +64,15 @@ public:
   ///@}
 
   ///@{
+  /** Whether to add DistanceGroup, where the nearest source is: the index of the region, from 0,
+   * first among those of vtkMeshRegion, in their order in the pipeline, then among those of From;
+   * -1 where there is none. Default: off. */
+  vtkSetMacro(Group, bool);
+  vtkGetMacro(Group, bool);
+  vtkBooleanMacro(Group, bool);
+  ///@}
+
+  ///@{
   /** Whether to add DistanceDirection, the unit gradient of the distance. Default: off. */
   vtkSetMacro(Direction, bool);
   vtkGetMacro(Direction, bool);
@@ -115,6 +125,7 @@ private:
   char* From = nullptr;
   bool Wall = false;
   bool Source = false;
+  bool Group = false;
   bool Direction = false;
   int Accuracy = AUTOMATIC;
   double Within = 0.0;

@@ -37,6 +37,10 @@ std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
   {
     columns.push_back({ DistanceSourceName, ScalarType::Int64, 1, -1 });
   }
+  if (description.group)
+  {
+    columns.push_back({ DistanceGroupName, ScalarType::Int32, 1, -1 });
+  }
   if (description.direction)
   {
     columns.push_back({ DistanceDirectionName, ScalarType::Float64, 3, 0 });

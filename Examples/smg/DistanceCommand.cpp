@@ -31,6 +31,8 @@ public:
       "Of tetrahedra: the Euclidean distance to the boundary instead of that along paths");
     command.add_flag("--source", this->Job.description.source,
       "Add the column DistanceSource: the number of the nearest source vertex");
+    command.add_flag("--group", this->Job.description.group,
+      "Add the column DistanceGroup: which WHERE the nearest source is of, from 0");
     command.add_flag("--direction", this->Job.description.direction,
       "Add the column DistanceDirection: the unit gradient of the distance");
     command

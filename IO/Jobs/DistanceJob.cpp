@@ -42,13 +42,14 @@ void DistanceJob::passResult(const StoredMesh& mesh, Solution& solution, const R
 {
   // Sources and directions of other distances would be taken for those of these.
   ReplacedColumns result(mesh, solution, distanceColumns(this->description),
-    { DistanceSourceName, DistanceDirectionName });
+    { DistanceSourceName, DistanceGroupName, DistanceDirectionName });
   read(result, progress);
 }
 
 bool DistanceJob::keeps(const ColumnSpec& column, const StreamInfo& /*info*/) const
 {
-  return column.name != DistanceSourceName && column.name != DistanceDirectionName;
+  return column.name != DistanceSourceName && column.name != DistanceGroupName &&
+         column.name != DistanceDirectionName;
 }
 
 std::string DistanceJob::fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const

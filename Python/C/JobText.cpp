@@ -211,8 +211,8 @@ std::unique_ptr<MeshJob> blendJob(const JsonNode& node)
 
 std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
 {
-  requireKeys(
-    node, { "from", "wall", "source", "direction", "accuracy", "within", "max_passes" }, false);
+  requireKeys(node,
+    { "from", "wall", "source", "group", "direction", "accuracy", "within", "max_passes" }, false);
   auto job = std::make_unique<DistanceJob>();
   job->name = "from";
   DistanceDescription& distance = job->description;
@@ -220,6 +220,7 @@ std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
   const auto flag = [&node](const char* key) { return node.has(key) && flagIn(node.member(key)); };
   distance.wall = flag("wall");
   distance.source = flag("source");
+  distance.group = flag("group");
   distance.direction = flag("direction");
   if (node.has("accuracy"))
   {

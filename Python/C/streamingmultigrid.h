@@ -187,7 +187,7 @@ extern "C"
    *               "hold" (WHERE or a list), "boundary" ("smooth", "fixed", "free"), "keep_volume",
    *               "keep_edges" (degrees), "orient", "column", "tolerance", "normals"
    *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
-   *   "distance"  "from" (WHERE or a list), "wall", "source", "direction",
+   *   "distance"  "from" (WHERE or a list), "wall", "source", "group", "direction",
    *               "accuracy" ("auto", "exact", "approximate"), "within", "max_passes"
    * and of all of them "memory", "threads", "scratch", "scratch_limit", by default those that the
    * mesh was opened with; of all that solve "sweeps", "max_cycles", "in_core"; of solve and deform

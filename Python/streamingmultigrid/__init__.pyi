@@ -119,7 +119,7 @@ class Mesh:
     ) -> Field: ...
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
-        source: Optional[bool] = None, direction: Optional[bool] = None,
+        source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
         accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
         max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
@@ -262,7 +262,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Field: ...
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
-        source: Optional[bool] = None, direction: Optional[bool] = None,
+        source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
         accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
         max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
@@ -401,11 +401,12 @@ def dirichlet(region: types.Where, value: types.Value) -> Placed: ...
 
 def distance(
     points: npt.ArrayLike, cells: npt.ArrayLike, sources: Optional[types.Places] = None, *,
-    wall: Optional[bool] = None, source: Optional[bool] = None, direction: Optional[bool] = None,
-    accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
-    max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-    progress: Optional[types.Progress] = None, strict: bool = False
+    wall: Optional[bool] = None, source: Optional[bool] = None, group: Optional[bool] = None,
+    direction: Optional[bool] = None, accuracy: Optional[types.Accuracy] = None,
+    within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
+    threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
+    strict: bool = False
 ) -> Any: ...
 
 everywhere: Region

@@ -309,6 +309,7 @@ def distance(
     *,
     wall: Optional[bool] = None,
     source: Optional[bool] = None,
+    group: Optional[bool] = None,
     direction: Optional[bool] = None,
     accuracy: Optional[types.Accuracy] = None,
     within: Optional[float] = None,
@@ -326,6 +327,8 @@ def distance(
         wall: of tetrahedra, the distance in a straight line to the boundary, or to the part of it in
             `sources`. Default False.
         source: adds the column DistanceSource (int64), the number of the nearest source, -1: none.
+        group: adds the column DistanceGroup (int32): in which of the listed `sources` the nearest one
+            is, from 0; -1: none.
         direction: adds the column DistanceDirection (n, 3), the unit gradient.
         accuracy: of paths on a surface: "exact", "approximate" (ten times as fast, too long on long
             thin triangles) or "auto", exact up to 1,000,000 vertices. Default "auto".
@@ -339,7 +342,8 @@ def distance(
     del given["sources"]
     if sources is None and not wall:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
-    names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceDirection"] * bool(direction)
+    names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceGroup"] * bool(group)
+    names += ["DistanceDirection"] * bool(direction)
     return {**given, "from": _where(added, sources)}, names
 
 

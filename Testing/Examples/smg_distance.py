@@ -35,6 +35,12 @@ def test_columns_in_the_order_of_the_file():
     assert report["distance"]["sources"] == 1 and report["distance"]["unreached"] == 0
     assert report["converged"] and report["passes"] == 1 and report["vertices"] == 1800
     assert set(flat(arrays["DistanceSource"])) == {7}
+    run("distance", "torus.obj", "groups.vtp", "--from", '[{"vertices": [7, 900]}, {"vertices": [1200]}]', "--from",
+        '{"vertices": [30]}', "--group", "--source")
+    found = read_vtk_xml("groups.vtp")
+    assert all(group == {7: 0, 900: 0, 1200: 1, 30: 2}[source]
+               for group, source in zip(flat(found["DistanceGroup"]), flat(found["DistanceSource"])))
+    assert set(flat(found["DistanceGroup"])) == {0, 1, 2}
     for point, value, direction in zip(POINTS, distance, arrays["DistanceDirection"]):
         # No path is shorter than the straight line, nor longer than half around both circles.
         assert math.dist(point, POINTS[7]) <= value * (1 + 1e-6) < 15
@@ -81,7 +87,7 @@ def test_vertices_of_no_cell_are_not_reached():
     run("convert", "again.vsm", "again.vtp", "--restore-order", "--quiet")
     # Other distances have neither these sources nor these directions.
     run("distance", "loose.vtp", "other.vtp", *arguments[:2], "--quiet")
-    assert not {"DistanceSource", "DistanceDirection"} & set(read_vtk_xml("other.vtp"))
+    assert not {"DistanceSource", "DistanceGroup", "DistanceDirection"} & set(read_vtk_xml("other.vtp"))
     for name in ("loose.vtp", "vsm.vtp", "again.vtp"):
         arrays = read_vtk_xml(name)
         assert flat(arrays["Distance"])[-2:] == [math.inf] * 2, name

@@ -104,8 +104,9 @@ TEST_F(VtkStreamingDistance, EveryWayGivesTheValuesOfTheLibrary)
 {
   DistanceDescription description = from(Region(Region::Vertices{ { 7 } }));
   this->expectDistances(description, 1);
-  description.source = description.direction = true;
+  description.source = description.group = description.direction = true;
   this->Distance->SourceOn();
+  this->Distance->GroupOn();
   this->Distance->DirectionOn();
   for (const int pulled : { 0, 3 })
   {

@@ -63,7 +63,7 @@ blend = StreamingBlend(Input=reader, Patch="scan", Arrays=["Colors", "Heat"], Co
 assert list(blend.Arrays) == ["Colors", "Heat"] and list(blend.Columns) == ["Colors"] and blend.Anchor == 0.01 and blend.Hold == ""
 
 distance = StreamingDistance(Input=reader)
-defaults = {"From": "", "Wall": 0, "Source": 0, "Direction": 0, "Accuracy": "Automatic", "MaximumPasses": 200}
+defaults = {"From": "", "Wall": 0, "Source": 0, "Group": 0, "Direction": 0, "Accuracy": "Automatic", "MaximumPasses": 200}
 for name, value in defaults.items():
     assert distance.GetPropertyValue(name) == value, (name, distance.GetPropertyValue(name))
 

@@ -55,8 +55,9 @@ def table(kind, mesh):
     for wall in (False, True) if kind == "solid" else (False,):
         for source in (False, True):
             for direction in (False, True):
-                options = {"source": source, "direction": direction, "wall": wall}
-                names = ["Distance"] + ["DistanceSource"] * source + ["DistanceDirection"] * direction
+                options = {"source": source, "group": source != direction, "direction": direction, "wall": wall}
+                names = ["Distance"] + ["DistanceSource"] * source + ["DistanceGroup"] * (source != direction)
+                names += ["DistanceDirection"] * direction
                 sources = [] if wall else [[0]]
                 yield "distance %s" % options, lambda s=sources, o=options: mesh.distance(*s, **o), names
 

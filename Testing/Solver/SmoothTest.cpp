@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/SmoothTesting.h"
+#include "Testing/Solver/SolveTesting.h"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

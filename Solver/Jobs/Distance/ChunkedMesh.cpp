@@ -137,7 +137,8 @@ void ChunkWriter::addVertices(const MeshBlock& block)
     }
     if (this->To.plan.sources)
     {
-      this->Numbers[vertex] = isSource[i] ? this->From.numberOf(block, i) : -1;
+      this->Numbers[vertex] =
+        isSource[i] ? this->From.label(this->From.numberOf(block, i), this->From.group(i)) : -1;
     }
   }
 }

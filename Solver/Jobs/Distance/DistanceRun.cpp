@@ -126,7 +126,10 @@ void DistanceSolution::loadColumn(
     for (std::int64_t i = 0; i < all; ++i)
     {
       to[i / column.components * this->Components + i % column.components] =
-        isStored ? static_cast<double>(stored[i]) : column.fallback;
+        isStored
+          ? static_cast<double>(
+              column.decode ? column.decode(static_cast<std::int64_t>(stored[i])) : stored[i])
+          : column.fallback;
     }
   };
   const std::byte* stored = this->Stored.data();

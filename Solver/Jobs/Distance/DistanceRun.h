@@ -78,7 +78,8 @@ struct StoredColumn
   std::int64_t offset = 0;
   Type type = Type::Float64;
   int components = 1;
-  double fallback = 0; ///< the values of a block without bytes
+  double fallback = 0;                            ///< the values of a block without bytes
+  std::int64_t (*decode)(std::int64_t) = nullptr; ///< of Int64: from a label to the value
 };
 
 /** A solution on scratch files; it keeps these and everything that they need alive. */

@@ -23,9 +23,10 @@ std::size_t pointsOf(const Where& place)
   return nearest ? nearest->points.size() : 0;
 }
 
-DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place,
+DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place, bool grouped,
   const StreamInfo& mesh, const std::string& name, Pool& memory)
-  : Columns(mesh, name, &memory)
+  : Grouped(grouped)
+  , Columns(mesh, name, &memory)
   , All(this->Columns)
 {
   // For the column of sources, which names them by their numbers in the original file.
@@ -68,19 +69,34 @@ void DistanceSources::start(const MeshBlock& block)
   this->Prepared ? this->All.startBlock(block) : this->All.prepare(block, {});
 }
 
+void DistanceSources::noteGroups(
+  std::size_t part, std::span<const std::uint8_t> selected, unsigned bits)
+{
+  for (std::size_t k = 0; this->Grouped && k < this->Groups.size(); ++k)
+  {
+    if (this->Groups[k] < 0 && (selected[k / bits] >> k % bits & 1U) != 0)
+    {
+      this->Groups[k] = static_cast<std::int32_t>(part);
+    }
+  }
+}
+
 /** The union of the selections. */
 std::span<const std::uint8_t> DistanceSources::verticesAt(const MeshBlock& block)
 {
   this->start(block);
   this->Selected.assign(static_cast<std::size_t>(block.vertices()), 0);
+  this->Groups.assign(this->Grouped ? this->Selected.size() : 0, -1);
   for (std::size_t k = 0; k < this->Parts.size(); ++k)
   {
     const SourceKind kind = this->Kinds[k];
     if (!this->Parts[k])
     {
       std::ranges::fill(this->Selected, kind);
+      this->noteGroups(k, this->Selected, 1);
       continue;
     }
+    this->noteGroups(k, this->Parts[k]->atVertices(), 1);
     std::ranges::transform(this->Selected, this->Parts[k]->atVertices(), this->Selected.begin(),
       [kind](std::uint8_t before, std::uint8_t isHere) -> std::uint8_t
       { return isHere ? before | kind : before; });
@@ -95,14 +111,20 @@ std::span<const std::uint8_t> DistanceSources::facetsAt(const MeshBlock& block)
   const auto corners = static_cast<unsigned>(cornersOf(this->Columns.cellType()));
   this->Selected.assign(block.corners.size() / corners, 0);
   this->More.resize(this->Selected.size());
-  for (const Selection* part : this->Parts)
+  // Without any place, all of the wall is of one.
+  this->Groups.assign(
+    this->Grouped ? corners * this->Selected.size() : 0, this->Parts.empty() ? 0 : -1);
+  for (std::size_t k = 0; k < this->Parts.size(); ++k)
   {
-    if (!part)
+    if (!this->Parts[k])
     {
-      std::ranges::fill(this->Selected, static_cast<std::uint8_t>((1U << corners) - 1U));
-      continue;
+      std::ranges::fill(this->More, static_cast<std::uint8_t>((1U << corners) - 1U));
     }
-    part->atFacets({ block, 0, block.corners }, this->More);
+    else
+    {
+      this->Parts[k]->atFacets({ block, 0, block.corners }, this->More);
+    }
+    this->noteGroups(k, this->More, corners);
     std::ranges::transform(this->Selected, this->More, this->Selected.begin(), std::bit_or<>());
   }
   return this->Selected;

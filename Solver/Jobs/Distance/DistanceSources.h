@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Jobs/Distance/SourceLabel.h"
 #include "Solver/Problem/Selection.h"
 #include "smg/MeshSource.h"
 #include "smg/Region.h"
@@ -32,9 +33,10 @@ class DistanceSources
 {
 public:
   /** `place` is what is selected, `name` the name of the description in messages; `memory` accounts
-   * for open vertices. Throws Error if a selection is invalid. */
-  DistanceSources(const std::vector<Where>& from, DataPlace place, const StreamInfo& mesh,
-    const std::string& name, Pool& memory);
+   * for open vertices. `grouped`: labels have the places, too. Throws Error if a selection is
+   * invalid. */
+  DistanceSources(const std::vector<Where>& from, DataPlace place, bool grouped,
+    const StreamInfo& mesh, const std::string& name, Pool& memory);
 
   /** The stream with the columns that the selections need. */
   std::unique_ptr<MeshSource> read(const StoredMesh& mesh) const;
@@ -47,13 +49,24 @@ public:
   std::span<const std::uint8_t> facetsAt(const MeshBlock& block);
   /** The number of vertex `i` of the block in the original file, or in the stream. */
   std::int64_t numberOf(const MeshBlock& block, std::size_t i) const;
+  /** The first place of `from` that selects vertex `k` of the block, or facet `k`, where these are
+   * numbered cell by cell; 0 if groups are not asked for. */
+  std::int32_t group(std::size_t k) const { return this->Grouped ? this->Groups[k] : 0; }
+  /** What is stored of a source: SourceLabel.h. */
+  std::int64_t label(std::int64_t number, std::int32_t group) const
+  {
+    return this->Grouped ? labelOf(number, group) : number;
+  }
   /** To be called after the last block: throws Error if a selection was empty. */
   void finish();
 
 private:
   /** Starts the next block. */
   void start(const MeshBlock& block);
+  /** Of what part `part` selects besides those before: bits, of `bits` things each. */
+  void noteGroups(std::size_t part, std::span<const std::uint8_t> selected, unsigned bits);
 
+  bool Grouped;
   MeshColumns Columns;
   Selections All;
   std::vector<const Selection*> Parts; ///< null: everywhere
@@ -61,6 +74,7 @@ private:
   bool Prepared = false;
   std::vector<std::uint8_t> Selected; ///< of the block
   std::vector<std::uint8_t> More;     ///< of one of the selections
+  std::vector<std::int32_t> Groups;   ///< of the block, if these are asked for; -1: none
 };
 
 } // namespace smg

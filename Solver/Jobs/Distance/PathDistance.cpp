@@ -270,7 +270,13 @@ std::vector<StoredColumn> columnsOf(DistanceFiles& files, const DistanceDescript
     Type::Float64, 1, HUGE_VAL } };
   if (description.source)
   {
-    columns.push_back({ state, ChunkedMesh::StateParts, ChunkedMesh::Sources, Type::Int64, 1, -1 });
+    columns.push_back({ state, ChunkedMesh::StateParts, ChunkedMesh::Sources, Type::Int64, 1, -1,
+      description.group ? numberOfLabel : nullptr });
+  }
+  if (description.group)
+  {
+    columns.push_back(
+      { state, ChunkedMesh::StateParts, ChunkedMesh::Sources, Type::Int64, 1, -1, groupOfLabel });
   }
   if (description.direction)
   {
@@ -292,10 +298,11 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     throw Error(name + ": a distance needs at least one source.");
   }
   std::optional<DistanceSources> sources(
-    std::in_place, description.from, DataPlace::Vertices, info, name, run->pool);
+    std::in_place, description.from, DataPlace::Vertices, description.group, info, name, run->pool);
   const bool isExact = isExactDistance(info, description);
   // Where the fronts of several points meet, each cell must know which ones.
-  const bool needSources = description.source || (!isExact && haveSeveralFronts(description));
+  const bool needSources =
+    description.source || description.group || (!isExact && haveSeveralFronts(description));
   ChunkPlan plan = ChunkPlan::of(
     info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources, description.direction);
   plan.within = description.within;

@@ -153,7 +153,13 @@ std::vector<StoredColumn> columnsOf(BlockStore& values, const DistanceDescriptio
     Type::Float64, 1, 0 } };
   if (description.source)
   {
-    columns.push_back({ &values, WallValues::Parts, WallValues::Sources, Type::Int64, 1, 0 });
+    columns.push_back({ &values, WallValues::Parts, WallValues::Sources, Type::Int64, 1, 0,
+      description.group ? numberOfLabel : nullptr });
+  }
+  if (description.group)
+  {
+    columns.push_back(
+      { &values, WallValues::Parts, WallValues::Sources, Type::Int64, 1, 0, groupOfLabel });
   }
   if (description.direction)
   {
@@ -171,8 +177,8 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   {
     throw Error("The distance to walls is that of a tetrahedral mesh, but this one has triangles.");
   }
-  std::optional<DistanceSources> sources(
-    std::in_place, description.from, DataPlace::Facets, mesh.info(), name, run->pool);
+  std::optional<DistanceSources> sources(std::in_place, description.from, DataPlace::Facets,
+    description.group, mesh.info(), name, run->pool);
   auto files = std::make_shared<WallFiles>(*run);
   Report& report = run->report;
   report.distance = Report::Distance{};
@@ -189,7 +195,8 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   report.threads = threads.threads();
   // Fixed for all parts, once the memory of the selections has been given back.
   const std::int64_t length = partLength(triangles, run->pool);
-  const WallValues values{ files->values, description.source, description.direction };
+  const WallValues values{ files->values, description.source || description.group,
+    description.direction };
   run->beginPasses();
   for (std::int64_t first = 0; first < triangles; first += length)
   {

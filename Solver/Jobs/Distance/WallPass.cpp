@@ -70,8 +70,9 @@ void WallTriangles::addCells(const MeshBlock& block)
       const CellFacet facet = facetOf(CellType::Tetrahedron, corner, k);
       // Both cells of an interior face are added, so that it is known as such, even if it is not
       // selected. Boundary faces have one cell, whose selection is stored.
-      const std::int32_t isWall = this->Everywhere || (selected[c] >> k & 1U) != 0 ? 1 : 0;
-      this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], isWall);
+      const bool isWall = this->Everywhere || (selected[c] >> k & 1U) != 0;
+      const std::int32_t group = this->From.group(Corners * c + static_cast<std::size_t>(k));
+      this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], isWall ? group + 1 : 0);
     }
   }
 }
@@ -83,9 +84,9 @@ void WallTriangles::take(std::int64_t end)
   for (; this->Final < end; ++this->Final)
   {
     this->Open.take(this->Final,
-      [&](std::int64_t middle, std::int64_t high, std::int32_t isWall)
+      [&](std::int64_t middle, std::int64_t high, std::int32_t wall)
       {
-        if (isWall == 0)
+        if (wall == 0)
         {
           return;
         }
@@ -94,7 +95,7 @@ void WallTriangles::take(std::int64_t end)
         for (int k = 0; k < 3; ++k)
         {
           std::copy_n(this->Points.at(corners[k]), 3, triangle.points.point[k]);
-          triangle.numbers[k] = this->Numbers[corners[k]];
+          triangle.numbers[k] = this->From.label(this->Numbers[corners[k]], wall - 1);
         }
         if (this->Block.size() == BlockTriangles)
         {

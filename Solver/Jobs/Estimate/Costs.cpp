@@ -212,7 +212,7 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
 {
   const bool surface = info.cellType == CellType::Triangle;
   const auto vertices = static_cast<double>(info.vertices);
-  const double numbers = 1.0 + description.source + 3.0 * description.direction;
+  const double numbers = 1.0 + description.source + description.group + 3.0 * description.direction;
   Costs costs;
   if (description.wall)
   {

@@ -22,6 +22,9 @@ namespace smg
 inline constexpr const char* DistanceName = "Distance";
 /** Vertex column with the number of the nearest source (int64); -1: none. */
 inline constexpr const char* DistanceSourceName = "DistanceSource";
+/** Vertex column with the place of DistanceDescription::from that the nearest source is of (int32);
+ * -1: none. */
+inline constexpr const char* DistanceGroupName = "DistanceGroup";
 /** Vertex column with the unit gradient of the distance (3 x float64); 0 where there is none. */
 inline constexpr const char* DistanceDirectionName = "DistanceDirection";
 
@@ -55,6 +58,11 @@ struct DistanceDescription
    * the nearest triangle.
    */
   bool source = false;
+  /**
+   * Of which place of `from` the nearest source is: its index, from 0. Of a vertex, or of a face of
+   * the wall, that several places select, the first one. Without any place, all of the wall is 0.
+   */
+  bool group = false;
   /** The unit gradient: where the shortest path comes from, away from the source. 0 at sources. */
   bool direction = false;
   /** Of paths on a surface. */
@@ -85,8 +93,9 @@ struct DistanceOptions
   ProgressFunction progress;
 };
 
-/** The columns of the distances of a description: Distance, then DistanceSource and
- * DistanceDirection if wanted. Their components are the columns of the Solution. */
+/** The columns of the distances of a description: Distance, then DistanceSource,
+ * DistanceGroup and DistanceDirection if wanted. Their components are the columns of the Solution.
+ */
 SMG_EXPORT std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description);
 
 /**
