@@ -65,8 +65,8 @@ public:
 
   ///@{
   /** Whether to add DistanceGroup, where the nearest source is: the index of the region, from 0,
-   * first among those of vtkMeshRegion, in their order in the pipeline, then among those of From;
-   * -1 where there is none. Default: off. */
+   * first among those of vtkMeshRegion, in their order in the pipeline (those of one RegionName are
+   * one), then among those of From; -1 where there is none. Default: off. */
   vtkSetMacro(Group, bool);
   vtkGetMacro(Group, bool);
   vtkBooleanMacro(Group, bool);
