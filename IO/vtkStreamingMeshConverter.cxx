@@ -10,6 +10,7 @@
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include "vtkObjectFactory.h"
 #include "vtksys/SystemTools.hxx"
@@ -107,22 +108,6 @@ int vtkStreamingMeshConverter::CanReadFile(const char* name)
   return !isReadByVtk(name) || estimate->vertices > this->GetMaximumPointsInMemory() ? 1 : 0;
 }
 
-const char* vtkStreamingMeshConverter::GetEstimate()
-{
-  this->Estimate = "Known once a mesh file is named that is sorted, not a stream or a .vsm file.";
-  if (const auto estimate = estimateOf(this->GetFileName()))
-  {
-    std::ostringstream text;
-    text << "About " << rounded(estimate->vertices) << " points and " << rounded(estimate->cells)
-         << " cells" << (estimate->counted ? "" : ", as guessed from the size of the file")
-         << ": a reader that reads all of it takes at least "
-         << smg::mebibytes(bytesInVtk(*estimate)) << ", the conversion "
-         << smg::mebibytes(estimate->memory_bytes);
-    this->Estimate = text.str();
-  }
-  return this->Estimate.c_str();
-}
-
 std::string vtkStreamingMeshConverter::GetContainerName()
 {
   const bool isMeshNamed = !this->Superclass::GetContainerName().empty();
@@ -170,7 +155,43 @@ struct vtkStreamingMeshConverter::Internals
     options.progress = smg::progressOf(self);
     return options;
   }
+
+  /** Takes the counts of the container if that is the conversion. */
+  static void countMade(vtkStreamingMeshConverter& self, smg::ConversionEstimate& estimate)
+  {
+    try
+    {
+      if (self.IsContainerMade())
+      {
+        const smg::VsmReader made(self.GetContainerName());
+        estimate.vertices = made.info().vertices;
+        estimate.cells = made.info().cells;
+        estimate.counted = true;
+      }
+    }
+    catch (const std::exception&)
+    {
+      // Properties out of their range, which Apply reports, or a file that has just been replaced.
+    }
+  }
 };
+
+const char* vtkStreamingMeshConverter::GetEstimate()
+{
+  this->Estimate = "Known once a mesh file is named that is sorted, not a stream or a .vsm file.";
+  if (auto estimate = estimateOf(this->GetFileName()))
+  {
+    Internals::countMade(*this, *estimate);
+    std::ostringstream text;
+    text << "About " << rounded(estimate->vertices) << " points and " << rounded(estimate->cells)
+         << " cells" << (estimate->counted ? "" : ", as guessed from the size of the file")
+         << ": a reader that reads all of it takes at least "
+         << smg::mebibytes(bytesInVtk(*estimate)) << ", the conversion "
+         << smg::mebibytes(estimate->memory_bytes);
+    this->Estimate = text.str();
+  }
+  return this->Estimate.c_str();
+}
 
 bool vtkStreamingMeshConverter::IsContainerMade()
 {

@@ -135,8 +135,8 @@ public:
    */
   int CanReadFile(const char* name);
 
-  /** The estimated size of FileName and the memory that reading the whole file would take, in one
-   * line; or when it is known. */
+  /** The size of FileName, estimated until it is converted, and the memory that reading the whole
+   * file would take, in one line; or when it is known. */
   const char* GetEstimate();
 
   /** The report of the conversion to OutputFileName, as JSON. Empty if this object has not

@@ -50,8 +50,8 @@ protected:
   QLabel* Text = new QLabel(this);
 };
 
-/** The estimate of a conversion for the file that is chosen, before that is applied. An Output File
- * Name that the user has not chosen follows it. */
+/** The estimate of a conversion for the file that is chosen, before that is applied, and what it has
+ * made of it after. An Output File Name that the user has not chosen follows the file. */
 class ConversionWidget : public TextWidget
 {
 public:
@@ -62,10 +62,16 @@ public:
   {
     this->Observer = this->Input->AddObserver(
       vtkCommand::UncheckedPropertyModifiedEvent, this, &ConversionWidget::update);
+    this->Applied =
+      proxy->AddObserver(vtkCommand::UpdateDataEvent, this, &ConversionWidget::update);
     // The other widgets of the panel, which show what is suggested, are made after this one.
     QTimer::singleShot(0, this, [this] { this->update(); });
   }
-  ~ConversionWidget() override { this->Input->RemoveObserver(this->Observer); }
+  ~ConversionWidget() override
+  {
+    this->Input->RemoveObserver(this->Observer);
+    this->proxy()->RemoveObserver(this->Applied);
+  }
 
 private:
   void update()
@@ -88,14 +94,17 @@ private:
     vtkSMProxy* self = this->proxy();
     const auto other = vtkSmartPointer<vtkSMProxy>::Take(
       self->GetSessionProxyManager()->NewProxy(self->GetXMLGroup(), self->GetXMLName()));
+    other->Copy(self);
     vtkSMPropertyHelper(other, "FileName").Set(name.c_str());
+    vtkSMPropertyHelper(other, "OutputFileName")
+      .Set(vtkSMUncheckedPropertyHelper(this->Output).GetAsString());
     other->UpdateVTKObjects();
     other->UpdatePropertyInformation();
     this->Text->setText(vtkSMPropertyHelper(other, "Estimate").GetAsString());
   }
 
   vtkSmartPointer<vtkSMProperty> Input, Output;
-  unsigned long Observer = 0;
+  unsigned long Observer = 0, Applied = 0;
   std::string Suggested;
 };
 

@@ -6,6 +6,7 @@
 #include "Filters/vtkStreamingMeshSmoothing.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "IO/vtkStreamingMeshConverter.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
@@ -20,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -126,6 +128,43 @@ TEST_F(VtkSolveEstimate, OfASimplification)
   filter->SetNumberOfVertices(0);
   EXPECT_TRUE(text().starts_with("Not known: Nothing says how far to simplify")) << text();
   EXPECT_EQ(this->Ends->Executions, 0);
+}
+
+/** An OBJ file has no counts, so that they are guessed from its size. */
+TEST_F(VtkSolveEstimate, OfAMeshThatHasBeenConvertedHasItsCounts)
+{
+  const std::string name = (this->Folder / "mesh.obj").string();
+  const IndexedTestMesh mesh = torus(40, 25, 0.2);
+  std::ofstream file(name);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+  {
+    file << (i % 3 == 0 ? "\nv " : " ") << mesh.positions[i];
+  }
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+  {
+    file << (i % 3 == 0 ? "\nf " : " ") << mesh.corners[i] + 1;
+  }
+  file.close();
+  vtkNew<vtkStreamingMeshConverter> converter;
+  converter->SetFileName(name.c_str());
+  converter->SetOutputFileName((this->Folder / "kept.vsm").c_str());
+  vtkNew<vtkStreamingMeshReader> reader;
+  reader->SetFileName(name.c_str());
+  for (vtkStreamingMeshReader* source :
+    std::initializer_list<vtkStreamingMeshReader*>{ converter, reader })
+  {
+    this->Ends->SetInputConnection(source->GetOutputPort());
+    this->Poisson->UpdateInformation();
+    const auto isCounted = [](const std::string& text)
+    { return text.find("1,000 points and 2,000 cells") != std::string::npos; };
+    EXPECT_FALSE(isCounted(this->Poisson->GetEstimate())) << this->Poisson->GetEstimate();
+    source->Update(); // which tells those behind nothing
+    EXPECT_TRUE(isCounted(this->Poisson->GetEstimate())) << this->Poisson->GetEstimate();
+  }
+  EXPECT_TRUE(std::string(converter->GetEstimate()).starts_with("About 1,000 points and 2,000 "))
+    << converter->GetEstimate();
+  converter->SetOrder(vtkStreamingMeshConverter::AXIS);
+  EXPECT_NE(std::string(converter->GetEstimate()).find("guessed"), std::string::npos);
 }
 
 /** The number before a word of a text. */
