@@ -154,6 +154,12 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& i
   {
     throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
   }
+  if (this->Wall && this->Within > 0.0)
+  {
+    throw smg::Error(
+      "Within is the largest length of paths, which distances to a wall are not: set "
+      "Within to 0, or turn Wall off.");
+  }
   task->maxPasses = this->MaximumPasses;
   task->description = this->Description();
   task->places = smg::placesOn(input, this->From, "From");

@@ -169,7 +169,9 @@ struct vtkStreamingPoisson::Internals
     {
       if (!vtkPolyData::SafeDownCast(&piece))
       {
-        throw smg::Error("the preview of a solid has none of its cells.");
+        throw smg::Error(
+          "they are values of the tetrahedra of the solid, which its preview does not "
+          "have. Raise MaximumPointsInMemory of the reader to see all of them.");
       }
       smg::addCellResults(piece, problem, values, output);
       this->NoCells.forget();

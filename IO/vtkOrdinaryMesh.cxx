@@ -7,6 +7,7 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
+#include "smg/Error.h"
 #include "smg/MeshSource.h"
 
 #include "vtkCellArray.h"
@@ -165,14 +166,20 @@ ConversionReport writeOrdinaryMesh(
 {
   ConversionOptions given = options;
   given.cells = countingCells(mesh);
+  if (ordinaryMeshInfo(mesh).cells <= 0)
+  {
+    throw Error("The input has only points and lines, as a slice or a contour of a surface has: a "
+                "mesh of triangles, other polygons or solid cells is needed.");
+  }
   const VtkMeshArrays arrays(mesh);
   ConversionReport report = convertArrays(arrays.views(), "The input", path, given);
   if (report.dropped_cells > 0)
   {
-    report.notes.push_back(
-      std::to_string(report.dropped_cells) + (given.cells == CellChoice::Tetrahedra
-                                                 ? " points, lines and surface cells are left out."
-                                                 : " points and lines are left out."));
+    report.notes.push_back(std::to_string(report.dropped_cells) +
+                           (given.cells == CellChoice::Tetrahedra
+                               ? " points, lines and surface cells are left out, since "
+                                 "the input has solid cells, too."
+                               : " points and lines are left out."));
   }
   return report;
 }

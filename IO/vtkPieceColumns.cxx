@@ -15,7 +15,10 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
+#include "vtkInformationInformationVectorKey.h"
 #include "vtkInformationVariantKey.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -23,6 +26,7 @@
 #include "vtkVariant.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -122,6 +126,40 @@ std::vector<std::int64_t> integersOf(vtkDataArray& array)
   return integers;
 }
 
+namespace
+{
+
+/** Gives an array with infinite values, as of points that no distance reaches, the range of the
+ * finite ones: it is the default of contours and thresholds, and infinite bounds are none. */
+void tellFiniteRange(vtkDataArray& array)
+{
+  for (int c = 0; c < array.GetNumberOfComponents(); ++c)
+  {
+    double range[2], finite[2];
+    array.GetRange(range, c);
+    array.GetFiniteRange(finite, c);
+    if ((std::isinf(range[0]) || std::isinf(range[1])) && finite[0] <= finite[1])
+    {
+      array.GetInformation()
+        ->Get(vtkDataArray::PER_COMPONENT())
+        ->GetInformationObject(c)
+        ->Set(vtkDataArray::COMPONENT_RANGE(), finite, 2);
+    }
+  }
+}
+
+bool hasInfinity(const Column& column)
+{
+  return dispatch(column.spec.type,
+    [&column]<class T>(T)
+    {
+      return std::ranges::any_of(
+        column.as<T>(), [](T value) { return std::isinf(static_cast<double>(value)); });
+    });
+}
+
+} // namespace
+
 vtkSmartPointer<vtkDataArray> makeArray(const Column& column)
 {
   auto array =
@@ -132,6 +170,10 @@ vtkSmartPointer<vtkDataArray> makeArray(const Column& column)
   if (!column.bytes.empty())
   {
     std::memcpy(array->GetVoidPointer(0), column.bytes.data(), column.bytes.size());
+  }
+  if (hasInfinity(column))
+  {
+    tellFiniteRange(*array);
   }
   if (column.spec.isolated)
   {

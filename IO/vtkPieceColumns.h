@@ -29,7 +29,8 @@ std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
  * has not; numbers that are no integers are truncated. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> integersOf(vtkDataArray& array);
 
-/** Creates a named VTK array with the type and the values of the column. */
+/** Creates a named VTK array with the type and the values of the column. GetRange() of it is that
+ * of the finite values, where there are some. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 
 /** The columns of the named numeric arrays, without those of the piece contract. */

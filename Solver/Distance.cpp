@@ -68,7 +68,7 @@ std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescrip
     "distances through a solid are approximate: there are no exact ones");
   require(description.within > 0.0, "the largest distance must be positive"); // not NaN
   require(!description.wall || std::isinf(description.within),
-    "a largest distance is one of paths: leave it out with a wall");
+    "a largest distance (within) is one of paths: leave it out with a wall");
   // The scratch folder is created here, before the mesh is read: an error of the folder comes
   // first.
   auto run = std::make_unique<DistanceRun>(options);

@@ -234,13 +234,18 @@ void StreamedSolve::solveOn(
     make(container, made, ofMesh);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
-    Report report = this->solveOnFile(VsmReader(container), task, partOf(whole, ReadShare, 1.0));
+    const VsmReader file(container);
+    const bool isSurface = file.info().cellType == CellType::Triangle;
+    Report report = this->solveOnFile(file, task, partOf(whole, ReadShare, 1.0));
     FileDescriptor::removeClosed(container);
     if (const auto loose = std::ranges::count(this->VertexOfPoint, -1); loose > 0)
     {
+      const std::string cell =
+        isSurface ? "triangle or polygon" : "tetrahedron or other solid cell";
       report.notes.push_back(std::to_string(loose) +
                              (loose == 1 ? " point is a corner" : " points are corners") +
-                             " of no cell: there is no solution (NaN) and no distance there, and "
+                             " of no " + cell +
+                             ": there is no solution (NaN) and no distance there, and "
                              "what is smoothed, moved or blended stays as it was");
     }
     report.seconds.convert = seconds.count();

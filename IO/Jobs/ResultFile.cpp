@@ -244,8 +244,8 @@ std::vector<std::string> ResultFile::notesOn(
   const ConversionReport& conversion, const MeshJob& job) const
 {
   const bool ordered = this->keepsOrder();
-  const bool hasVertices =
-    lowerSuffix(this->Files.out) != ".stl"; // else corners of triangles alone
+  const Format* const format = formatOfSuffix(lowerSuffix(this->Files.out));
+  const bool hasVertices = !format || format->holdsVertices;
   const bool whole = (ordered && hasVertices) || kindOfOutput(this->Files.out) == MeshFileKind::Vsm;
   std::vector<std::string> notes;
   // That they are left out, write() says.

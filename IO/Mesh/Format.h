@@ -127,6 +127,9 @@ struct Format
   std::string_view attributes;
   MeshFileKind kind = MeshFileKind::Indexed;
 
+  /** Whether its files have vertices of their own, and so a place for those of no cell. Otherwise
+   * they have only the corners of cells. */
+  bool holdsVertices = true;
   /** Columns of vertices that its files have places for, of a format without all columns. */
   std::span<const std::string_view> vertexColumns = {};
 

@@ -94,7 +94,7 @@ TEST_F(VtkConditionPreview, ThePreviewOfASolidHasTheTrueSolutionAndNoGradient)
   this->Reader->SetPreviewPoints(40);
   Errors errors(this->Poisson);
   ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
-  EXPECT_TRUE(errors.contain("the preview of a solid has none of its cells")) << errors.text();
+  EXPECT_TRUE(errors.contain("values of the tetrahedra of the solid")) << errors.text();
   auto* preview = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
   ASSERT_LE(preview->GetNumberOfPoints(), 40);
   EXPECT_FALSE(preview->GetCellData()->HasArray("Gradient"));

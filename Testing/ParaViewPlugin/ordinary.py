@@ -197,5 +197,32 @@ check_outcome()
 smooth = StreamingMeshSmoothing(Input=Elevation(Input=Plane(XResolution=30, YResolution=20)), Boundary="Fixed")
 flat, _, _ = points_and(smooth, "Elevation")
 assert np.abs(flat[:, 2]).max() < 1e-6
+# Points that are not reached do not make the defaults of what follows infinite.
+near = StreamingDistance(Input=Sphere(), From='{"vertices": [0]}', Within=0.4)
+near.UpdatePipeline()
+assert not np.isfinite(points_and(near, "Distance")[1]).all()
+threshold = Threshold(Input=near, Scalars=["POINTS", "Distance"])
+assert threshold.UpperThreshold <= 0.4, threshold.UpperThreshold
+assert np.isfinite(list(Contour(Input=near, ContourBy=["POINTS", "Distance"]).Isosurfaces)).all()
+# Of the cells of several dimensions, the highest count; what is left of points and cells is said.
+both = StreamingDistance(Input=AppendDatasets(Input=[tetrahedra, Sphere()]), From='{"vertices": [0]}')
+both.UpdatePipeline()
+both.UpdatePropertyInformation()
+for part in ("50 points are corners of no tetrahedron", "96 points, lines and surface cells are left out, since"):
+    assert part in both.GetPropertyValue("Notes"), both.GetPropertyValue("Notes")
+# Texts are no coefficients.
+words = ProgrammableFilter(Input=Sphere(), Script="""
+from vtkmodules.vtkCommonCore import vtkStringArray
+words = vtkStringArray()
+words.SetName("Words")
+words.SetNumberOfValues(inputs[0].GetNumberOfPoints())
+output.GetPointData().AddArray(words)
+output.PointData.append(inputs[0].Points[:, 0], "Numbers")""")
+words.UpdatePipeline()
+poisson = StreamingPoisson(Input=words)
+for name in ("DirichletMask", "DirichletValues", "Source", "InitialGuess", "ScreeningArray", "ConductivityArray", "FieldArray"):
+    domain = poisson.SMProxy.GetProperty(name).FindDomain("vtkSMArrayListDomain")
+    offered = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
+    assert "Numbers" in offered and "Words" not in offered, (name, offered)
 assert compared >= 5, compared
 print("passed")

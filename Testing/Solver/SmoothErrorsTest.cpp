@@ -29,11 +29,14 @@ TEST(SmoothErrors, OptionsOutOfRange)
   {
     EXPECT_SAYS(errorOf(mesh, [=](auto& o) { o.size.value = size; }), "must be a positive number");
   }
-  EXPECT_SAYS(errorOf(mesh,
-                [](auto& o) {
-                  o.size = { 1e-300, SmoothingSize::Mesh };
-                }),
-    "is too small or too large");
+  for (const double size : { 1e-300, 1e-100, 1e-50, 1e200 })
+  {
+    EXPECT_SAYS(errorOf(mesh,
+                  [=](auto& o) {
+                    o.size = { size, SmoothingSize::Mesh };
+                  }),
+      "is too small or too large to compute with: choose one from ");
+  }
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.steps = 0; }), "steps must be from 1 to 1000");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.keepEdges = 0.0; }), "between 0 and 180 degrees");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.tolerance = 2.0; }), "tolerance");

@@ -221,6 +221,7 @@ const Format StlFormat{
   .name = "STL",
   .suffixes = StlSuffixes,
   .attributes = "none",
+  .holdsVertices = false,
   .looksRight = looksLikeStl,
   .parse = parseWith<importStl>,
   .share = { 100, 3 },

@@ -313,14 +313,18 @@ void MeshFairing::setSize(const MeshMeasures& measures)
   }
   const double root = this->Size / (2.0 * std::numbers::pi);
   this->Time = (std::exp2(1.0 / this->Options.steps) - 1.0) * root * root;
-  // The equations contain t and 1 / t. The square of a size may overflow or underflow even if the
-  // size does not.
+  // The equations contain t and 1 / t, and their squares are summed. Of a smaller size, positions
+  // have no digits.
+  const double least = 1e-20 * measures.diagonal();
   if (this->Result->vertices() > 0 &&
-      !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time)))
+      !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time) && this->Size >= least))
   {
     throw Error(unit > 0.0
                   ? "the size of the details to smooth, " + scientific(this->Size) +
-                      " in the unit of the mesh, is too small or too large to compute with"
+                      " in the unit of the mesh, is too small or too large to compute with: choose "
+                      "one from " +
+                      scientific(least) + " to " + scientific(measures.diagonal()) +
+                      ", the diagonal of the mesh"
                   : "no cell of the mesh has an area or volume that a size could refer to: "
                     "give the size of the details to smooth in the unit of the mesh");
   }
