@@ -94,14 +94,11 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   for (const Column& column : piece.vertexColumns)
   {
     const int place = points.AddArray(makeArray(column));
-    // Views shade by active normals, and map textures by active coordinates.
-    const bool isReal =
-      column.spec.type == ScalarType::Float32 || column.spec.type == ScalarType::Float64;
-    if (isReal && isNormals(column.spec))
+    if (isActiveNormals(column.spec))
     {
       points.SetActiveAttribute(place, vtkDataSetAttributes::NORMALS);
     }
-    else if (isReal && column.spec.name == TextureCoordinatesName && column.spec.components <= 3)
+    else if (isActiveTexture(column.spec))
     {
       points.SetActiveAttribute(place, vtkDataSetAttributes::TCOORDS);
     }

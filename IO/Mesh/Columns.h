@@ -80,6 +80,23 @@ inline bool isNormals(const ColumnSpec& spec)
   return spec.name == NormalsName && spec.components == 3;
 }
 
+constexpr bool isReal(ScalarType type)
+{
+  return type == ScalarType::Float32 || type == ScalarType::Float64;
+}
+
+/** Whether views of VTK are to shade by a column of vertices: its active normals. */
+inline bool isActiveNormals(const ColumnSpec& spec)
+{
+  return isReal(spec.type) && isNormals(spec);
+}
+
+/** Whether they are to map textures by it: the active texture coordinates. */
+inline bool isActiveTexture(const ColumnSpec& spec)
+{
+  return isReal(spec.type) && spec.name == TextureCoordinatesName && spec.components <= 3;
+}
+
 /** Point array, uint8: 1 where no later piece uses the point. */
 inline constexpr const char* StreamFinalizedName = "StreamFinalized";
 /** Point GlobalIds: stream indices. */

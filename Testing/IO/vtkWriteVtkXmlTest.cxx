@@ -137,6 +137,27 @@ TEST(WriteVtkXml, VtkReadsTheSameBits)
   }
 }
 
+/** As in the reader of streams. */
+TEST(WriteVtkXml, NormalsAndTextureCoordinatesAreActive)
+{
+  TemporaryFolder folder;
+  StreamMesh mesh = toStream(torus(9, 6));
+  for (const ColumnSpec& spec : { ColumnSpec{ NormalsName, ScalarType::Float32, 3 },
+         ColumnSpec{ TextureCoordinatesName, ScalarType::Float64, 2 } })
+  {
+    mesh.vertexColumns.push_back({ spec, {} });
+    mesh.vertexColumns.back().resize(static_cast<std::size_t>(mesh.vertices()));
+  }
+  PrecisionSource surface(mesh, 5, true);
+  writeMesh(surface, folder / "a.vtp");
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder / "a.vtp").c_str());
+  reader->Update();
+  vtkPointData* points = reader->GetOutput()->GetPointData();
+  EXPECT_TRUE(points->GetNormals());
+  EXPECT_TRUE(points->GetTCoords());
+}
+
 TEST(WriteVtkXml, VtkReadsArraysOfMegabytes)
 {
   TemporaryFolder folder;

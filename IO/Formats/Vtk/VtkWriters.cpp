@@ -365,6 +365,20 @@ std::vector<std::string> xmlNames(const std::vector<ColumnSpec>& specs, WriteNot
   return names;
 }
 
+/** The attributes of <PointData> that name its active arrays. */
+std::string activeOf(const std::vector<ColumnSpec>& columns)
+{
+  std::string attributes;
+  for (const ColumnSpec& spec : columns)
+  {
+    attributes += isActiveNormals(spec) ? std::string(" Normals=\"") + NormalsName + '"'
+                  : isActiveTexture(spec)
+                    ? std::string(" TCoords=\"") + TextureCoordinatesName + '"'
+                    : "";
+  }
+  return attributes;
+}
+
 /** VTK XML: PolyData if the name ends with .vtp, else an UnstructuredGrid. Corners are 64-bit
  * numbers. */
 class VtkXmlWriter : public VtkWriter<InlineArray>
@@ -377,14 +391,14 @@ public:
     const std::string type = this->IsPolyData ? "PolyData" : "UnstructuredGrid";
     const std::string cells = this->IsPolyData ? "Polys>\n" : "Cells>\n";
     const bool little = std::endian::native == std::endian::little;
-    this->writeText("<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type +
-                    "\" version=\"1.0\" byte_order=\"" + (little ? "Little" : "Big") +
-                    "Endian\" header_type=\"UInt64\">\n<" + type + ">\n<Piece NumberOfPoints=\"" +
-                    std::to_string(info.vertices) +
-                    (this->IsPolyData ? "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
-                                        "NumberOfStrips=\"0\" NumberOfPolys=\""
-                                      : "\" NumberOfCells=\"") +
-                    std::to_string(info.elements) + "\">\n<PointData>\n");
+    this->writeText(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" +
+      (little ? "Little" : "Big") + "Endian\" header_type=\"UInt64\">\n<" + type +
+      ">\n<Piece NumberOfPoints=\"" + std::to_string(info.vertices) +
+      (this->IsPolyData ? "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
+                          "NumberOfStrips=\"0\" NumberOfPolys=\""
+                        : "\" NumberOfCells=\"") +
+      std::to_string(info.elements) + "\">\n<PointData" + activeOf(info.vertexColumns) + ">\n");
     this->placeElements(this->PointData, info.vertexColumns, info.vertices);
     this->writeText("</PointData>\n<CellData>\n");
     this->placeElements(this->CellData, info.elementColumns, info.elements);
