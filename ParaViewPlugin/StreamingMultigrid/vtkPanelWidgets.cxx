@@ -50,8 +50,8 @@ protected:
   QLabel* Text = new QLabel(this);
 };
 
-/** The estimate of a conversion for the file that is chosen, before that is applied, and what it has
- * made of it after. An Output File Name that the user has not chosen follows the file. */
+/** The estimate of a conversion for the file that is chosen, before that is applied, and what it
+ * has made of it after. An Output File Name that the user has not chosen follows the file. */
 class ConversionWidget : public TextWidget
 {
 public:
