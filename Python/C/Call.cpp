@@ -7,7 +7,9 @@
 
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 namespace smg
 {
@@ -107,4 +109,14 @@ const char* smg_version(void)
 const char* smg_error(void)
 {
   return smg::LastErrorText;
+}
+
+void smg_remove_folder(const char* folder)
+{
+  smg::guarded(
+    [&]
+    {
+      std::error_code unsaid;
+      std::filesystem::remove_all(folder ? folder : "", unsaid);
+    });
 }

@@ -11,7 +11,6 @@ import math
 import os
 import re
 import sysconfig
-import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
 from typing import Any, Dict, List, Mapping, Optional, Tuple
 
@@ -96,6 +95,7 @@ def library() -> ctypes.CDLL:
     declared.update(
         ("smg_close_" + name, ([c_void_p], None)) for name in ("mesh", "field", "blocks", "solver")
     )
+    declared["smg_remove_folder"] = ([c_char_p], None)
     missing = [name for name in declared if not hasattr(loaded, name)]
     for name in set(declared).difference(missing):
         function = getattr(loaded, name)
@@ -218,9 +218,7 @@ class NativeHandle:
         self.pointer = c_void_p()
         self.lock = process.HandleLock()
         self.keep = list(keep)
-        close = getattr(library(), "smg_close_" + kind)
-        self._finalizer = weakref.finalize(self, _close, close, self.pointer, self.keep, self.lock)
-        self._finalizer.atexit = False  # process.py closes it, when no thread computes any more
+        self._token = process.closing(getattr(library(), "smg_close_" + kind), self.pointer, keep=keep)
         process.close_at_exit(self)
 
     def __enter__(self) -> c_void_p:
@@ -241,29 +239,29 @@ class NativeHandle:
 
     @property
     def is_closed(self) -> bool:
-        return not self._finalizer.alive
+        return self._token is None
 
     def close(self) -> None:
         """Closes it and removes its scratch files; twice is nothing."""
         process.require_no_call()
         with self.lock:
-            self._finalizer()
+            self._token = None
+            self.keep.clear()
 
     def __reduce__(self) -> Any:
         raise Error("What only this process has cannot be pickled: save it to a file, and open that.")
 
     def finish(self) -> None:
         """Closes it at the end of the interpreter, unless a thread still computes with it."""
-        found = self._finalizer.detach() if self.lock.is_free() else None
-        if found is not None:
-            _, close, arguments, _ = found
-            close(*arguments)  # the finalizer itself does nothing at this time
+        if self.lock.is_free():
+            self._token = None
+        else:
+            process.forget(self._token)
 
-
-def _close(close: Any, pointer: c_void_p, keep: list, lock: process.HandleLock) -> None:
-    if not lock.is_lost:
-        close(pointer)
-    keep.clear()
+    def inherit(self) -> None:
+        """In a forked child: leaves what was in use alone."""
+        if self.lock.is_lost:
+            process.forget(self._token)
 
 
 def parse(result: c_char_p) -> Dict[str, Any]:

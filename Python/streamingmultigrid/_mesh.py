@@ -6,9 +6,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import os
-import shutil
 import tempfile
-import weakref
 from ctypes import byref, c_char_p, c_int64, c_void_p
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
@@ -22,9 +20,9 @@ from ._columns import Column, Columns
 from ._display import mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning, warn
 from ._field import OF_EVERY_MESH, Block, Field, names_of, read_blocks, read_column, read_columns
-from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse
+from ._library import NativeHandle, call, call_reporting, encoded, json_text, library, parse
 from ._merged import Merged
-from ._process import HandleLock, require_no_call
+from ._process import HandleLock, close_at_exit, closing, forget, require_no_call
 from ._solver import Solver
 from .progress import part, reporting
 from ._regions import as_region
@@ -49,12 +47,16 @@ class _Folder:
             self.path = tempfile.mkdtemp(prefix="smg-simplified-", dir=place)
         except OSError as error:
             raise Error("scratch: %s: %s." % (error.filename, error.strerror)) from None
-        self.remove = weakref.finalize(self, _remove_folder, self.path, os.getpid())
+        self._token = closing(library().smg_remove_folder, encoded(self.path))
+        close_at_exit(self)
 
+    def finish(self) -> None:
+        """Removes it."""
+        self._token = None
 
-def _remove_folder(path: str, maker: int) -> None:
-    if os.getpid() == maker:  # a forked child leaves it to its parent
-        shutil.rmtree(path, ignore_errors=True)
+    def inherit(self) -> None:
+        """A forked child leaves it to its parent."""
+        forget(self._token)
 
 
 class Mesh:
@@ -527,7 +529,7 @@ class Mesh:
                     facts = Report(parse(result))
         except BaseException:  # whose traceback would keep the folder
             if folder:
-                folder.remove()
+                folder.finish()
             raise
         from ._opening import open
 

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import functools
+import operator
 import os
 import threading
 import weakref
-from typing import Any, Iterator, Set
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Set
 
 from ._errors import Error
 
@@ -23,6 +25,20 @@ _PATIENCE = 30.0
 _changed = threading.Condition()  # guards what follows
 _calls: Set[int] = set()  # the threads that are in a call of the library that reports progress
 _is_ending = False
+
+
+class _Alive:
+    """Objects as long as they live; like a WeakSet, without any step of Python when one goes."""
+
+    def __init__(self) -> None:
+        self._references: Dict[Any, None] = {}
+
+    def add(self, one: Any) -> None:
+        self._references[weakref.ref(one, self._references.pop)] = None
+
+    def objects(self) -> List[Any]:
+        found = (reference() for reference in list(self._references))
+        return [one for one in found if one is not None]
 
 
 class HandleLock:
@@ -57,12 +73,46 @@ class HandleLock:
             self._lock = threading.RLock()
 
 
-_locks: "weakref.WeakSet[HandleLock]" = weakref.WeakSet()
-_handles: "weakref.WeakSet[Any]" = weakref.WeakSet()
+class _Token:
+    """What `closing` returns."""
+
+    __slots__ = ("__weakref__",)
+
+
+class _Closing(weakref.ref):
+    """Of a token: what is called when it goes, and what lives until then."""
+
+    __slots__ = ("close", "keep")
+
+
+_locks = _Alive()
+_handles = _Alive()
+_closings: Dict[Any, _Closing] = {}  # of every token that lives
+
+
+def closing(function: Callable, *arguments: Any, keep: Iterable = ()) -> Any:
+    """A token with whose last reference `function(*arguments)` is called, a function of C.
+
+    There is no step of Python on the way to it: at each of them a signal can be handled, as Ctrl-C, whose
+    exception would end a finalizer before its work is done, be printed and be lost. After the function has
+    returned it is raised where the program is.
+    """
+    token = _Token()
+    forgotten = weakref.ref(token, _closings.pop)  # the second to be called: the later one is the first
+    reference = _Closing(token, operator.methodcaller("close"))
+    reference.close = functools.partial(function, *arguments)
+    reference.keep = list(keep)
+    _closings[forgotten] = reference
+    return token
+
+
+def forget(token: Any) -> None:
+    """Nothing is called any more when the token goes."""
+    _closings.pop(weakref.ref(token), None)
 
 
 def close_at_exit(handle: Any) -> None:
-    """Lets the end of the interpreter close a handle, with `handle.finish()`."""
+    """Lets the end of the interpreter call `handle.finish()`, and a forked child `handle.inherit()`."""
     _handles.add(handle)
 
 
@@ -100,7 +150,7 @@ def _end() -> None:
     with _changed:
         _is_ending = True
         _changed.wait_for(lambda: not _calls - {own}, _PATIENCE)
-    for handle in list(_handles):
+    for handle in _handles.objects():
         handle.finish()
 
 
@@ -110,8 +160,10 @@ def _inherit() -> None:
     _changed = threading.Condition()
     in_call = bool(_calls)
     _calls.clear()
-    for lock in list(_locks):
+    for lock in _locks.objects():
         lock.inherit(in_call)
+    for handle in _handles.objects():
+        handle.inherit()
 
 
 atexit.register(_end)

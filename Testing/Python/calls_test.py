@@ -14,6 +14,7 @@ import time
 import unittest
 import weakref
 
+from streamingmultigrid._process import closing
 from testing import BUNNY, bits, np, smg, sphere
 
 POINTS, CELLS = sphere(5)
@@ -118,11 +119,26 @@ class CancelTest(unittest.TestCase):
         """Without any progress function, at any time; what was there before still works."""
         mesh = smg.mesh(POINTS, CELLS)
         for _ in range(20):
+            # A thread that goes has finalizers of its own, where Python loses the interrupt.
+            interrupter = threading.Thread(target=_thread.interrupt_main)
             with self.assertRaises(KeyboardInterrupt):
-                threading.Thread(target=_thread.interrupt_main).start()
+                interrupter.start()
                 while True:
                     mesh.solve(**PROBLEM)
+            interrupter.join()
         mesh.solve(**PROBLEM)
+
+    def test_interrupt_while_something_is_closed(self):
+        """What goes in the same moment is closed and removed all the same, and the interrupt is not lost."""
+        with tempfile.TemporaryDirectory() as scratch:
+            mesh = smg.mesh(POINTS, CELLS, scratch=scratch)
+            going = [mesh.solve(**PROBLEM), mesh.simplify(500), closing(_thread.interrupt_main)]
+            del mesh
+            self.assertEqual(going[1].n_corners, 3)
+            self.assertNotEqual(os.listdir(scratch), [])
+            with self.assertRaises(KeyboardInterrupt):
+                going.clear()  # from the last to the first
+            self.assertEqual(os.listdir(scratch), [])
 
     def test_a_handler_of_the_program_is_used(self):
         mesh = smg.mesh(POINTS, CELLS)

@@ -112,6 +112,8 @@ TEST(CErrors, NullIsAnErrorOfEveryFunction)
   smg_close_mesh(nullptr);
   smg_close_field(nullptr);
   smg_close_blocks(nullptr);
+  smg_remove_folder(nullptr);
+  smg_remove_folder("/no/such/folder");
 }
 
 TEST(CErrors, ADescriptionSaysWhereItIsWrong)
