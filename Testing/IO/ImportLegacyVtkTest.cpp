@@ -263,6 +263,22 @@ TEST_F(ImportLegacyVtk, AttributesOfEveryKind)
   EXPECT_EQ(mesh.vertexColumns[5].value(3, 2), 153);
 }
 
+TEST_F(ImportLegacyVtk, FieldDataAreNoted)
+{
+  const std::string fields =
+    "FIELD FieldData 4\nTimeValue 1 1 double\n2.5\nmass 1 2 float\n1 2\nPreview 1 1 int\n1\n"
+    "author 1 1 string\nme\n";
+  const std::string mesh = Square + "POLYGONS 1 5\n4 0 1 2 3\n";
+  for (const bool first : { true, false })
+  {
+    std::string text = head(false, "3.0", "POLYDATA");
+    text = first ? text.insert(text.find("DATASET"), fields) + mesh : text + fields + mesh;
+    EXPECT_EQ(this->read(text).counts.notes,
+      (std::vector<std::string>{
+        "Field data are left out, since a mesh has no place for them: 'author', 'mass'." }));
+  }
+}
+
 TEST_F(ImportLegacyVtk, NumbersOfTypeVtkIdTypeAreWrittenInFourBytes)
 {
   const std::string text = head(true, "3.0", "POLYDATA") + "POINTS 3 double\n" +

@@ -100,8 +100,15 @@ TEST_F(ImportVtkHdf, PartitionsOfAGridAreOneMesh)
 {
   HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
   this->writeSquareGrid(file);
+  file.group("FieldData");
+  file.integers("FieldData/TimeValue", { 1 });
+  file.integers("FieldData/mass", { 1, 2 });
   file.finish();
-  this->expectSquare(this->readHdf());
+  const ReadMesh mesh = this->readHdf();
+  this->expectSquare(mesh);
+  EXPECT_EQ(
+    mesh.counts.notes, std::vector<std::string>{
+                         "Field data are left out, since a mesh has no place for them: 'mass'." });
 }
 
 TEST_F(ImportVtkHdf, PolygonalDataHasCellsOfFourKinds)

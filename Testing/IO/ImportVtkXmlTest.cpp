@@ -144,6 +144,22 @@ std::string parallel(const std::vector<std::string>& sources)
 
 } // namespace
 
+TEST_F(ImportVtkXml, FieldDataAreNoted)
+{
+  VtkXmlWriter writer;
+  const std::string fields =
+    "<FieldData>\n" + writer.array("TimeValue", "Float64", std::vector<double>{ 2.5 }) +
+    writer.array("mass", "Float32", std::vector<float>{ 1, 2 }) +
+    "<Array type=\"String\" Name=\"author\" format=\"ascii\">109 101 0</Array>\n"
+    "<Array type=\"String\" Name=\"Report\" format=\"ascii\">0</Array>\n"
+    "</FieldData>\n";
+  const ReadMesh mesh =
+    this->read(writer.file("PolyData", fields + trianglePiece(writer, 0.0, "", "")));
+  EXPECT_EQ(mesh.counts.notes,
+    (std::vector<std::string>{
+      "Field data are left out, since a mesh has no place for them: 'author', 'mass'." }));
+}
+
 TEST_F(ImportVtkXml, AllWaysOfWritingAreTheSameMesh)
 {
   for (const Way way : { Way::Ascii, Way::Inline, Way::AppendedBase64, Way::AppendedRaw })

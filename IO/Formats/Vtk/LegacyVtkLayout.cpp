@@ -43,6 +43,7 @@ public:
     layout.pieces.push_back(std::move(this->Piece));
     layout.otherArrays = std::move(this->OtherArrays);
     layout.repeatedArrays = std::move(this->RepeatedArrays);
+    layout.fields = std::move(this->Fields);
     return layout;
   }
 
@@ -269,7 +270,8 @@ private:
     return components;
   }
 
-  /** Arrays with their own number of tuples: those with `tuples` are added to `arrays`. */
+  /** Arrays with their own number of tuples: those with `tuples` are added to `arrays`. Without
+   * `arrays` they are those of the mesh as a whole. */
   void readField(std::vector<VtkArray>* arrays, std::int64_t tuples)
   {
     this->Scanner.word();
@@ -293,6 +295,10 @@ private:
       const std::int64_t components = this->Scanner.count("the number of components");
       const std::int64_t own = this->Scanner.count("the number of tuples");
       const std::string type = this->Scanner.word();
+      if (!arrays)
+      {
+        addFieldName(this->Fields, name);
+      }
       const bool wanted =
         own == tuples && components > 0 && components <= std::numeric_limits<std::int16_t>::max();
       this->product(own, components);
@@ -381,7 +387,7 @@ private:
   InputFile& File;
   LegacyVtkScanner Scanner;
   VtkPiece Piece;
-  std::set<std::string> OtherArrays, RepeatedArrays; ///< see VtkLayout
+  std::set<std::string> OtherArrays, RepeatedArrays, Fields; ///< see VtkLayout
   VtkArrayNames PointNames, CellNames;
   bool IsGrid = false;
   bool OfPoints = false;

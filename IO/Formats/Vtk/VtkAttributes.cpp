@@ -35,6 +35,15 @@ void noteArrays(RawMeshBuilder& builder, const std::set<std::string>& others,
   }
 }
 
+void noteFields(RawMeshBuilder& builder, const std::set<std::string>& names)
+{
+  if (!names.empty())
+  {
+    builder.note(
+      "Field data are left out, since a mesh has no place for them: " + quotedList(names) + '.');
+  }
+}
+
 void noteGhosts(RawMeshBuilder& builder, std::int64_t ghosts)
 {
   if (ghosts > 0)

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
@@ -75,6 +77,22 @@ constexpr bool isOwnVtkCell(std::int64_t ghostType)
 /** Notes which arrays of no numbers are left out, and which names several arrays had. */
 void noteArrays(RawMeshBuilder& builder, const std::set<std::string>& others,
   const std::set<std::string>& repeated);
+
+/** Adds the name of an array of the field data to those to be noted, unless nobody misses it: the
+ * time and number of a step, and what the filters of this library leave there. */
+inline void addFieldName(std::set<std::string>& names, const std::string& name)
+{
+  static constexpr std::string_view Unmissed[] = { "", "TimeValue", "TIME", "CYCLE", "Report",
+    "Preview", "PreviewOfReader", "FullNumberOfPoints", "FullNumberOfCells", "Failed",
+    "MeshRegions", "MeshConditions", "MeshConditionArrays" };
+  if (names.size() < MaxOtherArrays && std::ranges::find(Unmissed, name) == std::end(Unmissed))
+  {
+    names.insert(name);
+  }
+}
+
+/** Notes which arrays of the field data are left out. */
+void noteFields(RawMeshBuilder& builder, const std::set<std::string>& names);
 
 /** Notes how many cells are left out as ghosts, if any. */
 void noteGhosts(RawMeshBuilder& builder, std::int64_t ghosts);

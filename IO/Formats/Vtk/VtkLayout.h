@@ -85,6 +85,7 @@ struct VtkLayout
   std::vector<VtkFile> files;
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
+  std::set<std::string> fields;      ///< arrays of the field data; see addFieldName()
   /** Names of several arrays of the points, or of the cells; see VtkArrayNames. */
   std::set<std::string> repeatedArrays;
   std::int64_t bytes = 0; ///< approximate memory of the pieces

@@ -83,6 +83,7 @@ public:
     this->readColumns(&VtkPiece::pointArrays);
     this->readColumns(&VtkPiece::cellArrays);
     noteArrays(this->Builder, this->Layout.otherArrays, this->Layout.repeatedArrays);
+    noteFields(this->Builder, this->Layout.fields);
     // Ghost cells of several pieces belong to others of them; those of a lone piece are missing.
     if (this->Layout.pieces.size() == 1 && !this->Layout.isPart)
     {

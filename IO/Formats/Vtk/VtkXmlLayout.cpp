@@ -88,7 +88,11 @@ private:
       this->Section = tag.alone ? "" : tag.name;
       this->noteActive(tag);
     }
-    else if (tag.name == "DataArray" && !this->Section.empty() && this->Section != "FieldData")
+    else if (this->Section == "FieldData" && (tag.name == "DataArray" || tag.name == "Array"))
+    {
+      addFieldName(this->Layout.fields, tag.value("Name"));
+    }
+    else if (tag.name == "DataArray" && !this->Section.empty())
     {
       this->addArray(tag);
     }

@@ -45,6 +45,7 @@ public:
     this->choosePartitions();
     this->readAttributes("PointData", this->PointArrays);
     this->readAttributes("CellData", this->CellArrays);
+    this->readFieldNames();
     this->checkMemory();
     if (type == "PolyData")
     {
@@ -224,6 +225,18 @@ private:
       sum += count >= 0 && count <= VtkHdfMostRows ? count : VtkHdfMostRows + 1;
     }
     return found < 0 ? this->FirstPart : found;
+  }
+
+  void readFieldNames()
+  {
+    const std::string group = VtkHdfRoot + std::string("FieldData");
+    if (this->File.exists(group))
+    {
+      for (const std::string& name : this->File.datasets(group))
+      {
+        addFieldName(this->Layout.fields, name);
+      }
+    }
   }
 
   void readAttributes(const std::string& group, std::vector<Attribute>& attributes)
