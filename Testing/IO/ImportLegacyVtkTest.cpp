@@ -268,7 +268,7 @@ TEST_F(ImportLegacyVtk, FieldDataAreNoted)
   const std::string fields =
     "FIELD FieldData 4\nTimeValue 1 1 double\n2.5\nmass 1 2 float\n1 2\nPreview 1 1 int\n1\n"
     "author 1 1 string\nme\n";
-  const std::string mesh = Square + "POLYGONS 1 5\n4 0 1 2 3\n";
+  const std::string mesh = std::string(Square) + "POLYGONS 1 5\n4 0 1 2 3\n";
   for (const bool first : { true, false })
   {
     std::string text = head(false, "3.0", "POLYDATA");
