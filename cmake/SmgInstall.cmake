@@ -12,7 +12,7 @@ endif ()
 # What smg/SolveWith.h includes besides: what operators work on, and how they are compiled. On the
 # path of StreamingMultigrid::Engine alone.
 foreach (header
-    Core/SimdPack.h Core/SystemCalls.h
+    Core/CancelCheck.h Core/SimdPack.h Core/SystemCalls.h
     Memory/Buffer.h Memory/Pool.h Memory/RaggedRing.h Memory/Ring.h
     Multigrid/Extended.h Multigrid/OperatorSet.h Multigrid/RowOperators.h
     Multigrid/Cycle/GaussSeidel.h Multigrid/Cycle/RowBlock.h Multigrid/Cycle/Sweep.h

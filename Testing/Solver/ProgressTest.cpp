@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/Progress.h"
+#include "Solver/Core/CancelCheck.h"
+#include "Solver/Core/Workers.h"
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/ProgressRecord.h"
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 namespace smg::testing
@@ -25,6 +29,37 @@ TEST(Progress, NeverDecreasesAndStopsWhenRefused)
   EXPECT_THROW(progress.update(1.0), Cancelled);
   EXPECT_EQ(seen, (std::vector<double>{ 0.5, 0.5, 1.0, 1.0 }));
   EXPECT_NO_THROW(Progress().update(0.5));
+}
+
+TEST(Progress, IsAskedInTheMiddleOfAPartOnAnyThread)
+{
+  using namespace std::chrono_literals;
+  int asked = 0;
+  CancelCheck check(
+    [&]
+    {
+      if (++asked == 2)
+      {
+        throw Cancelled();
+      }
+    });
+  check(); // too early to ask again
+  EXPECT_EQ(asked, 0);
+  std::this_thread::sleep_for(110ms);
+  EXPECT_NO_THROW(check());
+  EXPECT_EQ(asked, 1);
+  Workers workers(2);
+  workers.whileSleeping([&check] { check.whileSleeping(); });
+  const auto work = [&check](int)
+  {
+    for (;; std::this_thread::sleep_for(1ms))
+    {
+      check();
+    }
+  };
+  EXPECT_THROW(runAll(workers, 2, work), Cancelled);
+  EXPECT_EQ(asked, 2);
+  EXPECT_THROW(check(), Cancelled);
 }
 
 TEST(Progress, OfASolveRisesFromNearZeroToOne)

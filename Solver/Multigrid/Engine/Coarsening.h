@@ -158,6 +158,7 @@ private:
     rows.take(
       [&](const GatheredRow& row, const CoarseEntry* entries)
       {
+        d.mayEnd(this->Sparsified);
         d.appendRaw(this->Sparsified, row, entries);
         this->Set.sparsify(d, this->Sparsified++);
       });

@@ -69,13 +69,37 @@ void FirstPass::project(SolveContext& run, Hierarchy& hierarchy)
   }
 }
 
+namespace
+{
+
+/** Asks also while all that is left of a step is done by other threads. */
+class AskingWhileAsleep
+{
+public:
+  AskingWhileAsleep(Workers& workers, CancelCheck& check)
+    : Team(workers)
+  {
+    this->Team.whileSleeping([&check] { check.whileSleeping(); });
+  }
+  ~AskingWhileAsleep() { this->Team.whileSleeping({}); }
+  AskingWhileAsleep(const AskingWhileAsleep&) = delete;
+  AskingWhileAsleep& operator=(const AskingWhileAsleep&) = delete;
+
+private:
+  Workers& Team;
+};
+
+} // namespace
+
 FirstResidual FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows(this->Run.pool, problem.columns());
   const bool apart = this->Run.threads.areConcurrent() && this->Run.isAmple;
+  CancelCheck check([this] { this->Run.progress.updateFirst(0.0); });
+  const AskingWhileAsleep asking(this->Run.threads.workers, check);
   HierarchyBuilder builder(this->Run.pool, this->Set, this->Built.levels(), this->Built.firstCore(),
-    Assembly::stiffRows(type, problem.weights(), rows), apart);
+    Assembly::stiffRows(type, problem.weights(), rows), apart, check);
   Assembly assembly(this->Run.pool, mesh.info(), problem, rows, this->Run.components,
     this->Run.labels, listener, this->Run.corrected);
   this->Built.startPass(true);

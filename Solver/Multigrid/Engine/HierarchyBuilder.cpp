@@ -19,13 +19,14 @@ constexpr int MaxApart = 3;
 } // namespace
 
 HierarchyBuilder::HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels,
-  int firstCore, SliverRows stiff, bool apart)
+  int firstCore, SliverRows stiff, bool apart, CancelCheck& check)
   : Owner(pool)
   , Set(operators)
   , Built(levels)
   , FirstCore(firstCore)
   , ApartLevels(operators.canRunApart && apart ? std::min(MaxApart, firstCore) : 0)
   , Stiff(stiff)
+  , Check(check)
 {
   this->addRows();
   for (int l = 0; l < firstCore; ++l)
@@ -207,6 +208,7 @@ void HierarchyBuilder::addStep()
   const std::size_t l = this->Steps.size();
   this->Steps.push_back(this->Set.coarsening(this->Owner, *this->Rows[l], *this->Rows[l + 1],
     this->Stiff, static_cast<int>(l) < this->ApartLevels));
+  this->Steps.back()->setCheck(this->Check);
 }
 
 void HierarchyBuilder::append(int l)

@@ -38,9 +38,10 @@ public:
   static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
 
   /** `stiff` finds the stiff rows of each coarse level. `apart`: for several threads, the stages
-   * of each of the finest levels, where most of the work is, are tasks of their own. */
+   * of each of the finest levels, where most of the work is, are tasks of their own. `check` ends
+   * the work between rows: a step with rows of very many entries takes seconds. */
   HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels, int firstCore,
-    SliverRows stiff, bool apart);
+    SliverRows stiff, bool apart, CancelCheck& check);
 
   /** The rows of the finest level, to which the assembly appends between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
@@ -102,6 +103,7 @@ private:
   int FirstCore;
   int ApartLevels; // number of levels whose stages are tasks
   SliverRows Stiff;
+  CancelCheck& Check;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<LevelCoarsening>> Steps;
   std::vector<std::int64_t> Advanced, Packed;

@@ -43,6 +43,7 @@ public:
         sweep.next, end, [&](std::int64_t i) { return data.fine.reach(i) < before; },
         [&](std::int64_t i)
         {
+          data.mayEnd(i);
           // The first sweep to arrive appends the row, as Pending: neighbours read P0 until it is
           // relaxed, which for a node of a patch is later.
           if (i == data.relaxed.end())

@@ -139,6 +139,8 @@ public:
   LevelCoarsening& operator=(const LevelCoarsening&) = delete;
 
   const CoarseningData& data() const { return this->Data; }
+  /** Lets the stages end when the answer is no; it must outlive this. */
+  void setCheck(CancelCheck& check) { this->Data.check = &check; }
   /** The end of the rows of A P: their interpolation and the patches of their neighbours are
    * final. As published to the stages after productAP(). */
   std::int64_t multiplied() const { return this->Multiplied.published(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/CancelCheck.h"
 #include "Solver/Memory/RaggedRing.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Setup/GatheredRows.h"
@@ -186,6 +187,17 @@ struct CoarseningData
   LevelRows& fine;
   LevelRows& coarse;
   SliverRows stiff; ///< of the coarse level
+
+  CancelCheck* check = nullptr; ///< null: the work is never ended
+  /** To be called at each row of a stage that may take long for it. Throws as CancelCheck. */
+  void mayEnd(std::int64_t row) const
+  {
+    constexpr std::int64_t Rows = 16;
+    if (this->check && row % Rows == 0)
+    {
+      (*this->check)();
+    }
+  }
 
   // By fine node.
   /** The coarse node of a C-point, as coarseIndexOf() stores it, or FPoint. */
