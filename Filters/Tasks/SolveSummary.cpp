@@ -95,6 +95,12 @@ std::string SolveSummary::where() const
          (this->doubt.empty() ? "." : ", " + this->doubt);
 }
 
+std::string noteOnLoose(std::int64_t points, bool isSurface)
+{
+  return counted(points, "point is a corner", "points are corners") + " of no " +
+         (isSurface ? "triangle or polygon" : "tetrahedron or other solid cell");
+}
+
 void readValues(Solution& solution, std::span<const std::int64_t> ids, std::span<double> values)
 {
   // A gap this small is cheaper to read than to skip; the stretch length bounds the memory.

@@ -46,6 +46,10 @@ struct SolveSummary
   std::string where() const;
 };
 
+/** The beginning of a note on points of an input that are corners of no cell, as "2 points are
+ * corners of no triangle or polygon". */
+std::string noteOnLoose(std::int64_t points, bool isSurface);
+
 /**
  * Reads the values of the vertices `ids`, in any order, to `values` (solution.columns() each), in
  * few calls in ascending order of the solution. Throws Error if an id is not one of its vertices.

@@ -3,6 +3,7 @@
 
 #include "Filters/Regions/vtkHandleArrays.h"
 #include "Filters/Tasks/DeformedVertices.h"
+#include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/vtkMovedPiece.h"
 #include "IO/Results/MovedPoints.h"
 #include "IO/vtkPieceColumns.h"
@@ -94,7 +95,7 @@ std::vector<double> InteractiveMesh::deform(
   return values;
 }
 
-void InteractiveMesh::moveLoose(vtkPointSet& mesh, std::vector<double>& values) const
+void InteractiveMesh::moveLoose(vtkPointSet& mesh, std::vector<double>& values)
 {
   std::vector<char> isUsed(static_cast<std::size_t>(mesh.GetNumberOfPoints()), 0);
   for (const std::int64_t point : this->Mesh->points())
@@ -109,6 +110,7 @@ void InteractiveMesh::moveLoose(vtkPointSet& mesh, std::vector<double>& values) 
       loose.push_back(static_cast<std::int64_t>(point));
     }
   }
+  this->Loose = static_cast<std::int64_t>(loose.size());
   if (loose.empty())
   {
     return;
@@ -130,6 +132,11 @@ void InteractiveMesh::judge(Report& report) const
   MovedPoints moved(this->Mesh->source(), *this->Deformation, &report, reading);
   for (MeshBlock block; moved.next(block);)
   {
+  }
+  if (this->Loose > 0)
+  {
+    report.notes.push_back(noteOnLoose(this->Loose, this->Mesh->cellType() == CellType::Triangle) +
+                           ": those that a handle holds move with it, others stay");
   }
 }
 

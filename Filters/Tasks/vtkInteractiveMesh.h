@@ -26,7 +26,8 @@ public:
    */
   std::vector<double> deform(vtkPointSet& mesh, const DeformOptions& options, bool needsNormals);
 
-  /** Adds the cells that the last deformation inverts to a report. Throws Error. */
+  /** Adds the cells that the last deformation inverts, and the points of no cell, to a report.
+   * Throws Error. */
   void judge(Report& report) const;
 
   /** Releases the memory of the mesh and the hierarchy. */
@@ -42,11 +43,12 @@ public:
 private:
   void update(MeshInMemory mesh, const DeformOptions& options, const VertexHandles& handles);
   std::vector<double> values(vtkPointSet& mesh, const DeformOptions& options);
-  void moveLoose(vtkPointSet& mesh, std::vector<double>& values) const;
+  void moveLoose(vtkPointSet& mesh, std::vector<double>& values);
 
   std::optional<MeshInMemory> Mesh;
   DeformOptions Options;
   std::unique_ptr<InteractiveDeformation> Deformation;
+  std::int64_t Loose = 0; ///< points of no cell
   int Columns = 3;
   int Builds = 0;
 };

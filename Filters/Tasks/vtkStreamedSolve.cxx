@@ -240,11 +240,7 @@ void StreamedSolve::solveOn(
     FileDescriptor::removeClosed(container);
     if (const auto loose = std::ranges::count(this->VertexOfPoint, -1); loose > 0)
     {
-      const std::string cell =
-        isSurface ? "triangle or polygon" : "tetrahedron or other solid cell";
-      report.notes.push_back(std::to_string(loose) +
-                             (loose == 1 ? " point is a corner" : " points are corners") +
-                             " of no " + cell +
+      report.notes.push_back(noteOnLoose(loose, isSurface) +
                              ": there is no solution (NaN) and no distance there, and "
                              "what is smoothed, moved or blended stays as it was");
     }
