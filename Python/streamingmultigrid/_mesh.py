@@ -305,7 +305,8 @@ class Mesh:
 
         Args:
             name: any but those with a meaning of their own, as Position and OriginalId.
-            values: (n,) or (n, k), a row for each vertex, each cell or each of the `elements`.
+            values: (n,) or (n, k), a row for each vertex, each cell or each of the `elements`; booleans
+                become uint8.
             cells: True, False, or by the number of rows, which must tell.
             copy: False: the array is used where it is. Do not change it while the mesh or a field of it
                 is used.
