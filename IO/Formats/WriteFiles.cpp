@@ -218,22 +218,32 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
   return writeParts(mesh, format, path, space, options.text);
 }
 
-/** Adds to the notes of a writer that the vertices of no cell of a .vsm file are not written, if
- * there are any. */
-std::vector<std::string> withoutIsolated(WriteNotes notes, const WriteMeshOptions& options)
+/** Adds to the notes of a writer that this many vertices of no cell are not written. */
+std::vector<std::string> withoutIsolated(
+  WriteNotes notes, const Format& format, std::int64_t isolated)
 {
-  const std::int64_t isolated =
-    options.isolatedFrom.empty()
-      ? 0
-      : VsmReader(options.isolatedFrom, nullptr, options.isolatedFingerprint).isolatedVertices();
   if (isolated > 0)
   {
-    notes.push_back(counted(isolated, "vertex belongs to no cell: it is",
-                      "vertices belong to no cell: they are") +
-                    " left out, since only .vsm files and formats in the order of the input have "
-                    "a place for them.");
+    notes.push_back(
+      counted(
+        isolated, "vertex belongs to no cell: it is", "vertices belong to no cell: they are") +
+      " left out, since " +
+      (format.holdsVertices ? "only .vsm files and formats in the order of the input have"
+                            : std::string(format.suffixes.front().text) + " files do not have") +
+      " a place for them.");
   }
   return notes;
+}
+
+/** The same for those of a .vsm file, if one is given. */
+std::vector<std::string> withoutIsolated(
+  WriteNotes notes, const Format& format, const WriteMeshOptions& options)
+{
+  const bool isGiven = !options.isolatedFrom.empty();
+  return withoutIsolated(std::move(notes), format,
+    isGiven
+      ? VsmReader(options.isolatedFrom, nullptr, options.isolatedFingerprint).isolatedVertices()
+      : 0);
 }
 
 } // namespace
@@ -241,14 +251,16 @@ std::vector<std::string> withoutIsolated(WriteNotes notes, const WriteMeshOption
 std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
   const std::filesystem::path& out, Workspace& workspace, bool text)
 {
-  checkRestoredPath(out, VsmReader(vsm).info().cellType);
+  const VsmReader reader(vsm);
+  checkRestoredPath(out, reader.info().cellType);
   checkForm(out, text);
   const Format& format = *formatOfName(out);
   RestoredMesh mesh(vsm, workspace, format.maxCorners);
   std::vector<std::string> notes = mesh.notes();
   const WriteNotes more = writeParts(mesh, format, out, workspace, text);
   notes.insert(notes.end(), more.begin(), more.end());
-  return notes;
+  return withoutIsolated(
+    std::move(notes), format, format.holdsVertices ? 0 : reader.isolatedVertices());
 }
 
 std::vector<std::string> writeMesh(
@@ -260,7 +272,8 @@ std::vector<std::string> writeMesh(
   const Format& format = *formatOfSuffix(lowerSuffix(path));
   if (format.turnOf(options.text) == PartTurn::AsTheyCome)
   {
-    return withoutIsolated(writeAsTheyCome(source, format, path, options.progress), options);
+    return withoutIsolated(
+      writeAsTheyCome(source, format, path, options.progress), format, options);
   }
   Workers workers(options.threads);
   if (format.kind == MeshFileKind::Vsm)
@@ -293,7 +306,7 @@ std::vector<std::string> writeMesh(
   WriteMeshOptions rest = options;
   rest.scratch = scratch.path();
   rest.progress = partOf(options.progress, 0.6, 1.0);
-  return withoutIsolated(writeAgain(format, whole, path, rest), options);
+  return withoutIsolated(writeAgain(format, whole, path, rest), format, options);
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
@@ -313,7 +326,7 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   options.progress = progress;
   return format.kind == MeshFileKind::Vsm || format.turnOf(text) == PartTurn::AsTheyCome
            ? writeMesh(*reader.source(), path, options)
-           : withoutIsolated(writeAgain(format, vsm, path, options), options);
+           : withoutIsolated(writeAgain(format, vsm, path, options), format, options);
 }
 
 namespace

@@ -101,13 +101,7 @@ public:
     this->Sorted.sort();
     this->ByVertex.reset();
     this->isText() ? this->writeText() : this->writeBinary();
-    WriteNotes notes = PlacedColumns(this->Info).leftOut(".stl");
-    if (this->Info.isolated > 0)
-    {
-      notes.push_back("The " + std::to_string(this->Info.isolated) +
-                      " isolated vertices are left out, since STL has only triangles.");
-    }
-    return notes;
+    return PlacedColumns(this->Info).leftOut(".stl");
   }
 
 private:
