@@ -22,6 +22,7 @@ constexpr NamedOption NamedOptions[] = {
   { "--scratch-limit", "ScratchLimit", false },
   { "--checkpoint", "CheckpointDirectory", false },
   { "--in-core", "InCore", false },
+  { "--size", "Size", false },
   { "--cells", "Cells", true },
   { "--time-step", "TimeStep", true },
   { "--partition", "Partition", true },

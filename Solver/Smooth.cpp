@@ -38,7 +38,7 @@ void checkOptions(const Smoothing& options)
     options.checkpoint.folder.empty(), "smoothing has no checkpoints: leave the folder out");
   // Whether the size fits the mesh is known after the first reading: MeshFairing::setSize().
   requireThat(std::isfinite(options.size.value) && options.size.value > 0.0,
-    "the size of the details to smooth must be a positive number");
+    "the size of the details to smooth (option --size) must be a positive number");
   requireThat(
     options.steps >= 1 && options.steps <= 1000, "the number of steps must be from 1 to 1000");
   requireThat(!options.keepEdges || (*options.keepEdges > 0.0 && *options.keepEdges < 180.0),

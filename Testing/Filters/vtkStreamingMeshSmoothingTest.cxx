@@ -238,6 +238,10 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
   expect("Size is -1: set it to a number greater than 0", [&] { this->Smoothing->SetSize(-1.0); });
   expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(0); });
   expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(1001); });
+  this->Smoothing->SetSizeUnit(vtkStreamingMeshSmoothing::DIAGONAL);
+  expect("the size of the details to smooth (property Size), ",
+    [&] { this->Smoothing->SetSize(1e200); });
+  this->Smoothing->SetSizeUnit(vtkStreamingMeshSmoothing::MEAN_EDGES);
   this->open(tetBox(4, 4, 4));
   expect("name a column of the vertices", [] {});
 }

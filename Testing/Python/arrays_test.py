@@ -118,6 +118,7 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1 furlong"), smg.Error, "furlong"),
             (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1KB"), smg.InputError, "1KB"),
             (lambda: mesh.smooth(size="wide"), smg.InputError, "size"),
+            (lambda: mesh.smooth(size=1e200), smg.Error, r"details to smooth \(argument size\)"),
             (lambda: mesh.distance(), smg.InputError, "sources"),
             (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.Error, "."),
             (lambda: mesh.blend("Light", patch="scan"), smg.Error, "scan|Light"),

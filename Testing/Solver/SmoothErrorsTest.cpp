@@ -27,7 +27,8 @@ TEST(SmoothErrors, OptionsOutOfRange)
   const StreamMesh mesh = toStream(torus(9, 6));
   for (const double size : { 0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY) })
   {
-    EXPECT_SAYS(errorOf(mesh, [=](auto& o) { o.size.value = size; }), "must be a positive number");
+    EXPECT_SAYS(errorOf(mesh, [=](auto& o) { o.size.value = size; }),
+      "(option --size) must be a positive number");
   }
   for (const double size : { 1e-300, 1e-100, 1e-50, 1e200 })
   {
@@ -116,7 +117,8 @@ TEST(SmoothErrors, MeshesWithoutAnyAreaStayAsTheyAre)
   }
   const std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), DegenerateCell);
   mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
-  EXPECT_SAYS(errorOf(mesh, [](auto&) {}), "give the size of the details to smooth in the unit");
+  EXPECT_SAYS(
+    errorOf(mesh, [](auto&) {}), "give the size of the details to smooth (option --size) in");
   Smoothing options = plainStep();
   options.keepEdges = 30.0;
   EXPECT_TRUE(sameBits(smoothed(mesh, options).values, pointsOf(mesh)));

@@ -320,22 +320,23 @@ void MeshFairing::setSize(const MeshMeasures& measures)
       !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time) && this->Size >= least))
   {
     throw Error(unit > 0.0
-                  ? "the size of the details to smooth, " + scientific(this->Size) +
+                  ? "the size of the details to smooth (option --size), " + scientific(this->Size) +
                       " in the unit of the mesh, is too small or too large to compute with: choose "
                       "one from " +
                       scientific(least) + " to " + scientific(measures.diagonal()) +
                       ", the diagonal of the mesh"
                   : "no cell of the mesh has an area or volume that a size could refer to: "
-                    "give the size of the details to smooth in the unit of the mesh");
+                    "give the size of the details to smooth (option --size) in the unit of the "
+                    "mesh");
   }
   // Most likely a size in a wrong unit: positions would be lost, a column only becomes nearly
   // constant.
   if (this->Size > measures.diagonal())
   {
-    const std::string sentence = "The size of the details to smooth, " + scientific(this->Size) +
-                                 ", is larger than the mesh, whose diagonal is " +
-                                 scientific(measures.diagonal()) +
-                                 ", and leaves little of its shape. Is it in the unit of the mesh?";
+    const std::string sentence =
+      "The size of the details to smooth (option --size), " + scientific(this->Size) +
+      ", is larger than the mesh, whose diagonal is " + scientific(measures.diagonal()) +
+      ", and leaves little of its shape. Is it in the unit of the mesh?";
     if (this->movesPoints())
     {
       throw Error(sentence);
