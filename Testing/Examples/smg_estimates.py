@@ -151,6 +151,7 @@ def commands(mesh):
     yield "distance", ["--from", FIRST]
     if mesh == "surface":
         yield "smooth", []
+        yield "smooth", ["--orient"]
 
 
 def test_costs(mesh, command, arguments, threads):
@@ -168,6 +169,15 @@ def test_costs(mesh, command, arguments, threads):
         assert 1 / factor <= estimate / truth <= factor, (mesh, command, arguments, threads, what, truth, estimate)
     assert said["cpu_seconds"] > 0 and said["memory_limit"] == 1024 * MIB
     os.remove("o.vsm")
+
+
+def test_winding():
+    """The reading that finds how to wind the triangles is counted."""
+    def passes(*options):
+        run("smooth", "surface.vsm", "o.vsm", *options, "--dry-run", "--report", "dry.json")
+        return load("dry.json")["passes"]
+
+    assert passes("--orient") == passes() + 1
 
 
 def test_room():

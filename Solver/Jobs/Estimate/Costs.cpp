@@ -174,7 +174,10 @@ Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& optio
   const bool movesPoints = options.column.empty();
   const bool keepsVolume = options.keepVolume && movesPoints;
   const int solves = options.steps * (options.keepEdges ? 2 : 1);
-  const int readings = options.steps * ((options.keepEdges ? 1 : 0) + (keepsVolume ? 2 : 1));
+  // The winding is also found where that of the mesh cannot be computed with, which is not known
+  // yet.
+  const int readings = options.steps * ((options.keepEdges ? 1 : 0) + (keepsVolume ? 2 : 1)) +
+                       (options.orient && movesPoints ? 1 : 0);
   // The equations of a step couple vertices only within about the size of the details, which makes
   // them easier.
   constexpr double Ease = 0.65;
