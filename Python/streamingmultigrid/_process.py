@@ -83,6 +83,8 @@ class _Closing(weakref.ref):
     """Of a token: what is called when it goes, and what lives until then."""
 
     __slots__ = ("close", "keep")
+    close: Callable[[], Any]
+    keep: List[Any]
 
 
 _locks = _Alive()
