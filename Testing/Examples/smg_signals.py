@@ -16,7 +16,7 @@ import sys
 import time
 
 from large_torus import write_large_torus
-from program import SANITIZED, SMG, run, write_medit, write_ply
+from program import PROGRESS, SANITIZED, SMG, run, write_medit, write_ply
 from tetrahedra import tetrahedra
 
 ALL = sys.argv[1:] == ["all"]
@@ -141,6 +141,7 @@ def lateness(arguments, kind, moment):
         clear()
         return None
     assert process.returncode == 128 + kind, (arguments, moment, process.returncode, error)
+    error = re.sub(PROGRESS, "", error)  # of slow commands
     # What is wrong with the mesh may be found at the same moment.
     assert error.startswith("smg: ") and error.count("\n") == 1, (arguments, moment, error)
     assert not remains(), (arguments, moment, remains())
