@@ -364,7 +364,9 @@ TEST(VtkMeshArrays, NameTheirPointsAndCellsInErrors)
       "The input, cell 4: the corner -1 is not a vertex: they are 0 to 31." },
     { bad(withOffset), "The input, cell 4: its points should be the numbers from 3 up to 1 of " +
                          corners + ", which cannot be." },
-    { bad(onlyLines), "The input has no triangles." },
+    { bad(onlyLines),
+      "The input has only points and lines, as a slice or a contour of a surface has: a mesh of "
+      "triangles, other polygons or solid cells is needed." },
     { gridOfCells(
         { { VTK_TETRA, { 0, 1, 4, 16 } }, { VTK_CONVEX_POINT_SET, { 0, 1, 4, 16, 17 } } }),
       "The input, cell 1: its type is VTK's type 41, which is not read: cut the mesh into "
