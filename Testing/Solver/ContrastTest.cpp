@@ -335,6 +335,49 @@ TEST(Contrast, WhereNothingFlowsNothingIsSaid)
     });
 }
 
+/** What flows does not depend on a constant that is added to all values, or it is said by how much.
+ */
+TEST(Contrast, ValuesThatDifferLittleAreNotOne)
+{
+  forShapes({ 1.0 },
+    [](ElementProblem& problem, const std::string&)
+    {
+      const Report exact = resultsOf(problem);
+      const auto add = [](double constant, std::function<Eigen::VectorXd(const Point&)>& value)
+      {
+        value = [constant, before = value](const Point& x)
+        { return Eigen::VectorXd(before(x).array() + constant); };
+      };
+      double added = 0.0;
+      for (const double constant : { 1e6, 1e9, 1e12 })
+      {
+        for (ElementProblem::Dirichlet& end : problem.DirichletConditions)
+        {
+          add(constant - added, end.value);
+        }
+        for (ElementProblem::Robin& robin : problem.RobinConditions)
+        {
+          add(constant - added, robin.ambient);
+        }
+        added = constant;
+        // The report does not have the values that Robin conditions compare with.
+        if (constant > 1e9 && problem.DirichletConditions.size() < 2)
+        {
+          continue;
+        }
+        const Report report = resultsOf(problem);
+        double all = 0.0, off = 0.0;
+        for (std::size_t c = 0; c < exact.conditions.size(); ++c)
+        {
+          const double flux = exact.conditions[c].flux[0];
+          all += std::fabs(flux);
+          off = std::max(off, std::fabs(report.conditions[c].flux[0] - flux));
+        }
+        EXPECT_TRUE(off < 1e-3 * all || !report.warnings.empty()) << constant << ' ' << off / all;
+      }
+    });
+}
+
 /** A column in which nothing flows changes nothing of another one. */
 TEST(Contrast, ColumnsAreJudgedApart)
 {

@@ -260,6 +260,22 @@ bool isNowhere(const Report::Condition& condition)
   return condition.vertices == 0 && condition.area == 0.0;
 }
 
+/** Whether Dirichlet conditions prescribe values in column k that differ by more than rounding. */
+bool areDifferent(const std::vector<Report::Condition>& conditions, std::size_t k)
+{
+  constexpr double OfRounding = 1e-13;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const Report::Condition& condition : conditions)
+  {
+    if (condition.name.starts_with("dirichlet") && !isNowhere(condition))
+    {
+      least = std::min(least, condition.mean[k]);
+      most = std::max(most, condition.mean[k]);
+    }
+  }
+  return most - least > OfRounding * std::max(std::fabs(most), std::fabs(least));
+}
+
 std::string percent(double share)
 {
   char text[32];
@@ -447,7 +463,7 @@ void ResultSums::reportParts(Report& report) const
  *
  * The power, twice the energy, over the range of u is what flows at least through the whole.
  * Nothing flows where the values are one number, up to what the solve leaves, and nothing is
- * prescribed to flow: then what flows is only that.
+ * prescribed to flow, nor different values: then what flows is only that.
  */
 ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
 {
@@ -473,9 +489,15 @@ ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
   const double range = most - least;
   const bool varies = range > OfValues * std::max(std::fabs(most), std::fabs(least));
   const double terms = this->ReactionTerms[k] + this->conditions.robinTerms()[k];
-  if (!varies && given == 0.0 && report.converged && flow.all <= OfTerms * terms)
+  if (!varies && given == 0.0 && report.converged && flow.all <= OfTerms * terms &&
+      !areDifferent(report.conditions, k))
   {
     return {};
+  }
+  if (!varies)
+  {
+    // Fluxes are differences of nearly equal terms.
+    flow.doubt = std::max(flow.doubt, std::numeric_limits<double>::epsilon() * terms);
   }
   flow.least = varies ? 2.0 * report.energy[k] / range : flow.all;
   return flow;
