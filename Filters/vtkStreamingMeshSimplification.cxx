@@ -271,6 +271,7 @@ struct vtkStreamingMeshSimplification::Internals
     smg::MeshPiece found;
     this->Result->readPiece(firstOf(part), firstOf(part + 1), found, request.GhostLevels);
     smg::setPiece(output, found, this->Result->info());
+    smg::removePreviewMarks(output);
     this->Attributes.giveTo(*output.GetPointData());
   }
 

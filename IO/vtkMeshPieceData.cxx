@@ -143,6 +143,15 @@ void markAsReaders(vtkPointSet& preview)
   addMark(preview, PreviewOfReaderName, PreviewOfReaderComponents);
 }
 
+void removePreviewMarks(vtkPointSet& mesh)
+{
+  for (const char* name :
+    { PreviewName, FullNumberOfPointsName, FullNumberOfCellsName, PreviewOfReaderName })
+  {
+    mesh.GetFieldData()->RemoveArray(name);
+  }
+}
+
 bool isPreview(vtkPointSet& mesh)
 {
   vtkDataArray* mark = mesh.GetFieldData()->GetArray(PreviewName);

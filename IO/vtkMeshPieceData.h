@@ -27,6 +27,8 @@ void markAsReaders(vtkPointSet& preview);
 /** Whether the mesh is marked as a preview. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isPreview(vtkPointSet& mesh);
 
+/** For what is made of the mesh behind a preview: the pipeline passes field data. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void removePreviewMarks(vtkPointSet& mesh);
 /** Of a preview: the number of points of the mesh, and of its cells; 0 of other data. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t pointsBehind(vtkPointSet& mesh);
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t cellsBehind(vtkPointSet& mesh);

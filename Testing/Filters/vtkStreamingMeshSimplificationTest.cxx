@@ -2,13 +2,17 @@
 #include "Filters/vtkStreamingMeshSimplification.h"
 #include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingPoisson.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkStreamingMeshReader.h"
+#include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Simplify.h"
 #include "smg/VsmReader.h"
 
+#include "vtkNew.h"
 #include "vtkPassThrough.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSphere.h"
 #include "vtkSphereSource.h"
@@ -100,6 +104,24 @@ TEST_F(VtkStreamingMeshSimplification, IsThatOfTheLibraryInAnyPieces)
     const auto vertex = at - this->Mesh.originalIds.begin();
     ASSERT_EQ(colours->GetComponent(i, 1), double(vertex));
   }
+}
+
+TEST_F(VtkStreamingMeshSimplification, OfAMeshShownAsAPreviewIsNoPreview)
+{
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  ASSERT_TRUE(isPreview(*vtkPointSet::SafeDownCast(this->Reader->GetOutputDataObject(0))));
+  ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
+  EXPECT_FALSE(isPreview(*this->Filter->GetOutput()));
+  EXPECT_EQ(pointsBehind(*this->Filter->GetOutput()), 0);
+  const std::int64_t points = this->Filter->GetOutput()->GetNumberOfPoints();
+  for (const char* name : { "small.vsm", "small.ply" })
+  {
+    vtkNew<vtkStreamingMeshWriter> writer;
+    writer->SetInputConnection(this->Filter->GetOutputPort());
+    writer->SetFileName((this->Folder / name).c_str());
+    EXPECT_TRUE(writer->Write()) << name;
+  }
+  EXPECT_EQ(VsmReader(this->Folder / "small.vsm").info().vertices, points);
 }
 
 TEST_F(VtkStreamingMeshSimplification, TakesPiecesAndOrdinaryMeshes)
