@@ -304,8 +304,9 @@ extern "C"
   SMG_C_EXPORT void smg_close_blocks(smg_blocks* blocks);
   SMG_C_EXPORT void smg_close_solver(smg_solver* solver);
 
-  /* Removes a folder with all that it has, as one made for the file of smg_simplify(); nothing is said if
-   * that fails. It is for languages whose own functions a signal can interrupt while they clean up. */
+  /* Removes a folder with all that it has, as one made for the file of smg_simplify(); nothing is
+   * said if that fails. It is for languages whose own functions a signal can interrupt while they
+   * clean up. */
   SMG_C_EXPORT void smg_remove_folder(const char* folder);
 
 #ifdef __cplusplus

@@ -109,8 +109,9 @@ def closing(function: Callable, *arguments: Any, keep: Iterable = ()) -> Any:
 
 
 def forget(token: Any) -> None:
-    """Nothing is called any more when the token goes."""
-    _closings.pop(weakref.ref(token), None)
+    """Nothing is called any more when the token goes; None: it has gone."""
+    if token is not None:
+        _closings.pop(weakref.ref(token), None)
 
 
 def close_at_exit(handle: Any) -> None:

@@ -43,6 +43,15 @@ public:
     }
   }
 
+  /** To be called by the owner when all parts are done: throws if the answer was no. */
+  void end()
+  {
+    if (this->IsOver.load(std::memory_order_acquire))
+    {
+      std::rethrow_exception(this->Reason);
+    }
+  }
+
   /** Asks while others work, which end if the answer is no. */
   void whileSleeping() noexcept
   {

@@ -108,6 +108,7 @@ FirstResidual FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* 
   // need the number of its vertices to reserve room.
   this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
+  check.end();
   this->Built.endPass();
   this->Built.close(coarsest);
   return this->note(assembly);
