@@ -176,7 +176,7 @@ CoarserSurface coarserSurface(std::span<const double> points, std::span<const st
   const KeptBodies bodies = keepLargestBodies(surface, lockedOf(surface, locked), most);
   if (!bodies.areFragments && surface.vertices() > wanted)
   {
-    collapseEdges(surface, lockedOf(surface, locked), { .vertices = wanted, .mayPinch = true });
+    collapseEdges(surface, lockedOf(surface, locked), { .vertices = wanted, .mayCut = true });
   }
   if (surface.vertices() > wanted + wanted / 4)
   {

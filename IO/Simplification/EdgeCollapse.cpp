@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/EdgeCollapse.h"
 
+#include "IO/Simplification/LoopCuts.h"
 #include "IO/Simplification/SeamVertices.h"
 #include "Solver/Core/Vector.h"
 
@@ -8,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,11 +35,9 @@ namespace
 constexpr double LengthShare = 1e-3;
 /** The weight of the plane that holds a boundary edge, compared with triangles of its length. */
 constexpr double BoundaryWeight = 10.0;
-/** Where the topology may change, a collapse that changes it must have an error four times smaller
- * than that of others: squared, sixteen times. */
-constexpr float PinchWorth = 16.0F;
-/** The least cosine of the angle by which a triangle may turn. */
-constexpr double MinCosine = 0.2;
+/** A pass in which less than this share of the vertices goes ends a rough simplification; one in
+ * which less than this share of what is still to go does is slow. */
+constexpr std::size_t RoughShare = 20, SlowShare = 32;
 
 /** A possible collapse of the vertex `from` onto `to`. */
 struct Collapse
@@ -113,55 +113,73 @@ public:
   }
 
   /** Passes until the goal is reached or nothing can collapse. Where the topology may change and
-   * nothing else is possible, borders between labels are given up, and then collapses that change
-   * the topology compete with any error. */
+   * nothing else is possible, borders between labels are given up, and then triangles may turn. */
   Collapsed run(const CollapseGoal& goal)
   {
-    this->MayPinch = goal.mayPinch && goal.vertices < this->Part.vertices();
-    if (this->MayPinch)
+    if (goal.mayCut && goal.vertices < this->Part.vertices())
     {
-      this->Surface.allowPinching();
+      this->Cuts.emplace(this->Part, this->Surface, this->InverseSquare);
     }
-    float worth = PinchWorth;
-    bool crossesBorders = false;
+    Collapsed done;
+    double error = 0.0; // squared
     for (std::size_t left = this->Part.vertices(); left > goal.vertices;)
     {
       this->Polled.now();
       this->rankEdges(goal.error * goal.error);
-      this->Pinched = 0;
-      const std::size_t gone = this->collapse(left - goal.vertices, left, worth);
-      left -= gone;
+      const LoopCuts::Pass pass = this->collapse(left - goal.vertices, left);
       this->Surface.endPass();
-      if (this->Pinched > 0)
+      // Where seams are given up, more than these are gone.
+      left = this->Part.wedges.empty() ? left - pass.gone + pass.came : this->usedVertices();
+      done.bodies += pass.bodies;
+      error = std::max(error, pass.error);
+      if (left <= goal.vertices)
       {
-        // Sheets that came to lie on each other are removed, and with them vertices that only they
-        // have.
-        left = this->Surface.dropFolded();
+        break;
       }
-      if (gone == 0)
+      if (goal.isRough && pass.gone < pass.came + left / RoughShare)
       {
-        if (!this->MayPinch || worth == 0.0F)
-        {
-          break;
-        }
-        // No other collapse is possible.
-        if (this->Surface.keepsBorders())
-        {
-          this->Surface.releaseBorders();
-          crossesBorders = !this->Part.labels.empty();
-        }
-        else
-        {
-          worth = 0.0F;
-        }
+        break;
+      }
+      const bool isSlow = pass.gone <= pass.came + (left - goal.vertices) / SlowShare;
+      const bool isNone = pass.gone + pass.came == 0;
+      const bool isAll = isNone && !pass.hasMore();
+      if (isAll && this->Cuts && this->Surface.keepsBorders())
+      {
+        this->Surface.releaseBorders();
+        done.crossesBorders = !this->Part.labels.empty();
+      }
+      else if (isAll && this->Cuts && !this->Surface.mayTurn())
+      {
+        this->Surface.letTurn();
+      }
+      else if (isAll)
+      {
+        break;
+      }
+      if (this->Cuts && isSlow)
+      {
+        this->Reached = pass.nextLimit(this->Reached);
       }
     }
     separateSeams(this->Part);
     this->Part.dropUnusedVertices(this->Polled);
-    return { std::sqrt(this->Error), crossesBorders };
+    done.error = std::sqrt(error);
+    return done;
   }
 
 private:
+  /** The vertices that triangles have, of those that are joined at seams each. */
+  std::size_t usedVertices() const
+  {
+    std::vector<std::uint8_t> isUsed(this->Part.vertices(), 0);
+    for (std::size_t i = 0; i < this->Part.wedges.size(); ++i)
+    {
+      this->Polled.at(i);
+      isUsed[this->Part.wedges[i]] = 1;
+    }
+    return static_cast<std::size_t>(std::ranges::count(isUsed, 1));
+  }
+
   const double* point(std::uint32_t v) const
   {
     return this->Part.points.data() + 3 * std::size_t(v);
@@ -253,80 +271,89 @@ private:
     }
   }
 
-  /** Collapses edges until at most about `most` vertices have gone and returns their number. Those
-   * that change the topology must have a rank `worth` times smaller than the usual one. */
-  std::size_t collapse(std::size_t most, std::size_t vertices, float worth)
+  /** Collapses edges until at most about `most` vertices have gone. */
+  LoopCuts::Pass collapse(std::size_t most, std::size_t vertices)
   {
     this->sortEdges();
-    // Neighbours of a collapse wait for the next pass. So this one goes on to edges that are
-    // somewhat worse than those that would suffice without such neighbours, but not much worse. It
-    // collapses at least a thirtieth of the vertices if it can, since a pass costs the same for
-    // fewer.
+    // Neighbours of a collapse wait for the next pass, and some edges may not collapse, about as
+    // many as in the last one. So this one goes on to edges that are somewhat worse than those that
+    // would suffice without such neighbours, but not much worse. It collapses at least a thirtieth
+    // of the vertices if it can, since a pass costs the same for fewer.
     constexpr float Worse = 1.5F;
     const std::size_t least = std::max(most / 6, vertices / 30);
-    const std::size_t enough = std::min(most, this->Edges.size() / 2);
+    const std::size_t enough = std::min(most + this->Blocked, this->Edges.size() * 3 / 4);
     const float usual = this->Order.empty() ? 0.0F : this->Edges[this->Order[enough]].rank;
-    std::size_t done = 0;
-    for (std::size_t k = 0; k < this->Order.size() && done < most; ++k)
+    this->Blocked = 0;
+    LoopCuts::Pass pass;
+    pass.most = most;
+    for (std::size_t k = 0; k < this->Order.size() && pass.gone < most; ++k)
     {
       this->Polled.at(k);
       const auto [from, to, rank] = this->Edges[this->Order[k]];
-      if (k > enough && done > least && rank > Worse * usual)
+      if (k > enough && pass.gone > least && rank > Worse * usual)
       {
         break;
       }
       // The triangles of both must be those that were ranked.
-      if (!this->Surface.areUntouched(from, to))
+      if (this->Surface.areUntouched(from, to) && !this->change(from, to, rank, pass))
       {
-        continue;
-      }
-      const SurfaceTopology::Change change = this->Surface.changeBy(from, to);
-      const bool pinches = change == SurfaceTopology::Change::Pinch;
-      const bool isAllowed =
-        pinches ? this->MayPinch && worth * rank <= usual : change == SurfaceTopology::Change::None;
-      if (isAllowed && !this->turnsOver(from, to))
-      {
-        this->Error = std::max(this->Error, this->errorOf(from, to));
-        this->Part.quadrics[to].add(this->Part.quadrics[from]);
-        this->Surface.move(from, to);
-        this->Pinched += pinches ? 1 : 0;
-        done += this->Part.joinedIn(from);
+        ++this->Blocked;
       }
     }
-    return done;
+    return pass;
   }
 
-  /** Whether a triangle of `from` would turn by too much, or collapse, if that vertex moved onto
-   * `to`. */
-  bool turnsOver(std::uint32_t from, std::uint32_t to) const
+  /** Collapses an edge, or changes the topology there. Returns whether it has done so. */
+  bool change(std::uint32_t from, std::uint32_t to, float rank, LoopCuts::Pass& pass)
   {
-    return std::ranges::any_of(this->Surface.star(from),
-      [&](std::uint32_t triangle)
+    using Change = SurfaceTopology::Change;
+    const Change topology = this->Surface.changeBy(from, to);
+    if (topology == Change::Impossible || (topology != Change::None && !this->Cuts))
+    {
+      return false;
+    }
+    if (topology == Change::Vanishing)
+    {
+      return this->Cuts->removeBody(from, to, this->Reached, pass);
+    }
+    bool isHole = false;
+    if (topology == Change::Loop)
+    {
+      const LoopCuts::Done done = this->Cuts->cut(from, to, rank, this->Reached, pass);
+      isHole = done == LoopCuts::Done::Hole;
+      if (!isHole)
       {
-        const auto [a, b] = this->Surface.others(triangle, from);
-        // This triangle disappears, or has in this pass.
-        if (a == b || a == to || b == to)
-        {
-          return false;
-        }
-        const Vector edge = difference(this->point(b), this->point(a));
-        const Vector before = cross(edge, difference(this->point(from), this->point(a)));
-        const Vector after = cross(edge, difference(this->point(to), this->point(a)));
-        // The cosine is compared in squares, without roots and divisions. Triangles without area
-        // may turn as they like.
-        const double product = dot(before, after), size = dot(before, before);
-        return size > 0.0 && !(product > 0.0 && product * product >
-                                                  MinCosine * MinCosine * size * dot(after, after));
-      });
+        return done == LoopCuts::Done::Cut;
+      }
+    }
+    if (this->Surface.turn(this->Surface.star(from), from, to))
+    {
+      return false;
+    }
+    this->Reached = std::max(this->Reached, rank);
+    pass.error = std::max(pass.error, this->errorOf(from, to));
+    this->Part.quadrics[to].add(this->Part.quadrics[from]);
+    this->Surface.move(from, to);
+    if (this->Cuts)
+    {
+      this->Cuts->addGone(from, to);
+    }
+    if (isHole)
+    {
+      this->Cuts->closeHole(to);
+    }
+    pass.gone += this->Part.joinedIn(from);
+    return true;
   }
 
   SurfacePart& Part;
   SurfaceTopology Surface;
   const Poll& Polled;
-  bool MayPinch = false;
-  std::size_t Pinched = 0;    ///< collapses of this pass that changed the topology
+  std::optional<LoopCuts> Cuts; ///< where the topology may change
+  std::size_t Blocked =
+    0;                  ///< edges of the last pass that it has come to, and that did not collapse
+  float Reached = 0.0F; ///< the largest rank of a collapse, or what cuts may cost
   double InverseSquare = 1.0; ///< of the extent of the part, so that ranks are in single precision
-  double Error = 0.0;         ///< squared
   std::vector<Collapse> Edges;
   std::vector<std::uint32_t> Order, Begin;
 };

@@ -18,23 +18,26 @@ struct CollapseGoal
   std::size_t vertices = 0; ///< number that is left
   /** The largest error of a collapse, see collapseEdges(). */
   double error = std::numeric_limits<double>::infinity();
-  /** Whether collapses may close handles and merge sheets, where their error is four times smaller
-   * than that of others or no other is possible. Edges may then get more than two triangles;
-   * triangles that come to lie on each other are removed. Where nothing else is possible, borders
-   * between labels are given up, too. */
-  bool mayPinch = false;
+  /** Whether handles and bumps may be cut off, small holes closed, and bodies of four triangles go
+   * (LoopCuts), where that costs no more than collapses have by then, or little else is possible.
+   * Where nothing else is possible, borders between labels are given up, too, and triangles may
+   * turn over. */
+  bool mayCut = false;
+  /** Whether it also ends where a pass leaves nearly all vertices. */
+  bool isRough = false;
 };
 
 /** What collapseEdges() did. */
 struct Collapsed
 {
-  double error = 0.0; ///< the largest of a collapse
+  double error = 0.0;     ///< the largest of a collapse
+  std::size_t bodies = 0; ///< that have gone
   /** Whether borders between labels were given up, since nothing else could collapse. */
   bool crossesBorders = false;
 };
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */
-inline constexpr std::int64_t CollapseBytes = 110;
+inline constexpr std::int64_t CollapseBytes = 112;
 
 /**
  * Collapses edges of a surface onto one of their ends, so that each vertex that is left is where it
@@ -43,11 +46,11 @@ inline constexpr std::int64_t CollapseBytes = 110;
  * root of the mean of the squares, weighted by areas (Garland and Heckbert 1997). Edges with the
  * smallest error go first, of equal ones the shortest.
  *
- * The topology stays (see SurfaceTopology): bodies, handles and boundary curves stay, and no edge
- * gets more than two triangles. So do the borders between the labels of the part, which are held as
- * boundaries are, and the seams all of whose vertices at a place are in the part (joinSeams()):
- * both sides move together. No triangle turns over. Vertices where the surface is not manifold
- * do not go; how triangles are wound does not matter.
+ * Unless the goal says otherwise, the topology stays (see SurfaceTopology): bodies, handles and
+ * boundary curves stay, and no edge gets more than two triangles. So do the borders between the
+ * labels of the part, which are held as boundaries are, and the seams all of whose vertices at a
+ * place are in the part (joinSeams()): both sides move together. No triangle turns over. Vertices
+ * where the surface is not manifold do not go; how triangles are wound does not matter.
  *
  * Each of several passes over the edges collapses edges that have no end in common, in the order of
  * their errors, up to an error that leaves enough for the pass. About 10 passes leave an eighth of

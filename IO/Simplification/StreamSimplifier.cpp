@@ -94,13 +94,14 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
         }
         // Vertices that other parts have, that are held or on seams, are all left; the share is of
         // the others.
-        CollapseGoal goal{ locked.size() - inside, item.error };
+        CollapseGoal goal{ locked.size() - inside, this->Goal.error, !this->limitsError(),
+          !this->limitsError() };
         goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
-        item.error = collapseEdges(item.part.surface, locked, goal, this->Polled).error;
+        item.done = collapseEdges(item.part.surface, locked, goal, this->Polled);
       },
       [this](Item& item)
       {
-        this->Counts.error = std::max(this->Counts.error, item.error);
+        this->count(item.done);
         this->append(item.part);
       })
 {
@@ -193,7 +194,6 @@ void StreamSimplifier::step()
   if (this->Parts.next(item.part))
   {
     item.share = this->shareOfPart();
-    item.error = this->Goal.error;
     this->Jobs.submit();
     return;
   }
@@ -387,10 +387,16 @@ void StreamSimplifier::collapse(std::int64_t vertices)
 {
   const Staying staying = this->staying();
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
-    this->Goal.error, !this->limitsError() && staying.heldVertices <= vertices };
+    this->Goal.error, !this->limitsError() && staying.heldVertices <= vertices,
+    !this->IsFinished && !this->Streams && !this->limitsError() };
   goal.vertices += static_cast<std::size_t>(staying.lockedVertices);
-  const Collapsed done = collapseEdges(this->Window, staying.locked, goal, this->Polled);
+  this->count(collapseEdges(this->Window, staying.locked, goal, this->Polled));
+}
+
+void StreamSimplifier::count(const Collapsed& done)
+{
   this->Counts.error = std::max(this->Counts.error, done.error);
+  this->Counts.dropped += static_cast<std::int64_t>(done.bodies);
   this->Counts.crossesBorders = this->Counts.crossesBorders || done.crossesBorders;
 }
 

@@ -106,7 +106,7 @@ private:
   {
     StreamPart part;
     double share = 1.0; ///< of its vertices that is left
-    double error = 0.0; ///< that is allowed, and then the largest of a collapse
+    Collapsed done;
   };
 
   /** The share of the vertices of the stream that is in the window or delivered; 0 if their number
@@ -136,6 +136,7 @@ private:
   void enlarge(std::size_t capacity);
   void makeRoom();
   void collapse(std::int64_t vertices);
+  void count(const Collapsed& done);
   bool dropBodies(std::int64_t vertices);
   void fit(std::int64_t vertices);
   void shrink(std::size_t vertices);

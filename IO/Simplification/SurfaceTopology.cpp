@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SurfaceTopology.h"
 
-#include "Solver/Core/DisjointSets.h"
+#include "Solver/Core/Vector.h"
 
 #include <algorithm>
 #include <numeric>
@@ -25,6 +25,8 @@ namespace
 /** A vertex of more triangles does not go, and no other one goes to it: such stars would be
  * searched for each of their edges. */
 constexpr std::size_t MaxTriangles = 512;
+/** The least cosine of the angle by which a triangle may turn. */
+constexpr double MinCosine = 0.2;
 
 } // namespace
 
@@ -97,13 +99,13 @@ void SurfaceTopology::classify(std::uint32_t v)
     }
   }
   const std::size_t triangles = this->Pairs.size();
-  // A closed fan has as many neighbours as triangles.
-  this->Curves[v] = neighbours != triangles ? OnBoundary : 0;
   // To look at all triangles of such a vertex for each of its edges would take the square of their
   // number.
   const bool isHub = triangles > MaxTriangles;
-  this->IsFixed[v] =
-    isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? ByTopology : 0;
+  const bool isOneFan = !isHub && neighbours <= triangles + 1 && this->isFan();
+  this->IsFixed[v] = this->Open[v] != 0 || !isOneFan ? ByTopology : 0;
+  // A closed fan has as many neighbours as triangles; several fans may have as many, too.
+  this->Curves[v] = neighbours != triangles || (!isHub && !isOneFan) ? OnBoundary : 0;
   if (this->Part.isHeld(v) || (this->Part.seamOf(v) > 0 && this->Part.joinedIn(v) == 1))
   {
     this->IsFixed[v] |= ByHold;
@@ -192,7 +194,34 @@ void SurfaceTopology::move(std::uint32_t from, std::uint32_t to)
     }
   }
   this->Target[from] = to;
-  this->Touched[from] = this->Touched[to] = 1;
+  this->Touched[from] = this->Touched[to] = ByMove;
+}
+
+bool SurfaceTopology::turn(
+  std::span<const std::uint32_t> triangles, std::uint32_t v, std::uint32_t to) const
+{
+  const auto point = [this](std::uint32_t w)
+  { return this->Part.points.data() + 3 * std::size_t(w); };
+  return !this->MayTurn &&
+         std::ranges::any_of(triangles,
+           [&](std::uint32_t triangle)
+           {
+             const auto [a, b] = this->others(triangle, v);
+             // This triangle disappears, or has in this pass.
+             if (a == b || a == to || b == to)
+             {
+               return false;
+             }
+             const Vector edge = difference(point(b), point(a));
+             const Vector before = cross(edge, difference(point(v), point(a)));
+             const Vector after = cross(edge, difference(point(to), point(a)));
+             // The cosine is compared in squares, without roots and divisions. Triangles without
+             // area may turn as they like.
+             const double product = dot(before, after), size = dot(before, before);
+             return size > 0.0 &&
+                    !(product > 0.0 &&
+                      product * product > MinCosine * MinCosine * size * dot(after, after));
+           });
 }
 
 /** The edges at v of the boundary, of seams and between labels; 0 if its triangles have one label
@@ -349,8 +378,8 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     this->Seen[a] = this->Seen[b] = this->Mark;
   }
   std::size_t shared = 0, common = 0;
-  std::uint32_t opposite[2] = {};
-  bool isHeldOpposite = false;
+  this->Across.clear();
+  this->Opposite = {};
   for (const std::uint32_t t : this->star(from))
   {
     const auto [a, b] = this->others(t, from);
@@ -362,14 +391,14 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
       if (w != to && isCommon && this->Common[w] != this->Mark)
       {
         this->Common[w] = this->Mark;
+        this->Across.push_back(w);
         ++common;
       }
     }
     ofFrom += a != b ? 1 : 0;
     if (a != b && (a == to || b == to)) // a == b: collapsed in this pass
     {
-      opposite[std::min<std::size_t>(shared++, 1)] = a == to ? b : a;
-      isHeldOpposite = isHeldOpposite || this->isHeld(a == to ? b : a);
+      this->Opposite[std::min<std::size_t>(shared++, 1)] = a == to ? b : a;
     }
   }
   // Their triangles have gone in this pass; or `from` is on the boundary and would leave it.
@@ -384,17 +413,26 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     return Change::Impossible;
   }
   // The link condition: the only common neighbours are the corners opposite to the edge.
-  // Of a held vertex, a change of the topology could take all triangles away.
-  const Change pinch = isHeldOpposite ? Change::Impossible : Change::Pinch;
-  if (common != shared || shared > 2)
+  if (shared > 2)
   {
-    return pinch;
+    return Change::Impossible;
+  }
+  if (common != shared)
+  {
+    std::erase_if(this->Across,
+      [this](std::uint32_t w) { return w == this->Opposite[0] || w == this->Opposite[1]; });
+    // None of two triangles that lie on each other.
+    return this->Across.empty() ? Change::Impossible : Change::Loop;
   }
   // A triangle with two boundary edges may go, but not one with three: it is all of its body.
-  const bool isLast =
-    shared == 2 ? this->isTetrahedron(from, to, opposite)
-                : this->hasOneTriangle(from, opposite[0]) && this->hasOneTriangle(to, opposite[0]);
-  return isLast ? pinch : Change::None;
+  if (shared == 2)
+  {
+    return this->isTetrahedron(from, to, this->Opposite.data()) ? Change::Vanishing : Change::None;
+  }
+  return this->hasOneTriangle(from, this->Opposite[0]) &&
+             this->hasOneTriangle(to, this->Opposite[0])
+           ? Change::Impossible
+           : Change::None;
 }
 
 /** Whether exactly one of the triangles of v is at the edge to w. */
@@ -455,124 +493,6 @@ void SurfaceTopology::endPass()
   }
   this->Part.keepTriangles(kept);
   this->findStars();
-}
-
-/** Marks, among sorted triangles, those with the same corners that are wound against each other, in
- * pairs: each the earliest one that is left. */
-void SurfaceTopology::pairTurned(
-  std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const
-{
-  std::size_t waiting = 0; // the first triangle that has no partner, among those with its corners
-  for (std::size_t k = 0; k < triangles.size(); ++k)
-  {
-    const Triangle& one = triangles[waiting];
-    const Triangle& other = triangles[k];
-    if (one[0] != other[0] || one[1] != other[1])
-    {
-      waiting = k;
-    }
-    else if (this->isTurned(one[2], other[2]))
-    {
-      // All between them are wound as the first one, or have partners.
-      isFolded[one[2]] = isFolded[other[2]] = 1;
-      do
-      {
-        ++waiting;
-      } while (waiting <= k && isFolded[triangles[waiting][2]] != 0);
-    }
-  }
-}
-
-/** For each triangle whether it lies on another one with the same corners that is wound the other
- * way: such triangles are marked in pairs. */
-std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
-{
-  std::vector<Triangle> triangles; // those with the same least corner
-  std::vector<std::uint8_t> isFolded(this->Corners.size() / 3);
-  for (std::uint32_t least = 0; least < this->vertices(); ++least)
-  {
-    this->Polled.at(least);
-    triangles.clear();
-    for (const std::uint32_t t : this->star(least))
-    {
-      const auto [a, b] = this->others(t, least);
-      // Each triangle is looked at from its least corner, so once.
-      if (least < a && least < b)
-      {
-        triangles.push_back({ std::min(a, b), std::max(a, b), t });
-      }
-    }
-    std::ranges::sort(triangles);
-    this->pairTurned(triangles, isFolded);
-  }
-  return isFolded;
-}
-
-/** A surface that has folded triangles from the beginning keeps them: they are not the work of
- * collapses. */
-void SurfaceTopology::allowPinching()
-{
-  this->KeepsFolded = std::ranges::count(this->foldedTriangles(), 1) > 0;
-}
-
-/** Keeps the folded triangles of bodies that have no others: of a thin plate both sides come to lie
- * on each other. */
-void SurfaceTopology::keepFoldedBodies(std::vector<std::uint8_t>& isFolded) const
-{
-  DisjointSets<std::uint32_t> sets(this->vertices());
-  for (std::size_t i = 0; i < this->Corners.size(); i += 3)
-  {
-    this->Polled.at(i / 3);
-    sets.join(this->Corners[i], this->Corners[i + 1]);
-    sets.join(this->Corners[i], this->Corners[i + 2]);
-  }
-  std::vector<std::uint8_t> hasOthers(this->vertices(), 0);
-  for (std::size_t t = 0; t < isFolded.size(); ++t)
-  {
-    this->Polled.at(t);
-    hasOthers[sets.first(this->Corners[3 * t])] |= isFolded[t] == 0 ? 1 : 0;
-  }
-  for (std::size_t t = 0; t < isFolded.size(); ++t)
-  {
-    this->Polled.at(t);
-    isFolded[t] &= hasOthers[sets.first(this->Corners[3 * t])];
-  }
-}
-
-std::size_t SurfaceTopology::dropFolded()
-{
-  std::vector<std::uint8_t> isFolded = this->foldedTriangles();
-  this->keepFoldedBodies(isFolded);
-  for (std::size_t i = 0; i < this->Corners.size(); ++i)
-  {
-    this->Polled.at(i);
-    // Both triangles of a pair have the same corners.
-    isFolded[i / 3] &= this->isHeld(this->Corners[i]) ? 0 : 1;
-  }
-  if (!this->KeepsFolded)
-  {
-    this->Part.removeTriangles(
-      [&isFolded](std::size_t t) { return isFolded[t] != 0; }, this->Polled);
-  }
-  std::vector<std::uint8_t> isUsed(this->vertices(), 0);
-  const std::vector<std::uint32_t>& own =
-    this->Part.wedges.empty() ? this->Corners : this->Part.wedges;
-  for (std::size_t i = 0; i < own.size(); ++i)
-  {
-    this->Polled.at(i);
-    isUsed[own[i]] = 1;
-  }
-  this->findStars();
-  return static_cast<std::size_t>(std::ranges::count(isUsed, 1));
-}
-
-/** Whether two triangles with the same corners are wound against each other. */
-bool SurfaceTopology::isTurned(std::size_t one, std::size_t other) const
-{
-  const std::uint32_t* a = this->Corners.data() + 3 * one;
-  const std::uint32_t* b = this->Corners.data() + 3 * other;
-  const auto k = static_cast<std::size_t>(std::find(b, b + 3, a[0]) - b);
-  return b[(k + 1) % 3] == a[2];
 }
 
 } // namespace smg

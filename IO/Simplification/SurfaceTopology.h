@@ -90,22 +90,24 @@ public:
   enum class Change
   {
     None,
-    Pinch,     ///< it changes, so that edges may get more than two triangles
-    Impossible ///< the vertex may not go there, or nothing would be left of its body
+    Loop,      ///< it closes loops of three edges that bound no triangle
+    Vanishing, ///< the body is a tetrahedron, of which nothing would be left
+    Impossible ///< the vertex may not go there
   };
   Change changeBy(std::uint32_t from, std::uint32_t to);
   void move(std::uint32_t from, std::uint32_t to);
+
+  /** Whether one of some triangles of v would turn by too much, or collapse, if v were at `to`;
+   * those that disappear if v moves there do not count. After letTurn(): false. */
+  bool turn(std::span<const std::uint32_t> triangles, std::uint32_t v, std::uint32_t to) const;
+  bool mayTurn() const { return this->MayTurn; }
+  void letTurn() { this->MayTurn = true; }
   /** Ends a pass: removes the triangles that have collapsed. */
   void endPass();
 
-  /** To be called before the first pinching move. */
-  void allowPinching();
-  /** Removes pairs of triangles that lie on each other, which pinching leaves behind, unless the
-   * surface had such pairs before, or a body has nothing else. Returns the number of vertices that
-   * are left. */
-  std::size_t dropFolded();
-
 private:
+  friend class LoopCuts;
+
   /** Of an edge to a vertex of very many triangles, the other end has few. */
   bool isLarger(std::uint32_t a, std::uint32_t b) const
   {
@@ -123,14 +125,6 @@ private:
   bool isFan();
   bool hasOneTriangle(std::uint32_t v, std::uint32_t w) const;
   bool isTetrahedron(std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const;
-  bool isTurned(std::size_t one, std::size_t other) const;
-  /** The larger corners of a triangle, ascending, and its place. */
-  using Triangle = std::array<std::uint32_t, 3>;
-  void pairTurned(std::span<const Triangle> triangles, std::vector<std::uint8_t>& isFolded) const;
-  std::vector<std::uint8_t> foldedTriangles() const;
-  /** Whether a vertex is held, or on a seam that is not joined. */
-  bool isHeld(std::uint32_t v) const { return (this->IsFixed[v] & ByHold) != 0; }
-  void keepFoldedBodies(std::vector<std::uint8_t>& isFolded) const;
 
   SurfacePart& Part;
   const std::vector<std::uint32_t>& Corners;
@@ -152,17 +146,20 @@ private:
   std::vector<std::uint8_t> IsFixed, Curves;
   bool KeepsBorders = false;
   bool IsTurned = false;
-  bool KeepsFolded = false;
+  bool MayTurn = false;
   // Of a pass.
   std::vector<std::uint32_t> Begin, Stars; ///< the triangles of each vertex
   std::vector<std::uint32_t> Target;       ///< where a vertex has gone
-  std::vector<std::uint8_t> Touched;
+  std::vector<std::uint8_t> Touched;       ///< 0, or what has moved a vertex, or others to it
+  static constexpr std::uint8_t ByMove = 1, ByCut = 2;
   // Marks of vertices, valid where they are the last one.
   std::uint32_t Mark = 0;
   std::vector<std::uint32_t> Seen, Common;
   /** The other corners of the triangles of a star; or each with one of its triangles; or the
    * vertices of a seam, each with the one that it moves onto. */
   std::vector<std::array<std::uint32_t, 2>> Pairs;
+  std::vector<std::uint32_t> Across;       ///< after Change::Loop: the third vertices of the loops
+  std::array<std::uint32_t, 2> Opposite{}; ///< of the last edge that was looked at
 };
 
 } // namespace smg

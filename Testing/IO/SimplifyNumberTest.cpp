@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Simplify.h"
 
-#include "Solver/Core/DisjointSets.h"
+#include "Testing/IO/BodyOfVertices.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -49,23 +49,6 @@ IndexedTestMesh bodiesOf(
 IndexedTestMesh together(IndexedTestMesh one, const IndexedTestMesh& other)
 {
   return disjointUnion(one, other, { -1000.0, 0.0, 0.0 });
-}
-
-/** For each vertex the first one of its body. */
-std::vector<std::int64_t> bodyOfVertices(const StreamMesh& mesh)
-{
-  DisjointSets<std::int64_t> sets(static_cast<std::size_t>(mesh.vertices()));
-  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
-  {
-    sets.join(mesh.corners[i], mesh.corners[i + 1]);
-    sets.join(mesh.corners[i], mesh.corners[i + 2]);
-  }
-  std::vector<std::int64_t> bodies;
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-  {
-    bodies.push_back(sets.first(v));
-  }
-  return bodies;
 }
 
 /** The number of bodies of which no vertex is in the simplified mesh. */

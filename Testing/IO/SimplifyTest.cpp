@@ -369,6 +369,26 @@ TEST_F(Simplify, OddSurfacesDoNoHarm)
   EXPECT_LE(this->simplified(toStream(fan), toVertices(200)).vertices(), 200);
 }
 
+/** A triangle on an inner edge, whose ends have as many neighbours as triangles. */
+TEST_F(Simplify, KeepsAFinWithinTheError)
+{
+  IndexedTestMesh fin = grid(3, 3);
+  const std::int64_t tip = fin.vertices();
+  fin.positions.insert(fin.positions.end(), { 1.5, 1.5, 3.0 });
+  fin.corners.insert(fin.corners.end(), { 5, 6, tip });
+  for (const double error : { 1e-12, 1e-3, 0.05 })
+  {
+    simplify(MemoryMesh(toStream(fin)), { .error = error }, this->Folder / "fin.vsm");
+    const StreamMesh simple = collect(*VsmReader(this->Folder / "fin.vsm").source());
+    double highest = 0.0;
+    for (std::size_t i = 2; i < simple.positions.size(); i += 3)
+    {
+      highest = std::max(highest, simple.positions[i]);
+    }
+    EXPECT_EQ(highest, 3.0) << error;
+  }
+}
+
 TEST_F(Simplify, KeepsTheAreaOfAnOpenSurfaceInAnyOrder)
 {
   for (const TestOrder order : { TestOrder::BreadthFirst, TestOrder::Keep })

@@ -94,9 +94,10 @@ struct SMG_EXPORT SimplifyReport
  * a result that fits into the memory, edges of the smallest error collapse first, wherever they
  * are; of a larger one, in each part of the stream for itself. With `vertices` and without `error`,
  * the smallest bodies are left out so that the vertices are enough for 20 of each other body, or
- * all that it has, and handles may be closed where that changes the surface much less than other
- * collapses. Then the result has at most 19 vertices fewer than asked for, if the mesh has so many;
- * one that does not fit into the memory may have 2 % fewer.
+ * all that it has, and handles, bumps, small holes and bodies go where they are smaller than the
+ * errors of collapses, or the number cannot be reached otherwise; the result is manifold where the
+ * mesh is. It has at most 19 vertices fewer than asked for, if the mesh has so many; one that does
+ * not fit into the memory, or gives up borders or seams for the number, may have 5 % fewer.
  *
  * @param mesh the mesh, which is read once, and before that, if it is a surface or something is
  * held, to find seams and what is held
