@@ -211,9 +211,15 @@ struct vtkStreamingSolver::Internals
   {
     if (values)
     {
-      present = this->Self.MeshInMemory(*present);
+      const vtkSmartPointer<vtkPointSet> shown = present;
+      present = this->Self.MeshInMemory(*shown);
       this->Streamed.keepOnlyFor(smg::stampOf(this->Self, input, inputInfo));
       this->Summary = this->solveInMemory(*present, *values);
+      if (present != shown && this->Summary.error.empty())
+      {
+        this->Self.SpreadValues(*shown, this->Summary.columns, *values);
+      }
+      present = shown;
       return;
     }
     this->solveOutOfCore(input, inputInfo, *present, isOrdinary, asWhole);

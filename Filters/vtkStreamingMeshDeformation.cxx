@@ -117,6 +117,12 @@ vtkSmartPointer<vtkPointSet> vtkStreamingMeshDeformation::MeshInMemory(vtkPointS
                    : this->Superclass::MeshInMemory(input);
 }
 
+void vtkStreamingMeshDeformation::SpreadValues(
+  vtkPointSet& input, int columns, std::vector<double>& values)
+{
+  this->Internal->Dragged.follow(input, columns, values);
+}
+
 std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeCoarserTask(
   vtkPointSet& coarser)
 {

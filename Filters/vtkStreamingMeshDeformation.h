@@ -13,8 +13,8 @@
  * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
  *   the whole mesh is deformed once, out of core, as described at vtkStreamingSolver.
  * - For other requests, if the input is a preview and Solve says so, that is deformed in memory,
- *   made coarser to DragPoints. Its hierarchy is kept as long as only the motion of the handles
- *   changes, so that it follows a dragged handle immediately.
+ *   made coarser to DragPoints, whose motion all its points follow. Its hierarchy is kept as long
+ * as only the motion of the handles changes, so that it follows a dragged handle immediately.
  * - Other requests for the whole of a mesh of at most InteractivePoints points, which needs no more
  *   than MemoryLimit in memory, are treated like previews; those for larger meshes, or with several
  *   processes, like streamed requests.
@@ -106,6 +106,7 @@ protected:
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   vtkSmartPointer<vtkPointSet> MeshInMemory(vtkPointSet& input) override;
+  void SpreadValues(vtkPointSet& input, int columns, std::vector<double>& values) override;
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
   std::string WhyStreaming() override;

@@ -218,6 +218,8 @@ vtkSmartPointer<vtkPointSet> vtkStreamingSolver::MeshInMemory(vtkPointSet& input
   return &input;
 }
 
+void vtkStreamingSolver::SpreadValues(vtkPointSet&, int, std::vector<double>&) {}
+
 int vtkStreamingSolver::FillInputPortInformation(int, vtkInformation* info)
 {
   smg::acceptMeshes(*info);

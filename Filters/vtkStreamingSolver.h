@@ -248,9 +248,13 @@ protected:
   /** Whether Solve says to solve on the preview that is shown. */
   bool IsForPreview();
 
-  /** The mesh to solve on and to deliver instead of `input`, which is a preview or a whole mesh, if
-   * it is solved on in memory. Default: `input`. */
+  /** The mesh to solve on instead of `input`, which is a preview or a whole mesh, if it is solved
+   * on in memory. Default: `input`. */
   virtual vtkSmartPointer<vtkPointSet> MeshInMemory(vtkPointSet& input);
+
+  /** Replaces the values of a solution on another mesh of MeshInMemory() by those at the points of
+   * `input`. */
+  virtual void SpreadValues(vtkPointSet& input, int columns, std::vector<double>& values);
 
   /**
    * Whether the processes solve together on the pieces that they have, instead of process 0 alone

@@ -2,11 +2,13 @@
 #include "Filters/Pieces/vtkCoarserPreview.h"
 
 #include "Filters/Pieces/vtkCellParts.h"
-#include "IO/Preview/StreamPreview.h"
+#include "IO/Results/VertexNormals.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceCells.h"
 #include "Solver/Core/DisjointSets.h"
+#include "smg/Deform.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -51,6 +53,34 @@ std::vector<std::int64_t> patchSizes(
   return sizes;
 }
 
+std::vector<double> allPositions(vtkPointSet& mesh)
+{
+  std::vector<double> positions(3 * static_cast<std::size_t>(mesh.GetNumberOfPoints()));
+  for (std::size_t i = 0; i < positions.size(); i += 3)
+  {
+    mesh.GetPoint(static_cast<vtkIdType>(i / 3), positions.data() + i);
+  }
+  return positions;
+}
+
+/** The bytes of a point array; empty without one. */
+std::vector<std::uint8_t> bytesOf(vtkPointSet& mesh, const char* name)
+{
+  auto* array = vtkUnsignedCharArray::SafeDownCast(mesh.GetPointData()->GetArray(name));
+  return array ? std::vector<std::uint8_t>(
+                   array->GetPointer(0), array->GetPointer(array->GetNumberOfTuples()))
+               : std::vector<std::uint8_t>();
+}
+
+/** Where handles hold the points, 3 numbers each. */
+std::vector<double> targetsOf(vtkPointSet& mesh)
+{
+  auto* array = vtkDoubleArray::SafeDownCast(mesh.GetPointData()->GetArray(HandleTargetName));
+  return array ? std::vector<double>(
+                   array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues())
+               : std::vector<double>();
+}
+
 /** Marks what a mask is not 0 at; the arrays of pieces are none. */
 void markBy(vtkAbstractArray* array, std::vector<std::uint8_t>& marked)
 {
@@ -93,23 +123,15 @@ bool CoarserPreview::isPossible(vtkPointSet& preview)
 
 CoarserPreview::CoarserPreview(
   vtkPointSet& preview, std::int64_t most, std::span<const std::uint8_t> locked)
+  : Surface(coarserSurface(
+      allPositions(preview), cellCorners(preview, CellType::Triangle, "The preview"), locked, most))
+  , Places(vtkSmartPointer<vtkPoints>::New())
 {
-  const auto count = static_cast<std::size_t>(preview.GetNumberOfPoints());
-  std::vector<double> positions(3 * count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    preview.GetPoint(static_cast<vtkIdType>(i), positions.data() + 3 * i);
-  }
-  CoarserSurface surface = coarserSurface(
-    positions, cellCorners(preview, CellType::Triangle, "The preview"), locked, most);
-  this->Points = std::move(surface.vertices);
-  this->Corners = std::move(surface.corners);
-  this->Places = vtkSmartPointer<vtkPoints>::New();
   this->Places->SetDataType(preview.GetPoints()->GetDataType());
-  this->Places->SetNumberOfPoints(static_cast<vtkIdType>(this->Points.size()));
-  for (std::size_t i = 0; i < this->Points.size(); ++i)
+  this->Places->SetNumberOfPoints(static_cast<vtkIdType>(this->points().size()));
+  for (std::size_t i = 0; i < this->points().size(); ++i)
   {
-    this->Places->SetPoint(static_cast<vtkIdType>(i), preview.GetPoint(this->Points[i]));
+    this->Places->SetPoint(static_cast<vtkIdType>(i), preview.GetPoint(this->points()[i]));
   }
 }
 
@@ -117,10 +139,44 @@ vtkSmartPointer<vtkPointSet> CoarserPreview::of(vtkPointSet& preview) const
 {
   auto mesh = vtkSmartPointer<vtkPointSet>::Take(preview.NewInstance());
   mesh->SetPoints(this->Places);
-  setCells(*mesh, this->Corners, cornersOf(CellType::Triangle));
-  copyRows(*preview.GetPointData(), this->Points, *mesh->GetPointData());
+  setCells(*mesh, this->Surface.corners, cornersOf(CellType::Triangle));
+  copyRows(*preview.GetPointData(), this->points(), *mesh->GetPointData());
   mesh->GetFieldData()->ShallowCopy(preview.GetFieldData());
   return mesh;
+}
+
+void KeptCoarserPreview::follow(vtkPointSet& preview, int columns, std::vector<double>& rows)
+{
+  const std::vector<std::int64_t> corners = cellCorners(preview, CellType::Triangle, "The preview");
+  if (!this->Binding)
+  {
+    this->Binding.emplace(allPositions(preview), corners, this->Coarser->surface());
+  }
+  const auto stride = static_cast<std::size_t>(columns);
+  std::vector<double> moved;
+  for (std::size_t i = 0; i < rows.size(); i += stride)
+  {
+    moved.insert(moved.end(), rows.begin() + static_cast<std::ptrdiff_t>(i),
+      rows.begin() + static_cast<std::ptrdiff_t>(i + 3));
+  }
+  // Where handles hold points, all of the preview are there.
+  const std::vector<std::uint8_t> held = bytesOf(preview, HandleMaskName);
+  const std::vector<double> targets = targetsOf(preview);
+  const std::vector<double> places = targets.size() == 3 * held.size()
+                                       ? this->Binding->follow(moved, held, targets)
+                                       : this->Binding->follow(moved);
+  if (columns == 3)
+  {
+    rows = places;
+    return;
+  }
+  const std::vector<float> normals = unitNormals(normalSums({ places, corners, {} }));
+  rows.clear();
+  for (std::size_t i = 0; i < places.size(); i += 3)
+  {
+    rows.insert(rows.end(), { places[i], places[i + 1], places[i + 2] });
+    rows.insert(rows.end(), { normals[i], normals[i + 1], normals[i + 2] });
+  }
 }
 
 const CoarserPreview& KeptCoarserPreview::of(vtkPointSet& preview, std::int64_t most)
@@ -131,6 +187,7 @@ const CoarserPreview& KeptCoarserPreview::of(vtkPointSet& preview, std::int64_t 
       this->Cells != preview.GetNumberOfCells() || this->Small != small || this->Most != most)
   {
     this->Coarser.emplace(preview, most, small);
+    this->Binding.reset();
     this->Points = points;
     this->Time = points->GetMTime();
     this->Cells = preview.GetNumberOfCells();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Preview/SurfaceBinding.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
@@ -32,12 +34,13 @@ public:
   CoarserPreview(vtkPointSet& preview, std::int64_t most, std::span<const std::uint8_t> locked);
 
   /** The numbers of its points in the preview. */
-  const std::vector<std::int64_t>& points() const { return this->Points; }
+  const std::vector<std::int64_t>& points() const { return this->Surface.vertices; }
+  const CoarserSurface& surface() const { return this->Surface; }
   /** The coarser mesh with the arrays of such a preview at its points, and its field data. */
   vtkSmartPointer<vtkPointSet> of(vtkPointSet& preview) const;
 
 private:
-  std::vector<std::int64_t> Points, Corners;
+  CoarserSurface Surface;
   vtkSmartPointer<vtkPoints> Places; ///< the same in all meshes, so that these can be recognised
 };
 
@@ -50,7 +53,13 @@ public:
   /** Of at most so many points besides those of small patches. */
   const CoarserPreview& of(vtkPointSet& preview, std::int64_t most);
 
+  /** Replaces the positions of the points of the last one, in rows of `columns` numbers, by those
+   * of all points of its preview, which follow them (SurfaceBinding), or are where handles hold
+   * them; with six columns, their normals are behind them. */
+  void follow(vtkPointSet& preview, int columns, std::vector<double>& rows);
+
 private:
+  std::optional<SurfaceBinding> Binding; ///< of the preview to the coarser one, once it is needed
   std::optional<CoarserPreview> Coarser;
   vtkWeakPointer<vtkPoints> Points; ///< of the preview that it is of
   vtkMTimeType Time = 0;            ///< when they were changed

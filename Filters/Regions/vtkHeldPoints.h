@@ -8,6 +8,7 @@
 #include "Solver/Jobs/Projection/PointProjection.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkPointSet.h"
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +16,6 @@
 #include <string>
 #include <vector>
 
-class vtkPointSet;
 class vtkSelection;
 class vtkImplicitFunction;
 

@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Vector.h"
 #include "Solver/Memory/Buffer.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <span>
@@ -18,7 +19,7 @@ struct TrianglePoints
 
 /** The point of a triangle that is nearest to a point (Ericson, Real-Time Collision Detection,
  * 2005, 5.1.5). Triangles without area are allowed. */
-Vector nearestPoint(const TrianglePoints& triangle, const double* point);
+SMG_EXPORT Vector nearestPoint(const TrianglePoints& triangle, const double* point);
 
 /** A tree of bounding boxes over triangles, which finds the one nearest to a point. */
 class TriangleTree
