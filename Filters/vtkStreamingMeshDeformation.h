@@ -14,7 +14,7 @@
  *   the whole mesh is deformed once, out of core, as described at vtkStreamingSolver.
  * - For other requests, if the input is a preview and Solve says so, that is deformed in memory,
  *   made coarser to DragPoints, whose motion all its points follow. Its hierarchy is kept as long
- * as only the motion of the handles changes, so that it follows a dragged handle immediately.
+ *   as only the motion of the handles changes, so that it follows a dragged handle immediately.
  * - Other requests for the whole of a mesh of at most InteractivePoints points, which needs no more
  *   than MemoryLimit in memory, are treated like previews; those for larger meshes, or with several
  *   processes, like streamed requests.

@@ -76,7 +76,7 @@ std::string fileOf(vtkAlgorithm& filter)
       at = at->GetInputAlgorithm(0, 0);
     }
     auto* reader = vtkStreamingMeshReader::SafeDownCast(at);
-    // What has been converted since is told to what follows only with its next update.
+    // Filters behind the reader have its information of the last update, before a conversion.
     const bool isConverted = reader && reader->GetFullNumberOfPoints() >= 0;
     file = isConverted ? reader->GetOutputInformation(0)->Get(vtkStreamingMeshKeys::STREAM_FILE())
            : reader    ? static_cast<const char*>(reader->GetFileName())

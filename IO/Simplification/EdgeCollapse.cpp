@@ -132,11 +132,8 @@ public:
       left = this->Part.wedges.empty() ? left - pass.gone + pass.came : this->usedVertices();
       done.bodies += pass.bodies;
       error = std::max(error, pass.error);
-      if (left <= goal.vertices)
-      {
-        break;
-      }
-      if (goal.isRough && pass.gone < pass.came + left / RoughShare)
+      const bool isEnough = goal.isRough && pass.gone < pass.came + left / RoughShare;
+      if (left <= goal.vertices || isEnough)
       {
         break;
       }
