@@ -148,6 +148,18 @@ def lateness(arguments, kind, moment):
     return late
 
 
+def earliest(arguments, kind, moment):
+    """The best of some tries, if there is one that was not over."""
+    lates = []
+    while len(lates) < TRIES and (not lates or lates[-1] > LATEST):
+        late = lateness(arguments, kind, moment)
+        if late is None:
+            return None
+        lates.append(late)
+    assert lates[-1] <= LATEST, (arguments, kind, moment, lates)
+    return lates[-1]
+
+
 def duration(arguments):
     """How long the command takes, at most LONGEST. It may fail: some meshes are too odd for it."""
     start = time.monotonic()
@@ -175,13 +187,12 @@ def main():
         whole = duration(arguments)
         for k in range(MOMENTS):
             moment, kind = whole * numbers.random(), (signal.SIGINT, signal.SIGTERM)[(at + k) % 2]
-            lates = []
-            while len(lates) < TRIES and (not lates or lates[-1] > LATEST):
-                late = lateness(arguments, kind, moment)
-                stops += late is not None
-                lates.append(late or 0.0)
-            assert lates[-1] <= LATEST, (arguments, kind, moment, lates)
-            worst = max(worst, lates[-1])
+            late = earliest(arguments, kind, moment)
+            while late is None and moment > 0.001:  # it has been faster than when its duration was measured
+                moment *= 0.3
+                late = earliest(arguments, kind, moment)
+            stops += late is not None
+            worst = max(worst, late or 0.0)
     assert stops > len(table) // 2, stops
     print(f"{stops} stops of {len(table)} commands, the latest after {worst:.2f} s")
 
