@@ -6,20 +6,31 @@
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Problem/Selection.h"
 #include "smg/Deform.h"
+#include "smg/DescriptionFiles.h"
 #include "smg/Distance.h"
 #include "smg/Error.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkTypeInt64Array.h"
 
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingDistance);
@@ -79,7 +90,7 @@ protected:
     options.progress = given.progress;
     try
     {
-      return smg::distance(mesh, asked, options, "From");
+      return smg::distance(mesh, asked, options);
     }
     catch (const smg::Cancelled&)
     {
@@ -116,11 +127,73 @@ protected:
 
 } // namespace
 
-vtkStreamingDistance::vtkStreamingDistance() = default;
+vtkStreamingDistance::vtkStreamingDistance()
+{
+  this->SetNumberOfOutputPorts(PATHS + 1);
+}
 
 vtkStreamingDistance::~vtkStreamingDistance()
 {
   this->SetFrom(nullptr);
+  this->SetTo(nullptr);
+}
+
+int vtkStreamingDistance::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  if (port != PATHS)
+  {
+    return this->Superclass::FillOutputPortInformation(port, info);
+  }
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+int vtkStreamingDistance::RequestDataObject(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!vtkPolyData::GetData(outputVector, PATHS))
+  {
+    outputVector->GetInformationObject(PATHS)->Set(
+      vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
+  }
+  return this->Superclass::RequestDataObject(request, inputVector, outputVector);
+}
+
+void vtkStreamingDistance::FillFurtherOutputs(
+  const smg::SolveSummary& summary, vtkInformationVector& outputVector)
+{
+  this->Superclass::FillFurtherOutputs(summary, outputVector);
+  const vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const vtkNew<vtkCellArray> lines;
+  const vtkNew<vtkTypeInt64Array> to, from;
+  const vtkNew<vtkDoubleArray> length;
+  for (const smg::Report::Path& path : summary.paths)
+  {
+    if (path.points.empty())
+    {
+      continue;
+    }
+    lines->InsertNextCell(static_cast<int>(path.points.size()));
+    for (const auto& point : path.points)
+    {
+      lines->InsertCellPoint(points->InsertNextPoint(point.data()));
+    }
+    to->InsertNextValue(path.to);
+    from->InsertNextValue(path.from);
+    length->InsertNextValue(path.length);
+  }
+  vtkPolyData& paths = *vtkPolyData::GetData(&outputVector, PATHS);
+  paths.Initialize();
+  paths.SetPoints(points);
+  paths.SetLines(lines);
+  const std::pair<const char*, vtkDataArray*> arrays[] = { { "To", to }, { "From", from },
+    { "Length", length } };
+  for (const auto& [name, array] : arrays)
+  {
+    array->SetName(name);
+    paths.GetCellData()->AddArray(array);
+  }
 }
 
 smg::DistanceDescription vtkStreamingDistance::Description() const
@@ -143,6 +216,12 @@ void vtkStreamingDistance::CheckRanges() const
   this->Superclass::CheckRanges();
   smg::requireInRange({ { "Accuracy", this->Accuracy, AUTOMATIC, APPROXIMATE } });
   smg::requireInRealRange({ { "Within", this->Within, 0.0 } });
+  if (this->To && *this->To && this->Wall)
+  {
+    throw smg::Error(
+      "To are the ends of paths along a surface, which distances to a wall do not have: "
+      "leave To empty, or turn Wall off.");
+  }
   smg::requireInRange({ { "MaximumPasses", this->MaximumPasses, 1 } });
 }
 
@@ -168,6 +247,17 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& i
     task->places.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
   }
   task->regions = task->places.size();
+  if (this->To && *this->To)
+  {
+    task->description.to = smg::readPlacesText(this->To, "To");
+    for (const smg::Where& place : task->description.to)
+    {
+      if (const std::string* column = smg::columnOf(place))
+      {
+        task->arrays.insert(*column);
+      }
+    }
+  }
   return task;
 }
 
@@ -208,6 +298,7 @@ void vtkStreamingDistance::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "From: " << (this->From ? this->From : "(none)") << "\n";
+  os << indent << "To: " << (this->To ? this->To : "(none)") << "\n";
   os << indent << "Wall: " << this->Wall << "\n";
   os << indent << "Source: " << this->Source << "\n";
   os << indent << "Group: " << this->Group << "\n";

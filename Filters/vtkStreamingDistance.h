@@ -14,7 +14,8 @@
  * - For other requests, if the input is a preview and Solve says so, the distances of the preview
  * are computed in memory.
  *
- * The sources are the regions that vtkMeshRegion has marked, and From.
+ * The sources are the regions that vtkMeshRegion has marked, and From. The shortest paths to the
+ * points of To are polylines of the output PATHS.
  *
  * Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
  *
@@ -79,6 +80,21 @@ public:
   vtkBooleanMacro(Direction, bool);
   ///@}
 
+  /** The outputs besides those of vtkStreamingSolver. */
+  enum FurtherOutputPorts
+  {
+    /** A vtkPolyData with a polyline for each shortest path, from the source on, and the cell
+     * arrays To, From (numbers in the original file) and Length. */
+    PATHS = NUMBER_OF_OUTPUT_PORTS
+  };
+  ///@{
+  /** Points whose shortest paths are wanted, at most 1,000: WHERE of a problem file in JSON, or a
+   * list of these, for example {"nearest": [[0, 0, 1]]}. Of exact distances on a surface.
+   * Default: none. */
+  vtkSetStringMacro(To);
+  vtkGetStringMacro(To);
+  ///@}
+
   /** How the lengths of paths on a surface are computed. */
   enum AccuracyType
   {
@@ -114,6 +130,11 @@ protected:
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int /*columns*/) override { return 1; } // the distance
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  void FillFurtherOutputs(
+    const smg::SolveSummary& summary, vtkInformationVector& outputVector) override;
 
 private:
   vtkStreamingDistance(const vtkStreamingDistance&) = delete;
@@ -123,6 +144,7 @@ private:
   smg::DistanceDescription Description() const;
 
   char* From = nullptr;
+  char* To = nullptr;
   bool Wall = false;
   bool Source = false;
   bool Group = false;

@@ -308,11 +308,16 @@ int vtkStreamingSolver::RequestData(
         smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
       isSolved = true;
     });
-  smg::fillPasses(
-    isSolved ? this->GetSummary() : smg::SolveSummary(), *vtkTable::GetData(outputVector, PASSES));
+  this->FillFurtherOutputs(isSolved ? this->GetSummary() : smg::SolveSummary(), *outputVector);
   smg::fillText(
     isSolved ? this->Internal->Shown : smg::SolveSummary(), *vtkTable::GetData(outputVector, TEXT));
   return answered;
+}
+
+void vtkStreamingSolver::FillFurtherOutputs(
+  const smg::SolveSummary& summary, vtkInformationVector& outputVector)
+{
+  smg::fillPasses(summary, *vtkTable::GetData(&outputVector, PASSES));
 }
 
 void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)

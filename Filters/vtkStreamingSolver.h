@@ -233,6 +233,10 @@ protected:
    * points nor arrays. Default: MakeTask(). */
   virtual std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input);
 
+  /** Fills the outputs besides the mesh from a solve, or from that of none. */
+  virtual void FillFurtherOutputs(
+    const smg::SolveSummary& summary, vtkInformationVector& outputVector);
+
   /** Fills the output from a piece and the values at its points. */
   virtual void Deliver(
     vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) = 0;

@@ -53,7 +53,8 @@ bool isExactDistance(const StreamInfo& mesh, const DistanceDescription& descript
   const bool isSmall = mesh.vertices >= 0 && mesh.vertices <= MaxExactVertices;
   return description.wall || (mesh.cellType == CellType::Triangle &&
                                (description.accuracy == PathAccuracy::Exact ||
-                                 (description.accuracy == PathAccuracy::Automatic && isSmall)));
+                                 (description.accuracy == PathAccuracy::Automatic &&
+                                   (isSmall || !description.to.empty()))));
 }
 
 /** The options are checked before anything is created or read. */
@@ -69,6 +70,9 @@ std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescrip
   require(description.within > 0.0, "the largest distance must be positive"); // not NaN
   require(!description.wall || std::isinf(description.within),
     "a largest distance (within) is one of paths: leave it out with a wall");
+  require(
+    description.to.empty() || (!description.wall && isExactDistance(mesh.info(), description)),
+    "shortest paths (to) are those of exact distances on a surface");
   // The scratch folder is created here, before the mesh is read: an error of the folder comes
   // first.
   auto run = std::make_unique<DistanceRun>(options);

@@ -4,8 +4,10 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Jobs/DistanceJob.h"
+#include "IO/Results/PathFile.h"
 #include "Solver/Core/Text.h"
 #include <cstdio>
+#include <ranges>
 
 namespace
 {
@@ -35,6 +37,10 @@ public:
       "Add the column DistanceGroup: which WHERE the nearest source is of, from 0");
     command.add_flag("--direction", this->Job.description.direction,
       "Add the column DistanceDirection: the unit gradient of the distance");
+    this->To.addTo(command,
+      "Of exact distances on a surface: vertices whose shortest paths are wanted, in the report");
+    command.add_option("--path", this->PathFile,
+      "Write the shortest paths to the vertices of --to as polylines: .vtp or .obj");
     command
       .add_option_function<std::string>(
         "--accuracy",
@@ -77,6 +83,10 @@ public:
     {
       throw CLI::RequiredError("--from or --wall");
     }
+    if (!this->PathFile.empty() && !this->To.isGiven())
+    {
+      throw CLI::RequiresError("--path", "--to");
+    }
   }
 
 protected:
@@ -86,13 +96,28 @@ protected:
   {
     smg::UsedFiles files = this->MeshCommand::files();
     this->From.addFiles(files);
+    this->To.addFiles(files);
+    files.write(this->PathFile, "file of paths");
     return files;
   }
 
   void readTask() override
   {
     this->Job.description.from = this->From.places();
-    this->Job.name = "--from";
+    this->Job.description.to = this->To.places();
+    this->Job.name = "distance";
+    if (!this->PathFile.empty())
+    {
+      smg::checkPathFile(this->PathFile);
+    }
+  }
+
+  void writeMore(const smg::Report& report) const override
+  {
+    if (!this->PathFile.empty())
+    {
+      smg::writePaths(this->PathFile, report.distance->paths);
+    }
   }
 
   void warn(const smg::Report& report) const override
@@ -122,10 +147,24 @@ protected:
       std::printf(", %s not reached", smg::counted(found.unreached, "vertex", "vertices").c_str());
     }
     std::printf("\n");
+    constexpr std::size_t Shown = 10;
+    for (const smg::Report::Path& path : found.paths | std::views::take(Shown))
+    {
+      const std::string end = "  path to vertex " + std::to_string(path.to);
+      path.points.empty() ? std::printf("%s: none\n", end.c_str())
+                          : std::printf("%s: from %lld, length %.6g, %s\n", end.c_str(),
+                              static_cast<long long>(path.from), path.length,
+                              smg::counted(std::ssize(path.points), "point", "points").c_str());
+    }
+    if (found.paths.size() > Shown)
+    {
+      std::printf("  and %zu more paths\n", found.paths.size() - Shown);
+    }
   }
 
 private:
-  PlacesOption From{ "--from" };
+  PlacesOption From{ "--from" }, To{ "--to" };
+  std::string PathFile;
   smg::DistanceJob Job;
 };
 

@@ -267,6 +267,7 @@ smg::Report MeshCommand::solveAndWrite(
     { notes = out.write(mesh, result, this->job().writerMemory(), writing); },
     report, smg::partOf(progress, 0.9, 1.0));
   report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  this->writeMore(report);
   return report;
 }
 

@@ -101,6 +101,8 @@ protected:
   virtual double tolerance() const { return 0.0; }
   /** What `File` holds; empty: there is none. */
   virtual const std::string& text() const;
+  /** Writes what there is besides OUT and the report. */
+  virtual void writeMore(const smg::Report& /*report*/) const {}
   /** Warns of what the user must know at once. */
   virtual void warn(const smg::Report& report) const;
   /** Prints what was found; what it cost follows. */

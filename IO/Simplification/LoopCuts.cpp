@@ -24,8 +24,6 @@ namespace
 /** So many vertices are searched on either side of a loop for the other one. */
 constexpr std::size_t MostSearched = 64;
 
-constexpr double Infinite = std::numeric_limits<double>::infinity();
-
 } // namespace
 
 LoopCuts::LoopCuts(SurfacePart& part, SurfaceTopology& surface, double scale)
@@ -366,7 +364,7 @@ std::uint32_t LoopCuts::takeGone(std::uint32_t v, std::uint32_t owner)
 {
   constexpr int Most = 32;
   std::uint32_t before = owner;
-  double least = Infinite;
+  double least = HUGE_VAL;
   std::uint32_t at = owner;
   for (int k = 0; k < Most && this->Gone[at] != owner; ++k, at = this->Gone[at])
   {
@@ -379,7 +377,7 @@ std::uint32_t LoopCuts::takeGone(std::uint32_t v, std::uint32_t owner)
       before = at;
     }
   }
-  if (!(least < Infinite))
+  if (!(least < HUGE_VAL))
   {
     return v;
   }

@@ -212,9 +212,10 @@ std::unique_ptr<MeshJob> blendJob(const JsonNode& node)
 std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
 {
   requireKeys(node,
-    { "from", "wall", "source", "group", "direction", "accuracy", "within", "max_passes" }, false);
+    { "from", "wall", "source", "group", "direction", "to", "accuracy", "within", "max_passes" },
+    false);
   auto job = std::make_unique<DistanceJob>();
-  job->name = "from";
+  job->name = "distance";
   DistanceDescription& distance = job->description;
   distance.from = placesIn(node, "from");
   const auto flag = [&node](const char* key) { return node.has(key) && flagIn(node.member(key)); };
@@ -222,6 +223,7 @@ std::unique_ptr<MeshJob> distanceJob(const JsonNode& node)
   distance.source = flag("source");
   distance.group = flag("group");
   distance.direction = flag("direction");
+  distance.to = placesIn(node, "to");
   if (node.has("accuracy"))
   {
     distance.accuracy = static_cast<PathAccuracy>(

@@ -188,11 +188,11 @@ extern "C"
    *               "keep_edges" (degrees), "orient", "column", "tolerance", "normals"
    *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
    *   "distance"  "from" (WHERE or a list), "wall", "source", "group", "direction",
-   *               "accuracy" ("auto", "exact", "approximate"), "within", "max_passes"
-   * and of all of them "memory", "threads", "scratch", "scratch_limit", by default those that the
-   * mesh was opened with; of all that solve "sweeps", "max_cycles", "in_core"; of solve and deform
-   * "checkpoint". They mean what the options of the command line of these names mean, and have
-   * their defaults. A checkpoint goes with the field that smg_save() has written. */
+   *               "to" (WHERE or a list), "accuracy" ("auto", "exact", "approximate"), "within",
+   * "max_passes" and of all of them "memory", "threads", "scratch", "scratch_limit", by default
+   * those that the mesh was opened with; of all that solve "sweeps", "max_cycles", "in_core"; of
+   * solve and deform "checkpoint". They mean what the options of the command line of these names
+   * mean, and have their defaults. A checkpoint goes with the field that smg_save() has written. */
   SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
     smg_progress progress, void* user, smg_field** field);
 

@@ -59,7 +59,7 @@ from ._regions import (
     tag,
     vertices,
 )
-from ._report import Estimate, Report
+from ._report import Estimate, Report, ShortestPath
 from ._solver import Solver
 
 __all__ = [  # not `open`: import * would replace that of Python
@@ -76,6 +76,7 @@ __all__ = [  # not `open`: import * would replace that of Python
     "Region",
     "Report",
     "ReportWarning",
+    "ShortestPath",
     "Solver",
     "above",
     "below",

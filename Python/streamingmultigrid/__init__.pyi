@@ -120,10 +120,11 @@ class Mesh:
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
         source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
-        accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
-        max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
+        to: Optional[types.Places] = None, accuracy: Optional[types.Accuracy] = None,
+        within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
+        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+        scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
+        strict: bool = False
     ) -> Field: ...
     def simplify(
         self, vertices: Optional[int] = None, *, error: Optional[float] = None,
@@ -154,6 +155,12 @@ class Region:
     def __ror__(self, other: Any) -> Region: ...
     def __invert__(self) -> Region: ...
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> Any: ...
+
+class ShortestPath:
+    to: int
+    source: int
+    length: float
+    points: npt.NDArray[Any]
 
 class Solver:
     shape: Tuple[int, int]
@@ -199,6 +206,8 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     def __contains__(self, name: Any) -> bool: ...
     @property
     def report(self) -> Report: ...
+    @property
+    def paths(self) -> List[ShortestPath]: ...
     def to_numpy(self) -> npt.NDArray[Any]: ...
     def read(
         self, name: str, cells: Optional[bool] = None, progress: Optional[types.Progress] = None
@@ -263,10 +272,11 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
         source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
-        accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
-        max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
+        to: Optional[types.Places] = None, accuracy: Optional[types.Accuracy] = None,
+        within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
+        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+        scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
+        strict: bool = False
     ) -> Field: ...
     def simplify(
         self, vertices: Optional[int] = None, *, error: Optional[float] = None,
@@ -402,11 +412,11 @@ def dirichlet(region: types.Where, value: types.Value) -> Placed: ...
 def distance(
     points: npt.ArrayLike, cells: npt.ArrayLike, sources: Optional[types.Places] = None, *,
     wall: Optional[bool] = None, source: Optional[bool] = None, group: Optional[bool] = None,
-    direction: Optional[bool] = None, accuracy: Optional[types.Accuracy] = None,
-    within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
-    threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
-    strict: bool = False
+    direction: Optional[bool] = None, to: Optional[types.Places] = None,
+    accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
+    max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+    progress: Optional[types.Progress] = None, strict: bool = False
 ) -> Any: ...
 
 everywhere: Region
@@ -523,6 +533,7 @@ __all__ = [
     "Region",
     "Report",
     "ReportWarning",
+    "ShortestPath",
     "Solver",
     "above",
     "below",

@@ -13,7 +13,7 @@ from ._arrays import Array, copy, counted, shaped
 from ._errors import Error, InputError
 from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse
 from .progress import reporting
-from ._report import Report, warn_of
+from ._report import Report, ShortestPath, warn_of
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -298,6 +298,14 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
             self._report = self._read_report(True)
             warn_of(self._report, self._said)
         return self._report
+
+    @property
+    def paths(self) -> List[ShortestPath]:
+        """The shortest paths that `distance` was asked for by `to`, in the order of the numbers."""
+        found = self._read_report(False).get("distance", {}).get("paths")
+        if found is None:
+            raise InputError("paths: only distances with `to` have paths.")
+        return [ShortestPath.of(path) for path in found]
 
     def _read_report(self, full: bool) -> Report:
         result = c_char_p()

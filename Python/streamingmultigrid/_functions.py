@@ -57,7 +57,11 @@ def blend(points: Any, cells: Any, columns: Any, **options: Any) -> Any:
 @jobs.with_arguments_of("distance", ("points", "cells"))
 def distance(points: Any, cells: Any, sources: Any = None, **options: Any) -> Any:
     with _opened(points, cells, options) as opened:
-        return _read(opened.distance(sources, **options))
+        field = opened.distance(sources, **options)
+        if options.get("to") is None:
+            return _read(field)
+        _ = field.report
+        return {**{name: field.read(name) for name in field.names}, "paths": field.paths}
 
 
 def simplify(

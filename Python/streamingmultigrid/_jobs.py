@@ -311,6 +311,7 @@ def distance(
     source: Optional[bool] = None,
     group: Optional[bool] = None,
     direction: Optional[bool] = None,
+    to: Optional[types.Places] = None,
     accuracy: Optional[types.Accuracy] = None,
     within: Optional[float] = None,
     max_passes: Optional[int] = None,
@@ -330,6 +331,8 @@ def distance(
         group: adds the column DistanceGroup (int32): in which of the listed `sources` the nearest one
             is, from 0; -1: none.
         direction: adds the column DistanceDirection (n, 3), the unit gradient.
+        to: vertices whose shortest paths are wanted, as `sources`, at most 1,000; `paths` of the result
+            has them. Of exact distances on a surface.
         accuracy: of paths on a surface: "exact", "approximate" (ten times as fast, too long on long
             thin triangles) or "auto", exact up to 1,000,000 vertices. Default "auto".
         within: of paths, a length in the unit of the mesh: vertices that are farther are not reached.
@@ -337,14 +340,15 @@ def distance(
         memory, threads, scratch, scratch_limit, progress, strict: as of `solve`.
 
     Returns:
-        The distances: (n,) float64, in the unit of the mesh; infinite where no path leads.
+        The distances: (n,) float64, in the unit of the mesh; infinite where no path leads. With further
+        columns or `to` the function on arrays returns all of them by their names, and "paths".
     """
     del given["sources"]
     if sources is None and not wall:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
     names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceGroup"] * bool(group)
     names += ["DistanceDirection"] * bool(direction)
-    return {**given, "from": _where(added, sources)}, names
+    return {**given, "from": _where(added, sources), "to": _where(added, to)}, names
 
 
 @_job

@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 from typing import Any, Dict, List, Optional
+
+import numpy as np
 
 from ._arrays import counted
 from ._display import estimate_html, report_html
@@ -141,6 +144,26 @@ class Report(_Facts):
             )
         lines += ["  " + note for note in self.get("notes") or []]
         return lines
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ShortestPath:
+    """A shortest path of `distance`: the vertex `to`, the nearest source, both by their numbers, its
+    length in the unit of the mesh, and the corners of a polyline from the source on, (n, 3).
+
+    Where no source reaches the vertex, `source` is -1, the length is infinite, and there are no points.
+    """
+
+    to: int
+    source: int
+    length: float
+    points: np.ndarray
+
+    @classmethod
+    def of(cls, entry: Dict[str, Any]) -> ShortestPath:
+        """That of an entry of a report."""
+        length = np.inf if entry["length"] is None else entry["length"]
+        return cls(entry["to"], entry["from"], length, np.array(entry["points"], float).reshape(-1, 3))
 
 
 class Estimate(_Facts):

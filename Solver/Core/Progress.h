@@ -28,6 +28,9 @@ public:
     }
   }
 
+  /** The same as before. Throws Cancelled. */
+  void poll() { this->update(this->Done); }
+
 private:
   ProgressFunction Function;
   double Done = 0.0;

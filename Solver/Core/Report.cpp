@@ -75,6 +75,11 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
       { "unsettled", report.distance->unsettled },
       { "mesh_readings", report.distance->mesh_readings }, { "maximum", report.distance->maximum },
       { "mean", report.distance->mean } };
+    for (const Report::Path& path : report.distance->paths)
+    {
+      out["distance"]["paths"].push_back({ { "to", path.to }, { "from", path.from },
+        { "length", path.length }, { "points", path.points } });
+    }
   }
   if (report.inverted)
   {

@@ -5,6 +5,7 @@
 import json
 import math
 import os
+import re
 
 from program import load, read_vtk_xml, run, write_medit, write_torus
 from tetrahedra import tetrahedra
@@ -71,6 +72,38 @@ def test_walls_of_a_box():
     assert all(abs(value - point[2]) < 1e-6 for point, value in zip(points, floor))
 
 
+def test_paths():
+    write_torus("torus.obj", 60, 30)
+    ends, source = [11, 900, 1700], ("--from", '{"vertices": [7]}')
+    places = json.dumps({"vertices": ends})
+    away = distances("torus.obj", "away.vtp", *source, "--to", places, "--path", "path.vtp", "--report", "report.json")
+    run("distance", "torus.obj", "away.vtp", *source, "--to", places, "--path", "path.obj", "--quiet")
+    found = load("report.json")["distance"]["paths"]
+    assert sorted(path["to"] for path in found) == ends
+    with open("path.vtp", encoding="utf-8") as file:
+        text = file.read()
+    values = {name: [float(x) for x in re.search(f'"{name}"[^>]*>([^<]*)<', text)[1].split()]
+              for name in ("To", "From", "Length", "offsets")}
+    assert values["To"] == [path["to"] for path in found] and values["From"] == [7] * 3
+    assert values["offsets"][-1] == sum(len(path["points"]) for path in found)
+    with open("path.obj", encoding="utf-8") as file:
+        rows = [line.split() for line in file]
+    points = [[float(x) for x in row[1:]] for row in rows if row[0] == "v"]
+    lines = [[points[int(k) - 1] for k in row[1:]] for row in rows if row[0] == "l"]
+    assert lines == [path["points"] for path in found]
+    for path, length in zip(found, values["Length"]):
+        assert length == path["length"]
+        assert abs(sum(map(math.dist, path["points"], path["points"][1:])) - length) < 1e-12
+        assert abs(flat(away["Distance"])[path["to"]] - length) < 1e-12
+    assert "--path requires --to" in run("distance", "torus.obj", "away.vtp", *source, "--path", "p.vtp", code=2).stderr
+    for file, to, sentence in (("path.txt", places, "the file of paths must be a .vtp or an .obj file"),
+                               ("away.vtp", places, "the file of paths would overwrite it, which is the result"),
+                               ("path.vtp", '{"halfspace": [0, 0, 1, -9]}', "more than 1,000 vertices"),
+                               ("path.vtp", '{"vertices": [1800]}', "distance: to[0].vertices: the mesh has no vertex")):
+        error = run("distance", "torus.obj", "away.vtp", *source, "--to", to, "--path", file, code=1).stderr
+        assert sentence in error, error
+
+
 def test_vertices_of_no_cell_are_not_reached():
     write_torus("loose.obj", 60, 30)
     with open("loose.obj", encoding="utf-8") as file:
@@ -120,8 +153,8 @@ def test_errors():
     for arguments, sentence in (
             (("--from", "broken.json"), "broken.json: "),
             (("--from", "absent.json"), "absent.json: cannot be opened"),
-            (("--from", '{"vertices": [1800]}'), "--from: from[0].vertices: the mesh has no vertex"),
-            (("--from", '{"boundary": true}'), "--from: from[0]: no vertex of the mesh is on a boundary"),
+            (("--from", '{"vertices": [1800]}'), "distance: from[0].vertices: the mesh has no vertex"),
+            (("--from", '{"boundary": true}'), "distance: from[0]: no vertex of the mesh is on a boundary"),
             (("--wall",), "distance to walls is that of a tetrahedral mesh")):
         error = run("distance", "torus.obj", "out.vtp", *arguments, code=1).stderr
         assert sentence in error, error
@@ -129,7 +162,7 @@ def test_errors():
     assert "cannot hold a distance" in error, error
 
 
-for each in (test_columns_in_the_order_of_the_file, test_sources_add_up, test_walls_of_a_box,
+for each in (test_columns_in_the_order_of_the_file, test_sources_add_up, test_walls_of_a_box, test_paths,
              test_vertices_of_no_cell_are_not_reached, test_errors):
     each()
     print("passed", each.__name__)

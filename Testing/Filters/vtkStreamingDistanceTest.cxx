@@ -13,7 +13,9 @@
 #include "smg/Distance.h"
 #include "smg/VsmReader.h"
 
+#include "vtkCell.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkCurvatures.h"
 #include "vtkElevationFilter.h"
@@ -23,6 +25,7 @@
 #include "vtkSmoothPolyDataFilter.h"
 #include "vtkTable.h"
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -229,6 +232,44 @@ TEST_F(VtkStreamingDistance, PointsOfNoCellOfAnOrdinaryMeshAreNotReached)
   EXPECT_EQ(found->GetArray(DistanceName)->GetComponent(2, 0), 1.0);
 }
 
+TEST_F(VtkStreamingDistance, ShortestPathsArePolylines)
+{
+  DistanceDescription description = from(Region(Region::Vertices{ { 7 } }));
+  description.to = { Region(Region::Vertices{ { 500, 1200 } }) };
+  const auto expected = distance(MemoryMesh(this->Mesh), description);
+  const std::vector<Report::Path>& found = expected->report().distance->paths;
+  this->Distance->SetTo(R"({"vertices": [500, 1200]})");
+  const auto paths = [this]
+  {
+    return vtkPolyData::SafeDownCast(
+      this->Distance->GetOutputDataObject(vtkStreamingDistance::PATHS));
+  };
+  for (const int pulled : { 0, 3 })
+  {
+    this->Distance->SetNumberOfPieces(pulled);
+    ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
+    ASSERT_EQ(paths()->GetNumberOfLines(), 2);
+    for (vtkIdType k = 0; k < 2; ++k)
+    {
+      const Report::Path& path = found[static_cast<std::size_t>(k)];
+      EXPECT_EQ(paths()->GetCellData()->GetArray("To")->GetTuple1(k), path.to);
+      EXPECT_EQ(paths()->GetCellData()->GetArray("From")->GetTuple1(k), 7);
+      EXPECT_EQ(paths()->GetCellData()->GetArray("Length")->GetTuple1(k), path.length);
+      vtkPoints* points = paths()->GetCell(k)->GetPoints();
+      ASSERT_EQ(points->GetNumberOfPoints(), std::ssize(path.points));
+      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      {
+        std::array<double, 3> point;
+        points->GetPoint(i, point.data());
+        EXPECT_EQ(point, path.points[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  this->Distance->SetTo("");
+  ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
+  EXPECT_EQ(paths()->GetNumberOfLines(), 0);
+}
+
 TEST_F(VtkStreamingDistance, ThePassesAreATable)
 {
   ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
@@ -289,6 +330,11 @@ TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
   expect("This is about the preview", [&] { this->Distance->SetFrom(R"({"vertices": [7000]})"); });
   this->Reader->SetMaximumPointsInMemory(2000000);
   expect("Missing", [&] { this->Distance->SetFrom(R"({"mask": "Missing"})"); });
+  this->Distance->SetTo("{");
+  expect("To: ", [] {});
+  this->Distance->SetTo(R"({"sphere": [9, 9, 9, 1]})");
+  expect("to[0]: no vertex", [] {});
+  this->Distance->SetTo(nullptr);
   expect("tetrahedral mesh", [&] { this->Distance->WallOn(); });
 }
 

@@ -118,6 +118,23 @@ class CommandLineTest(unittest.TestCase):
         distance = smg.open(BUNNY).distance(smg.vertices([21000]), source=True, direction=True)
         for name in ("Distance", "DistanceSource", "DistanceDirection"):
             self.assertEqual(bits(distance[name]), bits(file_result("distance.vsm", name)), name)
+        run("distance", BUNNY, "distance.vsm", "--from", '{"vertices": [21000]}', "--to", '{"vertices": [5, 99]}',
+            "--report", "paths.json")
+        with open("paths.json", encoding="utf-8") as file:
+            reported = {path["to"]: path for path in json.load(file)["distance"]["paths"]}
+        paths = smg.open(BUNNY).distance(smg.vertices([21000]), to=[5, 99]).paths
+        self.assertEqual({path.to for path in paths}, {5, 99})
+        for path in paths:
+            self.assertEqual((path.source, path.length), (21000, reported[path.to]["length"]))
+            self.assertEqual(path.points.tolist(), reported[path.to]["points"])
+            self.assertAlmostEqual(np.linalg.norm(np.diff(path.points, axis=0), axis=1).sum(), distance[path.to], 12)
+        with self.assertRaisesRegex(smg.InputError, "only distances with `to`"):
+            _ = distance.paths
+        square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [9, 0, 0], [9, 1, 0], [9, 0, 1]], float)
+        found = smg.distance(square, [[0, 1, 2], [0, 2, 3], [4, 5, 6]], [0], to=[2, 5])
+        self.assertEqual(found["Distance"][2], np.sqrt(2))
+        self.assertEqual([(path.to, path.source, path.length) for path in found["paths"]], [(2, 0, np.sqrt(2)), (5, -1, np.inf)])
+        self.assertEqual([path.points.shape for path in found["paths"]], [(2, 3), (0, 3)])
         run("distance", SINK, "wall.vsm", "--wall")
         wall = smg.open(SINK).distance(wall=True)
         self.assertEqual(bits(wall.to_numpy()), bits(file_result("wall.vsm", "Distance")))

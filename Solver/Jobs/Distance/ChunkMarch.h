@@ -37,6 +37,8 @@ public:
     return static_cast<double>(this->Window.chunksRead()) /
            static_cast<double>(this->Window.mesh().count());
   }
+  /** The window, after run(). */
+  MarchWindow& window() { return this->Window; }
   /** The number of dirty vertices: those that had changes to pass on when the last pass ended. */
   std::int64_t unsettled() const;
 

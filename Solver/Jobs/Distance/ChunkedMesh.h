@@ -35,6 +35,7 @@ struct ChunkPlan
   bool singlePositions = false; ///< whether the files have positions in single precision
   bool sources = false;         ///< whether the numbers of sources are stored
   bool directions = false;      ///< whether directions are stored
+  bool arrivals = false;        ///< whether it is stored how paths arrive: PathArrival
   /** Distances beyond are not wanted. */
   double within = std::numeric_limits<double>::infinity();
 
@@ -82,6 +83,7 @@ struct ChunkedMesh
     Distances,  ///< a block without bytes: all are infinite
     Sources,    ///< a block without bytes: all are -1
     Directions, ///< a block without bytes: all are 0
+    Arrivals,   ///< a block without bytes: none has arrived
     Fronts,     ///< MarchWindow::waiting()
     StateParts
   };
@@ -105,6 +107,15 @@ struct ChunkedMesh
     return std::min(this->plan.length, this->vertices - this->firstOf(chunk));
   }
   std::int64_t count() const { return static_cast<std::int64_t>(this->chunks.size()); }
+  std::int64_t cells() const
+  {
+    std::int64_t sum = 0;
+    for (const Chunk& chunk : this->chunks)
+    {
+      sum += chunk.innerCells + chunk.crossingCells;
+    }
+    return sum;
+  }
 
   ChunkPlan plan;
   BlockStore mesh;  ///< block chunk * MeshParts + MeshPart

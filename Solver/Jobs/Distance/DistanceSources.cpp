@@ -24,7 +24,7 @@ std::size_t pointsOf(const Where& place)
 }
 
 DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place, bool grouped,
-  const StreamInfo& mesh, const std::string& name, Pool& memory)
+  const StreamInfo& mesh, const std::string& name, Pool& memory, const std::string& key)
   : Grouped(grouped)
   , Columns(mesh, name, &memory)
   , All(this->Columns)
@@ -34,7 +34,7 @@ DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place
   for (std::size_t k = 0; k < from.size(); ++k)
   {
     this->Parts.push_back(
-      this->All.add(from[k], place, ColumnOwner::Vertices, "from[" + std::to_string(k) + "]"));
+      this->All.add(from[k], place, ColumnOwner::Vertices, key + "[" + std::to_string(k) + "]"));
     this->Kinds.push_back(pointsOf(from[k]) > 0 ? PointSource : RegionSource);
   }
 }

@@ -32,11 +32,11 @@ std::size_t pointsOf(const Where& place);
 class DistanceSources
 {
 public:
-  /** `place` is what is selected, `name` the name of the description in messages; `memory` accounts
-   * for open vertices. `grouped`: labels have the places, too. Throws Error if a selection is
-   * invalid. */
+  /** `place` is what is selected, `name` the name of the description in messages, and `key` that of
+   * `from` in it; `memory` accounts for open vertices. `grouped`: labels have the places, too.
+   * Throws Error if a selection is invalid. */
   DistanceSources(const std::vector<Where>& from, DataPlace place, bool grouped,
-    const StreamInfo& mesh, const std::string& name, Pool& memory);
+    const StreamInfo& mesh, const std::string& name, Pool& memory, const std::string& key = "from");
 
   /** The stream with the columns that the selections need. */
   std::unique_ptr<MeshSource> read(const StoredMesh& mesh) const;

@@ -154,4 +154,13 @@ struct FrontInterval
   bool isOfRegion;    ///< whether the source is one of a region
 };
 
+/** How the shortest path arrives at a vertex: across an edge, from an image in the plane of the
+ * triangle beyond it, or along an edge. */
+struct PathArrival
+{
+  std::uint32_t first = FrontInterval::None, ///< the corners of the edge that is crossed,
+    second = FrontInterval::None;            ///< or twice the other end of the edge along which
+  FrontImage image;                          ///< in the frame of the edge that is crossed
+};
+
 } // namespace smg

@@ -153,7 +153,7 @@ Vector GeodesicMarch::pointOf(std::uint32_t first, std::uint32_t second, double 
 }
 
 void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source, std::uint8_t front,
-  const Vector& crossing, std::uint32_t via)
+  const Vector& crossing, std::uint32_t via, const PathArrival& arrival)
 {
   double& known = this->Window.distance()[v];
   if (distance > this->Window.mesh().plan.within)
@@ -170,6 +170,7 @@ void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source,
       sources[v] = source;
     }
     this->Window.arrive(v, crossing, via);
+    this->Window.arrive(v, arrival);
     this->Queue.put(v | VertexBit, distance);
   }
   else if ((front & Straight) != 0 && distance <= known + Same * known && known > 0)
@@ -202,7 +203,7 @@ void GeodesicMarch::leave(std::uint32_t v)
       for (const std::uint32_t w : { p, q })
       {
         this->offer(w, distance + this->lengthOf(v, w), this->sourceOf(v), flags & OfRegion,
-          this->pointOf(v, v, 0.0), v);
+          this->pointOf(v, v, 0.0), v, { v, v, {} });
         const bool isCurve = (flags & this->Window.flags()[w] & Straight) != 0 && distance == 0 &&
                              this->Window.distance()[w] == 0;
         if (isCurve && hasAll)
@@ -435,7 +436,7 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
     const double share = std::clamp(crossing, interval.begin, interval.end) / length;
     this->offer(triangle.corner, image.at(x, y), interval.source, static_cast<std::uint8_t>(front),
       this->pointOf(interval.first, interval.second, share),
-      share < 0.5 ? interval.first : interval.second);
+      share < 0.5 ? interval.first : interval.second, { interval.first, interval.second, image });
   }
   const double known = this->Window.distance()[triangle.corner];
   const std::uint32_t a = interval.first, b = interval.second, c = triangle.corner;

@@ -52,7 +52,7 @@ private:
   void wait(const FrontInterval& interval);
   /** `front`: flags Straight and OfRegion; `crossing`, `via`: see MarchWindow::arrive(). */
   void offer(std::uint32_t v, double distance, std::int64_t source, std::uint8_t front,
-    const Vector& crossing, std::uint32_t via);
+    const Vector& crossing, std::uint32_t via, const PathArrival& arrival);
   /** The point of an edge that is this share of it away from its first corner. */
   Vector pointOf(std::uint32_t first, std::uint32_t second, double share) const;
   bool isOfRegion(std::uint32_t v) const { return (this->Window.flags()[v] & OfRegion) != 0; }

@@ -11,7 +11,7 @@
 // new one is read into the slot (chunk mod 4) of one that left.
 //
 // Chunks have a fixed number of vertices, so the memory is known before the march: 45 bytes per
-// vertex (8 more with sources, 12 with directions) and the lists of cells.
+// vertex (8 more with sources, 12 with directions, 40 with paths) and the lists of cells.
 
 namespace smg
 {
@@ -20,13 +20,14 @@ namespace
 {
 
 /** Bytes of a vertex: position and distance, the facet of `via`, flags, and what is wanted of its
- * source and direction. */
+ * source, direction and path. */
 std::int64_t vertexBytes(const ChunkPlan& plan)
 {
   return 4 * std::int64_t(sizeof(double)) + 3 * std::int64_t(sizeof(std::uint32_t)) +
          std::int64_t(sizeof(std::uint8_t)) +
          (plan.sources ? std::int64_t(sizeof(std::int64_t)) : 0) +
-         (plan.directions ? 3 * std::int64_t(sizeof(float)) : 0);
+         (plan.directions ? 3 * std::int64_t(sizeof(float)) : 0) +
+         (plan.arrivals ? std::int64_t(sizeof(PathArrival)) : 0);
 }
 
 /** The vertices of a window, which may be longer than the mesh. */
@@ -72,6 +73,10 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   if (mesh.plan.sources)
   {
     part(this->Source, 1);
+  }
+  if (mesh.plan.arrivals)
+  {
+    part(this->Arrival, 1);
   }
   if (mesh.plan.directions)
   {
@@ -248,6 +253,10 @@ void MarchWindow::loadState(std::int64_t chunk)
   {
     readOr(this->directions(chunk), ChunkedMesh::Directions, 0.0F);
   }
+  if (this->Arrival)
+  {
+    readOr(this->of(this->Arrival, chunk), ChunkedMesh::Arrivals, PathArrival());
+  }
 }
 
 /** Writes the state of a chunk if any vertex has changed: chunks that the front only passes by are
@@ -276,6 +285,10 @@ void MarchWindow::write(std::int64_t chunk)
   if (this->Direction)
   {
     store(this->directions(chunk), ChunkedMesh::Directions);
+  }
+  if (this->Arrival)
+  {
+    store(this->of(this->Arrival, chunk), ChunkedMesh::Arrivals);
   }
   store(std::span(this->waiting(chunk)), ChunkedMesh::Fronts);
 }

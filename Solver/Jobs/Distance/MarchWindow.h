@@ -177,6 +177,15 @@ public:
     const bool isRegion = !this->Source || (this->Flag[vertex] & OfRegion) != 0;
     return isRegion ? -1 : this->Source[vertex];
   }
+  /** How the path arrives, if that is wanted. */
+  void arrive(std::uint32_t vertex, const PathArrival& arrival)
+  {
+    if (this->Arrival)
+    {
+      this->Arrival[vertex] = arrival;
+    }
+  }
+  const PathArrival& arrival(std::uint32_t vertex) const { return this->Arrival[vertex]; }
   /** The corners of the facet across which the front came to a vertex, padded with NoVertex; all
    * NoVertex if that is not known, as after the chunk has been read again. */
   std::array<std::uint32_t, 3>* via() const { return this->Via; }
@@ -237,7 +246,8 @@ private:
   Buffer Memory; ///< of the vertices
   double *Point, *Distance;
   std::int64_t* Source = nullptr;
-  float* Direction = nullptr; ///< null if they are not wanted
+  float* Direction = nullptr;     ///< null if they are not wanted
+  PathArrival* Arrival = nullptr; ///< null if they are not wanted
   std::array<std::uint32_t, 3>* Via = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;

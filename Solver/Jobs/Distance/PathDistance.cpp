@@ -6,6 +6,7 @@
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/GeodesicMarch.h"
 #include "Solver/Jobs/Distance/March.h"
+#include "Solver/Jobs/Distance/ShortestPath.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "Solver/Mesh/StreamCheck.h"
 
@@ -187,8 +188,49 @@ std::unique_ptr<ChunkMarch> marchOf(ChunkedMesh& chunks, bool isExact, Pool& poo
   return std::make_unique<March>(chunks, pool);
 }
 
-/** Marches, and reports the passes. */
-void march(ChunkedMesh& chunks, bool isExact, DistanceRun& run)
+/** A vertex whose path is wanted. */
+struct PathEnd
+{
+  std::int64_t vertex, number; ///< in the stream, in the original file
+};
+
+/** The vertices whose paths are wanted: takes readings of the mesh of its own. */
+std::vector<PathEnd> pathEnds(const StoredMesh& mesh, const DistanceDescription& description,
+  const std::string& name, DistanceRun& run)
+{
+  std::vector<PathEnd> ends;
+  if (description.to.empty())
+  {
+    return ends;
+  }
+  DistanceSources selected(
+    description.to, DataPlace::Vertices, false, mesh.info(), name, run.pool, "to");
+  selected.prepare(mesh, run.scratch.path());
+  const std::unique_ptr<MeshSource> source = selected.read(mesh);
+  for (MeshBlock block; source->next(block);)
+  {
+    run.progress.poll();
+    const std::span<const std::uint8_t> isEnd = selected.verticesAt(block);
+    for (std::size_t i = 0; i < isEnd.size(); ++i)
+    {
+      if (isEnd[i])
+      {
+        ends.push_back(
+          { block.firstVertex + static_cast<std::int64_t>(i), selected.numberOf(block, i) });
+      }
+    }
+    if (std::ssize(ends) > MaxPaths)
+    {
+      throw Error(name + ": to: paths to more than " + groupedDigits(MaxPaths) +
+                  " vertices are selected, which is the largest number.");
+    }
+  }
+  selected.finish();
+  return ends;
+}
+
+/** Marches, reports the passes, and follows paths. */
+void march(ChunkedMesh& chunks, bool isExact, const std::vector<PathEnd>& ends, DistanceRun& run)
 {
   const std::unique_ptr<ChunkMarch> marching = marchOf(chunks, isExact, run.pool);
   Report& report = run.report;
@@ -207,6 +249,20 @@ void march(ChunkedMesh& chunks, bool isExact, DistanceRun& run)
                            counted(report.distance->unsettled, "vertex", "vertices") +
                            " had changes to pass on: some distances are too large.");
   }
+  ShortestPath path(marching->window(), run.progress);
+  for (const PathEnd& end : ends)
+  {
+    Report::Path found = path.to(end.vertex);
+    found.to = end.number;
+    run.pool.acquire(std::ssize(found.points) * std::int64_t(sizeof(found.points[0])));
+    if (found.points.empty() && std::isfinite(found.length))
+    {
+      report.notes.push_back("The shortest path to vertex " + std::to_string(end.number) +
+                             " could not be followed: it is left out.");
+    }
+    report.distance->paths.push_back(std::move(found));
+  }
+  std::ranges::sort(report.distance->paths, {}, &Report::Path::to);
 }
 
 /** Makes what is farther than wanted as if it had not been reached. */
@@ -301,11 +357,12 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     std::in_place, description.from, DataPlace::Vertices, description.group, info, name, run->pool);
   const bool isExact = isExactDistance(info, description);
   // Where the fronts of several points meet, each cell must know which ones.
-  const bool needSources =
-    description.source || description.group || (!isExact && haveSeveralFronts(description));
+  const bool needSources = description.source || description.group || !description.to.empty() ||
+                           (!isExact && haveSeveralFronts(description));
   ChunkPlan plan = ChunkPlan::of(
     info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources, description.direction);
   plan.within = description.within;
+  plan.arrivals = !description.to.empty();
   if (chunkVertices > 0)
   {
     // Tests take short chunks, so that small meshes have many.
@@ -326,6 +383,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   ChunkedMesh& chunks = files->chunks;
   noteAccuracy(info, description, isExact, run->report);
   const Timer building;
+  const std::vector<PathEnd> ends = pathEnds(mesh, description, name, *run);
   sources->prepare(mesh, run->scratch.path());
   readMesh(mesh, *sources, chunks, *run);
   // Gives its memory back before the march.
@@ -335,7 +393,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   checkMemory(
     neededBytes(plan, isExact, chunks.vertices, largest.innerCells, largest.crossingCells),
     run->pool);
-  march(chunks, isExact, *run);
+  march(chunks, isExact, ends, *run);
   leaveOutFar(chunks);
   const std::vector<StoredColumn> columns = columnsOf(*files, description);
   // The solution owns the run from here on; its report is completed after that.

@@ -215,7 +215,9 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
 {
   const bool surface = info.cellType == CellType::Triangle;
   const auto vertices = static_cast<double>(info.vertices);
-  const double numbers = 1.0 + description.source + description.group + 3.0 * description.direction;
+  const bool hasPaths = !description.to.empty();
+  const double numbers =
+    1.0 + description.source + description.group + 3.0 * description.direction + 6.0 * hasPaths;
   Costs costs;
   if (description.wall)
   {
@@ -241,10 +243,11 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   if (isExactDistance(info, description))
   {
     // See GeodesicMarch::bytes() and ChunkPlan: about half of what is allowed for intervals.
-    constexpr std::int64_t LeastBytes = 2 << 20, BytesOfVertex = 120, ChunkVertices = 16384;
+    constexpr std::int64_t LeastBytes = 2 << 20, ChunkVertices = 16384;
+    const std::int64_t bytesOfVertex = 120 + (hasPaths ? 40 : 0);
     constexpr double ExactSeconds = 14e-6;
     const std::int64_t window = 4 * std::max(16 * info.span, ChunkVertices);
-    costs.memory += LeastBytes + BytesOfVertex * std::min(info.vertices, window);
+    costs.memory += LeastBytes + bytesOfVertex * std::min(info.vertices, window);
     costs.seconds = vertices * ExactSeconds;
   }
   return costs;

@@ -39,6 +39,9 @@ enum class PathAccuracy : std::uint8_t
 /** Up to how many vertices PathAccuracy::Automatic is exact. */
 inline constexpr std::int64_t MaxExactVertices = 1'000'000;
 
+/** The largest number of vertices of DistanceDescription::to. */
+inline constexpr std::int64_t MaxPaths = 1000;
+
 /** A distance: from what, and which of its results are wanted. */
 struct DistanceDescription
 {
@@ -65,6 +68,11 @@ struct DistanceDescription
   bool group = false;
   /** The unit gradient: where the shortest path comes from, away from the source. 0 at sources. */
   bool direction = false;
+  /**
+   * Vertices whose shortest paths are wanted, at most MaxPaths: Report::Distance::paths. Paths are
+   * those on a surface of exact distances, which Automatic then chooses.
+   */
+  std::vector<Where> to = {};
   /** Of paths on a surface. */
   PathAccuracy accuracy = PathAccuracy::Automatic;
   /** Of paths, more than 0, in the unit of the mesh: a vertex that is farther counts as not

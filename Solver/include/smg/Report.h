@@ -91,6 +91,17 @@ struct SMG_EXPORT Report
     double swept = 0;
   };
 
+  /** A shortest path from a source to a vertex. */
+  struct Path
+  {
+    std::int64_t to = -1;   ///< the number of the vertex in the original file, or in the stream
+    std::int64_t from = -1; ///< that of the source; -1: none reaches the vertex
+    double length = 0;      ///< in the unit of the mesh; infinite if none reaches the vertex
+    /** The corners of a polyline on the surface, from the source on. Empty if no source reaches the
+     * vertex. */
+    std::vector<std::array<double, 3>> points;
+  };
+
   /** What a distance found. */
   struct Distance
   {
@@ -104,6 +115,8 @@ struct SMG_EXPORT Report
     double mesh_readings = 0;
     double maximum = 0; ///< of the distances that are finite
     double mean = 0;    ///< of the vertices whose distance is finite
+    /** To the vertices that DistanceDescription::to selects, in the order of their numbers. */
+    std::vector<Path> paths;
   };
 
   /** The cells that a deformation inverts, in the precision of the deformed mesh: tetrahedra whose

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/ShortestPath.h"
+
+#include "Solver/Core/Vector.h"
+#include "Solver/Jobs/Distance/SourceLabel.h"
+
+#include <algorithm>
+#include <cmath>
+
+// A shortest path on a surface of triangles is straight between the vertices at which it turns. So
+// from a vertex it runs towards one image of the next of these (FrontInterval.h), which the march
+// has stored. It is followed from edge to edge, with the image unfolded into the plane of each next
+// triangle, until the way by a corner is as short as going on: the path passes there, and goes on
+// with the image of that corner, so that rounding does not add up.
+//
+// Cost: the triangles that are crossed, and reading their chunks of the stream.
+
+namespace smg
+{
+
+namespace
+{
+
+/** A way by a corner is as short as the path if it is longer by at most this share of what is left.
+ */
+constexpr double AsShort = 1e-10;
+
+double lengthBetween(const double* a, const double* b)
+{
+  const Vector edge = difference(a, b);
+  return std::sqrt(dot(edge, edge));
+}
+
+} // namespace
+
+Report::Path ShortestPath::to(std::int64_t vertex)
+{
+  const ChunkPlan& plan = this->Window.mesh().plan;
+  this->Middle = -1;
+  this->Window.show(vertex / plan.length, vertex / plan.length);
+  this->Path = {};
+  std::uint32_t v = plan.local(vertex);
+  const double whole = this->Window.distance()[v];
+  if (std::isinf(whole))
+  {
+    this->Path.length = whole;
+    return this->Path;
+  }
+  const auto pass = [this](std::uint32_t at)
+  {
+    const double* const point = this->Window.point(at);
+    this->add({ point[0], point[1], point[2] });
+    this->Path.from = numberOfLabel(this->Window.source()[at]);
+  };
+  pass(v);
+  while (v != None && this->Window.distance()[v] > 0)
+  {
+    this->Reported.poll();
+    this->showAround(v, v);
+    const PathArrival& arrival = this->Window.arrival(v);
+    v = arrival.first == arrival.second ? arrival.first : this->passStraight(v);
+    if (v != None)
+    {
+      pass(v);
+    }
+  }
+  if (this->Path.from < 0)
+  {
+    this->Path.points.clear();
+    this->Path.length = whole;
+  }
+  std::ranges::reverse(this->Path.points);
+  return this->Path;
+}
+
+std::uint32_t ShortestPath::passStraight(std::uint32_t vertex)
+{
+  const double whole = this->Window.distance()[vertex];
+  this->Path.from = -1;
+  Crossing crossing = this->firstCrossing(vertex);
+  std::uint32_t nearest = None;
+  // A straight path crosses no triangle twice.
+  for (std::int64_t triangles = this->Window.mesh().cells();
+       triangles > 0 && crossing.image.depth > 0; --triangles)
+  {
+    const double* const origin = this->Window.point(crossing.a);
+    const Vector edge = difference(this->Window.point(crossing.b), origin);
+    const double share = crossing.at / crossing.length, left = crossing.left();
+    this->add(
+      { origin[0] + share * edge[0], origin[1] + share * edge[1], origin[2] + share * edge[2] });
+    if (crossing.image.isStraight && left <= AsShort * whole)
+    {
+      this->Path.from = numberOfLabel(this->Window.source()[share < 0.5 ? crossing.a : crossing.b]);
+      return None;
+    }
+    this->showAround(crossing.a, crossing.b);
+    const std::uint32_t corner = this->cornerBeyond(crossing);
+    nearest = None;
+    for (const std::uint32_t v : { crossing.a, crossing.b, corner })
+    {
+      const bool isNearer = v != None && this->Window.distance()[v] < whole &&
+                            (nearest == None || this->by(v) < this->by(nearest));
+      nearest = isNearer ? v : nearest;
+    }
+    if (corner == None || (nearest != None && this->by(nearest) <= (1 + AsShort) * left))
+    {
+      break;
+    }
+    crossing = this->next(crossing, corner);
+  }
+  return nearest;
+}
+
+ShortestPath::Crossing ShortestPath::firstCrossing(std::uint32_t vertex) const
+{
+  const PathArrival& arrival = this->Window.arrival(vertex);
+  Crossing first{ arrival.first, arrival.second, vertex, arrival.image };
+  const double* const origin = this->Window.point(first.a);
+  const Vector edge = difference(this->Window.point(first.b), origin);
+  const Vector to = difference(this->Window.point(vertex), origin);
+  const Vector normal = cross(edge, to);
+  first.length = std::sqrt(dot(edge, edge));
+  const double x = dot(edge, to) / first.length, y = std::sqrt(dot(normal, normal)) / first.length;
+  first.at = std::clamp(first.image.crossing(x, y), 0.0, first.length);
+  return first;
+}
+
+std::uint32_t ShortestPath::cornerBeyond(const Crossing& crossing) const
+{
+  std::uint32_t nearest = None;
+  this->Window.forCellsOf<3>(crossing.a,
+    [&](const std::uint32_t* cell)
+    {
+      std::uint32_t corner = None;
+      int found = 0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const bool isOfEdge = cell[k] == crossing.a || cell[k] == crossing.b;
+        found += isOfEdge ? 1 : 0;
+        corner = isOfEdge ? corner : cell[k];
+      }
+      if (found == 2 && corner != crossing.passed &&
+          (nearest == None || this->by(corner) < this->by(nearest)))
+      {
+        nearest = corner;
+      }
+    });
+  return nearest;
+}
+
+ShortestPath::Crossing ShortestPath::next(Crossing crossing, std::uint32_t corner) const
+{
+  // Of the corner below the edge: where it is along the edge, and how deep.
+  const Vector edge = difference(this->Window.point(crossing.b), this->Window.point(crossing.a));
+  const Vector to = difference(this->Window.point(corner), this->Window.point(crossing.a));
+  const Vector normal = cross(edge, to);
+  double x = dot(edge, to) / crossing.length;
+  const double y = std::sqrt(dot(normal, normal)) / crossing.length;
+  const FrontImage& image = crossing.image;
+  // Where the path is at the depth of the corner.
+  const double across = image.isStraight ? crossing.at - y * image.x / image.depth
+                                         : crossing.at + y * (image.x - crossing.at) / image.depth;
+  if (across > x)
+  {
+    std::swap(crossing.a, crossing.b);
+    crossing.image = image.reversed(crossing.length);
+    crossing.at = crossing.length - crossing.at;
+    x = crossing.length - x;
+  }
+  // Not from x and y, whose errors would grow from triangle to triangle.
+  const double length = lengthBetween(this->Window.point(crossing.a), this->Window.point(corner));
+  Crossing beyond{ crossing.a, corner, crossing.b, crossing.image.beyond(x, -y, length) };
+  beyond.length = length;
+  beyond.at = std::clamp(
+    beyond.image.crossing(crossing.at * x / length, crossing.at * y / length), 0.0, length);
+  return beyond;
+}
+
+void ShortestPath::showAround(std::uint32_t a, std::uint32_t b)
+{
+  // A cell extends from its own chunk to the one before.
+  const std::int64_t chunk = std::max(this->Window.chunkOf(a), this->Window.chunkOf(b));
+  if (chunk != this->Middle)
+  {
+    this->Reported.poll();
+    this->Window.show(
+      std::max<std::int64_t>(chunk - 1, 0), std::min(chunk + 1, this->Window.mesh().count() - 1));
+    this->Middle = chunk;
+  }
+}
+
+double ShortestPath::by(std::uint32_t vertex) const
+{
+  return this->Window.distance()[vertex] +
+         lengthBetween(this->Path.points.back().data(), this->Window.point(vertex));
+}
+
+void ShortestPath::add(const Vector& point)
+{
+  auto& points = this->Path.points;
+  if (points.empty() || points.back() != point)
+  {
+    this->Path.length += points.empty() ? 0.0 : lengthBetween(points.back().data(), point.data());
+    points.push_back(point);
+  }
+}
+
+} // namespace smg

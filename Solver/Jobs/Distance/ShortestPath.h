@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Jobs/Distance/MarchWindow.h"
+#include "smg/Report.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** Follows the shortest path from a vertex back to its source, after a march of exact distances
+ * that has stored how paths arrive (ChunkPlan::arrivals). Moves the window along the path. */
+class ShortestPath
+{
+public:
+  ShortestPath(MarchWindow& window, Progress& progress)
+    : Window(window)
+    , Reported(progress)
+  {
+  }
+
+  /** The path to a vertex of the stream; without points if no source reaches it. Its length is the
+   * distance if it cannot be followed, which is not expected. Its number is left to the caller.
+   * Throws Cancelled. */
+  Report::Path to(std::int64_t vertex);
+
+private:
+  /** No vertex: the path has ended at the edge between two sources. */
+  static constexpr std::uint32_t None = MarchWindow::NoVertex;
+
+  /** An edge that the path crosses. */
+  struct Crossing
+  {
+    std::uint32_t a, b;   ///< the corners: places in the window
+    std::uint32_t passed; ///< the third corner of the triangle that has been passed
+    FrontImage image;     ///< where the path goes to, in the frame from `a` to `b`
+    double at = 0;        ///< where it crosses, in this frame
+    double length = 0;    ///< of the edge
+    double left() const { return this->image.at(this->at); }
+  };
+
+  /** Shows all triangles of the edge between two vertices that are shown. */
+  void showAround(std::uint32_t a, std::uint32_t b);
+  /** Follows the straight part up to a vertex, and returns the next vertex on the path. */
+  std::uint32_t passStraight(std::uint32_t vertex);
+  Crossing firstCrossing(std::uint32_t vertex) const;
+  /** The corner of the triangle beyond an edge, None at the boundary. Of several triangles the one
+   * by whose corner the path is shortest. */
+  std::uint32_t cornerBeyond(const Crossing& crossing) const;
+  /** The crossing of the other edge of the triangle beyond with this corner. */
+  Crossing next(Crossing crossing, std::uint32_t corner) const;
+  /** How long the path is that goes straight to a vertex of the triangle it is in. */
+  double by(std::uint32_t vertex) const;
+  void add(const Vector& point);
+
+  MarchWindow& Window;
+  std::int64_t Middle = -1; ///< of the chunks that are shown
+  Progress& Reported;
+  Report::Path Path;
+};
+
+} // namespace smg
