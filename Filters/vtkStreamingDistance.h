@@ -99,7 +99,7 @@ public:
   enum AccuracyType
   {
     AUTOMATIC,  ///< exact up to 1,000,000 points
-    EXACT,      ///< up to rounding, in 10 to 40 us a point
+    EXACT,      ///< up to rounding, in 10 to 50 us a point
     APPROXIMATE ///< too long on long thin triangles, in about 1 us a point
   };
   ///@{

@@ -50,7 +50,8 @@ public:
                                            : name == "approximate" ? smg::PathAccuracy::Approximate
                                                                    : smg::PathAccuracy::Automatic;
         },
-        "Of paths on a surface: exact (10 to 40 us a vertex), approximate (about 1 us, too long on "
+        "Of paths on a surface: exact (10 to 50 us a vertex of a scan, more on smooth ones), "
+        "approximate (about 1 us, too long on "
         "long thin triangles), or auto: exact up to 1,000,000 vertices")
       ->check(oneOf({ "auto", "exact", "approximate" }))
       ->default_str("auto");

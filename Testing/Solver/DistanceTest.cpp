@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Estimate/Costs.h"
 #include "Testing/Solver/DistanceTesting.h"
 
 #include <gtest/gtest.h>
@@ -418,6 +419,29 @@ TEST(Distance, AcrossASeamOfThreeSheetsIsExact)
       return std::hypot(x - (p[2] == 0 ? across : -across), y - p[1]);
     });
   EXPECT_LT(errors.largest, 1e-6);
+}
+
+/** Processor time, measured on two cores that other programs shared. */
+TEST(Distance, ExactOnesOfScansTakeAtMostWhatIsExpected)
+{
+  struct Scan
+  {
+    const char* name;
+    std::int64_t vertices;
+    double microseconds; ///< per vertex
+  };
+  for (const Scan& scan :
+    { Scan{ "bunny", 34'834, 18.0 }, { "armadillo", 43'243, 8.6 }, { "elephant", 44'460, 20.6 },
+      { "horse", 48'485, 28.7 }, { "lucy", 49'987, 10.8 }, { "range map", 62'361, 24.1 },
+      { "noisy bunny, refined", 139'122, 48.7 }, { "brain", 168'390, 14.7 },
+      { "dragon", 437'645, 55.0 }, { "armadillo, refined twice", 691'858, 31.4 } })
+  {
+    StreamInfo info;
+    info.vertices = scan.vertices;
+    const double expected = distanceCosts(info, {}).seconds / static_cast<double>(scan.vertices);
+    EXPECT_GE(expected, 1e-6 * scan.microseconds) << scan.name;
+    EXPECT_LE(expected, 5e-6 * scan.microseconds) << scan.name;
+  }
 }
 
 } // namespace smg::testing

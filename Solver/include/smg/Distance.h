@@ -32,7 +32,7 @@ inline constexpr const char* DistanceDirectionName = "DistanceDirection";
 enum class PathAccuracy : std::uint8_t
 {
   Automatic,  ///< exact on surfaces that are known to have at most MaxExactVertices vertices
-  Exact,      ///< up to rounding: the shortest paths on the triangles; takes 10 to 40 us a vertex
+  Exact,      ///< up to rounding: the shortest paths on the triangles; takes 10 to 50 us a vertex
   Approximate ///< within some 1 % on scans, too long on long thin triangles; about 1 us a vertex
 };
 
