@@ -185,7 +185,8 @@ struct vtkRegionFilter::Internals
       if (this->Count.points() == 0)
       {
         this->NoPoint.warn(
-          "No point of the preview lies in the region, though points of the mesh may.");
+          std::string("No point of the preview lies in the region, though points of the mesh may") +
+          (smg::isSurfaceOfSolid(piece) ? std::string(": ") + smg::RemedyOfSurface + "." : "."));
       }
       else
       {

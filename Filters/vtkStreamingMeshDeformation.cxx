@@ -112,6 +112,7 @@ bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
 vtkSmartPointer<vtkPointSet> vtkStreamingMeshDeformation::MeshInMemory(vtkPointSet& input)
 {
   const bool isCoarser = smg::isPreview(input) && input.GetNumberOfPoints() > this->DragPoints &&
+                         smg::HandleArrays::holdAny(input) &&
                          smg::CoarserPreview::isPossible(input);
   return isCoarser ? this->Internal->Dragged.of(input, this->DragPoints).of(input)
                    : this->Superclass::MeshInMemory(input);
@@ -130,6 +131,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeCoarserTask(
   auto& deformation = static_cast<smg::DeformationTask&>(*task);
   deformation.interactive = &this->Internal->ForDoubt;
   deformation.needsNormals = false;
+  deformation.needsHandles = true; // otherwise nothing is in doubt
   return task;
 }
 

@@ -120,6 +120,12 @@ void HandleArrays::require(vtkPointSet& mesh)
   requirePlaces(mesh);
 }
 
+bool HandleArrays::holdAny(vtkPointSet& mesh)
+{
+  vtkDataArray* mask = mesh.GetPointData()->GetArray(HandleMaskName);
+  return mask && mask->GetNumberOfTuples() > 0 && mask->GetRange()[1] != 0.0;
+}
+
 void HandleArrays::forgetPlaces(vtkPointData& points)
 {
   points.RemoveArray(PlaceName);

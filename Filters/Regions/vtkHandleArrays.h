@@ -29,6 +29,8 @@ public:
   /** Throws Error unless the points have all four with the correct number of components, and are
    * where the handles held them. */
   static void require(vtkPointSet& mesh);
+  /** Whether a handle holds one of the points. */
+  static bool holdAny(vtkPointSet& mesh);
   /** Takes away where held points were, as they will move. */
   static void forgetPlaces(vtkPointData& points);
 

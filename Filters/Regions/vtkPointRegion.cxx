@@ -30,6 +30,35 @@ std::vector<std::int64_t> numbersOfPoints(vtkPointSet& mesh)
   return numbers;
 }
 
+/** The points that are held without some of the holders, which are ascending: `hold` finds those of
+ * given places. The numbers of the holders stay. */
+template <class Hold>
+HeldPoints withoutHolders(const std::vector<std::int64_t>& dropped,
+  const std::vector<double>& places, HeldPoints held, const Hold& hold)
+{
+  std::vector<std::int64_t> kept;
+  std::vector<double> rest;
+  for (std::int64_t i = 0; i < held.holders; ++i)
+  {
+    if (!std::ranges::binary_search(dropped, i))
+    {
+      kept.push_back(i);
+      rest.insert(rest.end(), places.begin() + 3 * i, places.begin() + 3 * (i + 1));
+    }
+  }
+  held.by.assign(held.by.size(), -1);
+  if (kept.empty())
+  {
+    return held;
+  }
+  held.by = hold(rest).by;
+  for (std::int64_t& holder : held.by)
+  {
+    holder = holder < 0 ? holder : kept[static_cast<std::size_t>(holder)];
+  }
+  return held;
+}
+
 } // namespace
 
 void DisplayedRegion::set(const PointRegionSettings& settings)
@@ -94,17 +123,40 @@ HeldPoints DisplayedRegion::holdNear(
   const MeshInMemory whole(parts ? parts->mesh() : mesh);
   // Edges of a preview are not those of the mesh.
   const int rings = isPreview(mesh) ? 0 : this->Asked.rings;
-  PointProjection projection(
-    places, { std::max(0.0, this->Asked.radius), rings }, whole.cellType());
-  MeshBlock block;
-  whole.source()->next(block);
-  projection.add(block);
-  projection.finish(context.progress);
-  warnOfDistant(projection, isPreview(mesh) ? meanEdgeLength(whole) : 0.0, context);
+  const double radius = std::max(0.0, this->Asked.radius);
+  const auto project = [&](const std::vector<double>& points)
+  {
+    PointProjection projection(points, { radius, rings }, whole.cellType());
+    MeshBlock block;
+    whole.source()->next(block);
+    projection.add(block);
+    projection.finish(context.progress);
+    return projection;
+  };
   std::vector<std::int64_t> indices(static_cast<std::size_t>(mesh.GetNumberOfPoints()), -1);
   for (std::int64_t vertex = 0; vertex < whole.vertices(); ++vertex)
   {
     indices[whole.points()[vertex]] = vertex;
+  }
+  const PointProjection projection = project(places);
+  const double edge = isPreview(mesh) ? meanEdgeLength(whole) : 0.0;
+  if (isSurfaceOfSolid(mesh))
+  {
+    if (const auto inside = distantPoints(projection, edge + radius); !inside.empty())
+    {
+      context.warn(std::to_string(inside.size()) + " of " +
+                   std::to_string(projection.projected().size()) +
+                   " points of the region are far from the surface of the solid, as those inside "
+                   "are, and hold no point of the preview: " +
+                   RemedyOfSurface + '.');
+      return withoutHolders(inside, places, heldByProjection(mesh, indices, projection),
+        [&](const std::vector<double>& rest)
+        { return heldByProjection(mesh, indices, project(rest)); });
+    }
+  }
+  else if (!isPreview(mesh) || this->Asked.kind != PointRegionSettings::Kind::Ids)
+  {
+    warnOfDistant(projection, edge, isPreview(mesh) ? "preview" : "mesh", context);
   }
   return heldByProjection(mesh, indices, projection);
 }
@@ -165,7 +217,7 @@ void StreamedRegion::find(const RegionContext& context)
       context.progress.update(stream.fraction());
     }
     found.projection->finish(context.progress);
-    warnOfDistant(*found.projection, 0.0, context);
+    warnOfDistant(*found.projection, 0.0, "mesh", context);
   }
   // Only here: requesting pieces may itself update modification times of the pipeline.
   found.stamp = context.stamp();

@@ -89,11 +89,16 @@ void checkIds(const IdList& ids, const std::vector<char>& isFound)
   }
 }
 
-void warnOfDistant(const PointProjection& projection, double slack, const RegionContext& to)
+std::vector<std::int64_t> distantPoints(const PointProjection& projection, double slack)
 {
   const double diagonal = projection.diagonal();
-  const std::vector<std::int64_t> distant =
-    projection.distantPoints(diagonal > 0.0 ? 0.01 + slack / diagonal : 0.01);
+  return projection.distantPoints(diagonal > 0.0 ? 0.01 + slack / diagonal : 0.01);
+}
+
+void warnOfDistant(
+  const PointProjection& projection, double slack, const std::string& mesh, const RegionContext& to)
+{
+  const std::vector<std::int64_t> distant = distantPoints(projection, slack);
   if (distant.empty())
   {
     return;
@@ -104,10 +109,10 @@ void warnOfDistant(const PointProjection& projection, double slack, const Region
     { return projected[a].distance < projected[b].distance; });
   std::ostringstream sentence;
   sentence << distant.size() << " of " << projected.size()
-           << " points of the region are far from the mesh: point " << worst
+           << " points of the region are far from the " << mesh << ": point " << worst
            << " is at a distance of " << projected[worst].distance
-           << " from it, where the diagonal of its bounds is " << diagonal
-           << "; the nearest points of the mesh are held.";
+           << " from it, where the diagonal of its bounds is " << projection.diagonal()
+           << "; the nearest points of the " << mesh << " are held.";
   to.warn(sentence.str());
 }
 

@@ -33,8 +33,16 @@ std::vector<std::int64_t> selectPoints(vtkPointSet& mesh, const RegionContext& c
 /** Throws Error, which names the first missing id, if not all ids are found. */
 void checkIds(const IdList& ids, const std::vector<char>& isFound);
 
-/** Warns of points whose distance from the mesh exceeds 1 % of its diagonal plus `slack`. */
-void warnOfDistant(const PointProjection& projection, double slack, const RegionContext& to);
+/** What to do about regions inside of a solid whose surface is shown. */
+inline constexpr const char* RemedyOfSurface =
+  "PreviewCells of the reader offers tetrahedra, which have points inside";
+
+/** The points whose distance from the mesh exceeds 1 % of its diagonal plus `slack`. */
+std::vector<std::int64_t> distantPoints(const PointProjection& projection, double slack);
+
+/** Warns of them; `mesh` is what it is called. */
+void warnOfDistant(const PointProjection& projection, double slack, const std::string& mesh,
+  const RegionContext& to);
 
 /**
  * The indices of the selected points of the mesh, or of the points of its selected cells, in

@@ -2,6 +2,7 @@
 #include "Filters/Tasks/vtkDeformationTask.h"
 
 #include "Filters/Regions/vtkHandleArrays.h"
+#include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Tasks/DeformedVertices.h"
 #include "Filters/Tasks/vtkInteractiveMesh.h"
 #include "Filters/Tasks/vtkJobTask.h"
@@ -89,6 +90,10 @@ std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
 SolveSummary DeformationTask::solveInMemory(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values)
 {
+  if (isPreview(mesh) && !this->needsHandles && !HandleArrays::holdAny(mesh))
+  {
+    return this->summaryOfUnmoved(mesh, values);
+  }
   DeformOptions given = this->options;
   given.progress = progress;
   given.checkpoint = {};
@@ -103,10 +108,27 @@ SolveSummary DeformationTask::solveInMemory(
     noteOnPreview(report.vertices, "this is the deformed preview", "deformed"));
   if (isSurfaceOfSolid(mesh))
   {
-    report.notes.push_back("the preview is the surface of the solid, on which handles inside have "
-                           "no effect: PreviewCells of the reader offers tetrahedra");
+    report.notes.push_back(
+      std::string("the preview is the surface of the solid, on which handles inside have no "
+                  "effect: ") +
+      RemedyOfSurface);
   }
   return SolveSummary::of(report, this->interactive->columns());
+}
+
+/** Points of the mesh, of which a preview shows few, may well be held. */
+SolveSummary DeformationTask::summaryOfUnmoved(
+  vtkPointSet& preview, std::vector<double>& values) const
+{
+  const int columns = this->needsNormals ? DeformedVertices::WithNormals : 3;
+  values = valuesAtRest(preview, columns);
+  Report report;
+  report.vertices = preview.GetNumberOfPoints();
+  report.converged = true;
+  report.warn(std::string("handles hold no point of the preview, which stays as it is: ") +
+              (isSurfaceOfSolid(preview) ? std::string(RemedyOfSurface) + ", and " : "") +
+              "Solve On Full Mesh, as Save Data, deforms the mesh itself");
+  return SolveSummary::of(report, columns);
 }
 
 } // namespace smg

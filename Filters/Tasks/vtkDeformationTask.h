@@ -26,6 +26,8 @@ public:
   std::vector<std::string> notes; ///< for the report
   /** Keeps the hierarchy of a mesh in memory for the next deformation; that of the filter. */
   InteractiveMesh* interactive = nullptr;
+  /** Whether a preview of which handles hold no point is an error; else it stays as it is. */
+  bool needsHandles = false;
 
   void check() const override;
   PieceColumns columns() const override;
@@ -35,6 +37,9 @@ public:
     const ProgressFunction& progress, Report& report) const override;
   SolveSummary solveInMemory(
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) override;
+
+private:
+  SolveSummary summaryOfUnmoved(vtkPointSet& preview, std::vector<double>& values) const;
 };
 
 } // namespace smg

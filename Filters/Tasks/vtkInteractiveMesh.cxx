@@ -162,19 +162,26 @@ void InteractiveMesh::update(
   ++this->Builds;
 }
 
-std::vector<double> InteractiveMesh::values(vtkPointSet& mesh, const DeformOptions& options)
+std::vector<double> valuesAtRest(vtkPointSet& mesh, int columns)
 {
-  std::vector<double> values(mesh.GetNumberOfPoints() * this->Columns, 0.0);
-  const bool hasNormals = this->Columns == DeformedVertices::WithNormals;
+  std::vector<double> values(mesh.GetNumberOfPoints() * columns, 0.0);
+  const bool hasNormals = columns == DeformedVertices::WithNormals;
   vtkDataArray* former = hasNormals ? findNormals(*mesh.GetPointData()) : nullptr;
   for (vtkIdType point = 0; point < mesh.GetNumberOfPoints(); ++point)
   {
-    mesh.GetPoint(point, values.data() + point * this->Columns);
+    mesh.GetPoint(point, values.data() + point * columns);
     if (former)
     {
-      former->GetTuple(point, values.data() + point * this->Columns + 3);
+      former->GetTuple(point, values.data() + point * columns + 3);
     }
   }
+  return values;
+}
+
+std::vector<double> InteractiveMesh::values(vtkPointSet& mesh, const DeformOptions& options)
+{
+  std::vector<double> values = valuesAtRest(mesh, this->Columns);
+  const bool hasNormals = this->Columns == DeformedVertices::WithNormals;
   const std::vector<std::int64_t>& points = this->Mesh->points();
   const auto scatter = [&](const auto& numbers, int place)
   {

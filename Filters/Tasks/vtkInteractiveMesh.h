@@ -53,4 +53,8 @@ private:
   int Builds = 0;
 };
 
+/** What InteractiveMesh::deform() returns for a mesh that stays as it is, of 3 numbers a point, or
+ * 6 with its normals. */
+std::vector<double> valuesAtRest(vtkPointSet& mesh, int columns);
+
 } // namespace smg

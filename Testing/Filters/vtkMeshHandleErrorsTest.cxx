@@ -157,6 +157,13 @@ TEST_F(VtkMeshHandle, WarnsOfPointsFarFromTheMesh)
   this->Handle->AddPoint(-3.0, 0.0, 0.0);
   EXPECT_EQ(collectStreamed(this->Handle, 6).held(), 3);
   EXPECT_TRUE(errors.contain("1 of 3 points")) << errors.text();
+  // Of a preview, of which vertices of the mesh may be far as well.
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(200);
+  EXPECT_EQ(updatePiece(this->Handle, 0, 1), 1);
+  EXPECT_TRUE(errors.contain("points of the region are far from the preview: point 1"))
+    << errors.text();
+  EXPECT_EQ(this->Handle->GetNumberOfHeldPoints(), 3);
 }
 
 TEST_F(VtkMeshHandle, WarnsOfDistancesInAnyUnit)

@@ -116,6 +116,43 @@ TEST_F(VtkSolidDeformation, APreviewOfTheSurfaceCannotAndSaysSo)
     std::string::npos);
 }
 
+/** Handles that hold nothing of what is shown. */
+TEST_F(VtkSolidDeformation, APreviewWithoutAHeldPointStaysAsItIs)
+{
+  this->Deformation->SetInputConnection(this->Inside->GetOutputPort());
+  this->Inside->SetInputConnection(this->Reader->GetOutputPort());
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(1000);
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  const Eigen::Matrix3Xd before =
+    pointsOf(*vtkPointSet::SafeDownCast(this->Reader->GetOutputDataObject(0)));
+  constexpr vtkIdType Middle = (12 * 24 + 12) * 24 + 12; // by the numbers of the box
+  this->Inside->SetIdType(vtkMeshHandle::ORIGINAL_IDS);
+  this->Inside->AddId(Middle);
+  this->Inside->AddPoint(11.5, 11.5, 11.5);
+  for (const int region : { vtkMeshHandle::FUNCTION, vtkMeshHandle::IDS, vtkMeshHandle::POINTS })
+  {
+    this->Inside->SetRegion(region);
+    Errors ofHandle(this->Inside), ofDeformation(this->Deformation);
+    EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
+    EXPECT_EQ(pointsOf(*this->output()), before) << region;
+    EXPECT_EQ(this->Inside->GetNumberOfHeldPoints(), 0) << region;
+    EXPECT_TRUE(ofHandle.contain("PreviewCells of the reader offers tetrahedra"))
+      << ofHandle.text();
+    EXPECT_TRUE(ofDeformation.contain("handles hold no point of the preview, which stays as it is"))
+      << ofDeformation.text();
+    this->Deformation->SetSolve(vtkStreamingSolver::ON_FULL_MESH);
+    EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
+    EXPECT_NE(pointsOf(*this->output()), before) << region;
+    this->Deformation->SetSolve(vtkStreamingSolver::ON_PREVIEW);
+  }
+  this->Inside->SetRegion(vtkMeshHandle::POINTS);
+  this->Inside->AddPoint(0.0, 12.0, 12.0);
+  EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
+  EXPECT_EQ(this->Inside->GetNumberOfHeldPoints(), 1);
+  EXPECT_NE(pointsOf(*this->output()), before);
+}
+
 TEST_F(VtkSolidDeformation, PreviewsOfSurfacesAreTriangles)
 {
   writeVsm(this->Folder / "torus.vsm", torus(60, 30));
