@@ -338,11 +338,11 @@ const char* vtkRegionFilter::GetOutcome()
 {
   const std::string& error = this->Internal->Failures.error();
   std::string& text = this->Internal->Outcome;
-  const bool isCounted = this->Internal->Count.allPoints() > 0 && !this->IsElsewhere();
-  text = !error.empty()        ? "Failed: " + error
-         : isCounted           ? this->Internal->countText(this->NumberOfHeldPoints)
+  const bool isLast = this->Internal->Failures.isLast(*this);
+  text = !isLast               ? "Not applied yet, or a filter before this one failed."
+         : !error.empty()      ? "Failed: " + error
          : this->IsElsewhere() ? "The region is sought when the mesh is solved on."
-                               : "Not applied yet.";
+                               : this->Internal->countText(this->NumberOfHeldPoints);
   return text.c_str();
 }
 

@@ -423,6 +423,13 @@ struct vtkStreamingSolver::Internals
     smg::addFieldArray(output, *report);
   }
 
+  /** Before a request, which may fail before it comes to a solve. */
+  void forgetFailure()
+  {
+    this->Summary.error.clear();
+    this->Summary.isCancelled = false;
+  }
+
   /** Whether the last output is up to date with the pipeline. */
   bool isUpToDate() const { return this->Failures.isCurrent(this->Self); }
 

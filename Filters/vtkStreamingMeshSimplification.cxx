@@ -312,7 +312,9 @@ const char* vtkStreamingMeshSimplification::GetEstimate()
 const char* vtkStreamingMeshSimplification::GetOutcome()
 {
   const std::string& error = this->Internal->Failures.error();
-  this->Internal->Shown = !error.empty()                ? "Failed: " + error
+  const bool isLast = this->Internal->Failures.isLast(*this);
+  this->Internal->Shown = !isLast          ? "Not applied yet, or a filter before this one failed."
+                          : !error.empty() ? "Failed: " + error
                           : this->Internal->isCurrent() ? this->Internal->Outcome
                                                         : "";
   return this->Internal->Shown.c_str();

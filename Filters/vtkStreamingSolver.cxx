@@ -76,15 +76,17 @@ int vtkStreamingSolver::GetConverged()
 const char* vtkStreamingSolver::GetOutcome()
 {
   const smg::SolveSummary& summary = this->GetSummary();
-  const bool isPast = summary.error.empty() && !this->Internal->isUpToDate();
   const smg::SolveSummary& shown = this->Internal->Shown;
+  const std::string& error = this->Internal->Failures.error();
   std::string& text = this->Internal->Outcome;
   text = summary.outcome();
-  if (isPast)
+  if (!summary.isCancelled && !this->Internal->Failures.isLast(*this))
   {
-    const std::string& error = this->Internal->Failures.error();
-    text = error.empty() ? "Not solved: not applied yet, or a filter before this one failed."
-                         : "Not solved: " + error;
+    text = "Not solved: not applied yet, or a filter before this one failed.";
+  }
+  else if (summary.error.empty() && !error.empty())
+  {
+    text = "Not solved: " + error;
   }
   else if (summary.error.empty() && shown.where() != summary.where() && !shown.where().empty())
   {
@@ -300,6 +302,7 @@ int vtkStreamingSolver::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   bool isSolved = false;
+  this->Internal->forgetFailure();
   const int answered = smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {

@@ -77,9 +77,9 @@ void Failures::begin()
   this->IsRefused = false;
 }
 
-bool Failures::isCurrent(vtkAlgorithm& algorithm) const
+bool Failures::isLast(vtkAlgorithm& algorithm) const
 {
-  return this->Error.empty() && this->Answered.GetMTime() >= pipelineTimeOf(algorithm);
+  return this->Ended.GetMTime() > 0 && this->Ended.GetMTime() >= pipelineTimeOf(algorithm);
 }
 
 void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)

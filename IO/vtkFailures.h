@@ -63,13 +63,18 @@ public:
   /** The sentence of the last failure since then, shown or not; empty: none. */
   const std::string& error() const { return this->Error; }
 
-  /** Notes that a request has been answered, with all modifications that the answer itself caused.
-   */
-  void noteAnswer() { this->Answered.Modified(); }
-  /** Whether the last request has been answered, and neither the algorithm nor what is before it
-   * has been modified since, as far as the pipeline knows. An algorithm behind another that fails
-   * may not be executed at all. What it says of its last result goes with that. */
-  bool isCurrent(vtkAlgorithm& algorithm) const;
+  /** Notes that a request has been answered or has failed, with all modifications that this itself
+   * caused. */
+  void noteEnd() { this->Ended.Modified(); }
+  /** Whether the algorithm has been executed, and neither it nor what is before it has been
+   * modified since, as far as the pipeline knows. An algorithm behind another that fails may not be
+   * executed at all. What it says of its last request goes with that. */
+  bool isLast(vtkAlgorithm& algorithm) const;
+  /** The same, and the request has been answered: what it says of its result goes with that. */
+  bool isCurrent(vtkAlgorithm& algorithm) const
+  {
+    return this->Error.empty() && this->isLast(algorithm);
+  }
 
   /** Reports the sentence as an error of the algorithm, unless it was the last one and the upstream
    * pipeline has not been modified since. Observers of its errors receive all of them. */
@@ -87,7 +92,7 @@ private:
   void watch(vtkExecutive* executive);
 
   std::string Error;
-  vtkTimeStamp Answered;
+  vtkTimeStamp Ended;
   std::string Last;              ///< that was shown
   vtkMTimeType PipelineTime = 0; ///< when the last one was shown
   /** Receives the errors of the executive. */
@@ -152,7 +157,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
     }
     throughSingleBlock(input, *output, work);
     completeMesh(*data);
-    failures.noteAnswer();
+    failures.noteEnd();
     return 1;
   }
   catch (const Cancelled&)
@@ -170,6 +175,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
   {
     failures.show(algorithm, error.what());
   }
+  failures.noteEnd();
   if (vtkStreamingMeshKeys::IsStreamed(output))
   {
     // Otherwise the executive would continue with the current data.

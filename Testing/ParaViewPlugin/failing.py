@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The output of every filter and reader that fails is a complete empty data set: filters of ParaView behind it work on
-it as on an empty clip. Each row of the table is a filter and what makes it fail."""
+it as on an empty clip. Its outcome is that of the last request, whatever has failed before. Each row of the table is a
+filter and what makes it fail."""
 
 import os
 import sys
@@ -78,7 +79,33 @@ def consume(source):
     Hide(source, view)
 
 
+def outcome(source):
+    source.UpdatePipeline()
+    source.UpdatePropertyInformation()
+    return source.GetPropertyValue("Outcome")
+
+
+def check_outcomes(make, properties, mesh):
+    """The filter fails by itself, behind a failed filter of ours, and behind one that ends its update; one after the other."""
+    inputs = lambda: mesh, lambda: fail(MeshRegion, FAR, mesh), lambda: XMLPolyDataReader(FileName=["/nowhere.vtp"])
+    alone = [outcome(fail(make, properties, each())) for each in inputs]
+    assert alone[0] != alone[1] and "filter before this one" in alone[1], alone
+    source = fail(make, properties, mesh)
+    for first in range(3):
+        for second in range(3):
+            for each in first, second:
+                source.Input = inputs[each]()
+                assert outcome(source) == alone[each], (make, first, second, source.Outcome, alone)
+    Delete(source)
+
+
 with t.Silence():
+    mesh = Sphere()
+    mesh.UpdatePipeline()
+    for make, properties in FILTERS:
+        if make is not StreamingMeshPreview:
+            check_outcomes(make, properties, mesh)
+
     # Filters of ParaView that are not for the type of the data say so.
     for mesh in Sphere(), Tetrahedralize(Input=Wavelet(WholeExtent=[-2, 2, -2, 2, -2, 2])):
         mesh.UpdatePipeline()
