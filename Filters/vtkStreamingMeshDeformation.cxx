@@ -159,10 +159,7 @@ void vtkStreamingMeshDeformation::Deliver(
   smg::HandleArrays::forgetPlaces(*output.GetPointData());
   if (!this->KeepHandleArrays)
   {
-    for (const std::string& name : smg::HandleArrays::names())
-    {
-      output.GetPointData()->RemoveArray(name.c_str());
-    }
+    smg::HandleArrays::removeFrom(*output.GetPointData());
   }
 }
 

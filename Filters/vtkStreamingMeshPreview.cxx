@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshPreview.h"
 
+#include "Filters/Pieces/vtkActiveAttributes.h"
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "IO/Preview/StreamPreview.h"
 #include "IO/vtkFailures.h"
@@ -94,12 +95,17 @@ struct vtkStreamingMeshPreview::Internals
       vtkWarningWithObjectMacro(&this->Self, << smg::emptyPreview(this->Self.PreviewPoints));
     }
     this->Preview = std::move(preview);
-    input.update(request.Piece, request.Pieces, false);
+    vtkDataObject* present = input.update(request.Piece, request.Pieces, false);
+    this->Attributes.take(*vtkPointSet::SafeDownCast(present)->GetPointData());
     // Requesting pieces may itself have updated modification times of the pipeline.
     this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
   }
 
-  void deliver(vtkPointSet& output) const { this->deliver(*this->Preview, output); }
+  void deliver(vtkPointSet& output) const
+  {
+    this->deliver(*this->Preview, output);
+    this->Attributes.giveTo(*output.GetPointData());
+  }
 
   /** A piece without points, but with all arrays. */
   void deliverNothing(vtkPointSet& input, vtkPointSet& output) const
@@ -126,6 +132,7 @@ struct vtkStreamingMeshPreview::Internals
   smg::Failures Failures;
   std::optional<smg::MeshPiece> Preview;
   smg::StreamInfo Full; ///< of the mesh that the preview shows
+  smg::ActiveAttributes Attributes;
   smg::InputStamp MadeFor;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSimplification.h"
 
+#include "Filters/Pieces/vtkActiveAttributes.h"
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Regions/vtkRegionPoints.h"
@@ -27,7 +28,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -46,38 +46,6 @@ constexpr double ReadShare = 0.5;
 constexpr const char* Copy = "mesh.vsm";
 /** Of the input: all that it has. */
 const smg::PieceColumns AllColumns{ .all = true, .required = {}, .optional = {} };
-
-/** Which point arrays are the normals, the scalars by which views colour, and the like. */
-class ActiveAttributes
-{
-public:
-  void take(vtkPointData& points)
-  {
-    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-    {
-      vtkAbstractArray* array = points.GetAbstractAttribute(type);
-      this->Names[static_cast<std::size_t>(type)] =
-        array && array->GetName() ? array->GetName() : "";
-    }
-  }
-
-  void giveTo(vtkPointData& points) const
-  {
-    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-    {
-      const std::string& name = this->Names[static_cast<std::size_t>(type)];
-      const bool isOfNumbers =
-        type == vtkDataSetAttributes::GLOBALIDS || type == vtkDataSetAttributes::PEDIGREEIDS;
-      if (!isOfNumbers && points.HasArray(name.c_str()))
-      {
-        points.SetActiveAttribute(name.c_str(), type);
-      }
-    }
-  }
-
-private:
-  std::array<std::string, vtkDataSetAttributes::NUM_ATTRIBUTES> Names;
-};
 
 std::string sentence(
   const smg::SimplifyReport& report, const smg::SimplifyTarget& target, bool isSurface)
@@ -284,7 +252,7 @@ struct vtkStreamingMeshSimplification::Internals
   std::string Outcome;
   std::string Shown, Json, Estimate; ///< storage of the strings that are returned
   smg::InputStamp MadeFor;
-  ActiveAttributes Attributes;
+  smg::ActiveAttributes Attributes;
 };
 
 vtkStreamingMeshSimplification::vtkStreamingMeshSimplification()

@@ -46,6 +46,7 @@ public:
 vtkStandardNewMacro(vtkStreamingMeshKeys);
 vtkInformationKeyMacro(vtkStreamingMeshKeys, STREAMED_DATA, Integer);
 vtkInformationKeyMacro(vtkStreamingMeshKeys, ISOLATED_VALUE, Variant);
+vtkInformationKeyMacro(vtkStreamingMeshKeys, FORMER_SCALARS, Variant);
 
 static vtkInformationIntegerRequestKey* vtkStreamingMeshKeys_STREAMED =
   new StreamedKey("STREAMED", "vtkStreamingMeshKeys");

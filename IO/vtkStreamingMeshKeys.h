@@ -61,6 +61,10 @@ public:
    * of VTK's XML files leave out keys of variants. */
   static vtkInformationVariantKey* ISOLATED_VALUE();
 
+  /** Information of the mask of handles: the name of the active scalars that it has taken the place
+   * of. */
+  static vtkInformationVariantKey* FORMER_SCALARS();
+
   /** Whether the request in the pipeline information `info` comes from a streaming consumer. */
   static bool IsStreamed(vtkInformation* info);
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkHandleArrays.h"
 
+#include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Deform.h"
 #include "smg/Error.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVariantKey.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <array>
@@ -126,6 +130,22 @@ bool HandleArrays::holdAny(vtkPointSet& mesh)
   return mask && mask->GetNumberOfTuples() > 0 && mask->GetRange()[1] != 0.0;
 }
 
+void HandleArrays::removeFrom(vtkPointData& points)
+{
+  vtkDataArray* mask = points.GetArray(HandleMaskName);
+  vtkInformation* kept = mask && mask == points.GetScalars() ? mask->GetInformation() : nullptr;
+  vtkInformationVariantKey* key = vtkStreamingMeshKeys::FORMER_SCALARS();
+  const std::string shown = kept && kept->Has(key) ? kept->Get(key).ToString() : "";
+  for (const std::string& name : names())
+  {
+    points.RemoveArray(name.c_str());
+  }
+  if (kept)
+  {
+    points.SetActiveScalars(shown.c_str());
+  }
+}
+
 void HandleArrays::forgetPlaces(vtkPointData& points)
 {
   points.RemoveArray(PlaceName);
@@ -172,11 +192,18 @@ void HandleArrays::hold(vtkIdType point, const std::array<double, 3>& place,
 
 void HandleArrays::addTo(vtkPointData& output) const
 {
+  vtkDataArray* shown = output.GetScalars();
+  const std::string name = shown && shown->GetName() ? shown->GetName() : "";
+  if (name != HandleMaskName)
+  {
+    this->Mask->GetInformation()->Set(vtkStreamingMeshKeys::FORMER_SCALARS(), vtkVariant(name));
+  }
   output.AddArray(this->Mask);
   output.AddArray(this->Target);
   output.AddArray(this->Rotation);
   output.AddArray(this->LogScale);
   output.AddArray(this->Place);
+  output.SetActiveScalars(HandleMaskName);
 }
 
 namespace
@@ -233,8 +260,6 @@ void deliverHandle(
   }
   output.ShallowCopy(&piece);
   arrays.addTo(*output.GetPointData());
-  // Views show what is held.
-  output.GetPointData()->SetActiveScalars(HandleMaskName);
 }
 
 } // namespace smg

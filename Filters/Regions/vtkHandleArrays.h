@@ -31,6 +31,8 @@ public:
   static void require(vtkPointSet& mesh);
   /** Whether a handle holds one of the points. */
   static bool holdAny(vtkPointSet& mesh);
+  /** Takes the arrays of handles away; what they were shown instead of is shown again. */
+  static void removeFrom(vtkPointData& points);
   /** Takes away where held points were, as they will move. */
   static void forgetPlaces(vtkPointData& points);
 
@@ -46,7 +48,7 @@ public:
   void hold(vtkIdType point, const std::array<double, 3>& place,
     const std::array<double, 3>& target, const std::array<double, 3>& rotation, double logScale);
 
-  /** Adds the arrays to the points. */
+  /** Adds the arrays to the points, of which views then show what is held. */
   void addTo(vtkPointData& output) const;
 
 private:

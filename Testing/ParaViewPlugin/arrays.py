@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """No array property is ever set automatically, regardless of the active arrays of the input. Lists of arrays, also that
-of colours, offer arrays of points and cells alone, and nothing internal."""
+of colours, offer arrays of points and cells alone, and nothing internal. Of the output the arrays are active that are of
+the input, but for the scalars that a filter makes."""
 
 import sys
 
+import numpy
 import smg_testing as t
 from paraview.simple import *
+from paraview.vtk.util.numpy_support import numpy_to_vtk
 
 LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson
@@ -73,6 +76,53 @@ for source in (reader, conditions, region, MeshHandle(Input=reader, Region="Ever
     source.UpdatePipeline()
     check_colours(source, "by " + source.SMProxy.GetXMLName())
     check(source, "behind " + source.SMProxy.GetXMLName())
+# What is active stays so, of points and of cells.
+ACTIVE = {"Scalars": 1, "Vectors": 3, "Normals": 3, "TCoords": 2}
+
+
+def activate(*sets):
+    """Makes arrays active that are called as the attributes."""
+    for data in sets:
+        for name, components in ACTIVE.items():
+            array = numpy_to_vtk(numpy.resize(numpy.arange(7.0), (data.GetNumberOfTuples(), components)), deep=1)
+            array.SetName("Own" + name)
+            data.AddArray(array)
+            getattr(data, "SetActive" + name)("Own" + name)
+
+
+def active(source):
+    source.UpdatePipeline()
+    data = t.client_object(source).GetOutputDataObject(0)
+    names = [[getattr(each, "Get" + name)() for name in ACTIVE] for each in (data.GetPointData(), data.GetCellData())]
+    return [[array.GetName() if array else None for array in each] for each in names]
+
+
+marked = Sphere(ThetaResolution=40, PhiResolution=40)
+marked.UpdatePipeline()
+producer = PVTrivialProducer()
+mesh = t.client_object(marked).GetOutputDataObject(0).NewInstance()
+mesh.ShallowCopy(t.client_object(marked).GetOutputDataObject(0))
+activate(mesh.GetPointData(), mesh.GetCellData())
+t.client_object(producer).SetOutput(mesh)
+own = ["Own" + name for name in ACTIVE]
+assert active(producer) == [own, own]
+point = {"Region": "Ids", "Ids": [3]}
+handles = MeshHandle(Input=MeshHandle(Input=producer, **point), Region="Ids", Ids=[5])
+for scalars, cells, filtered in (
+        ("HandleMask", own, handles), ("RegionMask", own, MeshRegion(Input=producer, **point)),
+        ("Condition1", own, MeshCondition(Input=producer, **point)), (own[0], own, MeshCondition(Input=producer, Region="Boundary")),
+        (own[0], own, StreamingMeshDeformation(Input=handles)),
+        ("HandleMask", own, StreamingMeshDeformation(Input=handles, KeepHandleArrays=1)),
+        ("RegionMask", own, StreamingMeshDeformation(Input=MeshRegion(Input=handles, **point))),
+        ("Solution", own, StreamingPoisson(Input=MeshCondition(Input=producer, Value=1.0, **point))),
+        ("Distance", own, StreamingDistance(Input=producer, From='{"vertices": [3]}')),
+        (own[0], own, StreamingMeshSmoothing(Input=producer)), (own[0], own, StreamingMeshSmoothing(Input=producer, Array=own[0])),
+        (own[0], own, StreamingBlend(Input=producer, Patch=own[0], Arrays=[own[1]])),
+        (own[0], [None] * 4, StreamingMeshSimplification(Input=producer, NumberOfVertices=500))):
+    assert active(filtered) == [[scalars] + own[1:], cells], (filtered.SMProxy.GetXMLName(), active(filtered), scalars)
+assert active(StreamingMeshPreview(Input=Elevation(Input=reader)))[0] == active(Elevation(Input=reader))[0] == \
+    ["Elevation", None, "Normals", None]
+
 # Its shading is that of the mesh.
 assert Show(reader, GetActiveView()).SelectNormalArray == "Normals"
 reader.MaximumPointsInMemory = 2000000
