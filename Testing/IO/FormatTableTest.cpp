@@ -96,7 +96,8 @@ TEST(FormatTable, ListsFollowFromIt)
   using Names = std::vector<std::string>;
   EXPECT_TRUE(restoresColumns("a.vtu", Names{ "any" }));
   EXPECT_TRUE(restoresColumns("a.OBJ", Names{ "Colors" }));
-  EXPECT_FALSE(restoresColumns("a.obj", Names{ "Colors", "Normals" }));
+  EXPECT_TRUE(restoresColumns("a.obj", Names{ "Colors", "Normals" }));
+  EXPECT_FALSE(restoresColumns("a.obj", Names{ "Colors", "Reference" }));
   EXPECT_TRUE(restoresColumns("a.off", Names{ "Colors", "Normals", "TextureCoordinates" }));
   EXPECT_FALSE(restoresColumns("a.vsm", Names{ "Colors" }));
   EXPECT_FALSE(restoresColumns("a.stl", Names{ "Colors" }));

@@ -29,18 +29,20 @@ FileMesh readObj(FileCursor in)
     std::istringstream line(in.line());
     std::string keyword;
     line >> keyword;
-    const std::vector<double> numbers{ std::istream_iterator<double>(line), {} };
-    if (keyword == "v")
+    if (keyword == "f")
     {
-      // A colour may follow.
-      mesh.points.insert(mesh.points.end(), numbers.begin(), numbers.begin() + 3);
+      mesh.cells.emplace_back();
+      // As 7, 7/7, 7//7 or 7/7/7.
+      for (std::string corner; line >> corner;)
+      {
+        mesh.cells.back().push_back(std::stoll(corner) - 1);
+      }
       continue;
     }
-    mesh.cells.emplace_back();
-    for (const double number : numbers)
-    {
-      mesh.cells.back().push_back(static_cast<std::int64_t>(number) - 1);
-    }
+    const std::vector<double> numbers{ std::istream_iterator<double>(line), {} };
+    std::vector<double>& to = keyword == "v" ? mesh.points : mesh.pointData[keyword];
+    // A colour may follow a point.
+    to.insert(to.end(), numbers.begin(), keyword == "v" ? numbers.begin() + 3 : numbers.end());
   }
   return mesh;
 }

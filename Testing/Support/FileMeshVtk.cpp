@@ -49,26 +49,42 @@ FileMesh readVtk(FileCursor in)
   in.expect("BINARY");
   in.expect("DATASET");
   std::map<std::string, std::vector<double>>* data = nullptr;
+  std::int64_t tuples = 0;
+  const auto readArray =
+    [&](const std::string& name, std::int64_t components, const std::string& type)
+  {
+    for (std::int64_t i = 0; i < components * tuples; ++i)
+    {
+      (*data)[name].push_back(in.binary(type, order));
+    }
+  };
   for (in.word(); !in.atEnd();)
   {
     const std::string keyword = in.word();
-    const std::int64_t count = in.integer();
-    if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
+    if (keyword == "FIELD")
     {
-      data = keyword == "POINT_DATA" ? &mesh.pointData : &mesh.cellData;
-      in.expect("FIELD");
       in.expect("FieldData");
       for (std::int64_t fields = in.integer(); fields > 0; --fields)
       {
         const std::string name = in.word();
         const std::int64_t components = in.integer();
-        const std::int64_t tuples = in.integer();
-        const std::string type = in.line().substr(1);
-        for (std::int64_t i = 0; i < components * tuples; ++i)
-        {
-          (*data)[name].push_back(in.binary(type, order));
-        }
+        tuples = in.integer();
+        readArray(name, components, in.line().substr(1));
       }
+      continue;
+    }
+    if (keyword == "NORMALS" || keyword == "TEXTURE_COORDINATES")
+    {
+      const std::string name = in.word();
+      const std::int64_t components = keyword == "NORMALS" ? 3 : in.integer();
+      readArray(name, components, in.line().substr(1));
+      continue;
+    }
+    const std::int64_t count = in.integer();
+    if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
+    {
+      data = keyword == "POINT_DATA" ? &mesh.pointData : &mesh.cellData;
+      tuples = count;
       continue;
     }
     const std::string rest = in.line();

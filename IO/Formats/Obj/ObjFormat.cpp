@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace smg
 {
@@ -192,7 +193,7 @@ namespace
 /** Red, green and blue: other programs refuse a vertex with seven numbers. */
 constexpr int ObjColorComponents = 3;
 
-/** Polygons; vertices with their colours. */
+/** Polygons; vertices with their colours, normals and texture coordinates. */
 class ObjWriter : public MeshFileWriter
 {
 public:
@@ -201,6 +202,8 @@ public:
     , DoublePositions(info.doublePositions)
     , Columns(info)
     , Colors(this->Columns.colorsOfVertices())
+    , Normals(this->Columns.ofVertices(NormalsName, 3, 3))
+    , Texture(this->Columns.ofVertices(TextureCoordinatesName, 2, 3))
     , HasOpacity(this->Colors >= 0 &&
                  info.vertexColumns[static_cast<std::size_t>(this->Colors)].components > 3)
   {
@@ -219,6 +222,16 @@ public:
           this->Out << ' ' << this->Written.share(colors, vertex, k);
         }
         this->Out << '\n';
+        for (const auto& [keyword, column] :
+          { std::pair("vn", this->Normals), std::pair("vt", this->Texture) })
+        {
+          if (column >= 0)
+          {
+            this->Out << keyword;
+            this->Out.tuple(chunk.columns, column, vertex);
+            this->Out << '\n';
+          }
+        }
       });
   }
 
@@ -228,7 +241,24 @@ public:
       [this](std::span<const std::int64_t> corners, std::size_t)
       {
         this->Out << 'f';
-        this->Out.corners(corners, 1);
+        for (const std::int64_t corner : corners)
+        {
+          // What belongs to a vertex has its number.
+          const std::int64_t number = corner + 1;
+          this->Out << ' ' << number;
+          if (this->Texture >= 0 || this->Normals >= 0)
+          {
+            this->Out << '/';
+          }
+          if (this->Texture >= 0)
+          {
+            this->Out << number;
+          }
+          if (this->Normals >= 0)
+          {
+            this->Out << '/' << number;
+          }
+        }
         this->Out << '\n';
       });
   }
@@ -250,7 +280,7 @@ private:
   TextOutput Out;
   bool DoublePositions;
   PlacedColumns Columns;
-  std::ptrdiff_t Colors;
+  std::ptrdiff_t Colors, Normals, Texture;
   bool HasOpacity;
   WrittenColors Written;
 };
@@ -261,10 +291,16 @@ std::int64_t bytesOfObj(const MeshToWrite& written)
   const StreamInfo& mesh = written.mesh;
   PlacedColumns columns(mesh);
   const bool hasColors = columns.colorsOfVertices() >= 0;
-  const double colorCharacters = hasColors ? realCharacters(false) * ObjColorComponents : 0;
-  return textBytes(
-           mesh.vertices, Keyword + positionCharacters(mesh.doublePositions) + colorCharacters) +
-         textBytes(mesh.cells, Keyword + 3 * numberCharacters(mesh.vertices));
+  double ofVertices = Keyword + positionCharacters(mesh.doublePositions) +
+                      (hasColors ? realCharacters(false) * ObjColorComponents : 0);
+  double ofCorner = numberCharacters(mesh.vertices);
+  for (const std::ptrdiff_t column :
+    { columns.ofVertices(NormalsName, 3, 3), columns.ofVertices(TextureCoordinatesName, 2, 3) })
+  {
+    ofVertices += column < 0 ? 0 : 1 + Keyword + tupleCharacters(mesh.vertexColumns, column);
+    ofCorner += column < 0 ? 0 : numberCharacters(mesh.vertices);
+  }
+  return textBytes(mesh.vertices, ofVertices) + textBytes(mesh.cells, Keyword + 3 * ofCorner);
 }
 
 bool isObjKeyword(std::string_view word)
@@ -308,14 +344,14 @@ bool looksLikeObj(std::string_view start, std::optional<std::uint64_t> size)
 }
 
 constexpr FileSuffix ObjSuffixes[] = { { ".obj", true, false, FileForm::Text } };
-constexpr std::string_view ObjColumns[] = { ColorsName };
+constexpr std::string_view ObjColumns[] = { NormalsName, ColorsName, TextureCoordinatesName };
 
 } // namespace
 
 const Format ObjFormat{
   .name = "OBJ",
   .suffixes = ObjSuffixes,
-  .attributes = "colours of vertices",
+  .attributes = "normals, colours and texture coordinates of vertices",
   .vertexColumns = ObjColumns,
   .looksRight = looksLikeObj,
   .parse = parseWith<importObj>,

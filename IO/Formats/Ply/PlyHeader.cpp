@@ -245,11 +245,12 @@ std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty
   struct Group
   {
     const char* column;
+    int least; // components
     std::array<const char*, 4> names;
   };
-  constexpr Group groups[] = { { NormalsName, { "nx", "ny", "nz", "" } },
-    { ColorsName, { "red", "green", "blue", "alpha" } } };
-  constexpr int MinMembers = 3;
+  constexpr Group groups[] = { { NormalsName, 3, { "nx", "ny", "nz", "" } },
+    { TextureCoordinatesName, 2, { "texture_u", "texture_v", "", "" } },
+    { ColorsName, 3, { "red", "green", "blue", "alpha" } } };
   for (const Group& candidate : groups)
   {
     int components = 0;
@@ -264,7 +265,7 @@ std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty
       component = member == &property ? components : component;
       ++components;
     }
-    if (component >= 0 && components >= MinMembers)
+    if (component >= 0 && components >= candidate.least)
     {
       return { { candidate.column, property.type, components }, component };
     }

@@ -113,9 +113,9 @@ enum class PlyRole
 };
 
 /**
- * Compiles the properties of an element. Attributes become columns: nx ny nz are `Normals`, red
- * green blue (alpha) are `Colors`. `addColumn` returns the number of a column, or -1 to omit it;
- * without it there are none.
+ * Compiles the properties of an element. Attributes become columns: nx ny nz are `Normals`,
+ * texture_u texture_v `TextureCoordinates`, red green blue (alpha) `Colors`. `addColumn` returns
+ * the number of a column, or -1 to omit it; without it there are none.
  */
 PlyPlan planOf(const PlyElement& element, PlyRole role,
   const std::function<int(const ColumnSpec&)>& addColumn = {});

@@ -16,13 +16,13 @@
 
 // PLY, in binary in this machine's byte order or as text. Columns become properties of the vertices
 // or faces, named so that importPly() restores the same columns: `Normals` of 3 components nx, ny,
-// nz; `Colors` of 3 or 4 red, green, blue, alpha; a column of one component its own name, and one
-// of several NAME_0, NAME_1 ..., which come back as columns of their own. What is no visible ASCII
-// character in a name becomes an underscore, and a name whose property another column or the mesh
-// has is followed by _1, _2 ...; columns that need no other name keep theirs. PLY has no 64-bit
-// integers: they are written, and come back, as double, which is exact up to 2^53. So convert()
-// takes the `OriginalId` of a PLY file for an attribute (see there): its own are the places in the
-// PLY file.
+// nz; `TextureCoordinates` of 2 texture_u, texture_v; `Colors` of 3 or 4 red, green, blue, alpha; a
+// column of one component its own name, and one of several NAME_0, NAME_1 ..., which come back as
+// columns of their own. What is no visible ASCII character in a name becomes an underscore, and a
+// name whose property another column or the mesh has is followed by _1, _2 ...; columns that need
+// no other name keep theirs. PLY has no 64-bit integers: they are written, and come back, as
+// double, which is exact up to 2^53. So convert() takes the `OriginalId` of a PLY file for an
+// attribute (see there): its own are the places in the PLY file.
 
 namespace smg
 {
@@ -90,6 +90,10 @@ std::vector<std::string> namesOf(const ColumnSpec& spec, const std::string& name
   if (isNormals(spec) && name == spec.name)
   {
     return { "nx", "ny", "nz" };
+  }
+  if (spec.name == TextureCoordinatesName && name == spec.name && spec.components == 2)
+  {
+    return { "texture_u", "texture_v" };
   }
   if (spec.name == ColorsName && name == spec.name && spec.components == 3)
   {

@@ -203,6 +203,8 @@ private:
     if (kind == "TEXTURE_COORDINATES")
     {
       components = this->components();
+      this->Piece.pointTexture =
+        this->OfPoints && this->Piece.pointTexture.empty() ? name : this->Piece.pointTexture;
     }
     const std::string type = this->Scanner.word();
     if (kind == "SCALARS")

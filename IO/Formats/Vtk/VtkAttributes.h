@@ -54,16 +54,17 @@ private:
   std::map<std::string, int> Numbers; ///< the last one given for a name
 };
 
-/** The name of the column of one of `arrays`: the usual one for the array `normals`, unless another
- * array has it. */
+/** The name of the column of one of `arrays`: the usual one for the arrays `normals` and `texture`,
+ * unless another array has it. */
 template <class Array>
 std::string columnName(const std::string& name, int components, const std::vector<Array>& arrays,
-  const std::string& normals)
+  const std::string& normals, const std::string& texture = "")
 {
   const bool areNormals = name == normals && components == 3;
-  const bool isFree =
-    std::ranges::find(arrays, std::string(NormalsName), &Array::name) == arrays.end();
-  return areNormals && isFree ? NormalsName : name;
+  const bool isTexture = !texture.empty() && name == texture && components <= 3;
+  const std::string usual = areNormals ? NormalsName : isTexture ? TextureCoordinatesName : name;
+  const bool isFree = std::ranges::find(arrays, usual, &Array::name) == arrays.end();
+  return isFree ? usual : name;
 }
 
 /** Whether a cell with these bits of vtkGhostType belongs to the mesh: not those that belong to

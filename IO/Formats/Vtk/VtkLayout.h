@@ -41,8 +41,9 @@ struct VtkPiece
   /** In the order in which VTK numbers the cells. All pieces of a layout have the same lists. */
   std::vector<VtkCellList> lists;
   std::vector<VtkArray> pointArrays, cellArrays;
-  /** Names of the arrays of normals and of global numbers of points; may be empty. */
-  std::string pointNormals, cellNormals, globalIds;
+  /** Names of the active normals and texture coordinates, and of the array of global numbers of
+   * points; may be empty. */
+  std::string pointNormals, cellNormals, pointTexture, globalIds;
 };
 
 /** Calls `visit` with each array of a piece. */

@@ -283,7 +283,8 @@ private:
         continue;
       }
       const std::string name = columnName(array.name, array.components, (*full).*arrays,
-        ofPoints ? (*full).pointNormals : (*full).cellNormals);
+        ofPoints ? (*full).pointNormals : (*full).cellNormals,
+        ofPoints ? (*full).pointTexture : "");
       const ColumnSpec spec{ name, array.columnType, array.components };
       ImportColumn column(this->Builder, ofPoints ? ColumnOf::Vertices : ColumnOf::Elements, spec);
       if (column.exists())

@@ -12,9 +12,11 @@
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <string_view>
@@ -253,6 +255,47 @@ std::string encodedVtkName(const std::string& name)
   return text;
 }
 
+LegacyColumns::LegacyColumns(const std::vector<ColumnSpec>& specs, bool ofVertices)
+  : Specs(specs)
+  , OfVertices(ofVertices)
+  , Order(specs.size())
+{
+  std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));
+  std::ranges::stable_partition(
+    this->Order, [this](std::size_t k) { return this->keywordOf(this->Specs[k]).empty(); });
+}
+
+std::string LegacyColumns::keywordOf(const ColumnSpec& spec) const
+{
+  return !this->OfVertices       ? ""
+         : isActiveNormals(spec) ? "NORMALS"
+         : isActiveTexture(spec) ? "TEXTURE_COORDINATES"
+                                 : "";
+}
+
+std::string LegacyColumns::linesBefore(std::size_t column, std::int64_t tuples) const
+{
+  const ColumnSpec& spec = this->Specs[column];
+  const std::string components = std::to_string(spec.components) + ' ';
+  const std::string name = encodedVtkName(spec.name) + ' ';
+  const std::string type = std::string(legacyTypeName(spec.type)) + '\n';
+  const bool isFirst = column == this->Order.front();
+  std::string lines =
+    isFirst ? (this->OfVertices ? "POINT_DATA " : "CELL_DATA ") + std::to_string(tuples) + '\n'
+            : "";
+  if (const std::string keyword = this->keywordOf(spec); !keyword.empty())
+  {
+    return lines + keyword + ' ' + name + (isActiveTexture(spec) ? components : "") + type;
+  }
+  if (isFirst)
+  {
+    const auto fields = std::ranges::count_if(
+      this->Specs, [this](const ColumnSpec& each) { return this->keywordOf(each).empty(); });
+    lines += "FIELD FieldData " + std::to_string(fields) + '\n';
+  }
+  return lines + name + components + std::to_string(tuples) + ' ' + type;
+}
+
 namespace
 {
 
@@ -268,7 +311,7 @@ void checkLegacyVertices(const std::filesystem::path& path, std::int64_t vertice
 }
 
 /** Legacy VTK, binary, version 3.0, which is widely supported: polygonal data, or an unstructured
- * grid of tetrahedra, with all columns as field data. Corners are 32-bit numbers. */
+ * grid of tetrahedra, with the columns as LegacyColumns. Corners are 32-bit numbers. */
 class LegacyVtkWriter : public VtkWriter<LegacyArray>
 {
 public:
@@ -292,8 +335,8 @@ public:
       this->writeText("CELL_TYPES " + cells + '\n');
       this->placeLine(this->Types, { "", ScalarType::Int32, 1 }, info.elements);
     }
-    this->placeFields("POINT_DATA ", info.vertices, info.vertexColumns, this->PointData);
-    this->placeFields("CELL_DATA ", info.elements, info.elementColumns, this->CellData);
+    this->placeColumns(info.vertices, info.vertexColumns, this->PointData);
+    this->placeColumns(info.elements, info.elementColumns, this->CellData);
     this->File.reserve(this->End);
   }
 
@@ -319,20 +362,19 @@ private:
     this->writeText("\n");
   }
 
-  void placeFields(const std::string& keyword, std::int64_t tuples,
-    const std::vector<ColumnSpec>& specs, std::vector<LegacyArray>& arrays)
+  void placeColumns(
+    std::int64_t tuples, const std::vector<ColumnSpec>& specs, std::vector<LegacyArray>& arrays)
   {
-    if (specs.empty())
-    {
-      return;
-    }
-    this->writeText(keyword + std::to_string(tuples) + "\nFIELD FieldData " +
-                    std::to_string(specs.size()) + '\n');
     for (const ColumnSpec& spec : specs)
     {
-      this->writeText(encodedVtkName(spec.name) + ' ' + std::to_string(spec.components) + ' ' +
-                      std::to_string(tuples) + ' ' + std::string(legacyTypeName(spec.type)) + '\n');
-      this->placeLine(arrays, spec, tuples);
+      arrays.emplace_back(spec, tuples);
+    }
+    const LegacyColumns columns(specs, &arrays == &this->PointData);
+    for (const std::size_t k : columns.order())
+    {
+      this->writeText(columns.linesBefore(k, tuples));
+      this->End = arrays[k].begin(this->File, this->End);
+      this->writeText("\n");
     }
   }
 

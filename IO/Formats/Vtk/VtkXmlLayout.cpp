@@ -141,6 +141,7 @@ private:
     if (tag.name == "PointData")
     {
       piece.pointNormals = tag.value("Normals");
+      piece.pointTexture = tag.value("TCoords");
       piece.globalIds = tag.value("GlobalIds", GlobalIdsName);
     }
     else if (tag.name == "CellData")

@@ -26,8 +26,9 @@ namespace
 class KeptColumns
 {
 public:
-  KeptColumns(const std::vector<ColumnSpec>& specs, Workspace& space)
+  KeptColumns(const std::vector<ColumnSpec>& specs, bool ofVertices, Workspace& space)
     : Specs(specs)
+    , Written(Specs, ofVertices)
     , Kept(space, std::max(1, static_cast<int>(specs.size())), space.available() / 4)
   {
   }
@@ -40,20 +41,14 @@ public:
     }
   }
 
-  /** Writes them as field data of so many points or cells. */
-  void write(TextOutput& out, std::string_view keyword, std::int64_t tuples)
+  /** Writes them as data of so many points or cells. */
+  void write(TextOutput& out, std::int64_t tuples)
   {
     this->Kept.close();
-    if (this->Specs.empty())
-    {
-      return;
-    }
-    out << keyword << ' ' << tuples << "\nFIELD FieldData " << this->Specs.size() << '\n';
-    for (std::size_t i = 0; i < this->Specs.size(); ++i)
+    for (const std::size_t i : this->Written.order())
     {
       const ColumnSpec& spec = this->Specs[i];
-      out << encodedVtkName(spec.name) << ' ' << spec.components << ' ' << tuples << ' '
-          << legacyTypeName(spec.type) << '\n';
+      out << this->Written.linesBefore(i, tuples);
       dispatch(spec.type,
         [&]<class T>(T) { this->writeNumbers<T>(out, static_cast<int>(i), spec.components); });
     }
@@ -72,7 +67,8 @@ private:
     }
   }
 
-  std::vector<ColumnSpec> Specs;
+  const std::vector<ColumnSpec> Specs;
+  const LegacyColumns Written;
   BucketFile Kept;
 };
 
@@ -83,8 +79,8 @@ public:
   TextVtkWriter(const std::filesystem::path& path, const MeshFileInfo& info, Workspace& space)
     : Out(path)
     , Info(info)
-    , PointData(info.vertexColumns, space)
-    , CellData(info.elementColumns, space)
+    , PointData(info.vertexColumns, true, space)
+    , CellData(info.elementColumns, false, space)
   {
     this->Out << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET "
               << (this->isSurface() ? "POLYDATA" : "UNSTRUCTURED_GRID") << "\nPOINTS "
@@ -129,8 +125,8 @@ public:
         this->Out << std::int64_t(VtkCellTypes::Tetrahedron) << '\n';
       }
     }
-    this->PointData.write(this->Out, "POINT_DATA", this->Info.vertices);
-    this->CellData.write(this->Out, "CELL_DATA", this->Info.elements);
+    this->PointData.write(this->Out, this->Info.vertices);
+    this->CellData.write(this->Out, this->Info.elements);
     this->Out.finish();
     return {};
   }
