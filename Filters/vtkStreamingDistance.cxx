@@ -118,9 +118,11 @@ protected:
   {
     if (report.distance && report.distance->unreached > 0)
     {
-      report.notes.push_back(smg::counted(report.distance->unreached,
-        "vertex is not reached from any source: its distance is infinite",
-        "vertices are not reached from any source: their distance is infinite"));
+      report.notes.push_back(
+        smg::counted(report.distance->unreached,
+          "vertex is not reached from any source: its distance is infinite",
+          "vertices are not reached from any source: their distance is infinite") +
+        ", of which Clip and Contour make points without a place: put a Threshold before them");
     }
   }
 };
