@@ -173,7 +173,15 @@ CoarserSurface coarserSurface(std::span<const double> points, std::span<const st
 
   const auto wanted = static_cast<std::size_t>(
     most + std::ranges::count_if(locked, [](std::uint8_t is) { return is != 0; }));
-  const KeptBodies bodies = keepLargestBodies(surface, lockedOf(surface, locked), most);
+  const bool mayBe = mayBeFragments(
+    static_cast<std::int64_t>(surface.vertices()), static_cast<std::int64_t>(surface.triangles()));
+  SmallBodies bodies = smallBodies(surface, lockedOf(surface, locked), most, mayBe);
+  if (bodies.number > 0)
+  {
+    collapseFlat(surface, lockedOf(surface, locked), wanted);
+    bodies = smallBodies(surface, lockedOf(surface, locked), most, mayBe);
+  }
+  removeBodies(surface, bodies);
   if (!bodies.areFragments && surface.vertices() > wanted)
   {
     collapseEdges(surface, lockedOf(surface, locked), { .vertices = wanted, .mayCut = true });

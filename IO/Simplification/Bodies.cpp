@@ -87,8 +87,8 @@ std::vector<Body> bodiesOf(const SurfacePart& part, std::span<const std::uint8_t
 
 } // namespace
 
-KeptBodies keepLargestBodies(
-  SurfacePart& part, std::span<const std::uint8_t> locked, std::int64_t vertices, const Poll& poll)
+SmallBodies smallBodies(const SurfacePart& part, std::span<const std::uint8_t> locked,
+  std::int64_t vertices, bool mayBeFragments, const Poll& poll)
 {
   DisjointSets<std::uint32_t> sets = bodySets(part, poll);
   const std::vector<Body> bodies = bodiesOf(part, locked, sets, poll);
@@ -129,14 +129,27 @@ KeptBodies keepLargestBodies(
   }
   // A closed body has at least four triangles. Bodies with three or fewer on average are the
   // triangles of one surface that do not share their vertices: to drop any would tear holes.
-  if (triangles <= OfFragment * complete.size())
+  if (mayBeFragments && triangles <= OfFragment * complete.size())
   {
-    return { 0, true };
+    return { 0, {}, true };
   }
-  part.removeTriangles(
-    [&](std::size_t t) { return drops[sets.first(part.corners[3 * t])] != 0; }, poll);
-  part.dropUnusedVertices(poll);
-  return { complete.size() - most, false };
+  SmallBodies small{ complete.size() - most, {}, false };
+  poll.resize(small.hasTriangle, part.triangles());
+  for (std::size_t t = 0; t < part.triangles(); ++t)
+  {
+    poll.at(t);
+    small.hasTriangle[t] = drops[sets.first(part.corners[3 * t])];
+  }
+  return small;
+}
+
+void removeBodies(SurfacePart& part, const SmallBodies& bodies, const Poll& poll)
+{
+  if (bodies.number > 0)
+  {
+    part.removeTriangles([&](std::size_t t) { return bodies.hasTriangle[t] != 0; }, poll);
+    part.dropUnusedVertices(poll);
+  }
 }
 
 } // namespace smg

@@ -46,6 +46,17 @@ struct Collapse
   float rank; ///< squared error, and a little for the length, in units of the part
 };
 
+/** The largest distance along an axis from the first vertex. */
+double extentOf(const SurfacePart& part)
+{
+  double extent = 0.0;
+  for (std::size_t i = 0; i < part.points.size(); ++i)
+  {
+    extent = std::max(extent, std::fabs(part.points[i] - part.points[i % 3]));
+  }
+  return extent;
+}
+
 class Collapser
 {
 public:
@@ -56,11 +67,7 @@ public:
   {
     // Ranks are relative to the extent of the part, so that they neither overflow nor vanish in
     // single precision.
-    double extent = 0.0;
-    for (std::size_t i = 0; i < part.points.size(); ++i)
-    {
-      extent = std::max(extent, std::fabs(part.points[i] - part.points[i % 3]));
-    }
+    const double extent = extentOf(part);
     this->InverseSquare = extent > 0.0 ? 1.0 / extent / extent : 1.0;
   }
 
@@ -375,6 +382,14 @@ Collapsed collapseEdges(
   // time.
   collapser.addBoundary();
   return collapser.run(goal);
+}
+
+Collapsed collapseFlat(
+  SurfacePart& part, std::span<const std::uint8_t> open, std::size_t vertices, const Poll& poll)
+{
+  constexpr double Rounding = 1e-6;
+  return collapseEdges(
+    part, open, { .vertices = vertices, .error = Rounding * extentOf(part) }, poll);
 }
 
 } // namespace smg

@@ -68,4 +68,9 @@ inline constexpr std::int64_t CollapseBytes = 112;
 Collapsed collapseEdges(SurfacePart& part, std::span<const std::uint8_t> open,
   const CollapseGoal& goal, const Poll& poll = Poll());
 
+/** collapseEdges() where it makes no error, apart from rounding, while more than so many vertices
+ * are left. */
+Collapsed collapseFlat(SurfacePart& part, std::span<const std::uint8_t> open, std::size_t vertices,
+  const Poll& poll = Poll());
+
 } // namespace smg

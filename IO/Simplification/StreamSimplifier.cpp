@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/StreamSimplifier.h"
 
-#include "IO/Mesh/Columns.h"
 #include "IO/Simplification/Bodies.h"
 #include "IO/Simplification/SeamVertices.h"
 #include "IO/Simplification/VertexClusters.h"
+#include "IO/Simplification/WindowSize.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -31,10 +31,6 @@ namespace
 constexpr PoolUse SimplificationMemory{ "the simplification",
   "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
-/** The least number of triangles of a window. */
-constexpr std::int64_t MinWindow = 20000;
-/** The number of parts whose triangles the window holds. */
-constexpr std::int64_t PartsOfWindow = 3;
 /** The least share of its vertices that a part keeps: PartShare, but more, up to UsualShare, where
  * that is not SmallGoal times what will be left of the mesh, so that the window has something to
  * choose from. */
@@ -46,25 +42,6 @@ constexpr double Aim = 0.98;
  * simplified. */
 constexpr std::size_t TrianglesPerLocked = 8;
 
-/** The bytes that a triangle of a surface with these columns takes while its edges collapse. */
-std::int64_t bytesOfTriangle(const StreamInfo& info)
-{
-  const std::int64_t row = rowBytes(info.vertexColumns);
-  // Corners, and half a vertex: its number, position, row and its places in tables.
-  constexpr auto OfVertex = static_cast<std::int64_t>(8 + 24 + 16 + sizeof(Quadric));
-  return CollapseBytes + 12 + (OfVertex + 2 * row) / 2 + 2 * rowBytes(carriedColumns(info));
-}
-
-/** The triangles of a part. The window, which has those of PartsOfWindow parts, and as many parts
- * in work have the same share of the memory; the rest is for open vertices. */
-std::size_t partOf(std::int64_t memory, const StreamInfo& info)
-{
-  constexpr std::int64_t Most = std::int64_t(1) << 29; // the corners of a window have 32 bits
-  const auto share = static_cast<std::int64_t>(0.45 * static_cast<double>(memory));
-  return static_cast<std::size_t>(
-    std::clamp(share / bytesOfTriangle(info), MinWindow, Most) / PartsOfWindow);
-}
-
 } // namespace
 
 StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
@@ -73,12 +50,12 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
   : Memory(memory, SimplificationMemory)
   , Told(progress)
   , Polled([this] { this->poll(); })
-  , Parts(triangles, marksHeld, this->Memory, partOf(memory, triangles.info()), std::move(progress),
-      this->Polled)
+  , Parts(triangles, marksHeld, this->Memory, trianglesOfPart(memory, triangles.info()),
+      std::move(progress), this->Polled)
   , Info(triangles.info())
   , Goal{ target.vertices,
     target.error > 0.0 ? target.error : std::numeric_limits<double>::infinity() }
-  , Capacity(PartsOfWindow * partOf(memory, triangles.info()))
+  , Capacity(PartsOfWindow * trianglesOfPart(memory, triangles.info()))
   , Triangles(2 * target.vertices)
   , Jobs(
       workers, PartsOfWindow, // parts in use at once
@@ -404,17 +381,29 @@ void StreamSimplifier::count(const Collapsed& done)
  * no collapse removes a body. Returns whether they are fragments, which stay. */
 bool StreamSimplifier::dropBodies(std::int64_t vertices)
 {
-  const Staying staying = this->staying();
-  const std::int64_t others = vertices - staying.heldVertices;
-  if (others < 0)
+  SmallBodies bodies;
+  for (bool isFlat = false;; isFlat = true)
   {
-    return false;
+    const Staying staying = this->staying();
+    if (vertices < staying.heldVertices)
+    {
+      return false;
+    }
+    // Bodies with held vertices stay; patches with seams between them are one.
+    joinSeams(this->Window, staying.locked, this->Polled);
+    bodies = smallBodies(this->Window, staying.all(), vertices - staying.heldVertices,
+      mayBeFragments(this->Parts.vertices(), this->Parts.cells()), this->Polled);
+    separateSeams(this->Window);
+    if (isFlat || bodies.number == 0)
+    {
+      break;
+    }
+    // Before any goes: flat ones need few vertices.
+    const auto most = static_cast<std::size_t>(vertices + staying.lockedVertices);
+    this->count(collapseFlat(this->Window, staying.locked, most, this->Polled));
   }
-  // Bodies with held vertices stay; patches with seams between them are one.
-  joinSeams(this->Window, staying.locked, this->Polled);
-  const KeptBodies bodies = keepLargestBodies(this->Window, staying.all(), others, this->Polled);
-  separateSeams(this->Window);
-  this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
+  removeBodies(this->Window, bodies, this->Polled);
+  this->Counts.dropped += static_cast<std::int64_t>(bodies.number);
   return bodies.areFragments;
 }
 

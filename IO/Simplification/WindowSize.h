@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Mesh/Columns.h"
+#include "IO/Simplification/EdgeCollapse.h"
+#include "IO/Simplification/SurfaceParts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+// The memory of a StreamSimplifier, in triangles.
+
+namespace smg
+{
+
+/** The least number of triangles of a window. */
+inline constexpr std::int64_t MinWindow = 20000;
+/** The number of parts whose triangles the window holds. */
+inline constexpr std::int64_t PartsOfWindow = 3;
+
+/** The bytes that a triangle of a surface with these columns takes while its edges collapse. */
+inline std::int64_t bytesOfTriangle(const StreamInfo& info)
+{
+  const std::int64_t row = rowBytes(info.vertexColumns);
+  // Corners, and half a vertex: its number, position, row and its places in tables.
+  constexpr auto OfVertex = static_cast<std::int64_t>(8 + 24 + 16 + sizeof(Quadric));
+  return CollapseBytes + 12 + (OfVertex + 2 * row) / 2 + 2 * rowBytes(carriedColumns(info));
+}
+
+/** The triangles of a part. The window, which has those of PartsOfWindow parts, and as many parts
+ * in work have the same share of the memory; the rest is for open vertices. */
+inline std::size_t trianglesOfPart(std::int64_t memory, const StreamInfo& info)
+{
+  constexpr std::int64_t Most = std::int64_t(1) << 29; // the corners of a window have 32 bits
+  const auto share = static_cast<std::int64_t>(0.45 * static_cast<double>(memory));
+  return static_cast<std::size_t>(
+    std::clamp(share / bytesOfTriangle(info), MinWindow, Most) / PartsOfWindow);
+}
+
+} // namespace smg
