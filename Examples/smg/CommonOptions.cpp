@@ -172,6 +172,14 @@ std::unique_ptr<smg::OpenedMesh> CommonOptions::openInput(
   return smg::openMesh(path, options);
 }
 
+void CommonOptions::addNotes(const smg::OpenedMesh& mesh, std::vector<std::string>& notes)
+{
+  if (const smg::ConversionReport* conversion = mesh.conversion())
+  {
+    notes.insert(notes.end(), conversion->notes.begin(), conversion->notes.end());
+  }
+}
+
 void CommonOptions::addThreadsTo(CLI::App& command)
 {
   command.add_option("--threads", this->threads, "Compute threads; 0: one per core")

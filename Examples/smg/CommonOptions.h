@@ -69,6 +69,9 @@ struct CommonOptions
   std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
     smg::ProgressFunction progress, smg::StreamOrder order = smg::StreamOrder::BreadthFirst) const;
 
+  /** Adds what the conversion of an opened mesh left out or changed, if it was converted. */
+  static void addNotes(const smg::OpenedMesh& mesh, std::vector<std::string>& notes);
+
   /** The folder of the scratch files, or of what exists of it; empty: the temporary one. */
   std::filesystem::path scratchPlace() const;
   /** The bytes that a checkpoint has. */

@@ -199,6 +199,14 @@ void printTopology(const smg::MeshDescription& mesh)
   }
 }
 
+void printNotes(const std::vector<std::string>& notes)
+{
+  for (const std::string& note : notes)
+  {
+    std::printf("%s\n", smg::oneLine(note).c_str());
+  }
+}
+
 void printDescription(const smg::MeshDescription& mesh)
 {
   printTopology(mesh);
@@ -227,10 +235,7 @@ void printDescription(const smg::MeshDescription& mesh)
     printLine("offset", html::number(mesh.resolution.offset, 3) + " diagonals from the origin: " +
                           html::number(mesh.resolution.digits, 3) + " digits are left");
   }
-  for (const std::string& note : mesh.notes)
-  {
-    std::printf("%s\n", smg::oneLine(note).c_str());
-  }
+  printNotes(mesh.notes);
 }
 
 struct InfoCommand : CommonOptions
@@ -306,6 +311,10 @@ struct InfoCommand : CommonOptions
     if (described)
     {
       printDescription(*described);
+    }
+    if (const smg::ConversionReport* conversion = mesh->conversion())
+    {
+      printNotes(conversion->notes);
     }
     if (this->check)
     {

@@ -69,6 +69,7 @@ smg::SimplifyReport SimplifyCommand::simplified()
     this->Simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
     smg::SimplifyReport report =
       smg::simplify(mesh->reader(), this->Target, this->Out, this->Simplify);
+    addNotes(*mesh, report.notes);
     report.seconds = timer.seconds();
     report.cpu_seconds = smg::processSeconds() - cpu;
     return report;

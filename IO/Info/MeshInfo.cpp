@@ -195,6 +195,7 @@ std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options)
   {
     json["time_steps"] = conversion->time_steps;
     json["partitions"] = conversion->partitions;
+    json["notes"] = conversion->notes;
   }
   else
   {

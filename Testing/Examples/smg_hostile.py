@@ -78,7 +78,7 @@ def array(kind, name, components, data):
             % (kind, name, components, compressed(data)))
 
 
-def write_grid(name, n, point_data="", cell_data=""):
+def write_grid(name, n, point_data="", cell_data="", field_data=""):
     """A .vtu file of n x n points."""
     points = b"".join(struct.pack("<3d", i, j, 0) for j in range(n) for i in range(n))
     cells = []
@@ -89,7 +89,7 @@ def write_grid(name, n, point_data="", cell_data=""):
     with open(name, "w", encoding="utf-8") as file:
         file.write('<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
                    'header_type="UInt64" compressor="vtkZLibDataCompressor"><UnstructuredGrid>'
-                   '<Piece NumberOfPoints="%d" NumberOfCells="%d">\n<PointData>%s</PointData>'
+                   + field_data + '<Piece NumberOfPoints="%d" NumberOfCells="%d">\n<PointData>%s</PointData>'
                    "<CellData>%s</CellData>\n" % (n * n, len(cells), point_data, cell_data)
                    + "<Points>" + array("Float64", "Points", 3, points) + "</Points><Cells>"
                    + array("Int64", "connectivity", 1, b"".join(struct.pack("<3q", *c)
@@ -160,6 +160,18 @@ def many_columns():
         assert ("are left out" in out) == (count > 4000), out
         for command in commands("many.vsm"):
             check(*command, within=math.inf)
+
+
+def field_data():
+    """Every command says what it leaves out of the file."""
+    fields = "<FieldData>%s</FieldData>" % array("Float64", "mass", 1, bytes(8))
+    write_grid("fields.vtu", 5, field_data=fields.replace("<DataArray", '<DataArray NumberOfTuples="1"'))
+    for command in commands("fields.vtu"):
+        out = check(*[word for word in command if word != "--quiet"])[1]
+        assert out.count("Field data are left out, since a mesh has no place for them: 'mass'.") == 1, (command, out)
+    check("info", "fields.vtu", "--report", "info.json", "--quiet")
+    with open("info.json", encoding="utf-8") as file:
+        assert "mass" in json.load(file)["notes"][0]
 
 
 def no_files():
@@ -299,6 +311,7 @@ def main():
         shutil.rmtree(entry) if os.path.isdir(entry) else os.remove(entry)
     wide_columns()
     many_columns()
+    field_data()
     no_files()
     descriptions()
     stars()
