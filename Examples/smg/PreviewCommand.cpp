@@ -66,6 +66,7 @@ int PreviewCommand::run() const
     options.text = this->writesText;
     options.progress = smg::partOf(bar.function(), 0.95, 1.0);
     notes = smg::writeMesh(preview, this->out, options);
+    notes.insert(notes.begin(), preview.notes().begin(), preview.notes().end());
     addNotes(*mesh, notes);
     report["vertices"] = mesh->reader().info().vertices;
     report["cells"] = mesh->reader().info().cells;

@@ -65,6 +65,7 @@ RawMesh rawMesh(const MeshPiece& piece, bool doublePositions, Workspace& workspa
 struct PreviewSource::Implementation
 {
   Workspace space;
+  std::vector<std::string> notes;
   std::optional<RawMesh> mesh;
   std::optional<StreamLayout> layout;
   std::optional<LayoutSource> source;
@@ -72,7 +73,8 @@ struct PreviewSource::Implementation
 
 PreviewSource::PreviewSource(VsmReader& mesh, std::int64_t maximumPoints,
   const ProgressFunction& progress, const std::string& name, const std::filesystem::path& scratch)
-  : Self(new Implementation{ { scratch, OrderMemory, partOf(progress, 0.95, 1.0) }, {}, {}, {} })
+  : Self(
+      new Implementation{ { scratch, OrderMemory, partOf(progress, 0.95, 1.0) }, {}, {}, {}, {} })
 {
   if (maximumPoints < MinPreviewPoints || maximumPoints > MaxPreviewPoints)
   {
@@ -80,7 +82,8 @@ PreviewSource::PreviewSource(VsmReader& mesh, std::int64_t maximumPoints,
                 " points; expected " + std::to_string(MinPreviewPoints) + " to " +
                 std::to_string(MaxPreviewPoints) + ".");
   }
-  const MeshPiece piece = makePreviewPiece(mesh, maximumPoints, partOf(progress, 0.0, 0.95));
+  const MeshPiece piece = makePreviewPiece(mesh, maximumPoints, partOf(progress, 0.0, 0.95),
+    SolidPreviewCells::Triangles, &this->Self->notes);
   if (piece.corners.empty())
   {
     throw Error((name.empty() ? mesh.path().string() : name) + ": " + emptyPreview(maximumPoints));
@@ -97,6 +100,11 @@ PreviewSource::~PreviewSource() = default;
 const StreamInfo& PreviewSource::info() const
 {
   return this->Self->source->info();
+}
+
+const std::vector<std::string>& PreviewSource::notes() const
+{
+  return this->Self->notes;
 }
 
 bool PreviewSource::next(MeshBlock& block)

@@ -6,6 +6,7 @@
 #include "IO/Results/VertexNormals.h"
 #include "IO/Simplification/Bodies.h"
 #include "IO/Simplification/EdgeCollapse.h"
+#include "IO/Simplification/SimplifierNotes.h"
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
 #include "IO/Simplification/VertexClusters.h"
@@ -75,7 +76,7 @@ MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& col
 } // namespace
 
 MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
-  const ProgressFunction& progress, std::int64_t maxMemory)
+  const ProgressFunction& progress, std::int64_t maxMemory, std::vector<std::string>* notes)
 {
   Progress done(progress);
   Workers workers(mesh.info().cells > CellsOfOneThread ? 0 : 1);
@@ -87,6 +88,11 @@ MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
   for (StreamSimplifier::Result result; simplifier.next(result);)
   {
     append(result.surface, surface);
+  }
+  if (notes)
+  {
+    noteBodies(simplifier, *notes);
+    noteShape(simplifier, false, *notes);
   }
   done.update(1.0);
   return pieceOf(surface, mesh.info().vertexColumns);
@@ -124,12 +130,13 @@ Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::in
 } // namespace
 
 MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints,
-  const ProgressFunction& progress, SolidPreviewCells cells)
+  const ProgressFunction& progress, SolidPreviewCells cells, std::vector<std::string>* notes)
 {
   const std::vector<ColumnSpec>& columns = mesh.info().vertexColumns;
   if (cells != SolidPreviewCells::Tetrahedra || mesh.info().cellType != CellType::Tetrahedron)
   {
-    return makePreview(*mesh.source(columnNames(columns), {}), maximumPoints, progress);
+    return makePreview(*mesh.source(columnNames(columns), {}), maximumPoints, progress,
+      std::numeric_limits<std::int64_t>::max(), notes);
   }
   // Most rows are not needed, so the columns are read afterwards.
   MeshPiece piece = makeSolidPreview(mesh, maximumPoints, progress);

@@ -26,11 +26,13 @@ namespace smg
  * Where the edges of a mesh cannot be collapsed, vertices near one another are merged instead.
  *
  * Memory is bounded by that of StreamSimplifier, which is what the number of points and the width
- * of the stream ask for, but at most `maxMemory` bytes. Throws Error and Cancelled.
+ * of the stream ask for, but at most `maxMemory` bytes. `notes` gets what is lost, in
+ * sentences. Throws Error and Cancelled.
  */
 SMG_EXPORT MeshPiece makePreview(MeshSource& mesh,
   std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {},
-  std::int64_t maxMemory = std::numeric_limits<std::int64_t>::max());
+  std::int64_t maxMemory = std::numeric_limits<std::int64_t>::max(),
+  std::vector<std::string>* notes = nullptr);
 
 /** What a preview of tetrahedra consists of. */
 enum class SolidPreviewCells
@@ -45,7 +47,8 @@ enum class SolidPreviewCells
  */
 SMG_EXPORT MeshPiece makePreviewPiece(VsmReader& mesh,
   std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {},
-  SolidPreviewCells cells = SolidPreviewCells::Triangles);
+  SolidPreviewCells cells = SolidPreviewCells::Triangles,
+  std::vector<std::string>* notes = nullptr);
 
 /** The last preview of a mesh, which is asked for again and again while a mesh is displayed. */
 class KeptPreview

@@ -155,6 +155,7 @@ public:
       else if (isAll && this->Cuts && !this->Surface.mayTurn())
       {
         this->Surface.letTurn();
+        done.turns = true;
       }
       else if (isAll)
       {

@@ -34,6 +34,7 @@ struct Collapsed
   std::size_t bodies = 0; ///< that have gone
   /** Whether borders between labels were given up, since nothing else could collapse. */
   bool crossesBorders = false;
+  bool turns = false; ///< whether triangles might turn over
 };
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */

@@ -8,6 +8,7 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/HeldMesh.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "IO/Simplification/SimplifierNotes.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
@@ -139,7 +140,7 @@ void noteBorders(
 void noteSeams(const HeldMesh& mesh, const SimplifyReport& report,
   const SimplificationCounts& counts, std::vector<std::string>& notes)
 {
-  if (mesh.seams() == 0 || (mesh.marksSeams() && !counts.splitsSeams) || counts.isClustered ||
+  if (mesh.seams() == 0 || (mesh.marksSeams() && !counts.splitsSeams) || counts.merged > 0 ||
       report.vertices == report.vertices_before)
   {
     return;
@@ -213,24 +214,11 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
     notes.push_back("continued after " + std::to_string(counts.resumedAt) +
                     " vertices of the mesh, the last state that the checkpoint has");
   }
-  if (counts.dropped > 0)
-  {
-    notes.push_back(std::to_string(counts.dropped) + (counts.dropped == 1 ? " body" : " bodies") +
-                    " too small for so few vertices " + (counts.dropped == 1 ? "is" : "are") +
-                    " left out.");
-  }
+  noteBodies(simplifier, notes);
   noteCellColumns(info, notes);
   noteBorders(simplifier, info, notes);
   noteSeams(mesh, report, counts, notes);
-  if (counts.isClustered)
-  {
-    notes.emplace_back(
-      "Collapsing edges alone leaves more vertices: vertices near one another were merged "
-      "instead, by an error that is not known. If triangles do not share their vertices, join "
-      "those "
-      "with the same coordinates first: on the command line with --weld 0, in ParaView by the "
-      "filter Clean.");
-  }
+  noteShape(simplifier, mesh.seams() > 0, notes);
   noteVertices(target, report, counts, mesh.held(), notes);
   noteShares(simplifier.labels(), notes);
   return notes;
@@ -279,8 +267,9 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   report.cells_before = mesh.info().cells;
   report.vertices = written.vertices;
   report.cells = written.cells;
-  report.error = counts.isClustered ? std::numeric_limits<double>::quiet_NaN() : counts.error;
+  report.error = counts.merged > 0 ? std::numeric_limits<double>::quiet_NaN() : counts.error;
   report.dropped_bodies = counts.dropped;
+  report.merged_vertices = counts.merged;
   report.resumed_vertices = counts.resumedAt;
   report.pool_bytes_peak =
     std::max(kept + seams + simplified.simplifier().peakMemory(), source.peakMemory());
@@ -343,6 +332,7 @@ std::string SimplifyReport::json(int indent) const
   json["cells"] = this->cells;
   json["error"] = this->error;
   json["dropped_bodies"] = this->dropped_bodies;
+  json["merged_vertices"] = this->merged_vertices;
   json["resumed_vertices"] = this->resumed_vertices;
   json["pool_bytes_peak"] = this->pool_bytes_peak;
   json["rss_bytes_peak"] = this->rss_bytes_peak;

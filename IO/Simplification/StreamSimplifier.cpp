@@ -375,6 +375,13 @@ void StreamSimplifier::count(const Collapsed& done)
   this->Counts.error = std::max(this->Counts.error, done.error);
   this->Counts.dropped += static_cast<std::int64_t>(done.bodies);
   this->Counts.crossesBorders = this->Counts.crossesBorders || done.crossesBorders;
+  this->Counts.turns = this->Counts.turns || done.turns;
+}
+
+void StreamSimplifier::countMerged(std::size_t vertices)
+{
+  this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
+  this->Counts.merged += static_cast<std::int64_t>(vertices);
 }
 
 /** Removes the smallest bodies of the window, so that so many vertices are enough for the others:
@@ -431,9 +438,9 @@ void StreamSimplifier::shrink(std::size_t vertices)
   }
   if (4 * this->Window.triangles() > 3 * this->Capacity)
   {
-    this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
+    const std::size_t before = this->Window.vertices();
     clusterVertices(this->Window, this->staying().held, this->Capacity / 8, this->Polled);
-    this->Counts.isClustered = true;
+    this->countMerged(before - this->Window.vertices());
   }
 }
 
@@ -549,9 +556,8 @@ void StreamSimplifier::finish()
     clusterVertices(merged, staying.held, static_cast<std::size_t>(most), this->Polled);
     if (merged.triangles() > 0)
     {
-      this->Counts.crossesBorders = this->Counts.crossesBorders || !merged.labels.empty();
+      this->countMerged(this->Window.vertices() - merged.vertices());
       this->Window = std::move(merged);
-      this->Counts.isClustered = true;
     }
   }
   this->deliver(std::vector<std::uint8_t>(this->Window.triangles(), 1));

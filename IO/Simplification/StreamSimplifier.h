@@ -32,8 +32,9 @@ struct SimplificationCounts
   double error = 0.0;          ///< the largest of a collapse, see collapseEdges()
   std::int64_t dropped = 0;    ///< small bodies
   std::int64_t held = 0;       ///< vertices of the result
-  bool isClustered = false;    ///< whether edges of some parts could not be collapsed
+  std::int64_t merged = 0;     ///< vertices, where edges could not be collapsed
   bool crossesBorders = false; ///< whether borders between labels were given up
+  bool turns = false;          ///< whether triangles might turn over
   bool splitsSeams = false;    ///< whether seams were given up, see joinSeams()
   std::int64_t resumedAt = 0;  ///< vertices simplified by an earlier program, see keepIn()
 };
@@ -96,6 +97,8 @@ public:
 
   const SimplificationCounts& counts() const { return this->Counts; }
   std::int64_t peakMemory() const { return this->Memory.peak(); }
+  /** The share of the area of the stream that the result has; 1 if that has none. */
+  double shareOfArea() const { return this->Parts.shareOfArea(); }
   /** The labels of the cells that were read. */
   const CellLabels& labels() const { return this->Parts.labels(); }
   /** Asks whether to go on, for work on a part of the result. */
@@ -137,6 +140,7 @@ private:
   void makeRoom();
   void collapse(std::int64_t vertices);
   void count(const Collapsed& done);
+  void countMerged(std::size_t vertices);
   bool dropBodies(std::int64_t vertices);
   void fit(std::int64_t vertices);
   void shrink(std::size_t vertices);

@@ -360,14 +360,19 @@ void SurfaceParts::localise(SurfacePart& surface)
 void SurfaceParts::addAreas(CellLabels::Surface on, const SurfacePart& surface)
 {
   const std::size_t stride = surface.cellRowBytes();
-  for (std::size_t t = 0; t < surface.triangles() && stride > 0; ++t)
+  for (std::size_t t = 0; t < surface.triangles(); ++t)
   {
     this->Polled.at(t);
     const std::uint32_t* c = surface.corners.data() + 3 * t;
     const double* a = surface.points.data() + 3 * std::size_t(c[0]);
     const Vector twice = cross(difference(surface.points.data() + 3 * std::size_t(c[1]), a),
       difference(surface.points.data() + 3 * std::size_t(c[2]), a));
-    this->Labels.addArea(on, surface.cellRows.data() + t * stride, std::sqrt(dot(twice, twice)));
+    const double area = std::sqrt(dot(twice, twice));
+    this->Areas[on] += area;
+    if (stride > 0)
+    {
+      this->Labels.addArea(on, surface.cellRows.data() + t * stride, area);
+    }
   }
 }
 

@@ -221,7 +221,15 @@ public:
   std::int64_t vertices() const { return this->Vertices; }
   /** The labels of the cells that were read. */
   const CellLabels& labels() const { return this->Labels; }
-  /** Compares the areas of labels with those of this surface, which is a part of the result. */
+  /** The share of the area of what was read that the parts of the result have; 1 if that has none.
+   */
+  double shareOfArea() const
+  {
+    const auto [given, simplified] = this->Areas;
+    return given > 0.0 ? simplified / given : 1.0;
+  }
+  /** Compares the areas, and those of labels, with those of this surface, which is a part of the
+   * result. */
   void addResult(const SurfacePart& surface) { this->addAreas(CellLabels::Simplified, surface); }
 
 private:
@@ -243,8 +251,9 @@ private:
   std::vector<std::int64_t> Corners;
   std::vector<std::byte> CellRows; ///< of the triangles with these corners
   CellLabels Labels;
-  std::int64_t Released = 0; ///< the first open vertex
-  std::int64_t Final = 0;    ///< vertices below are not in later cells
+  std::array<double, 2> Areas{}; ///< twice those of the stream and of the result
+  std::int64_t Released = 0;     ///< the first open vertex
+  std::int64_t Final = 0;        ///< vertices below are not in later cells
   std::int64_t Vertices = 0, Cells = 0;
   bool IsAtEnd = false;
 };

@@ -363,6 +363,7 @@ class Report(Dict[str, Any]):
     cells_before: int
     error: Optional[float]
     dropped_bodies: int
+    merged_vertices: int
     resumed_vertices: int
     notes: List[str]
     warnings: List[str]

@@ -112,6 +112,7 @@ class Report(_Facts):
     cells_before: int
     error: Optional[float]
     dropped_bodies: int
+    merged_vertices: int
     resumed_vertices: int
     notes: List[str]
     warnings: List[str]

@@ -199,7 +199,7 @@ TEST_F(SimplifySeams, StayClosed)
         const StreamMesh simple = this->simplified(mesh, target, memory);
         EXPECT_LT(simple.vertices(), mesh.vertices() / 2);
         EXPECT_FALSE(this->isSaid("a crack may open"));
-        if (this->isSaid("vertices near one another were merged"))
+        if (this->Report.merged_vertices > 0)
         {
           continue;
         }

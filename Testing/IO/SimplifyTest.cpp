@@ -5,12 +5,12 @@
 #include "Solver/Core/Timer.h"
 #include "Solver/Core/Workers.h"
 
+#include "Testing/IO/SimplifyFixture.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/StreamMesh.h"
-#include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 #include "Testing/Support/Unwelded.h"
 #include "smg/VsmReader.h"
@@ -45,7 +45,7 @@ struct Asked : SimplifyTarget, SimplifyOptions
 {
 };
 
-class Simplify : public ::testing::Test
+class Simplify : public SimplifyFixture
 {
 protected:
   /** Simplifies the mesh, in blocks of so many cells. */
@@ -60,9 +60,6 @@ protected:
     EXPECT_EQ(this->Report.vertices_before, mesh.vertices());
     return collect(*reader.source());
   }
-
-  TemporaryFolder Folder;
-  SimplifyReport Report;
 };
 
 Asked toVertices(std::int64_t vertices, std::int64_t memory = std::int64_t(256) << 20)
@@ -355,7 +352,8 @@ TEST_F(Simplify, OddSurfacesDoNoHarm)
   const StreamMesh merged = this->simplified(soup, toVertices(300));
   EXPECT_LE(merged.vertices(), 300);
   EXPECT_GT(merged.vertices(), 100);
-  EXPECT_NE(this->Report.notes.at(0).find("--weld"), std::string::npos);
+  EXPECT_TRUE(this->isSaid("--weld"));
+  EXPECT_GT(this->Report.merged_vertices, soup.vertices() / 2);
   EXPECT_TRUE(std::isnan(this->Report.error)); // of merging
   // Every edge of a fan has three triangles, which are wound against each other.
   IndexedTestMesh fan = grid(40, 40);
@@ -367,6 +365,41 @@ TEST_F(Simplify, OddSurfacesDoNoHarm)
     fan.corners.insert(fan.corners.end(), { once.corners[i], once.corners[i], once.corners[i] });
   }
   EXPECT_LE(this->simplified(toStream(fan), toVertices(200)).vertices(), 200);
+}
+
+/** Three pages at a spine, whose vertices cannot go. */
+TEST_F(Simplify, SaysWhatIsLostWhereSurfacesBranch)
+{
+  constexpr int Wide = 20, High = 40;
+  IndexedTestMesh pages;
+  const auto at = [](int page, int i, int j)
+  { return std::int64_t(i == 0 ? j : (page * Wide + i) * (High + 1) + j); };
+  for (int row = 0; row <= 3 * Wide; ++row)
+  {
+    const int page = row == 0 ? 0 : (row - 1) / Wide, i = row - page * Wide;
+    const double angle = 2.0943951023931953 * page;
+    for (int j = 0; j <= High; ++j)
+    {
+      pages.positions.insert(
+        pages.positions.end(), { i * std::cos(angle), i * std::sin(angle), double(j) });
+    }
+    for (int j = 0; row > 0 && j < High; ++j)
+    {
+      const std::int64_t a = at(page, i - 1, j), b = at(page, i, j), c = b + 1,
+                         d = at(page, i - 1, j + 1);
+      pages.corners.insert(pages.corners.end(), { a, b, c, a, c, d });
+    }
+  }
+  const StreamMesh mesh = toStream(pages);
+  for (const std::int64_t vertices : { 10, 25, 40, 43, 47, 100 })
+  {
+    SCOPED_TRACE(vertices);
+    const StreamMesh simple = this->simplified(mesh, toVertices(vertices));
+    EXPECT_EQ(this->isSaid("% of the area"), areaOf(simple) < 0.8 * areaOf(mesh));
+    EXPECT_EQ(this->isSaid("merged"), vertices <= High);
+    EXPECT_EQ(this->Report.merged_vertices > 0, vertices <= High);
+    EXPECT_FALSE(this->isSaid("--weld")); // no points coincide
+  }
 }
 
 /** A triangle on an inner edge, whose ends have as many neighbours as triangles. */

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -56,6 +57,8 @@ public:
 
   const StreamInfo& info() const override;
   bool next(MeshBlock& block) override;
+  /** What the preview does not show, in sentences. */
+  const std::vector<std::string>& notes() const;
 
 private:
   struct Implementation;

@@ -62,6 +62,7 @@ struct SMG_EXPORT SimplifyReport
    * merged instead, since that is not measured. */
   double error = 0;
   std::int64_t dropped_bodies = 0;  ///< small bodies that are not in the result
+  std::int64_t merged_vertices = 0; ///< with others near them, where edges could not collapse
   std::int64_t pool_bytes_peak = 0; ///< most accounted memory at once, bytes
   std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes
   double cpu_seconds = 0;           ///< processor time of all threads of the process
