@@ -129,11 +129,12 @@ struct vtkStreamingMeshSimplification::Internals
 
   void checkRanges() const
   {
-    constexpr int LeastVertices = 4, LeastMemory = 16, MaxThreads = 4096;
+    constexpr int LeastMemory = 16, MaxThreads = 4096;
     if (this->Self.NumberOfVertices != 0)
     {
-      smg::requireInRange({ { "NumberOfVertices", this->Self.NumberOfVertices, LeastVertices,
-        smg::PropertyRange::NoLimit, "0 (as few as MaximumError allows)" } });
+      smg::requireInRange(
+        { { "NumberOfVertices", this->Self.NumberOfVertices, smg::SimplifyTarget::MinVertices,
+          smg::PropertyRange::NoLimit, "0 (as few as MaximumError allows)" } });
     }
     smg::requireInRange({ { "MemoryLimit", this->Self.MemoryLimit, LeastMemory },
       { "NumberOfPieces", this->Self.NumberOfPieces, 0, smg::PieceCount::Most },

@@ -142,7 +142,7 @@ void SimplifyCommand::addOptions(CLI::App& command)
         "has in IN; or any other format of surfaces that is written")
     ->required();
   command.add_option("--vertices", this->Target.vertices, "Maximum number of vertices")
-    ->check(CLI::Range(std::int64_t(4), std::int64_t(1) << 40))
+    ->check(CLI::Range(smg::SimplifyTarget::MinVertices, smg::SimplifyTarget::MaxVertices))
     ->type_name("N");
   command.add_option("--error", this->Target.error, "Largest error, in the unit of the mesh")
     ->check(

@@ -61,12 +61,7 @@ Conversion::Conversion(MeshImporter importer, const std::filesystem::path& name,
 
 void Conversion::checkOptions() const
 {
-  if (this->Memory < Workspace::MinMemory)
-  {
-    throw MemoryError(this->In.string() + ": a conversion needs a memory limit of at least " +
-                      std::to_string(Workspace::MinMemory >> 20) + " MiB, but it is " +
-                      std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
-  }
+  checkLeastMemory(this->In.string() + ": a conversion", this->Memory);
   if (this->Options.scratchLimit < 0)
   {
     throw Error(this->In.string() + ": the limit of scratch files must not be negative.");

@@ -17,6 +17,16 @@ constexpr PoolUse ConversionMemory{ "the conversion", "raise the memory limit (o
 
 } // namespace
 
+void checkLeastMemory(const std::string& operation, std::int64_t memory)
+{
+  if (memory < Workspace::MinMemory)
+  {
+    throw MemoryError(operation + " needs a memory limit of at least " +
+                      std::to_string(Workspace::MinMemory >> 20) + " MiB, but it is " +
+                      std::to_string(memory >> 20) + " MiB: raise it.");
+  }
+}
+
 Workspace::Workspace(const std::filesystem::path& scratch, std::int64_t memory,
   const ProgressFunction& progress, std::int64_t scratchLimit, int threads)
   : Folder(scratch, scratchLimit)

@@ -15,6 +15,10 @@
 namespace smg
 {
 
+/** Throws MemoryError if an operation, as "a conversion", is given less than Workspace::MinMemory.
+ */
+SMG_EXPORT void checkLeastMemory(const std::string& operation, std::int64_t memory);
+
 /**
  * The resources of an out-of-core operation: an accounted pool of memory, a folder for files, and
  * threads.

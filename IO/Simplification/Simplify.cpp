@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Simplify.h"
 
+#include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
@@ -9,6 +10,7 @@
 #include "IO/Simplification/HeldMesh.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "IO/Simplification/SimplifierNotes.h"
+#include "IO/Simplification/WindowSize.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
@@ -39,26 +41,23 @@ namespace
 
 void check(const SimplifyTarget& target, const SimplifyOptions& options)
 {
-  constexpr std::int64_t MinVertices = 4, MinMemory = std::int64_t(16) << 20;
   if (target.vertices == 0 && target.error == 0.0)
   {
     throw Error("a simplification needs the number of vertices or the error of its result");
   }
-  if (target.vertices != 0 && target.vertices < MinVertices)
+  if (target.vertices != 0 && (target.vertices < SimplifyTarget::MinVertices ||
+                                target.vertices > SimplifyTarget::MaxVertices))
   {
     throw Error("a simplified mesh of " + std::to_string(target.vertices) +
-                " vertices is asked for; expected at least " + std::to_string(MinVertices));
+                " vertices is asked for; expected " + std::to_string(SimplifyTarget::MinVertices) +
+                " to " + std::to_string(SimplifyTarget::MaxVertices));
   }
   if (!std::isfinite(target.error) || target.error < 0.0)
   {
     throw Error("the error of a simplification is " + std::to_string(target.error) +
                 "; expected a length above 0, or 0 for what the number of vertices needs");
   }
-  if (options.memoryLimit < MinMemory)
-  {
-    throw MemoryError("the memory limit of a simplification is " + mebibytes(options.memoryLimit) +
-                      "; expected at least " + mebibytes(MinMemory));
-  }
+  checkLeastMemory("a simplification", options.memoryLimit);
 }
 
 /** What must be the same when a simplification is continued: the mesh and everything that its
@@ -240,26 +239,38 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   // Joined seams take more memory in the window.
   constexpr std::int64_t ShareOfSeams = 10;
   const std::int64_t seams = source.marksSeams() ? options.memoryLimit / ShareOfSeams : 0;
-  SimplifiedMesh simplified(source, source.marksHeld(), target, options.memoryLimit - kept - seams,
-    workers, [&done](double share) { done.update(share); });
+  const auto inOwnTerms = [&](const auto& work)
+  {
+    try
+    {
+      return work();
+    }
+    catch (const MemoryLimitError& error)
+    {
+      // In terms of the limit that was given, of which seams have their share.
+      const std::int64_t own = seams == 0 ? 0 : (error.needed() + kept) / (ShareOfSeams - 1);
+      throw error.inside(kept + own, options.memoryLimit);
+    }
+  };
+  SimplifiedMesh simplified = inOwnTerms(
+    [&]
+    {
+      return SimplifiedMesh(source, source.marksHeld(), target, options.memoryLimit - kept - seams,
+        workers, [&done](double share) { done.update(share); });
+    });
   if (checkpoint)
   {
     simplified.simplifier().keepIn(*checkpoint, subjectOf(mesh, target, options));
   }
   VsmWriter writer(vsm, simplified.info(), { .codec = options.codec, .scratch = options.scratch });
-  try
-  {
-    for (MeshBlock block; simplified.next(block);)
+  inOwnTerms(
+    [&]
     {
-      writer.append(block);
-    }
-  }
-  catch (const MemoryLimitError& error)
-  {
-    // In terms of the limit that was given, of which seams have their share.
-    const std::int64_t own = seams == 0 ? 0 : (error.needed() + kept) / (ShareOfSeams - 1);
-    throw error.inside(kept + own, options.memoryLimit);
-  }
+      for (MeshBlock block; simplified.next(block);)
+      {
+        writer.append(block);
+      }
+    });
   const StreamInfo written = writer.finish();
   const SimplificationCounts& counts = simplified.simplifier().counts();
   SimplifyReport report;
@@ -286,10 +297,15 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
 {
   check(target, options);
   constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
-  constexpr std::int64_t BytesOfCell = 400;
   Costs costs;
-  costs.memory = std::min(options.memoryLimit, BytesOfCell * mesh.info.cells);
   const bool isSurface = mesh.info.cellType == CellType::Triangle;
+  StreamInfo surface = mesh.info;
+  if (!isSurface)
+  {
+    surface.cells = 0; // not known
+    surface.cellColumns.clear();
+  }
+  costs.memory = windowBytes(options.memoryLimit, surface) + openBytes(surface);
   costs.passes = isSurface || !options.hold.empty() ? 2 : 1; // the first for seams and what is held
   costs.seconds = SecondsOfCell * static_cast<double>(mesh.info.cells);
   EstimatedInput result = mesh;

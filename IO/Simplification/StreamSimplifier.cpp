@@ -31,6 +31,11 @@ namespace
 constexpr PoolUse SimplificationMemory{ "the simplification",
   "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
+constexpr PoolUse ColumnMemory{ "a simplification with so many columns",
+  "raise the memory limit, or simplify a mesh with fewer columns" };
+constexpr PoolUse HeldMemory{ "the simplification, in which so many vertices stay,",
+  "raise the memory limit, or hold fewer vertices" };
+
 /** The least share of its vertices that a part keeps: PartShare, but more, up to UsualShare, where
  * that is not SmallGoal times what will be left of the mesh, so that the window has something to
  * choose from. */
@@ -94,8 +99,11 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, bool marksHeld,
   // The number of cells of the boundary of a solid is not known.
   const bool mayBeLarge = this->Info.cells <= 0 || this->Info.cells > window;
   this->Streams = mayBeLarge && (this->limitsError() || this->Triangles > window / 3);
-  const std::int64_t used = this->Info.cells > 0 ? std::min(window, this->Info.cells) : window;
-  this->Memory.acquire(2 * used * bytesOfTriangle(this->Info));
+  if (const std::int64_t bytes = windowBytes(memory, this->Info); bytes > memory)
+  {
+    throw MemoryLimitError(bytes, memory, ColumnMemory);
+  }
+  this->Memory.acquire(windowBytes(memory, this->Info));
 }
 
 StreamSimplifier::~StreamSimplifier()
@@ -302,8 +310,12 @@ bool StreamSimplifier::grow()
   {
     this->enlarge(fixed * TrianglesPerLocked * 3 / 2);
   }
-  catch (const MemoryLimitError&)
+  catch (const MemoryLimitError& error)
   {
+    if (staying.heldVertices > staying.lockedVertices && !this->hasSeams())
+    {
+      throw error.of(HeldMemory);
+    }
     if (this->Counts.splitsSeams || !this->hasSeams())
     {
       throw;

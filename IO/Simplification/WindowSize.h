@@ -38,4 +38,18 @@ inline std::size_t trianglesOfPart(std::int64_t memory, const StreamInfo& info)
     std::clamp(share / bytesOfTriangle(info), MinWindow, Most) / PartsOfWindow);
 }
 
+/** What a simplification in so much memory takes of it for the window and the parts in work, at
+ * least for MinWindow triangles or all of the surface. */
+inline std::int64_t windowBytes(std::int64_t memory, const StreamInfo& info)
+{
+  const auto window = PartsOfWindow * static_cast<std::int64_t>(trianglesOfPart(memory, info));
+  return 2 * (info.cells > 0 ? std::min(window, info.cells) : window) * bytesOfTriangle(info);
+}
+
+/** What the open vertices of the stream take beside the window, at least. */
+inline std::int64_t openBytes(const StreamInfo& info)
+{
+  return std::max<std::int64_t>(0, info.width) * (24 + rowBytes(info.vertexColumns));
+}
+
 } // namespace smg

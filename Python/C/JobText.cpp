@@ -287,7 +287,7 @@ SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults)
       if (node.has("vertices"))
       {
         call.target.vertices =
-          node.member("vertices").integer(4, std::numeric_limits<std::int64_t>::max());
+          node.member("vertices").integer(SimplifyTarget::MinVertices, SimplifyTarget::MaxVertices);
       }
       if (node.has("error"))
       {

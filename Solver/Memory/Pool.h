@@ -115,6 +115,12 @@ public:
     return { plus(this->Needed, own), allowed, this->Use, usual };
   }
 
+  /** The same error of another purpose. */
+  MemoryLimitError of(const PoolUse& use) const
+  {
+    return { this->Needed, this->Allowed, use, this->Usual };
+  }
+
   std::int64_t needed() const { return this->Needed; }
 
 private:

@@ -171,6 +171,30 @@ def test_costs(mesh, command, arguments, threads):
     os.remove("o.vsm")
 
 
+def test_simplifications():
+    """Also of many columns; what does not fit according to --dry-run does not, and says what takes the memory."""
+    columns = "".join("property double c%d\n" % k for k in range(40))
+    points, quadrangles = torus(220, 190)
+    with open("wide.ply", "w", encoding="ascii") as file:
+        file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points) + "property double x\nproperty double y\n"
+                   "property double z\n" + columns + "element face %d\nproperty list uchar int vertex_indices\nend_header\n"
+                   % len(quadrangles))
+        file.writelines("%r %r %r" % point + " 0" * 40 + "\n" for point in points)
+        file.writelines("4 %d %d %d %d\n" % quadrangle for quadrangle in quadrangles)
+    run("convert", "wide.ply", "wide.vsm", "--quiet")
+    for mesh in ("surface", "solid", "wide"):
+        for memory in (16, 17, 24, 64, 256):
+            common = ["simplify", mesh + ".vsm", "small.vsm", "--vertices", "2000", "--memory", memory]
+            run(*common, "--dry-run", "--report", "dry.json")
+            said = load("dry.json")["memory_bytes"]
+            done = run(*common, "--quiet", "--report", "report.json", code=int(said > memory * MIB))
+            if said > memory * MIB:
+                assert "so many columns needs at least" in done.stderr and "order" not in done.stderr, done.stderr
+                continue
+            peak = load("report.json")["pool_bytes_peak"]
+            assert peak / 2 <= said <= 2 * peak, (mesh, memory, peak, said)
+
+
 def test_winding():
     """The reading that finds how to wind the triangles is counted."""
     def passes(*options):
@@ -258,6 +282,7 @@ for each in ("surface", "solid"):
     for task in commands(each):
         for count in ("2", "8"):
             test_costs(each, *task, count)
+test_simplifications()
 test_threads()
 test_limits_below_the_need()
 test_unconverted()

@@ -158,6 +158,18 @@ TEST_F(SimplifyHold, PointsOfNoTriangleAreCounted)
     std::string::npos);
 }
 
+TEST_F(SimplifyHold, TooManyPointsForTheMemoryAreNamed)
+{
+  const StreamMesh mesh = toStream(torus(400, 300));
+  expectError(
+    [&]
+    {
+      this->simplified(mesh, { .vertices = 100 },
+        { .hold = { Everywhere() }, .memoryLimit = std::int64_t(16) << 20 });
+    },
+    "or hold fewer vertices");
+}
+
 TEST_F(SimplifyHold, APartWithoutVerticesIsRefused)
 {
   const StreamMesh mesh = toStream(sphere(3));

@@ -518,10 +518,13 @@ TEST_F(Simplify, RefusesOptionsOutOfRangeAndCanBeCancelled)
 {
   const StreamMesh mesh = toStream(torus(50, 40));
   expectError([&] { this->simplified(mesh, {}); }, "needs the number of vertices or the error");
-  expectError([&] { this->simplified(mesh, toVertices(3)); }, "expected at least 4");
+  expectError([&] { this->simplified(mesh, toVertices(3)); }, "expected 4 to 1099511627776");
+  expectError([&] { this->simplified(mesh, toVertices(SimplifyTarget::MaxVertices + 1)); },
+    "expected 4 to 1099511627776");
   expectError([&] { this->simplified(mesh, toError(-1.0)); }, "expected a length above 0");
   expectError([&] { this->simplified(mesh, toError(std::nan(""))); }, "expected a length above 0");
-  expectError([&] { this->simplified(mesh, toVertices(100, 1000)); }, "16 MiB");
+  expectError([&] { this->simplified(mesh, toVertices(100, (16 << 20) - 1)); },
+    "a simplification needs a memory limit of at least 16 MiB, but it is 15 MiB");
   Asked options = toVertices(100);
   for (const double end : { 0.0, 0.5, 1.0 })
   {

@@ -18,7 +18,8 @@ namespace smg
 /** How far to simplify a surface: as far as one of the two says that is given, at least. */
 struct SimplifyTarget
 {
-  /** The most vertices of the result, at least 4; 0: as many as `error` needs. */
+  static constexpr std::int64_t MinVertices = 4, MaxVertices = std::int64_t(1) << 40;
+  /** The most vertices of the result, MinVertices to MaxVertices; 0: as many as `error` needs. */
   std::int64_t vertices = 0;
   /** The largest error, in the unit of the mesh, more than 0: the distance of what is left from the
    * planes of the triangles of the mesh that were there, the root of the mean of the squares
@@ -32,7 +33,7 @@ struct SimplifyOptions
   /** Parts of the mesh whose vertices are all in the result, also if they are more than asked for;
    * then a note says so. */
   std::vector<Where> hold = {};
-  /** Memory limit in bytes, at least 16 MiB. */
+  /** Memory limit in bytes, at least 16 MiB; more where very many columns ask for that. */
   std::int64_t memoryLimit = std::int64_t(256) << 20;
   /** Threads; 0: one per core. The result does not depend on them, but on the memory limit. */
   int threads = 0;
