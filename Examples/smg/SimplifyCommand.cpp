@@ -144,7 +144,11 @@ void SimplifyCommand::addOptions(CLI::App& command)
   command.add_option("--vertices", this->Target.vertices, "Maximum number of vertices")
     ->check(CLI::Range(smg::SimplifyTarget::MinVertices, smg::SimplifyTarget::MaxVertices))
     ->type_name("N");
-  command.add_option("--error", this->Target.error, "Largest error, in the unit of the mesh")
+  command
+    .add_option("--error", this->Target.error,
+      "Largest distance, in the unit of the mesh, from the planes of the triangles that were "
+      "there; "
+      "at sharp edges of thin parts the surface may be farther away")
     ->check(
       [](const std::string& given)
       {
