@@ -265,8 +265,15 @@ void importInput(Conversion& conversion, RawMesh& mesh)
     space.traffic().bytesWritten);
   cutPolygons(mesh, space);
   const std::optional<double>& weld = conversion.options().weld;
+  const std::int64_t merged = weld ? weldPoints(mesh, *weld, space) : 0;
+  if (merged > 0 && merged == mesh.vertices - 1 && *weld > 0.0)
+  {
+    throw Error(conversion.in().string() +
+                ": all points are so near one another that they would be merged with one. Is the "
+                "distance (option --weld) in the unit of the mesh?");
+  }
   // Merged points no longer belong to a cell.
-  report.isolated_vertices -= weld ? weldPoints(mesh, *weld, space) : 0;
+  report.isolated_vertices -= merged;
   freeNumberNames(mesh, conversion.options().numbering, report.notes);
   report.keeps_numbers = isNumbered(mesh);
   report.seconds.import = conversion.lap();

@@ -153,15 +153,28 @@ void noteSeams(const HeldMesh& mesh, const SimplifyReport& report,
                   "the filter Clean.");
 }
 
-/** Says where the number of vertices is not that which was asked for, or points are held in vain.
+/** Says where the number of vertices is not that which was asked for, or points are held in vain,
+ * or the error that is asked for cannot be meant.
  * `held`: in the mesh. */
-void noteVertices(const SimplifyTarget& target, const SimplifyReport& report,
-  const SimplificationCounts& counts, std::int64_t held, std::vector<std::string>& notes)
+void noteVertices(const StreamInfo& info, const SimplifyTarget& target,
+  const SimplifyReport& report, const SimplificationCounts& counts, std::int64_t held,
+  std::vector<std::string>& notes)
 {
   if (const std::int64_t lost = held - counts.held; lost > 0)
   {
     notes.push_back(std::to_string(lost) + " of the " + std::to_string(held) +
                     " held points are in no triangle of the surface, so not in the result.");
+  }
+  const auto& [xmin, xmax, ymin, ymax, zmin, zmax] = info.bounds;
+  if (const double diagonal = std::hypot(xmax - xmin, ymax - ymin, zmax - zmin);
+      diagonal > 0.0 && target.error > diagonal)
+  {
+    char sentence[256];
+    std::snprintf(sentence, sizeof(sentence),
+      "An error of %.3g is larger than the mesh, whose diagonal is %.3g, and limits nothing. Is it "
+      "in the unit of the mesh?",
+      target.error, diagonal);
+    notes.emplace_back(sentence);
   }
   if (target.vertices <= 0 || report.vertices <= target.vertices)
   {
@@ -218,7 +231,7 @@ std::vector<std::string> notesOn(const StreamInfo& info, const SimplifyTarget& t
   noteBorders(simplifier, info, notes);
   noteSeams(mesh, report, counts, notes);
   noteShape(simplifier, mesh.seams() > 0, notes);
-  noteVertices(target, report, counts, mesh.held(), notes);
+  noteVertices(info, target, report, counts, mesh.held(), notes);
   noteShares(simplifier.labels(), notes);
   return notes;
 }

@@ -165,6 +165,8 @@ def test_errors():
     assert ".vsm" in error and ".vtk," in error and ".smb" not in error, error
     error = run("smooth", "torus.obj", "o2.xyz", "--weld", 0.1, code=1).stderr
     assert "this is not a format of a result: write it as .vsm" in error and ".stl" in error, error
+    error = run("convert", "torus.obj", "o2.vsm", "--weld", 1000, code=1).stderr
+    assert "in the unit of the mesh?" in error, error
     # A limit of the size of files is an error, which leaves nothing.
     limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
     done = subprocess.run([SMG, "convert", "torus.obj", "o2.vsm"], capture_output=True, text=True,

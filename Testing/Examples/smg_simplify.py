@@ -91,6 +91,8 @@ def test_an_error_is_kept():
         assert report["error"] <= error
         counts.append(report["vertices"])
     assert 28800 > counts[0] > counts[1] > 50, counts
+    simplify("torus.vsm", "small.vsm", "--error", 1e3)
+    assert "larger than the mesh" in load("report.json")["notes"][0]
     simplify("torus.vsm", "small.vsm", "--error", 1e-3, "--vertices", 500)
     assert load("report.json")["vertices"] == counts[0] and "exceed the error" in load("report.json")["notes"][0]
 

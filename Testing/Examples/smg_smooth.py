@@ -56,7 +56,9 @@ def test_noise_goes_and_volume_stays():
 
 
 def test_what_would_leave_nothing_of_the_shape_is_refused():
-    assert "larger than the mesh" in smooth("noisy.obj", "x.obj", "--size", "1000%", code=1).stderr
+    for size in ("1000%", "1000", "1e9edges"):
+        said = smooth("noisy.obj", "x.obj", "--size", size, code=1).stderr
+        assert "larger than the mesh" in said and ("in the unit of the mesh" in said) == (size == "1000"), said
     mesh = read_mesh("noisy.obj")
     points, faces = mesh.points, mesh.cells
     with open("soup.obj", "w", encoding="utf-8") as file:

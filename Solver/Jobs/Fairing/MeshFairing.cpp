@@ -303,7 +303,8 @@ void MeshFairing::setSize(const MeshMeasures& measures)
   this->Size = size.value * unit;
   // A mesh of few cells may be smaller than its default size, which is in its edges.
   constexpr double Most = 0.25;
-  if (size.unit == SmoothingSize::MeanEdges && this->Size > measures.diagonal())
+  if (size.unit == SmoothingSize::MeanEdges && size.value <= SmoothingSize().value &&
+      this->Size > measures.diagonal())
   {
     this->Size = Most * measures.diagonal();
     this->Result->total.notes.push_back(
@@ -336,7 +337,8 @@ void MeshFairing::setSize(const MeshMeasures& measures)
     const std::string sentence =
       "The size of the details to smooth (option --size), " + scientific(this->Size) +
       ", is larger than the mesh, whose diagonal is " + scientific(measures.diagonal()) +
-      ", and leaves little of its shape. Is it in the unit of the mesh?";
+      ", and leaves little of its shape." +
+      (size.unit == SmoothingSize::Mesh ? " Is it in the unit of the mesh?" : "");
     if (this->movesPoints())
     {
       throw Error(sentence);
