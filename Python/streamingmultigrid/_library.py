@@ -12,7 +12,7 @@ import os
 import re
 import sysconfig
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_void_p
-from typing import Any, Dict, List, Mapping, Optional, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
 from . import progress as _progress
 from . import _process as process
@@ -224,18 +224,19 @@ class NativeHandle:
     def __enter__(self) -> c_void_p:
         """Reserves the handle for this thread."""
         process.require_no_call()
-        self.lock.__enter__()
-        if self.lock.is_lost or self.is_closed:
-            self.lock.__exit__()
-            raise Error(
-                "The process was forked in the middle of a call: in the child, open what it needs again."
-                if self.lock.is_lost
-                else "This object has been closed: open it again."
-            )
-        return self.pointer
+        with self.lock:
+            if self.lock.is_lost or self.is_closed:
+                raise Error(
+                    "The process was forked in the middle of a call: in the child, open what it needs again."
+                    if self.lock.is_lost
+                    else "This object has been closed: open it again."
+                )
+            self.lock.__enter__()
+            return self.pointer
 
-    def __exit__(self, *_: Any) -> None:
-        self.lock.__exit__()
+    @property
+    def __exit__(self) -> Callable[..., None]:
+        return self.lock.__exit__
 
     @property
     def is_closed(self) -> bool:

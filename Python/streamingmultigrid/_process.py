@@ -52,11 +52,14 @@ class HandleLock:
         self.is_lost = False
         _locks.add(self)
 
-    def __enter__(self) -> None:
-        self._lock.acquire()
+    # Functions of C: an interrupt between steps of Python would leave the lock taken.
+    @property
+    def __enter__(self) -> Callable[[], bool]:
+        return self._lock.__enter__
 
-    def __exit__(self, *_: Any) -> None:
-        self._lock.release()
+    @property
+    def __exit__(self) -> Callable[..., None]:
+        return self._lock.__exit__
 
     def is_free(self) -> bool:
         """Whether no other thread has it."""

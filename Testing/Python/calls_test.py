@@ -14,7 +14,7 @@ import time
 import unittest
 import weakref
 
-from streamingmultigrid._process import closing
+from streamingmultigrid._process import HandleLock, closing
 from testing import BUNNY, bits, np, smg, sphere
 
 POINTS, CELLS = sphere(5)
@@ -127,6 +127,28 @@ class CancelTest(unittest.TestCase):
                     mesh.solve(**PROBLEM)
             interrupter.join()
         mesh.solve(**PROBLEM)
+
+    def test_interrupt_where_a_lock_is_left(self):
+        """There is no step of Python at which it could stay taken."""
+
+        def interrupt(frame, event, _):
+            if event == "call" and frame.f_code.co_name == "__exit__":
+                raise KeyboardInterrupt
+
+        lock = HandleLock()
+        sys.setprofile(interrupt)
+        try:
+            with lock:
+                pass
+        except KeyboardInterrupt:
+            pass
+        finally:
+            sys.setprofile(None)
+        free = []
+        thread = threading.Thread(target=lambda: free.append(lock.is_free()))
+        thread.start()
+        thread.join()
+        self.assertEqual(free, [True])
 
     def test_interrupt_while_something_is_closed(self):
         """What goes in the same moment is closed and removed all the same, and the interrupt is not lost."""
