@@ -182,7 +182,7 @@ TEST_F(SimplifyLabels, AreGivenUpForTheNumberWhichIsSaid)
   EXPECT_NE(this->Report.notes[0].find("borders between the labels"), std::string::npos);
   // An error gives up none.
   const SimplifyReport report =
-    simplify(MemoryMesh(mesh, 1000), { .vertices = 60, .error = 1e9 }, this->Folder / "both.vsm");
+    simplify(MemoryMesh(mesh, 1000), { .vertices = 60, .error = 1.0 }, this->Folder / "both.vsm");
   EXPECT_EQ(coverOf(collect(*VsmReader(this->Folder / "both.vsm").source())).regions,
     coverOf(mesh).regions);
   ASSERT_EQ(report.notes.size(), 1U);
