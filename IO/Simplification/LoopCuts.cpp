@@ -42,13 +42,11 @@ double LoopCuts::squaredDistance(std::uint32_t a, std::uint32_t b) const
   return dot(way, way);
 }
 
-/** Whether something of this size, squared, is too large to change; then notes what it costs. */
-bool LoopCuts::costsTooMuch(double cost, float limit, Pass& pass) const
+/** Whether something of this rank is too large to change; then notes what it costs. */
+bool LoopCuts::costsTooMuch(float rank, float limit, Pass& pass)
 {
-  const auto rank = static_cast<float>(cost * this->Scale);
   if (rank <= limit)
   {
-    pass.error = std::max(pass.error, cost);
     return false;
   }
   pass.least = std::min(pass.least, rank);
@@ -303,9 +301,8 @@ LoopCuts::Done LoopCuts::cut(
 {
   const Loop loop = this->leastLoop(from, to);
   const double cost = this->costOf(loop);
-  if (!(std::max<double>(rank, cost * this->Scale) <= limit))
+  if (costsTooMuch(std::max(rank, this->rankOf(cost)), limit, pass))
   {
-    pass.least = std::min(pass.least, std::max(rank, static_cast<float>(cost * this->Scale)));
     return Done::Nothing;
   }
   if (this->isHole(loop))
@@ -437,10 +434,11 @@ bool LoopCuts::cutOff(const Loop& loop, float limit, Pass& pass)
       std::max(size, std::min({ this->squaredDistance(v, loop.from),
                        this->squaredDistance(v, loop.to), this->squaredDistance(v, loop.across) }));
   }
-  if (this->costsTooMuch(size, limit, pass))
+  if (costsTooMuch(this->rankOf(size), limit, pass))
   {
     return false;
   }
+  pass.error = std::max(pass.error, size);
   for (const std::uint32_t v : this->NearVertices)
   {
     this->replaceWedges(v, loop.to);
@@ -471,10 +469,11 @@ bool LoopCuts::removeBody(std::uint32_t from, std::uint32_t to, float limit, Pas
       size = std::max(size, this->squaredDistance(v, w));
     }
   }
-  if (this->costsTooMuch(size, limit, pass))
+  if (costsTooMuch(this->rankOf(size), limit, pass))
   {
     return false;
   }
+  pass.error = std::max(pass.error, size);
   for (const std::uint32_t v : body)
   {
     this->Surface.Target[v] = to;

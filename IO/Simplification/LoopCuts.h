@@ -119,7 +119,8 @@ private:
   std::uint32_t takeGone(std::uint32_t v, std::uint32_t owner);
   void replace(std::span<const std::uint32_t> triangles, std::uint32_t v, std::uint32_t by);
   void replaceWedges(std::uint32_t v, std::uint32_t by);
-  bool costsTooMuch(double cost, float limit, Pass& pass) const;
+  float rankOf(double cost) const { return static_cast<float>(cost * this->Scale); }
+  static bool costsTooMuch(float rank, float limit, Pass& pass);
 
   SurfacePart& Part;
   SurfaceTopology& Surface;

@@ -33,12 +33,12 @@ public:
     {
       this->whileSleeping();
     }
-    if (this->IsOver.load(std::memory_order_acquire))
+    if (mayAsk)
     {
-      if (mayAsk)
-      {
-        std::rethrow_exception(this->Reason);
-      }
+      this->end();
+    }
+    else if (this->IsOver.load(std::memory_order_acquire))
+    {
       throw Cancelled();
     }
   }
