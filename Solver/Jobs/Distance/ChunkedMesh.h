@@ -36,6 +36,7 @@ struct ChunkPlan
   bool sources = false;         ///< whether the numbers of sources are stored
   bool directions = false;      ///< whether directions are stored
   bool arrivals = false;        ///< whether it is stored how paths arrive: PathArrival
+  bool roots = false;           ///< whether it is stored where paths turn last: FrontRoot
   /** Distances beyond are not wanted. */
   double within = std::numeric_limits<double>::infinity();
 
@@ -84,6 +85,7 @@ struct ChunkedMesh
     Sources,    ///< a block without bytes: all are -1
     Directions, ///< a block without bytes: all are 0
     Arrivals,   ///< a block without bytes: none has arrived
+    Roots,      ///< a block without bytes: none is known
     Fronts,     ///< MarchWindow::waiting()
     StateParts
   };

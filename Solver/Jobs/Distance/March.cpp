@@ -33,6 +33,8 @@ constexpr double Infinite = std::numeric_limits<double>::infinity();
 
 /** Directions count as perpendicular if the magnitude of their cosine is at most this. */
 constexpr double Perpendicular = 1e-6;
+/** A path is a straight line if it is longer by at most this share. */
+constexpr double Straightness = 1e-9;
 
 } // namespace
 
@@ -154,25 +156,84 @@ bool March::offer(
       return false;
     }
   }
+  this->arrive(w, arrival, corners);
+  std::array<std::uint32_t, 3> via;
+  std::fill(
+    std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
+  // The path belongs to the source of the corner that it passes nearest to.
+  this->accept(w, arrival, corners[static_cast<std::size_t>(arrival.nearestCorner())], via);
+  return true;
+}
+
+void March::accept(std::uint32_t w, const Arrival& arrival, std::uint32_t passed,
+  const std::array<std::uint32_t, 3>& via)
+{
   double& distance = this->Window.distance()[w];
   std::uint8_t& flags = this->Window.flags()[w];
   // A straight front may win with a distance that is larger by up to the tolerance; distances must
   // not grow.
   distance = std::min(distance, arrival.distance);
-  flags = static_cast<std::uint8_t>(
-    (flags & ~(Straight | OfRegion)) | Dirty | Changed | (arrival.isStraight ? Straight : 0) |
-    (this->Window.flags()[corners[static_cast<std::size_t>(arrival.nearestCorner())]] & OfRegion));
-  this->arrive(w, arrival, corners);
-  auto& via = this->Window.via()[w];
-  std::fill(
-    std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
+  flags = static_cast<std::uint8_t>((flags & ~(Straight | OfRegion)) | Dirty | Changed |
+                                    (arrival.isStraight ? Straight : 0) |
+                                    (this->Window.flags()[passed] & OfRegion));
+  this->Window.via()[w] = via;
   if (std::int64_t* source = this->Window.source())
   {
-    // The path belongs to the source of the corner that it passes nearest to.
-    source[w] = source[corners[static_cast<std::size_t>(arrival.nearestCorner())]];
+    source[w] = source[passed];
   }
   this->Queue.put(w, distance);
-  return true;
+}
+
+FrontRoot March::rootOf(std::uint32_t vertex) const
+{
+  const double* const point = this->Window.point(vertex);
+  return this->Window.distance()[vertex] == 0 ? FrontRoot{ { point[0], point[1], point[2] }, 0 }
+                                              : this->Window.root(vertex);
+}
+
+template <std::size_t N>
+FrontRoot March::rootThrough(
+  std::uint32_t w, double distance, const std::array<std::uint32_t, N>& corners) const
+{
+  const FrontRoot root = this->rootOf(corners[0]);
+  const bool isOne = std::all_of(corners.begin() + 1, corners.end(),
+    [&](std::uint32_t corner) { return this->rootOf(corner) == root; });
+  // Through an edge, most paths turn.
+  if (isOne && root.isKnown() && root.at(this->Window.point(w)) >= distance * (1 - Straightness))
+  {
+    return root;
+  }
+  const double* const point = this->Window.point(corners[0]);
+  return N > 1 ? FrontRoot()
+               : FrontRoot{ { point[0], point[1], point[2] }, this->Window.distance()[corners[0]] };
+}
+
+void March::offerLine(std::uint32_t v, std::uint32_t w)
+{
+  const FrontRoot root = this->rootOf(v);
+  if (!root.isKnown())
+  {
+    return;
+  }
+  const Arrival line{ root.at(this->Window.point(w)) };
+  std::array<std::uint32_t, 3> via;
+  if (!this->isNews(w, line))
+  {
+    // A path of this length from there is the line.
+    const double distance = this->Window.distance()[w];
+    if (line.distance <= distance * (1 + Straightness) && !(this->Window.root(w) == root) &&
+        line.distance >= distance * (1 - Straightness))
+    {
+      this->Window.setRoot(w, root);
+      this->Window.flags()[w] |= Changed;
+    }
+  }
+  else if (this->Sight.sees(w, root, via))
+  {
+    this->Window.arrive(w, root.point, v);
+    this->Window.setRoot(w, root);
+    this->accept(w, line, v, via);
+  }
 }
 
 /** The path crosses the facet of these corners, an edge or a face, or comes from a single one. */
@@ -191,6 +252,11 @@ void March::arrive(
     }
   }
   this->Window.arrive(w, crossing, corners[static_cast<std::size_t>(arrival.nearestCorner())]);
+  if (this->Window.hasRoots())
+  {
+    this->Window.setRoot(
+      w, arrival.isStraight ? FrontRoot() : this->rootThrough(w, arrival.distance, corners));
+  }
 }
 
 template <int Corners>
@@ -321,6 +387,10 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
     {
       this->offerEdge<4>(v, w, std::sqrt(product[k][k]));
     }
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->offerLine(v, others[k]);
   }
 }
 

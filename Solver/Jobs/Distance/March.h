@@ -4,6 +4,7 @@
 #include "Solver/Jobs/Distance/Arrival.h"
 #include "Solver/Jobs/Distance/ChunkMarch.h"
 #include "Solver/Jobs/Distance/FrontQueue.h"
+#include "Solver/Jobs/Distance/LineOfSight.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
@@ -133,6 +134,7 @@ public:
   March(ChunkedMesh& mesh, Pool& pool)
     : ChunkMarch(mesh, pool)
     , Queue(pool, std::min(mesh.plan.window(), mesh.vertices))
+    , Sight(this->Window, pool)
     , Within(mesh.plan.within + Margin * mesh.longestEdge)
   {
   }
@@ -142,7 +144,8 @@ public:
     std::int64_t crossingCells)
   {
     return MarchWindow::bytes(plan, vertices, innerCells, crossingCells) +
-           MarchQueue::bytes(std::min(plan.window(), vertices));
+           MarchQueue::bytes(std::min(plan.window(), vertices)) +
+           (plan.roots ? LineOfSight::bytes(std::min(plan.window(), vertices)) : 0);
   }
 
 private:
@@ -175,6 +178,14 @@ private:
   /** Offers the path from vertex `v` along an edge to vertex `w`. */
   template <int Corners>
   void offerEdge(std::uint32_t v, std::uint32_t w, double length);
+  /** Offers the straight line to vertex `w` of a solid from what vertex `v` sees. */
+  void offerLine(std::uint32_t v, std::uint32_t w);
+  /** What a vertex sees; a source sees itself. */
+  FrontRoot rootOf(std::uint32_t vertex) const;
+  /** What w sees by a path through a facet with these corners. */
+  template <std::size_t N>
+  FrontRoot rootThrough(
+    std::uint32_t w, double distance, const std::array<std::uint32_t, N>& corners) const;
   /** Whether an arrival changes the distance or the kind of front at vertex `w`. */
   bool isNews(std::uint32_t w, const Arrival& arrival) const;
   /**
@@ -186,7 +197,11 @@ private:
    */
   template <std::size_t N>
   bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
-  /** Takes note of the direction of an arrival that counts. */
+  /** Takes note of an arrival that counts: its distance, its front, of a corner that it has passed,
+   * and the facet. */
+  void accept(std::uint32_t w, const Arrival& arrival, std::uint32_t passed,
+    const std::array<std::uint32_t, 3>& via);
+  /** Takes note of the direction of an arrival that counts, and of what w sees. */
   template <std::size_t N>
   void arrive(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
 
@@ -198,6 +213,7 @@ private:
   }
 
   MarchQueue Queue;
+  LineOfSight Sight;
   /** Smaller relative changes of a distance are dropped, since each would be passed on through the
    * whole mesh. */
   double Tolerance = 1e-7;

@@ -11,7 +11,8 @@
 // new one is read into the slot (chunk mod 4) of one that left.
 //
 // Chunks have a fixed number of vertices, so the memory is known before the march: 45 bytes per
-// vertex (8 more with sources, 12 with directions, 40 with paths) and the lists of cells.
+// vertex (8 more with sources, 12 with directions, 40 with paths, 32 in solids) and the lists of
+// cells.
 
 namespace smg
 {
@@ -27,7 +28,8 @@ std::int64_t vertexBytes(const ChunkPlan& plan)
          std::int64_t(sizeof(std::uint8_t)) +
          (plan.sources ? std::int64_t(sizeof(std::int64_t)) : 0) +
          (plan.directions ? 3 * std::int64_t(sizeof(float)) : 0) +
-         (plan.arrivals ? std::int64_t(sizeof(PathArrival)) : 0);
+         (plan.arrivals ? std::int64_t(sizeof(PathArrival)) : 0) +
+         (plan.roots ? std::int64_t(sizeof(FrontRoot)) : 0);
 }
 
 /** The vertices of a window, which may be longer than the mesh. */
@@ -77,6 +79,10 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   if (mesh.plan.arrivals)
   {
     part(this->Arrival, 1);
+  }
+  if (mesh.plan.roots)
+  {
+    part(this->Root, 1);
   }
   if (mesh.plan.directions)
   {
@@ -257,6 +263,10 @@ void MarchWindow::loadState(std::int64_t chunk)
   {
     readOr(this->of(this->Arrival, chunk), ChunkedMesh::Arrivals, PathArrival());
   }
+  if (this->Root)
+  {
+    readOr(this->of(this->Root, chunk), ChunkedMesh::Roots, FrontRoot());
+  }
 }
 
 /** Writes the state of a chunk if any vertex has changed: chunks that the front only passes by are
@@ -289,6 +299,10 @@ void MarchWindow::write(std::int64_t chunk)
   if (this->Arrival)
   {
     store(this->of(this->Arrival, chunk), ChunkedMesh::Arrivals);
+  }
+  if (this->Root)
+  {
+    store(this->of(this->Root, chunk), ChunkedMesh::Roots);
   }
   store(std::span(this->waiting(chunk)), ChunkedMesh::Fronts);
 }

@@ -4,6 +4,7 @@
 #include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 #include "Solver/Jobs/Distance/FrontInterval.h"
+#include "Solver/Jobs/Distance/FrontRoot.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
@@ -186,6 +187,16 @@ public:
     }
   }
   const PathArrival& arrival(std::uint32_t vertex) const { return this->Arrival[vertex]; }
+  /** What a vertex sees, if that is wanted. */
+  const FrontRoot& root(std::uint32_t vertex) const { return this->Root[vertex]; }
+  void setRoot(std::uint32_t vertex, const FrontRoot& root)
+  {
+    if (this->Root)
+    {
+      this->Root[vertex] = root;
+    }
+  }
+  bool hasRoots() const { return this->Root != nullptr; }
   /** The corners of the facet across which the front came to a vertex, padded with NoVertex; all
    * NoVertex if that is not known, as after the chunk has been read again. */
   std::array<std::uint32_t, 3>* via() const { return this->Via; }
@@ -248,6 +259,7 @@ private:
   std::int64_t* Source = nullptr;
   float* Direction = nullptr;     ///< null if they are not wanted
   PathArrival* Arrival = nullptr; ///< null if they are not wanted
+  FrontRoot* Root = nullptr;      ///< null if they are not wanted
   std::array<std::uint32_t, 3>* Via = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;

@@ -363,6 +363,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources, description.direction);
   plan.within = description.within;
   plan.arrivals = !description.to.empty();
+  plan.roots = info.cellType == CellType::Tetrahedron;
   if (chunkVertices > 0)
   {
     // Tests take short chunks, so that small meshes have many.

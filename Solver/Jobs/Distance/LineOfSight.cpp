@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Distance/LineOfSight.h"
+
+#include "Solver/Files/Checksum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+// A line is followed in the plane across it: it crosses a face if the projected face contains the
+// origin. Of the three faces by which it may leave a cell, it takes the one that contains the
+// origin best, so that rounding at edges and vertices does not end the walk.
+
+namespace smg
+{
+
+namespace
+{
+
+/** How far outside of a face, relative to the size of its projection, a line still crosses it. */
+constexpr double FaceMargin = 1e-9;
+
+/** Of a line from a root to a point. */
+std::uint32_t digest(const FrontRoot& root, const double* point)
+{
+  const double numbers[] = { root.point[0], root.point[1], root.point[2], root.offset, point[0],
+    point[1], point[2] };
+  return static_cast<std::uint32_t>(checksum(std::as_bytes(std::span(numbers))));
+}
+
+} // namespace
+
+LineOfSight::LineOfSight(const MarchWindow& window, Pool& pool)
+  : Window(window)
+  , Memory(pool,
+      static_cast<std::size_t>(bytes(
+        window.hasRoots() ? std::min(window.mesh().plan.window(), window.mesh().vertices) : 0)))
+  , Met(reinterpret_cast<std::uint32_t*>(this->Memory.data()))
+{
+  std::fill_n(this->Met, this->Memory.size() / sizeof(std::uint32_t), 0U);
+}
+
+void LineOfSight::look(std::uint32_t w, const FrontRoot& root)
+{
+  this->Origin = this->Window.point(w);
+  this->Along = difference(root.point.data(), this->Origin);
+  const auto smallest = std::ranges::min_element(
+    this->Along, {}, [](double component) { return std::fabs(component); });
+  Vector axis{};
+  axis[static_cast<std::size_t>(smallest - this->Along.begin())] = 1;
+  this->Across[0] = cross(this->Along, axis);
+  const Vector second = cross(this->Along, this->Across[0]);
+  this->Across[1] = scaled(1 / std::sqrt(dot(this->Along, this->Along)), second);
+}
+
+LineOfSight::View LineOfSight::viewOf(std::uint32_t vertex) const
+{
+  const Vector to = difference(this->Window.point(vertex), this->Origin);
+  return { dot(to, this->Across[0]), dot(to, this->Across[1]), dot(to, this->Along) };
+}
+
+bool LineOfSight::leave(std::uint32_t w, Face& face) const
+{
+  bool isFound = false;
+  this->Window.forCellsOf<4>(w,
+    [&](const std::uint32_t* cell)
+    {
+      if (isFound)
+      {
+        return;
+      }
+      Face opposite{};
+      std::size_t k = 0;
+      for (int c = 0; c < 4; ++c)
+      {
+        if (cell[c] != w && k < 3)
+        {
+          opposite[k++] = cell[c];
+        }
+      }
+      const View a = this->viewOf(opposite[0]), b = this->viewOf(opposite[1]),
+                 c = this->viewOf(opposite[2]);
+      double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
+      double whole = ab + bc + ca;
+      if (whole < 0)
+      {
+        std::swap(opposite[0], opposite[1]);
+        ab = -ab, bc = -bc, ca = -ca, whole = -whole;
+      }
+      const double along = bc * a.along + ca * b.along + ab * c.along;
+      isFound = whole > 0 && std::min({ ab, bc, ca }) >= -FaceMargin * whole && along > 0;
+      face = isFound ? opposite : face;
+    });
+  return isFound;
+}
+
+std::uint32_t LineOfSight::beyond(const Face& face, std::uint32_t passed) const
+{
+  std::uint32_t found = MarchWindow::NoVertex;
+  this->Window.forCellsOf<4>(face[0],
+    [&](const std::uint32_t* cell)
+    {
+      int shared = 0;
+      std::uint32_t other = MarchWindow::NoVertex;
+      for (int c = 0; c < 4; ++c)
+      {
+        const bool isShared = std::ranges::find(face, cell[c]) != face.end();
+        shared += isShared ? 1 : 0;
+        other = isShared ? other : cell[c];
+      }
+      found = shared == 3 && other != passed ? other : found;
+    });
+  return found;
+}
+
+bool LineOfSight::sees(std::uint32_t w, const FrontRoot& root, Face& face)
+{
+  const std::uint32_t line = digest(root, this->Window.point(w));
+  if (this->Met[w] == line)
+  {
+    return false;
+  }
+  this->MeetsBoundary = this->Window.hasAllCellsOf(w);
+  this->look(w, root);
+  const bool isSeen = this->leave(w, face) && this->follow(face, w, root);
+  this->Met[w] = this->MeetsBoundary ? line : this->Met[w];
+  return isSeen;
+}
+
+bool LineOfSight::follow(Face face, std::uint32_t passed, const FrontRoot& root)
+{
+  const auto isRoot = [&](std::uint32_t v)
+  { return std::equal(root.point.begin(), root.point.end(), this->Window.point(v)); };
+  const auto hasSeen = [&](std::uint32_t v) { return this->Window.root(v) == root || isRoot(v); };
+  this->MeetsBoundary = false;
+  for (int cells = 1; cells < MostCells; ++cells)
+  {
+    if (std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen))
+    {
+      return true;
+    }
+    const std::uint32_t corner = this->beyond(face, passed);
+    if (corner == MarchWindow::NoVertex)
+    {
+      this->MeetsBoundary = this->Window.hasAllCellsOf(face[0]);
+      return false;
+    }
+    // On which side of the way from each corner of the face to the new one the line lies.
+    const View at = this->viewOf(corner);
+    double side[3];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const View view = this->viewOf(face[k]);
+      side[k] = view.x * at.y - view.y * at.x;
+    }
+    // The new corner takes the place of the one that leaves the line between the other two ways.
+    std::size_t replaced = 0;
+    double best = -HUGE_VAL;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double inside = std::min(-side[(k + 1) % 3], side[(k + 2) % 3]);
+      replaced = inside > best ? k : replaced;
+      best = std::max(best, inside);
+    }
+    passed = face[replaced];
+    face[replaced] = corner;
+  }
+  return false;
+}
+
+} // namespace smg

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Vector.h"
+#include "Solver/Jobs/Distance/FrontRoot.h"
+#include "Solver/Jobs/Distance/MarchWindow.h"
+
+#include <array>
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * Whether straight lines through tetrahedra stay inside the mesh: a line is followed from face to
+ * face of the window, until it comes to its end or to a face whose corners all have seen that.
+ * Cost: the cells that the line crosses, which beside a front are few.
+ */
+class LineOfSight
+{
+public:
+  LineOfSight(const MarchWindow& window, Pool& pool);
+
+  /** The bytes for a window of this many vertices. */
+  static constexpr std::int64_t bytes(std::int64_t vertices)
+  {
+    return vertices * std::int64_t(sizeof(std::uint32_t));
+  }
+
+  /** Whether vertex w sees a root. Then `face` are the corners of the face through which the line
+   * leaves the cells of w. A line that leaves the window counts as not seen. */
+  bool sees(std::uint32_t w, const FrontRoot& root, std::array<std::uint32_t, 3>& face);
+
+private:
+  /** Lines through more cells are given up. */
+  static constexpr int MostCells = 1000;
+
+  /** A corner seen along the line: in the plane across it, and how far along it. */
+  struct View
+  {
+    double x, y, along;
+  };
+  using Face = std::array<std::uint32_t, 3>;
+
+  void look(std::uint32_t w, const FrontRoot& root);
+  View viewOf(std::uint32_t vertex) const;
+  /** Finds the face opposite to w that the line crosses. */
+  bool leave(std::uint32_t w, Face& face) const;
+  /** The corner of the cell beyond a face, NoVertex if there is none in the window. */
+  std::uint32_t beyond(const Face& face, std::uint32_t passed) const;
+  bool follow(Face face, std::uint32_t passed, const FrontRoot& root);
+
+  const MarchWindow& Window;
+  /** Of each vertex, a digest of the last line that has met the boundary: many neighbours propose
+   * the same one. */
+  Buffer Memory;
+  std::uint32_t* Met;
+  bool MeetsBoundary = false;
+  const double* Origin = nullptr;
+  Vector Along{}, Across[2]{};
+};
+
+} // namespace smg
