@@ -36,9 +36,9 @@ LineOfSight::LineOfSight(const MarchWindow& window, Pool& pool)
   , Memory(pool,
       static_cast<std::size_t>(bytes(
         window.hasRoots() ? std::min(window.mesh().plan.window(), window.mesh().vertices) : 0)))
-  , Met(reinterpret_cast<std::uint32_t*>(this->Memory.data()))
+  , Unseen(reinterpret_cast<std::uint32_t*>(this->Memory.data()))
 {
-  std::fill_n(this->Met, this->Memory.size() / sizeof(std::uint32_t), 0U);
+  std::fill_n(this->Unseen, this->Memory.size() / sizeof(std::uint32_t), 0U);
 }
 
 void LineOfSight::look(std::uint32_t w, const FrontRoot& root)
@@ -117,14 +117,13 @@ std::uint32_t LineOfSight::beyond(const Face& face, std::uint32_t passed) const
 bool LineOfSight::sees(std::uint32_t w, const FrontRoot& root, Face& face)
 {
   const std::uint32_t line = digest(root, this->Window.point(w));
-  if (this->Met[w] == line)
+  if (this->Unseen[w] == line)
   {
     return false;
   }
-  this->MeetsBoundary = this->Window.hasAllCellsOf(w);
   this->look(w, root);
   const bool isSeen = this->leave(w, face) && this->follow(face, w, root);
-  this->Met[w] = this->MeetsBoundary ? line : this->Met[w];
+  this->Unseen[w] = isSeen ? this->Unseen[w] : line;
   return isSeen;
 }
 
@@ -133,7 +132,6 @@ bool LineOfSight::follow(Face face, std::uint32_t passed, const FrontRoot& root)
   const auto isRoot = [&](std::uint32_t v)
   { return std::equal(root.point.begin(), root.point.end(), this->Window.point(v)); };
   const auto hasSeen = [&](std::uint32_t v) { return this->Window.root(v) == root || isRoot(v); };
-  this->MeetsBoundary = false;
   for (int cells = 1; cells < MostCells; ++cells)
   {
     if (std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen))
@@ -143,7 +141,6 @@ bool LineOfSight::follow(Face face, std::uint32_t passed, const FrontRoot& root)
     const std::uint32_t corner = this->beyond(face, passed);
     if (corner == MarchWindow::NoVertex)
     {
-      this->MeetsBoundary = this->Window.hasAllCellsOf(face[0]);
       return false;
     }
     // On which side of the way from each corner of the face to the new one the line lies.

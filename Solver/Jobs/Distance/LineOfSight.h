@@ -14,7 +14,7 @@ namespace smg
 /**
  * Whether straight lines through tetrahedra stay inside the mesh: a line is followed from face to
  * face of the window, until it comes to its end or to a face whose corners all have seen that.
- * Cost: the cells that the line crosses, which beside a front are few.
+ * Cost: the cells that the line crosses, 3 on average.
  */
 class LineOfSight
 {
@@ -28,12 +28,13 @@ public:
   }
 
   /** Whether vertex w sees a root. Then `face` are the corners of the face through which the line
-   * leaves the cells of w. A line that leaves the window counts as not seen. */
+   * leaves the cells of w. A line that leaves the window, or crosses many cells before it comes to
+   * what sees the root, counts as not seen. */
   bool sees(std::uint32_t w, const FrontRoot& root, std::array<std::uint32_t, 3>& face);
 
 private:
   /** Lines through more cells are given up. */
-  static constexpr int MostCells = 1000;
+  static constexpr int MostCells = 64;
 
   /** A corner seen along the line: in the plane across it, and how far along it. */
   struct View
@@ -48,14 +49,14 @@ private:
   bool leave(std::uint32_t w, Face& face) const;
   /** The corner of the cell beyond a face, NoVertex if there is none in the window. */
   std::uint32_t beyond(const Face& face, std::uint32_t passed) const;
+  /** Follows the line from a face of the cell of a vertex on. */
   bool follow(Face face, std::uint32_t passed, const FrontRoot& root);
 
   const MarchWindow& Window;
-  /** Of each vertex, a digest of the last line that has met the boundary: many neighbours propose
-   * the same one. */
+  /** Of each vertex, a digest of the last line that was not seen: many neighbours propose the same
+   * one. */
   Buffer Memory;
-  std::uint32_t* Met;
-  bool MeetsBoundary = false;
+  std::uint32_t* Unseen;
   const double* Origin = nullptr;
   Vector Along{}, Across[2]{};
 };

@@ -35,6 +35,9 @@ constexpr double Infinite = std::numeric_limits<double>::infinity();
 constexpr double Perpendicular = 1e-6;
 /** A path is a straight line if it is longer by at most this share. */
 constexpr double Straightness = 1e-9;
+/** What a line from a vertex at which the path turns must be shorter by, relative to its length: the
+ * place of the turn is not exact. */
+constexpr double LeastGain = 1e-3;
 
 } // namespace
 
@@ -208,6 +211,12 @@ FrontRoot March::rootThrough(
                : FrontRoot{ { point[0], point[1], point[2] }, this->Window.distance()[corners[0]] };
 }
 
+bool March::gains(std::uint32_t w, double distance, const FrontRoot& root) const
+{
+  return root.offset == 0 ||
+         distance + LeastGain * (distance - root.offset) < this->Window.distance()[w];
+}
+
 void March::offerLine(std::uint32_t v, std::uint32_t w)
 {
   const FrontRoot root = this->rootOf(v);
@@ -228,7 +237,7 @@ void March::offerLine(std::uint32_t v, std::uint32_t w)
       this->Window.flags()[w] |= Changed;
     }
   }
-  else if (this->Sight.sees(w, root, via))
+  else if (this->gains(w, line.distance, root) && this->Sight.sees(w, root, via))
   {
     this->Window.arrive(w, root.point, v);
     this->Window.setRoot(w, root);

@@ -180,6 +180,8 @@ private:
   void offerEdge(std::uint32_t v, std::uint32_t w, double length);
   /** Offers the straight line to vertex `w` of a solid from what vertex `v` sees. */
   void offerLine(std::uint32_t v, std::uint32_t w);
+  /** Whether a line from a root to w is short enough to be followed. */
+  bool gains(std::uint32_t w, double distance, const FrontRoot& root) const;
   /** What a vertex sees; a source sees itself. */
   FrontRoot rootOf(std::uint32_t vertex) const;
   /** What w sees by a path through a facet with these corners. */
