@@ -230,10 +230,12 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
     costs.seconds = vertices * WallSeconds;
     return costs;
   }
-  const std::int64_t bytesOfSpan = surface ? 7300 : 4900;
+  const std::int64_t bytesOfSpan = surface ? 7300 : 5500;
   const std::int64_t least = std::int64_t(surface ? 1 : 3) << 20;
   costs.memory = least + bytesOfSpan * info.span;
-  costs.scratch = costs.kept = bytesOf(info, ratesOf(info.cellType).chunkBytes + 8.0 * numbers);
+  const double rootBytes = surface ? 0.0 : 32.0; // FrontRoot
+  costs.scratch = costs.kept =
+    bytesOf(info, ratesOf(info.cellType).chunkBytes + rootBytes + 8.0 * numbers);
   // Larger meshes have more paths that turn against the direction of the stream: one pass up to
   // OnePass vertices, and Growth more for a mesh e times as large.
   constexpr double OnePass = 170000, Growth = 0.94;
