@@ -6,6 +6,7 @@
 #include "IO/Jobs/DistanceJob.h"
 #include "IO/Results/PathFile.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Files/FileDescriptor.h"
 #include <cstdio>
 #include <ranges>
 
@@ -110,6 +111,7 @@ protected:
     if (!this->PathFile.empty())
     {
       smg::checkPathFile(this->PathFile);
+      smg::FileDescriptor::createBeside(this->PathFile); // removed at once: it can be written
     }
   }
 

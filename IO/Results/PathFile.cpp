@@ -47,8 +47,10 @@ void writeNumbers(TextOutput& out, const Paths& paths, std::string_view prefix, 
   }
 }
 
-void writeObj(TextOutput& out, const Paths& paths)
+void writeObj(TextOutput& out, Paths paths)
 {
+  // A line has two points at least.
+  std::erase_if(paths, [](const Report::Path* path) { return path->points.size() < 2; });
   writePoints(out, paths, "v ");
   writeNumbers(out, paths, "l ", 1);
 }

@@ -301,7 +301,7 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
 
     @property
     def paths(self) -> List[ShortestPath]:
-        """The shortest paths that `distance` was asked for by `to`, in the order of the numbers."""
+        """The shortest paths that `distance` was asked for by `to`: ascending by their `to`, each once."""
         found = self._read_report(False).get("distance", {}).get("paths")
         if found is None:
             raise InputError("paths: only distances with `to` have paths.")

@@ -112,4 +112,42 @@ TEST(ShortestPaths, AreOnTheSurfaceAndAsLongAsTheDistance)
   }
 }
 
+/** Where three pages meet, the path goes on in the page that leads to the source, however near to
+ * it the corners of the others are. */
+TEST(ShortestPaths, PassAnEdgeOfThreeTriangles)
+{
+  IndexedTestMesh book;
+  constexpr int n = 4;
+  for (int k = 0; k <= n; ++k)
+  {
+    const double y = k;
+    // The spine, the pages of the source and of the end, and a narrow one.
+    book.positions.insert(book.positions.end(), { 0, y, 0, -2, y, 0, 2, y, 0, 0, y + 0.3, 0.1 });
+    for (const std::int64_t page : { 1, 2, 3 })
+    {
+      const std::int64_t a = 4 * k, b = a + 4;
+      if (k < n)
+      {
+        book.corners.insert(book.corners.end(), { a, a + page, b + page, a, b + page, b });
+      }
+    }
+  }
+  const MemoryMesh mesh(toStream(book));
+  const StreamMesh& stream = mesh.mesh();
+  for (int from = 0; from <= n; ++from)
+  {
+    DistanceDescription description =
+      fromPoints({ nearestTo(stream, -2, from, 0) }, PathAccuracy::Exact);
+    std::vector<std::int64_t> ends;
+    for (int to = 0; to <= n; ++to)
+    {
+      ends.push_back(nearestTo(stream, 2, to, 0));
+    }
+    description.to = { Region(Region::Vertices{ ends }) };
+    const Solved solved = measure(mesh, description);
+    EXPECT_EQ(solved.report.notes.size(), 0U);
+    checkPaths(stream, solved);
+  }
+}
+
 } // namespace smg::testing

@@ -115,6 +115,122 @@ TEST(SolidDistances, AreStraightLinesInConvexSolidsWhateverTheCells)
   }
 }
 
+/** The source that is named is one of the nearest, also where several are as near, and lines in the
+ * boundary are seen, too. */
+TEST(SolidDistances, OfSeveralPointsAreThoseOfTheSourcesThatTheyName)
+{
+  for (const double jitter : { 0.0, 0.1 })
+  {
+    const MemoryMesh mesh(toStream(unitCube(9, jitter)));
+    const StreamMesh& stream = mesh.mesh();
+    Random random(17);
+    for (int run = 0; run < 8; ++run)
+    {
+      std::vector<std::int64_t> sources;
+      for (int k = 0; k < 2 + run; ++k)
+      {
+        sources.push_back(random.below(stream.vertices()));
+      }
+      DistanceDescription description = fromVertices(sources);
+      description.source = true;
+      const Solved found = measure(mesh, description);
+      for (std::int64_t v = 0; v < stream.vertices(); ++v)
+      {
+        const double* const p = &stream.positions[3 * std::size_t(v)];
+        double least = HUGE_VAL;
+        for (const std::int64_t source : sources)
+        {
+          least = std::min(least, straightFrom(stream, source)(p));
+        }
+        EXPECT_NEAR(found.values(v, 0), least, 1e-7);
+        const auto named = static_cast<std::int64_t>(found.values(v, 1));
+        EXPECT_NEAR(straightFrom(stream, named)(p), least, 1e-6) << v;
+      }
+    }
+  }
+}
+
+TEST(SolidDistances, FromAFaceAreExactWhateverTheCells)
+{
+  for (const double flatness : { 1.0, 3.0, 10.0, 100.0 })
+  {
+    IndexedTestMesh cube = unitCube(9, 0.0);
+    for (std::size_t k = 2; k < cube.positions.size(); k += 3)
+    {
+      cube.positions[k] /= flatness;
+    }
+    const MemoryMesh mesh(toStream(cube));
+    DistanceDescription description;
+    description.from.emplace_back(Region(Region::HalfSpace{ { -1, 0, 0 }, 0 }));
+    const Solved found = measure(mesh, description);
+    for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+    {
+      EXPECT_NEAR(found.values(v, 0), mesh.mesh().positions[3 * std::size_t(v)], 1e-6) << flatness;
+    }
+  }
+}
+
+/** A source on the one side of a closed crack is not seen from the other side. */
+TEST(SolidDistances, DoNotCrossAClosedCrack)
+{
+  constexpr int n = 8;
+  IndexedTestMesh mesh = tetBox(n + 1, n + 1, n + 1);
+  // Above the plane z = n / 2, the inner vertices of a square of it are others than below.
+  const auto isCut = [&](const double* p)
+  { return p[2] == n / 2 && std::abs(p[0] - n / 2) <= 2 && std::abs(p[1] - n / 2) <= 2; };
+  std::vector<std::int64_t> copies(mesh.positions.size() / 3, -1);
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 4)
+  {
+    double height = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      height += mesh.positions[3 * static_cast<std::size_t>(mesh.corners[c + k]) + 2] / 4;
+    }
+    for (std::size_t k = 0; k < 4 && height > n / 2; ++k)
+    {
+      const auto corner = static_cast<std::size_t>(mesh.corners[c + k]);
+      const std::array<double, 3> p{ mesh.positions[3 * corner], mesh.positions[3 * corner + 1],
+        mesh.positions[3 * corner + 2] };
+      if (isCut(p.data()))
+      {
+        if (copies[corner] < 0)
+        {
+          copies[corner] = std::ssize(mesh.positions) / 3;
+          mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
+        }
+        mesh.corners[c + k] = copies[corner];
+      }
+    }
+  }
+  const MemoryMesh stored(toStream(mesh));
+  const StreamMesh& stream = stored.mesh();
+  const std::int64_t below = nearestTo(stream, n / 2, n / 2, n / 2 - 0.01);
+  std::vector<std::int64_t> sides;
+  for (std::int64_t v = 0; v < stream.vertices(); ++v)
+  {
+    if (straightFrom(stream, below)(&stream.positions[3 * std::size_t(v)]) == 0)
+    {
+      sides.push_back(v);
+    }
+  }
+  ASSERT_EQ(sides.size(), 2U);
+  const Eigen::VectorXd fromOne = measure(stored, fromVertices({ sides[0] })).values.col(0);
+  const Eigen::VectorXd fromOther = measure(stored, fromVertices({ sides[1] })).values.col(0);
+  EXPECT_NEAR(fromOne[sides[1]], fromOther[sides[0]], 0.3);
+  // There and back, past the nearest point that is not cut; approximately.
+  EXPECT_GT(fromOne[sides[1]], 0.9 * 6.0);
+  for (std::int64_t v = 0; v < stream.vertices(); ++v)
+  {
+    // From the centre below, what lies straight above the crack is seen around its border alone.
+    const double* const p = &stream.positions[3 * std::size_t(v)];
+    const bool isAbove = p[0] == n / 2 && p[1] == n / 2 && p[2] > n / 2;
+    if (isAbove)
+    {
+      EXPECT_GT(std::max(fromOne[v], fromOther[v]), 0.9 * (3.0 + std::hypot(3.0, p[2] - n / 2)));
+    }
+  }
+}
+
 TEST(SolidDistances, AreNotShorterThanThePathAroundAnEdge)
 {
   for (const double flatness : { 1.0, 10.0, 1000.0 })

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 
 // A line is followed in the plane across it: it crosses a face if the projected face contains the
@@ -38,7 +39,7 @@ LineOfSight::LineOfSight(const MarchWindow& window, Pool& pool)
         window.hasRoots() ? std::min(window.mesh().plan.window(), window.mesh().vertices) : 0)))
   , Unseen(reinterpret_cast<std::uint32_t*>(this->Memory.data()))
 {
-  std::fill_n(this->Unseen, this->Memory.size() / sizeof(std::uint32_t), 0U);
+  this->forget();
 }
 
 void LineOfSight::look(std::uint32_t w, const FrontRoot& root)
@@ -60,7 +61,7 @@ LineOfSight::View LineOfSight::viewOf(std::uint32_t vertex) const
   return { dot(to, this->Across[0]), dot(to, this->Across[1]), dot(to, this->Along) };
 }
 
-bool LineOfSight::leave(std::uint32_t w, Face& face) const
+bool LineOfSight::leave(std::uint32_t w, const FrontRoot& root, Step& step) const
 {
   bool isFound = false;
   this->Window.forCellsOf<4>(w,
@@ -89,10 +90,30 @@ bool LineOfSight::leave(std::uint32_t w, Face& face) const
         ab = -ab, bc = -bc, ca = -ca, whole = -whole;
       }
       const double along = bc * a.along + ca * b.along + ab * c.along;
-      isFound = whole > 0 && std::min({ ab, bc, ca }) >= -FaceMargin * whole && along > 0;
-      face = isFound ? opposite : face;
+      isFound = whole > 0 && std::min({ ab, bc, ca }) >= -FaceMargin * whole && along > 0 &&
+                this->pass(opposite, w, root, step);
     });
   return isFound;
+}
+
+bool LineOfSight::pass(
+  const Face& face, std::uint32_t passed, const FrontRoot& root, Step& step) const
+{
+  // A source has copies where a mesh is cut.
+  const auto isRoot = [&](std::uint32_t v)
+  {
+    return std::equal(root.point.begin(), root.point.end(), this->Window.point(v)) &&
+           this->Window.distance()[v] <= root.offset;
+  };
+  const auto hasSeen = [&](std::uint32_t v) { return this->Window.root(v) == root || isRoot(v); };
+  const bool arrives = std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen);
+  const std::uint32_t corner = arrives ? passed : this->beyond(face, passed);
+  if (corner == MarchWindow::NoVertex)
+  {
+    return false;
+  }
+  step = { face, corner, arrives };
+  return true;
 }
 
 std::uint32_t LineOfSight::beyond(const Face& face, std::uint32_t passed) const
@@ -122,48 +143,54 @@ bool LineOfSight::sees(std::uint32_t w, const FrontRoot& root, Face& face)
     return false;
   }
   this->look(w, root);
-  const bool isSeen = this->leave(w, face) && this->follow(face, w, root);
+  Step step;
+  bool goesOn = this->leave(w, root, step);
+  face = step.face;
+  for (int cells = 1; goesOn && !step.arrives && cells < MostCells; ++cells)
+  {
+    goesOn = this->follow(root, step);
+  }
+  const bool isSeen = goesOn && step.arrives;
   this->Unseen[w] = isSeen ? this->Unseen[w] : line;
   return isSeen;
 }
 
-bool LineOfSight::follow(Face face, std::uint32_t passed, const FrontRoot& root)
+bool LineOfSight::follow(const FrontRoot& root, Step& step) const
 {
-  const auto isRoot = [&](std::uint32_t v)
-  { return std::equal(root.point.begin(), root.point.end(), this->Window.point(v)); };
-  const auto hasSeen = [&](std::uint32_t v) { return this->Window.root(v) == root || isRoot(v); };
-  for (int cells = 1; cells < MostCells; ++cells)
+  // On which side of the way from each corner of the face to the new one the line lies.
+  const View at = this->viewOf(step.corner);
+  double side[3], size = 0, first = at.along;
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    if (std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen))
-    {
-      return true;
-    }
-    const std::uint32_t corner = this->beyond(face, passed);
-    if (corner == MarchWindow::NoVertex)
-    {
-      return false;
-    }
-    // On which side of the way from each corner of the face to the new one the line lies.
-    const View at = this->viewOf(corner);
-    double side[3];
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const View view = this->viewOf(face[k]);
-      side[k] = view.x * at.y - view.y * at.x;
-    }
-    // The new corner takes the place of the one that leaves the line between the other two ways.
-    std::size_t replaced = 0;
-    double best = -HUGE_VAL;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const double inside = std::min(-side[(k + 1) % 3], side[(k + 2) % 3]);
-      replaced = inside > best ? k : replaced;
-      best = std::max(best, inside);
-    }
-    passed = face[replaced];
-    face[replaced] = corner;
+    const View view = this->viewOf(step.face[k]);
+    side[k] = view.x * at.y - view.y * at.x;
+    size += std::fabs(side[k]);
+    first = std::min(first, view.along);
   }
-  return false;
+  if (first >= dot(this->Along, this->Along))
+  {
+    return false; // beyond the end
+  }
+  // The new corner takes the place of the one that leaves the line between the other two ways. Of
+  // faces that the line touches alike, as in a plane boundary, one with a cell beyond it.
+  std::array<std::size_t, 3> order{ 0, 1, 2 };
+  const auto inside = [&side](std::size_t k)
+  { return std::min(-side[(k + 1) % 3], side[(k + 2) % 3]); };
+  std::ranges::sort(order, std::greater<>(), inside);
+  const Step before = step;
+  return std::ranges::any_of(order,
+    [&](std::size_t k)
+    {
+      Face next = before.face;
+      next[k] = before.corner;
+      return (k == order[0] || inside(k) >= -FaceMargin * size) &&
+             this->pass(next, before.face[k], root, step);
+    });
+}
+
+void LineOfSight::forget()
+{
+  std::fill_n(this->Unseen, this->Memory.size() / sizeof(std::uint32_t), 0U);
 }
 
 } // namespace smg

@@ -31,6 +31,8 @@ public:
    * leaves the cells of w. A line that leaves the window, or crosses many cells before it comes to
    * what sees the root, counts as not seen. */
   bool sees(std::uint32_t w, const FrontRoot& root, std::array<std::uint32_t, 3>& face);
+  /** Lines that were not seen may be seen by now: the window has moved. */
+  void forget();
 
 private:
   /** Lines through more cells are given up. */
@@ -43,14 +45,25 @@ private:
   };
   using Face = std::array<std::uint32_t, 3>;
 
+  /** A face that the line crosses. */
+  struct Step
+  {
+    Face face{};
+    std::uint32_t corner = MarchWindow::NoVertex; ///< of the cell beyond it
+    bool arrives = false;                         ///< whether the line need not be followed on
+  };
+
   void look(std::uint32_t w, const FrontRoot& root);
   View viewOf(std::uint32_t vertex) const;
   /** Finds the face opposite to w that the line crosses. */
-  bool leave(std::uint32_t w, Face& face) const;
+  bool leave(std::uint32_t w, const FrontRoot& root, Step& step) const;
+  /** Sets the step through a face of the cell of corner `passed`, unless that is at the boundary,
+   * or at the end of the window. */
+  bool pass(const Face& face, std::uint32_t passed, const FrontRoot& root, Step& step) const;
   /** The corner of the cell beyond a face, NoVertex if there is none in the window. */
   std::uint32_t beyond(const Face& face, std::uint32_t passed) const;
-  /** Follows the line from a face of the cell of a vertex on. */
-  bool follow(Face face, std::uint32_t passed, const FrontRoot& root);
+  /** Goes on through the cell beyond a face. */
+  bool follow(const FrontRoot& root, Step& step) const;
 
   const MarchWindow& Window;
   /** Of each vertex, a digest of the last line that was not seen: many neighbours propose the same

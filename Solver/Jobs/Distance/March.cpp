@@ -35,8 +35,10 @@ constexpr double Infinite = std::numeric_limits<double>::infinity();
 constexpr double Perpendicular = 1e-6;
 /** A path is a straight line if it is longer by at most this share. */
 constexpr double Straightness = 1e-9;
-/** What a line from a vertex at which the path turns must be shorter by, relative to its length: the
- * place of the turn is not exact. */
+/** How far along a region a foot may be from the vertex that stands for it, in mean edges. */
+constexpr double FootRange = 1.5;
+/** What a line from a vertex at which the path turns must be shorter by, relative to its length:
+ * the place of the turn is not exact. */
 constexpr double LeastGain = 1e-3;
 
 } // namespace
@@ -61,6 +63,7 @@ void March::settle(std::int64_t first, std::int64_t last)
       }
     }
   }
+  this->Sight.forget();
   while (!this->Queue.isEmpty())
   {
     // Some position of the window has all cells of v: these are in its chunk and the two beside it.
@@ -76,6 +79,10 @@ void March::settle(std::int64_t first, std::int64_t last)
     // others. Every position of the window that lacks some of its cells does that again, which
     // changes nothing a second time.
     flags[v] |= Changed;
+    if (distances[v] == 0 && (flags[v] & OfRegion) != 0)
+    {
+      this->setRegionRoot<Corners>(v);
+    }
     if (hasAll)
     {
       flags[v] &= static_cast<std::uint8_t>(~Dirty);
@@ -104,7 +111,7 @@ void March::count()
   {
     this->poll();
   }
-  if (this->Taken > MostTaken * std::max(this->Window.mesh().vertices, Often))
+  if (this->Taken > MostTaken * this->Window.mesh().vertices)
   {
     this->Tolerance *= 10;
     this->Taken = 0;
@@ -190,19 +197,77 @@ void March::accept(std::uint32_t w, const Arrival& arrival, std::uint32_t passed
 FrontRoot March::rootOf(std::uint32_t vertex) const
 {
   const double* const point = this->Window.point(vertex);
-  return this->Window.distance()[vertex] == 0 ? FrontRoot{ { point[0], point[1], point[2] }, 0 }
-                                              : this->Window.root(vertex);
+  const bool isPoint =
+    this->Window.distance()[vertex] == 0 && (this->Window.flags()[vertex] & OfRegion) == 0;
+  return isPoint ? FrontRoot{ { point[0], point[1], point[2] }, 0 } : this->Window.root(vertex);
+}
+
+template <int Corners>
+void March::setRegionRoot(std::uint32_t v)
+{
+  if (!this->Window.hasRoots())
+  {
+    return;
+  }
+  const double* const point = this->Window.point(v);
+  double sum = 0;
+  int edges = 0;
+  this->Window.forCellsOf<Corners>(v,
+    [&](const std::uint32_t* cell)
+    {
+      for (int c = 0; c < Corners; ++c)
+      {
+        const Vector edge = difference(this->Window.point(cell[c]), point);
+        const bool isOfRegion = cell[c] != v && this->Window.distance()[cell[c]] == 0;
+        sum += isOfRegion ? std::sqrt(dot(edge, edge)) : 0.0;
+        edges += isOfRegion ? 1 : 0;
+      }
+    });
+  // A region of one vertex is a point.
+  const double mean = sum / std::max(edges, 1);
+  this->Window.setRoot(v, { { point[0], point[1], point[2] }, -FootRange * mean });
+}
+
+template <std::size_t N>
+FrontRoot March::regionRoot(std::uint32_t w, const std::array<std::uint32_t, N>& corners) const
+{
+  FrontRoot nearest;
+  for (const std::uint32_t corner : corners)
+  {
+    const FrontRoot root = this->rootOf(corner);
+    nearest = root.at(this->Window.point(w)) < nearest.at(this->Window.point(w)) ? root : nearest;
+  }
+  return nearest;
+}
+
+template <std::size_t N>
+FrontRoot March::commonRoot(const std::array<std::uint32_t, N>& corners) const
+{
+  const FrontRoot root = this->rootOf(corners[0]);
+  const bool isOne = std::all_of(corners.begin() + 1, corners.end(),
+    [&](std::uint32_t corner) { return this->rootOf(corner) == root; });
+  return isOne ? root : FrontRoot();
+}
+
+template <std::size_t N>
+void March::limit(
+  std::uint32_t w, Arrival& arrival, const std::array<std::uint32_t, N>& corners) const
+{
+  const FrontRoot root =
+    this->isOfRegion(corners[0]) ? this->regionRoot(w, corners) : this->commonRoot(corners);
+  if (root.isKnown())
+  {
+    arrival.distance = std::max(arrival.distance, root.at(this->Window.point(w)));
+  }
 }
 
 template <std::size_t N>
 FrontRoot March::rootThrough(
   std::uint32_t w, double distance, const std::array<std::uint32_t, N>& corners) const
 {
-  const FrontRoot root = this->rootOf(corners[0]);
-  const bool isOne = std::all_of(corners.begin() + 1, corners.end(),
-    [&](std::uint32_t corner) { return this->rootOf(corner) == root; });
+  const FrontRoot root = this->commonRoot(corners);
   // Through an edge, most paths turn.
-  if (isOne && root.isKnown() && root.at(this->Window.point(w)) >= distance * (1 - Straightness))
+  if (root.isKnown() && root.at(this->Window.point(w)) >= distance * (1 - Straightness))
   {
     return root;
   }
@@ -220,7 +285,8 @@ bool March::gains(std::uint32_t w, double distance, const FrontRoot& root) const
 void March::offerLine(std::uint32_t v, std::uint32_t w)
 {
   const FrontRoot root = this->rootOf(v);
-  if (!root.isKnown())
+  // The front of a region is straight.
+  if (!root.isKnown() || this->isOfRegion(v))
   {
     return;
   }
@@ -231,7 +297,7 @@ void March::offerLine(std::uint32_t v, std::uint32_t w)
     // A path of this length from there is the line.
     const double distance = this->Window.distance()[w];
     if (line.distance <= distance * (1 + Straightness) && !(this->Window.root(w) == root) &&
-        line.distance >= distance * (1 - Straightness))
+        line.distance >= distance * (1 - Straightness) && this->haveOneSource(v, w))
     {
       this->Window.setRoot(w, root);
       this->Window.flags()[w] |= Changed;
@@ -263,8 +329,9 @@ void March::arrive(
   this->Window.arrive(w, crossing, corners[static_cast<std::size_t>(arrival.nearestCorner())]);
   if (this->Window.hasRoots())
   {
-    this->Window.setRoot(
-      w, arrival.isStraight ? FrontRoot() : this->rootThrough(w, arrival.distance, corners));
+    this->Window.setRoot(w, this->isOfRegion(corners[0])
+                              ? this->regionRoot(w, corners)
+                              : this->rootThrough(w, arrival.distance, corners));
   }
 }
 
@@ -369,9 +436,10 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
     if (std::max(b.distance, c.distance) < Infinite && this->haveOneSource(v, others[i]) &&
         this->haveOneSource(v, others[j]))
     {
-      const Arrival across = acrossFace({ product[i][i], product[i][j], product[j][j],
-                                          product[k][i], product[k][j], product[k][k] },
+      Arrival across = acrossFace({ product[i][i], product[i][j], product[j][j], product[k][i],
+                                    product[k][j], product[k][k] },
         from, b, c);
+      this->limit(w, across, std::array{ v, others[i], others[j] });
       if (across.distance < Infinite &&
           this->offer(w, across, std::array{ v, others[i], others[j] }))
       {
@@ -385,8 +453,8 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
       const FrontCorner& passed = n == i ? b : c;
       if (passed.distance < Infinite && this->haveOneSource(v, others[n]))
       {
-        const Arrival across =
-          acrossEdge({ product[n][n], product[k][n], product[k][k] }, from, passed);
+        Arrival across = acrossEdge({ product[n][n], product[k][n], product[k][k] }, from, passed);
+        this->limit(w, across, std::array{ v, others[n] });
         crosses =
           (across.distance < Infinite && this->offer(w, across, std::array{ v, others[n] })) ||
           crosses;

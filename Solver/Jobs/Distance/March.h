@@ -184,6 +184,20 @@ private:
   bool gains(std::uint32_t w, double distance, const FrontRoot& root) const;
   /** What a vertex sees; a source sees itself. */
   FrontRoot rootOf(std::uint32_t vertex) const;
+  /** What all of these corners see; unknown if they see different roots. */
+  template <std::size_t N>
+  FrontRoot commonRoot(const std::array<std::uint32_t, N>& corners) const;
+  /** No path through a facet is shorter than the line from what its corners see, from which
+   * rounding takes much in cells almost without volume. */
+  template <std::size_t N>
+  void limit(std::uint32_t w, Arrival& arrival, const std::array<std::uint32_t, N>& corners) const;
+  bool isOfRegion(std::uint32_t v) const { return (this->Window.flags()[v] & OfRegion) != 0; }
+  /** Of a source of a region. */
+  template <int Corners>
+  void setRegionRoot(std::uint32_t v);
+  /** Of what these corners know of a region, what is nearest to w. */
+  template <std::size_t N>
+  FrontRoot regionRoot(std::uint32_t w, const std::array<std::uint32_t, N>& corners) const;
   /** What w sees by a path through a facet with these corners. */
   template <std::size_t N>
   FrontRoot rootThrough(

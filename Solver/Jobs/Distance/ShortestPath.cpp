@@ -75,40 +75,63 @@ Report::Path ShortestPath::to(std::int64_t vertex)
 
 std::uint32_t ShortestPath::passStraight(std::uint32_t vertex)
 {
-  const double whole = this->Window.distance()[vertex];
+  this->Whole = this->Window.distance()[vertex];
+  this->Left = this->Window.mesh().cells();
   this->Path.from = -1;
-  Crossing crossing = this->firstCrossing(vertex);
-  std::uint32_t nearest = None;
+  return this->follow(this->firstCrossing(vertex)).value_or(None);
+}
+
+std::optional<std::uint32_t> ShortestPath::follow(Crossing crossing)
+{
   // A straight path crosses no triangle twice.
-  for (std::int64_t triangles = this->Window.mesh().cells();
-       triangles > 0 && crossing.image.depth > 0; --triangles)
+  while (this->Left-- > 0 && crossing.image.depth > 0)
   {
     const double* const origin = this->Window.point(crossing.a);
     const Vector edge = difference(this->Window.point(crossing.b), origin);
     const double share = crossing.at / crossing.length, left = crossing.left();
     this->add(
       { origin[0] + share * edge[0], origin[1] + share * edge[1], origin[2] + share * edge[2] });
-    if (crossing.image.isStraight && left <= AsShort * whole)
+    if (crossing.image.isStraight && left <= AsShort * this->Whole)
     {
       this->Path.from = numberOfLabel(this->Window.source()[share < 0.5 ? crossing.a : crossing.b]);
       return None;
     }
     this->showAround(crossing.a, crossing.b);
-    const std::uint32_t corner = this->cornerBeyond(crossing);
-    nearest = None;
-    for (const std::uint32_t v : { crossing.a, crossing.b, corner })
+    const std::vector<std::uint32_t> corners = this->cornersBeyond(crossing);
+    std::vector<std::uint32_t> ends = corners;
+    ends.insert(ends.end(), { crossing.a, crossing.b });
+    for (const std::uint32_t v : ends)
     {
-      const bool isNearer = v != None && this->Window.distance()[v] < whole &&
-                            (nearest == None || this->by(v) < this->by(nearest));
-      nearest = isNearer ? v : nearest;
+      if (this->Window.distance()[v] < this->Whole && this->by(v) <= (1 + AsShort) * left)
+      {
+        return v;
+      }
     }
-    if (corner == None || (nearest != None && this->by(nearest) <= (1 + AsShort) * left))
+    if (corners.size() != 1)
     {
-      break;
+      return this->followOneOf(crossing, corners);
     }
-    crossing = this->next(crossing, corner);
+    crossing = this->next(crossing, corners[0]);
   }
-  return nearest;
+  return {};
+}
+
+std::optional<std::uint32_t> ShortestPath::followOneOf(
+  const Crossing& crossing, const std::vector<std::uint32_t>& corners)
+{
+  const std::size_t points = this->Path.points.size();
+  const double length = this->Path.length;
+  for (const std::uint32_t corner : corners)
+  {
+    this->showAround(crossing.a, crossing.b);
+    if (const auto end = this->follow(this->next(crossing, corner)))
+    {
+      return end;
+    }
+    this->Path.points.resize(points);
+    this->Path.length = length;
+  }
+  return {};
 }
 
 ShortestPath::Crossing ShortestPath::firstCrossing(std::uint32_t vertex) const
@@ -125,9 +148,9 @@ ShortestPath::Crossing ShortestPath::firstCrossing(std::uint32_t vertex) const
   return first;
 }
 
-std::uint32_t ShortestPath::cornerBeyond(const Crossing& crossing) const
+std::vector<std::uint32_t> ShortestPath::cornersBeyond(const Crossing& crossing) const
 {
-  std::uint32_t nearest = None;
+  std::vector<std::uint32_t> corners;
   this->Window.forCellsOf<3>(crossing.a,
     [&](const std::uint32_t* cell)
     {
@@ -139,13 +162,12 @@ std::uint32_t ShortestPath::cornerBeyond(const Crossing& crossing) const
         found += isOfEdge ? 1 : 0;
         corner = isOfEdge ? corner : cell[k];
       }
-      if (found == 2 && corner != crossing.passed &&
-          (nearest == None || this->by(corner) < this->by(nearest)))
+      if (found == 2 && corner != crossing.passed)
       {
-        nearest = corner;
+        corners.push_back(corner);
       }
     });
-  return nearest;
+  return corners;
 }
 
 ShortestPath::Crossing ShortestPath::next(Crossing crossing, std::uint32_t corner) const

@@ -6,6 +6,8 @@
 #include "smg/Report.h"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace smg
 {
@@ -43,12 +45,16 @@ private:
 
   /** Shows all triangles of the edge between two vertices that are shown. */
   void showAround(std::uint32_t a, std::uint32_t b);
-  /** Follows the straight part up to a vertex, and returns the next vertex on the path. */
+  /** Follows the straight part from a vertex on, and returns the next vertex on the path. */
   std::uint32_t passStraight(std::uint32_t vertex);
+  /** The same from an edge on; nothing if it leads nowhere. */
+  std::optional<std::uint32_t> follow(Crossing crossing);
+  /** At an edge of several triangles: that by which the path arrives. */
+  std::optional<std::uint32_t> followOneOf(
+    const Crossing& crossing, const std::vector<std::uint32_t>& corners);
   Crossing firstCrossing(std::uint32_t vertex) const;
-  /** The corner of the triangle beyond an edge, None at the boundary. Of several triangles the one
-   * by whose corner the path is shortest. */
-  std::uint32_t cornerBeyond(const Crossing& crossing) const;
+  /** The corners of the triangles beyond an edge; none at the boundary. */
+  std::vector<std::uint32_t> cornersBeyond(const Crossing& crossing) const;
   /** The crossing of the other edge of the triangle beyond with this corner. */
   Crossing next(Crossing crossing, std::uint32_t corner) const;
   /** How long the path is that goes straight to a vertex of the triangle it is in. */
@@ -59,6 +65,8 @@ private:
   std::int64_t Middle = -1; ///< of the chunks that are shown
   Progress& Reported;
   Report::Path Path;
+  double Whole = 0;      ///< the distance of the vertex from which the straight part comes
+  std::int64_t Left = 0; ///< triangles that it may still cross
 };
 
 } // namespace smg
