@@ -18,7 +18,8 @@ namespace smg
 /** How far to simplify a surface: as far as one of the two says that is given, at least. */
 struct SimplifyTarget
 {
-  static constexpr std::int64_t MinVertices = 4, MaxVertices = std::int64_t(1) << 40;
+  static constexpr std::int64_t MinVertices = 4;                     ///< of a tetrahedron
+  static constexpr std::int64_t MaxVertices = std::int64_t(1) << 40; ///< more than any mesh has
   /** The most vertices of the result, MinVertices to MaxVertices; 0: as many as `error` needs. */
   std::int64_t vertices = 0;
   /** The largest error, in the unit of the mesh, more than 0: the distance of what is left from the
