@@ -24,6 +24,7 @@ constexpr NamedOption NamedOptions[] = {
   { "--in-core", "InCore", false },
   { "--size", "Size", false },
   { "--cells", "Cells", true },
+  { "--weld", "WeldDistance", true },
   { "--time-step", "TimeStep", true },
   { "--partition", "Partition", true },
 };
