@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smg/Simplify.h"
-
 #include "Solver/Core/DisjointSets.h"
 #include "Testing/IO/BodyOfVertices.h"
+#include "Testing/IO/SimplifyFixture.h"
 #include "Testing/Support/Isosurface.h"
-#include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/StreamMesh.h"
-#include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
-#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 
@@ -83,9 +79,10 @@ std::set<std::pair<std::int64_t, std::int64_t>> commonBodies(
 
 } // namespace
 
-TEST(SimplifyLaw, NoisySurfacesAreManifoldAndInOnePiece)
+using SimplifyLaw = SimplifyFixture;
+
+TEST_F(SimplifyLaw, NoisySurfacesAreManifoldAndInOnePiece)
 {
-  const TemporaryFolder folder;
   for (const double noise : { 0.1, 0.4, 1.0 })
   {
     const StreamMesh mesh = toStream(noisyGyroid(32, noise));
@@ -96,11 +93,8 @@ TEST(SimplifyLaw, NoisySurfacesAreManifoldAndInOnePiece)
       {
         SCOPED_TRACE("noise " + std::to_string(noise) + ", to " + std::to_string(vertices) +
                      " in " + std::to_string(memory) + " MiB");
-        SimplifyOptions options;
-        options.memoryLimit = memory << 20;
-        const SimplifyReport report = simplify(
-          MemoryMesh(mesh, 1000), { .vertices = vertices }, folder / "simple.vsm", options);
-        const StreamMesh simple = collect(*VsmReader(folder / "simple.vsm").source());
+        const StreamMesh simple = this->simplified(mesh, { .vertices = vertices }, memory);
+        const SimplifyReport& report = this->Report;
         EXPECT_LE(report.vertices, vertices);
         EXPECT_GE(report.vertices, vertices * 95 / 100);
         EXPECT_EQ(wrongEdges(simple.corners), 0);

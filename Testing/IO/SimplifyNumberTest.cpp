@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smg/Simplify.h"
-
 #include "Testing/IO/BodyOfVertices.h"
-#include "Testing/Support/MemoryMesh.h"
+#include "Testing/IO/SimplifyFixture.h"
 #include "Testing/Support/StreamMesh.h"
-#include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
-#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 
@@ -92,9 +88,10 @@ std::vector<Bodies> kindsOfBodies()
 
 } // namespace
 
-TEST(SimplifyLaw, TheNumberAskedForIsReached)
+using SimplifyLaw = SimplifyFixture;
+
+TEST_F(SimplifyLaw, TheNumberAskedForIsReached)
 {
-  const TemporaryFolder folder;
   for (const auto& [name, indexed, least] : kindsOfBodies())
   {
     for (const unsigned seed : { 1U, 2U })
@@ -108,11 +105,8 @@ TEST(SimplifyLaw, TheNumberAskedForIsReached)
         {
           SCOPED_TRACE(std::string(name) + " to " + std::to_string(vertices) + " in " +
                        std::to_string(memory) + " MiB, seed " + std::to_string(seed));
-          SimplifyOptions options;
-          options.memoryLimit = memory << 20;
-          const SimplifyReport report = simplify(
-            MemoryMesh(mesh, 1000), { .vertices = vertices }, folder / "simple.vsm", options);
-          const StreamMesh simple = collect(*VsmReader(folder / "simple.vsm").source());
+          const StreamMesh simple = this->simplified(mesh, { .vertices = vertices }, memory);
+          const SimplifyReport& report = this->Report;
           EXPECT_LE(report.vertices, vertices);
           // A result in parts, with little memory, may have 2 % fewer.
           const std::int64_t share = memory == 16 ? vertices * 98 / 100 : vertices;

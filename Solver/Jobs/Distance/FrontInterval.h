@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,6 +25,19 @@ namespace smg
 inline double norm(double x, double y)
 {
   return std::sqrt(x * x + y * y);
+}
+
+/** A point in the frame of an edge, on either side of it: how far along the edge, and beside it. */
+struct FramePoint
+{
+  double x, y;
+};
+
+/** Of a point, from the origin of the edge, of the vector and the length of that. */
+inline FramePoint inFrame(const Vector& to, const Vector& edge, double length)
+{
+  const Vector normal = cross(edge, to);
+  return { dot(edge, to) / length, std::sqrt(dot(normal, normal)) / length };
 }
 
 /** Where the paths of an interval come from, in the frame of its edge. */

@@ -302,9 +302,8 @@ void GeodesicMarch::leaveThrough(std::uint32_t v, std::uint32_t p, std::uint32_t
   const double length = std::sqrt(dot(edge, edge));
   if (length > 0)
   {
-    const Vector normal = smg::cross(edge, to);
-    const FrontImage image{ dot(edge, to) / length, std::sqrt(dot(normal, normal)) / length,
-      this->Window.distance()[v], false };
+    const FramePoint at = inFrame(to, edge, length);
+    const FrontImage image{ at.x, at.y, this->Window.distance()[v], false };
     this->add({ 0, length, image, this->sourceOf(v), a, b, v, this->isOfRegion(v) }, length);
   }
 }
@@ -394,26 +393,13 @@ void GeodesicMarch::passOn(std::uint32_t number)
   const double* const origin = this->Window.point(a);
   const Vector edge = difference(this->Window.point(b), origin);
   const double length = std::sqrt(dot(edge, edge));
-  const bool isFirst =
-    this->Window.hasAllCellsOf(a) &&
-    (!this->Window.hasAllCellsOf(b) || this->Window.cellsOf(a) <= this->Window.cellsOf(b));
-  this->Window.forCellsOf<3>(isFirst ? a : b,
-    [&](const std::uint32_t* cell)
+  this->Window.forCornersBeside(a, b,
+    [&](std::uint32_t corner)
     {
-      std::uint32_t corner = FrontInterval::None;
-      int found = 0;
-      for (int k = 0; k < 3; ++k)
+      if (corner != interval.from)
       {
-        const bool isOfEdge = cell[k] == a || cell[k] == b;
-        found += isOfEdge ? 1 : 0;
-        corner = isOfEdge ? corner : cell[k];
-      }
-      if (found == 2 && corner != interval.from)
-      {
-        const Vector to = difference(this->Window.point(corner), origin);
-        const Vector normal = smg::cross(edge, to);
-        this->enter(interval, length,
-          { corner, dot(edge, to) / length, std::sqrt(dot(normal, normal)) / length });
+        const FramePoint at = inFrame(difference(this->Window.point(corner), origin), edge, length);
+        this->enter(interval, length, { corner, at.x, at.y });
       }
     });
 }

@@ -177,14 +177,13 @@ bool LineOfSight::follow(const FrontRoot& root, Step& step) const
   const auto inside = [&side](std::size_t k)
   { return std::min(-side[(k + 1) % 3], side[(k + 2) % 3]); };
   std::ranges::sort(order, std::greater<>(), inside);
-  const Step before = step;
   return std::ranges::any_of(order,
     [&](std::size_t k)
     {
-      Face next = before.face;
-      next[k] = before.corner;
+      Face next = step.face;
+      next[k] = step.corner;
       return (k == order[0] || inside(k) >= -FaceMargin * size) &&
-             this->pass(next, before.face[k], root, step);
+             this->pass(next, step.face[k], root, step);
     });
 }
 

@@ -119,6 +119,30 @@ public:
         next * (this->MostInner + this->MostCrossing) + this->MostInner, visit);
     }
   }
+  /** Calls visit(corner) for the third corner of each triangle of the edge between two vertices, of
+   * which one has all its cells in the window. */
+  void forCornersBeside(std::uint32_t a, std::uint32_t b, auto visit) const
+  {
+    // From a vertex of few cells, where the other one is the hub of many.
+    const bool isFirst =
+      this->hasAllCellsOf(a) && (!this->hasAllCellsOf(b) || this->cellsOf(a) <= this->cellsOf(b));
+    this->forCellsOf<3>(isFirst ? a : b,
+      [&](const std::uint32_t* cell)
+      {
+        std::uint32_t corner = NoVertex;
+        int found = 0;
+        for (int k = 0; k < 3; ++k)
+        {
+          const bool isOfEdge = cell[k] == a || cell[k] == b;
+          found += isOfEdge ? 1 : 0;
+          corner = isOfEdge ? corner : cell[k];
+        }
+        if (found == 2)
+        {
+          visit(corner);
+        }
+      });
+  }
   /** About the number of cells of a vertex. */
   std::size_t cellsOf(std::uint32_t vertex) const
   {

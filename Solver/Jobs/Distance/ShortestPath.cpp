@@ -141,28 +141,19 @@ ShortestPath::Crossing ShortestPath::firstCrossing(std::uint32_t vertex) const
   const double* const origin = this->Window.point(first.a);
   const Vector edge = difference(this->Window.point(first.b), origin);
   const Vector to = difference(this->Window.point(vertex), origin);
-  const Vector normal = cross(edge, to);
   first.length = std::sqrt(dot(edge, edge));
-  const double x = dot(edge, to) / first.length, y = std::sqrt(dot(normal, normal)) / first.length;
-  first.at = std::clamp(first.image.crossing(x, y), 0.0, first.length);
+  const FramePoint at = inFrame(to, edge, first.length);
+  first.at = std::clamp(first.image.crossing(at.x, at.y), 0.0, first.length);
   return first;
 }
 
 std::vector<std::uint32_t> ShortestPath::cornersBeyond(const Crossing& crossing) const
 {
   std::vector<std::uint32_t> corners;
-  this->Window.forCellsOf<3>(crossing.a,
-    [&](const std::uint32_t* cell)
+  this->Window.forCornersBeside(crossing.a, crossing.b,
+    [&](std::uint32_t corner)
     {
-      std::uint32_t corner = None;
-      int found = 0;
-      for (int k = 0; k < 3; ++k)
-      {
-        const bool isOfEdge = cell[k] == crossing.a || cell[k] == crossing.b;
-        found += isOfEdge ? 1 : 0;
-        corner = isOfEdge ? corner : cell[k];
-      }
-      if (found == 2 && corner != crossing.passed)
+      if (corner != crossing.passed)
       {
         corners.push_back(corner);
       }
@@ -175,9 +166,7 @@ ShortestPath::Crossing ShortestPath::next(Crossing crossing, std::uint32_t corne
   // Of the corner below the edge: where it is along the edge, and how deep.
   const Vector edge = difference(this->Window.point(crossing.b), this->Window.point(crossing.a));
   const Vector to = difference(this->Window.point(corner), this->Window.point(crossing.a));
-  const Vector normal = cross(edge, to);
-  double x = dot(edge, to) / crossing.length;
-  const double y = std::sqrt(dot(normal, normal)) / crossing.length;
+  auto [x, y] = inFrame(to, edge, crossing.length);
   const FrontImage& image = crossing.image;
   // Where the path is at the depth of the corner.
   const double across = image.isStraight ? crossing.at - y * image.x / image.depth
