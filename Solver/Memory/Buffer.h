@@ -65,6 +65,12 @@ public:
   std::byte* data() const { return this->Data; }
   std::size_t size() const { return this->Size; }
   std::span<std::byte> bytes() const { return { this->Data, this->Size }; }
+  /** The first `count` values of a type. */
+  template <class T>
+  std::span<T> values(std::int64_t count) const
+  {
+    return { reinterpret_cast<T*>(this->Data), static_cast<std::size_t>(count) };
+  }
   std::size_t capacity() const { return this->Capacity; }
   /** Uses the first `bytes` bytes, at most capacity(). */
   void resize(std::size_t bytes) { this->Size = bytes; }

@@ -257,6 +257,9 @@ distance_part() {
   fi
   convert_meshes
   "$python" "$here/distance.py" "$bin/smg" "$vertex" "${meshes[@]}" | tee "$results/distance.md"
+  if has_modules streamingmultigrid; then
+    "$python" "$here/distance_regions.py" | tee "$results/distance_regions.md"
+  fi
 }
 
 orders_part() {

@@ -110,5 +110,40 @@ TEST(DistanceRounding, ExactOnesOfARegionDoNotDependOnTheFrame)
   }
 }
 
+/** As scans have them: points snapped to a grid, where many coincide and triangles have no area or
+ * tiny ones. Where a path of no length leads to and fro, rounding must not make it shorter each
+ * time.
+ */
+TEST(DistanceRounding, ExactOnesEndWherePointsCoincide)
+{
+  Random random(37);
+  for (int run = 0; run < 200; ++run)
+  {
+    IndexedTestMesh square = unitSquare(30, 0.45);
+    const double step = 1.0 / (20 + double(random.below(80)));
+    const double noise = std::pow(10.0, random.uniform(-10, -6));
+    for (double& x : square.positions)
+    {
+      x = static_cast<float>(
+        std::round(x / step) * step + (random.below(3) > 0 ? 0.0 : random.uniform(-noise, noise)));
+    }
+    const MemoryMesh mesh(toStream(square));
+    const StreamMesh& stream = mesh.mesh();
+    DistanceDescription description;
+    description.accuracy = PathAccuracy::Exact;
+    const Region::Sphere ball{ { random.uniform(0, 1), random.uniform(0, 1), 0 },
+      random.uniform(0.1, 0.6) };
+    description.from.emplace_back(Region(ball));
+    const Solved found = measure(mesh, description);
+    EXPECT_TRUE(found.report.converged);
+    for (std::int64_t v = 0; v < stream.vertices(); ++v)
+    {
+      const double* const p = &stream.positions[3 * std::size_t(v)];
+      const double outside = std::hypot(p[0] - ball.center[0], p[1] - ball.center[1]) - ball.radius;
+      EXPECT_GE(found.values(v, 0), std::max(outside - 1e-5, 0.0)) << "run " << run;
+    }
+  }
+}
+
 } // namespace
 } // namespace smg::testing

@@ -49,7 +49,7 @@ TEST(DistanceStreaming, OfACurveDependsOnTheWindowLittle)
   const Solved windowed = measureInChunks(mesh, description, 1);
   EXPECT_GT(windowed.report.passes, 1);
   EXPECT_LT(
-    (windowed.values - whole.values).cwiseAbs().maxCoeff(), 1e-4 * whole.report.distance->maximum);
+    (windowed.values - whole.values).cwiseAbs().maxCoeff(), 1e-3 * whole.report.distance->maximum);
 }
 
 TEST(DistanceStreaming, DoesNotReadWhatCannotChange)

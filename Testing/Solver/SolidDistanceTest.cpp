@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Core/Vector.h"
+#include "Solver/Jobs/Distance/TriangleTree.h"
 #include "Testing/Solver/DistanceTesting.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Laws of distances through solids whose cells are flat up to 1 : 10,000: in convex ones they are
@@ -75,6 +80,52 @@ double aroundNotch(const double* a, const double* b)
   const bool isBlocked = p[0] > 0.5 && q[1] > 0.5 && side > 0;
   const double around = std::hypot(p[0] - 0.5, p[1] - 0.5) + std::hypot(q[0] - 0.5, q[1] - 0.5);
   return std::hypot(isBlocked ? around : whole, a[2] - b[2]);
+}
+
+/** The faces, edges and vertices of the cells that belong to a region of sources, and points. */
+std::vector<TrianglePoints> facetsOf(
+  const StreamMesh& mesh, const Region& region, const std::vector<std::int64_t>& points)
+{
+  std::vector<TrianglePoints> facets;
+  const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c)
+  {
+    TrianglePoints& facet = facets.emplace_back();
+    for (const auto& [k, v] : { std::pair(0, a), std::pair(1, b), std::pair(2, c) })
+    {
+      std::copy_n(&mesh.positions[3 * std::size_t(v)], 3, facet.point[k]);
+    }
+  };
+  const auto isSource = [&](std::int64_t v) {
+    return region.contains(std::span<const double, 3>(&mesh.positions[3 * std::size_t(v)], 3), v);
+  };
+  for (const std::int64_t v : points)
+  {
+    add(v, v, v);
+  }
+  for (std::size_t c = 0; c < mesh.corners.size(); c += 4)
+  {
+    std::vector<std::int64_t> sources;
+    std::copy_if(mesh.corners.begin() + std::ptrdiff_t(c),
+      mesh.corners.begin() + std::ptrdiff_t(c) + 4, std::back_inserter(sources), isSource);
+    const std::size_t n = sources.size();
+    for (std::size_t left = 0; left < (n == 4 ? n : 1) && n > 0; ++left)
+    {
+      const auto at = [&](std::size_t k) { return sources[(left + std::min(k, n - 1)) % n]; };
+      add(at(0), at(1), at(2));
+    }
+  }
+  return facets;
+}
+
+double straightTo(const std::vector<TrianglePoints>& facets, const double* p)
+{
+  double least = HUGE_VAL;
+  for (const TrianglePoints& facet : facets)
+  {
+    const Vector way = difference(nearestPoint(facet, p).data(), p);
+    least = std::min(least, std::sqrt(dot(way, way)));
+  }
+  return least;
 }
 
 } // namespace
@@ -150,22 +201,44 @@ TEST(SolidDistances, OfSeveralPointsAreThoseOfTheSourcesThatTheyName)
   }
 }
 
-TEST(SolidDistances, FromAFaceAreExactWhateverTheCells)
+/** Balls, slabs, boxes, a single vertex and a face, and points beside them. */
+TEST(SolidDistances, OfRegionsAreStraightLinesInConvexSolidsWhateverTheCells)
 {
-  for (const double flatness : { 1.0, 3.0, 10.0, 100.0 })
+  using Box = Region::Box;
+  for (const double flatness : { 1.0, 10.0, 100.0, 10'000.0 })
   {
-    IndexedTestMesh cube = unitCube(9, 0.0);
-    for (std::size_t k = 2; k < cube.positions.size(); k += 3)
+    const MemoryMesh mesh(solid(false, flatness));
+    const StreamMesh& stream = mesh.mesh();
+    const double z = 1 / flatness;
+    for (const Region& region :
+      { Region(Region::HalfSpace{ { -1, 0, 0 }, 0 }), Region(Region::HalfSpace{ { 1, 1, 0 }, 1.4 }),
+        Region(Region::Sphere{ { 0.3, 0.4, 0.5 * z }, 0.27 }),
+        Region(Box{ { 0.6, -1, -1 }, { 0.65, 2, 2 } }),
+        Region(Box{ { -1, -1, -1 }, { 2, 2, 0.01 * z } }),
+        Region(Box{ { 0.1, 0.1, 0.3 * z }, { 0.4, 0.5, 0.9 * z } }) })
     {
-      cube.positions[k] /= flatness;
-    }
-    const MemoryMesh mesh(toStream(cube));
-    DistanceDescription description;
-    description.from.emplace_back(Region(Region::HalfSpace{ { -1, 0, 0 }, 0 }));
-    const Solved found = measure(mesh, description);
-    for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
-    {
-      EXPECT_NEAR(found.values(v, 0), mesh.mesh().positions[3 * std::size_t(v)], 1e-6) << flatness;
+      for (const std::vector<std::int64_t>& points : { std::vector<std::int64_t>{}, { 17, 700 } })
+      {
+        DistanceDescription description =
+          points.empty() ? DistanceDescription() : fromVertices(points);
+        description.from.emplace_back(region);
+        const std::vector<TrianglePoints> facets = facetsOf(stream, region, points);
+        ASSERT_GT(facets.size(), points.size());
+        std::vector<double> exact;
+        for (std::int64_t v = 0; v < stream.vertices(); ++v)
+        {
+          exact.push_back(straightTo(facets, &stream.positions[3 * std::size_t(v)]));
+        }
+        for (const std::int64_t chunk : { 100000, 1 })
+        {
+          const Solved found = measureInChunks(mesh, description, chunk);
+          for (std::int64_t v = 0; v < stream.vertices(); ++v)
+          {
+            EXPECT_NEAR(found.values(v, 0), exact[std::size_t(v)], 1e-6 * exact[std::size_t(v)])
+              << "1 : " << flatness << ", chunks of " << chunk << ", vertex " << v;
+          }
+        }
+      }
     }
   }
 }
@@ -252,6 +325,31 @@ TEST(SolidDistances, AreNotShorterThanThePathAroundAnEdge)
       }
       EXPECT_LT(mean, 0.01) << "1 : " << flatness;
     }
+  }
+}
+
+/** The same of a face that is seen by a part of the solid. */
+TEST(SolidDistances, OfAFaceAreNotMuchShorterThanThePathAroundAnEdge)
+{
+  for (const double flatness : { 1.0, 10.0, 1000.0 })
+  {
+    const MemoryMesh mesh(solid(true, flatness));
+    const StreamMesh& stream = mesh.mesh();
+    DistanceDescription description;
+    description.from.emplace_back(Region(Region::HalfSpace{ { 1, 0, 0 }, 1 }));
+    const Solved found = measure(mesh, description);
+    double mean = 0;
+    for (std::int64_t v = 0; v < stream.vertices(); ++v)
+    {
+      const double* const p = &stream.positions[3 * std::size_t(v)];
+      const double beside[3] = { 1, std::min(p[1], 0.5), p[2] };
+      const double exact = aroundNotch(p, beside);
+      EXPECT_GE(found.values(v, 0), (p[1] > 0.5 ? 0.97 : 1 - 1e-9) * exact) << v;
+      EXPECT_LE(found.values(v, 0), (p[1] > 0.5 ? 1.08 : 1.02) * exact) << v;
+      mean +=
+        exact > 0 ? std::abs(found.values(v, 0) / exact - 1) / double(stream.vertices()) : 0.0;
+    }
+    EXPECT_LT(mean, 0.015) << "1 : " << flatness;
   }
 }
 

@@ -6,6 +6,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -49,16 +50,26 @@ ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources,
   return plan;
 }
 
-namespace
+void ChunkedMesh::readPositions(std::int64_t chunk, std::span<double> positions)
 {
-
-template <class T>
-std::span<T> valuesIn(const Buffer& buffer, std::int64_t count)
-{
-  return { reinterpret_cast<T*>(buffer.data()), static_cast<std::size_t>(count) };
+  const std::int64_t index = chunk * MeshParts + Positions;
+  if (!this->plan.singlePositions)
+  {
+    this->mesh.read(index, std::as_writable_bytes(positions));
+    return;
+  }
+  // Single precision is read into the second half of the room and widened from the front: the
+  // writing end never overtakes the reading end.
+  const std::span<std::byte> half =
+    std::as_writable_bytes(positions).subspan(positions.size() * sizeof(float));
+  this->mesh.read(index, half);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    float coordinate = 0;
+    std::memcpy(&coordinate, half.data() + i * sizeof(float), sizeof(float));
+    positions[i] = coordinate;
+  }
 }
-
-} // namespace
 
 /** Grows by a quarter: the memory of cells is the larger part of an open chunk. */
 void ChunkWriter::CellList::add(Pool& pool, const std::uint32_t* corners, std::size_t count)
@@ -73,9 +84,11 @@ void ChunkWriter::CellList::add(Pool& pool, const std::uint32_t* corners, std::s
   this->Used += bytes;
 }
 
-ChunkWriter::ChunkWriter(ChunkedMesh& to, DistanceSources& sources, Pool& pool)
+ChunkWriter::ChunkWriter(
+  ChunkedMesh& to, DistanceSources& sources, SourceFacets* facets, Pool& pool)
   : To(to)
   , From(sources)
+  , Facets(facets)
   , Owner(pool)
   , Points(pool, 3)
   , Marks(pool)
@@ -163,6 +176,10 @@ void ChunkWriter::addCell(const std::int64_t* corners)
     local[k] = plan.local(corners[k]);
     sources += (this->Marks[corners[k]] & OfRegion) != 0;
   }
+  if (this->Facets)
+  {
+    this->addSourceFacets({ corners, static_cast<std::size_t>(count) });
+  }
   if (!std::isinf(plan.within))
   {
     this->noteLongestEdge(corners);
@@ -184,6 +201,29 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   }
   OpenCells& cells = this->Open[open];
   (crosses ? cells.crossing : cells.inner).add(this->Owner, local, static_cast<std::size_t>(count));
+}
+
+/** Of a cell that has other vertices, too: what its vertices of a region span, and points. */
+void ChunkWriter::addSourceFacets(std::span<const std::int64_t> corners)
+{
+  std::array<std::int64_t, 4> ofRegion{};
+  std::size_t count = 0;
+  for (const std::int64_t& corner : corners)
+  {
+    const std::uint8_t mark = this->Marks[corner];
+    if ((mark & OfRegion) != 0)
+    {
+      ofRegion[count++] = corner;
+    }
+    else if ((mark & Dirty) != 0)
+    {
+      this->Facets->add({ &corner, 1 }, this->Points);
+    }
+  }
+  if (count > 0 && count < corners.size())
+  {
+    this->Facets->add(std::span(ofRegion).first(count), this->Points);
+  }
 }
 
 void ChunkWriter::noteLongestEdge(const std::int64_t* corners)
@@ -237,7 +277,7 @@ void ChunkWriter::writePositions(std::int64_t chunk, std::int64_t first, std::in
     this->To.mesh.write(index, std::as_bytes(points));
     return;
   }
-  const std::span<float> single = valuesIn<float>(this->Row, 3 * count);
+  const std::span<float> single = this->Row.values<float>(3 * count);
   std::ranges::transform(
     points, single.begin(), [](double coordinate) { return static_cast<float>(coordinate); });
   this->To.mesh.write(index, std::as_bytes(single));
@@ -254,7 +294,7 @@ void ChunkWriter::writeState(std::int64_t chunk, std::int64_t first, std::int64_
   {
     return;
   }
-  const std::span<double> distances = valuesIn<double>(this->Row, count);
+  const std::span<double> distances = this->Row.values<double>(count);
   std::ranges::transform(marks, distances.begin(),
     [](std::uint8_t mark)
     { return (mark & Dirty) != 0 ? 0.0 : std::numeric_limits<double>::infinity(); });

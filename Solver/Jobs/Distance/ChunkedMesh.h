@@ -4,6 +4,7 @@
 #include "Solver/Files/BlockStore.h"
 #include "Solver/Files/IoStatistics.h"
 #include "Solver/Jobs/Distance/DistanceSources.h"
+#include "Solver/Jobs/Distance/NearestSource.h"
 #include "Solver/Memory/Buffer.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/MeshSource.h"
@@ -13,6 +14,7 @@
 #include <deque>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -37,6 +39,7 @@ struct ChunkPlan
   bool directions = false;      ///< whether directions are stored
   bool arrivals = false;        ///< whether it is stored how paths arrive: PathArrival
   bool roots = false;           ///< whether it is stored where paths turn last: FrontRoot
+  bool nearest = false;         ///< whether nearest sources are stored: NearestSource
   /** Distances beyond are not wanted. */
   double within = std::numeric_limits<double>::infinity();
 
@@ -75,6 +78,7 @@ struct ChunkedMesh
     Positions,
     InnerCells,    ///< places of corners: see ChunkPlan::local()
     CrossingCells, ///< places of corners
+    NearestSources,
     MeshParts
   };
   /** The blocks of a chunk in the file of the distances. */
@@ -109,6 +113,8 @@ struct ChunkedMesh
     return std::min(this->plan.length, this->vertices - this->firstOf(chunk));
   }
   std::int64_t count() const { return static_cast<std::int64_t>(this->chunks.size()); }
+  /** Reads x, y, z of the vertices of a chunk. */
+  void readPositions(std::int64_t chunk, std::span<double> positions);
   std::int64_t cells() const
   {
     std::int64_t sum = 0;
@@ -132,7 +138,8 @@ struct ChunkedMesh
 class ChunkWriter
 {
 public:
-  ChunkWriter(ChunkedMesh& to, DistanceSources& sources, Pool& pool);
+  /** `facets`, if given, gets those of the sources at which paths end. */
+  ChunkWriter(ChunkedMesh& to, DistanceSources& sources, SourceFacets* facets, Pool& pool);
 
   /** Adds the next block, which has been checked: see StreamCheck. */
   void add(const MeshBlock& block);
@@ -163,6 +170,7 @@ private:
 
   void addVertices(const MeshBlock& block);
   void addCell(const std::int64_t* corners);
+  void addSourceFacets(std::span<const std::int64_t> corners);
   void noteLongestEdge(const std::int64_t* corners);
   /** Writes the first open chunk, with `count` vertices. */
   void writeChunk(std::int64_t count);
@@ -171,6 +179,7 @@ private:
 
   ChunkedMesh& To;
   DistanceSources& From;
+  SourceFacets* Facets;
   Pool& Owner;
   Ring<double> Points;
   Ring<std::uint8_t> Marks;   ///< VertexFlag of open vertices

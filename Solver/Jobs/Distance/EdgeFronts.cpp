@@ -151,7 +151,7 @@ private:
     for (int k = 0; k < borders; ++k)
     {
       const double middle = 0.5 * (from + border[k]), known = this->Old.image.at(middle);
-      this->pass(from, this->New.image.at(middle) < known - Nearer * known);
+      this->pass(from, this->New.image.at(middle) < known - Nearer * std::fabs(known));
       from = border[k];
     }
     if (this->Old.end > end)

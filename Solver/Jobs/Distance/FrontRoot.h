@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,8 +8,7 @@ namespace smg
 {
 
 /** The point that a vertex of a solid sees at the end of its straight part of the path: a source,
- * or a vertex at which the path turns. Of the front of a region, a vertex of the region, and as the
- * offset -(how far along the region the foot of the path may be from there). */
+ * or a vertex at which the path turns. */
 struct FrontRoot
 {
   std::array<double, 3> point{};
@@ -18,13 +16,11 @@ struct FrontRoot
 
   bool isKnown() const { return this->offset < HUGE_VAL; }
   bool operator==(const FrontRoot&) const = default;
-  /** The distance of a point that sees it; of a region, about what no path is shorter than. */
+  /** The distance of a point that sees it. */
   double at(const double* p) const
   {
     const double x = p[0] - this->point[0], y = p[1] - this->point[1], z = p[2] - this->point[2];
-    const double square = x * x + y * y + z * z;
-    return this->offset < 0 ? std::sqrt(std::max(square - this->offset * this->offset, 0.0))
-                            : this->offset + std::sqrt(square);
+    return this->offset + std::sqrt(x * x + y * y + z * z);
   }
 };
 

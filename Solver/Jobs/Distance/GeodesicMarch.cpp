@@ -43,8 +43,6 @@ constexpr double Excess = 1e-9;
  * see a corner: more than what the gap behind a vertex of a smaller excess hides. Distances are
  * wrong by the square of that. */
 constexpr double Reach = 1e-6;
-/** Distances that differ by less are equal, relative to them. */
-constexpr double Same = 1e-14;
 /** Whether a path is longer than that by way of a corner. One that only rounding makes longer, as
  * along an edge, may lead on to where no path by way of the corner does. */
 bool isLonger(double path, double byCorner)
@@ -156,11 +154,13 @@ void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source,
   const Vector& crossing, std::uint32_t via, const PathArrival& arrival)
 {
   double& known = this->Window.distance()[v];
+  // Beside a source, rounding may make it negative.
+  distance = std::max(distance, 0.0);
   if (distance > this->Window.mesh().plan.within)
   {
     return;
   }
-  if (distance < known - Same * known || known == HUGE_VAL)
+  if (distance < known - this->Same * known || known == HUGE_VAL)
   {
     known = distance;
     std::uint8_t& flags = this->Window.flags()[v];
@@ -173,7 +173,7 @@ void GeodesicMarch::offer(std::uint32_t v, double distance, std::int64_t source,
     this->Window.arrive(v, arrival);
     this->Queue.put(v | VertexBit, distance);
   }
-  else if ((front & Straight) != 0 && distance <= known + Same * known && known > 0)
+  else if ((front & Straight) != 0 && distance <= known + this->Same * known && known > 0)
   {
     // Of two fronts that arrive at the same time, the straight one counts.
     this->Window.flags()[v] |= front | Changed;
@@ -193,6 +193,11 @@ void GeodesicMarch::leave(std::uint32_t v)
   if (hasAll)
   {
     flags &= static_cast<std::uint8_t>(~Dirty);
+  }
+  if (++this->Left > MostLeft * this->Window.mesh().vertices)
+  {
+    this->Same *= 10;
+    this->Left = 0;
   }
   const double distance = this->Window.distance()[v];
   this->Window.forCellsOf<3>(v,

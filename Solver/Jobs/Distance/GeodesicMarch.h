@@ -62,6 +62,13 @@ private:
   }
   double lengthOf(std::uint32_t a, std::uint32_t b) const;
 
+  /** How often the front may leave a vertex on average before distances that differ by more are
+   * equal: so that the march ends whatever rounding does. */
+  static constexpr std::int64_t MostLeft = 100;
+
+  /** Distances that differ by less are equal, relative to them. */
+  double Same = 1e-14;
+  std::int64_t Left = 0; ///< vertices since that grew
   EdgeFronts Fronts;
   FrontQueue Queue;
   /** The pairs of neighbours of a vertex that a triangle joins, in both orders. */

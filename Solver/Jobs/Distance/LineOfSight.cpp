@@ -42,10 +42,12 @@ LineOfSight::LineOfSight(const MarchWindow& window, Pool& pool)
   this->forget();
 }
 
-void LineOfSight::look(std::uint32_t w, const FrontRoot& root)
+void LineOfSight::look(std::uint32_t w, const FrontRoot* root)
 {
+  this->Root = root;
   this->Origin = this->Window.point(w);
-  this->Along = difference(root.point.data(), this->Origin);
+  const Vector& end = root ? root->point : this->Window.nearest(w).point;
+  this->Along = difference(end.data(), this->Origin);
   const auto smallest = std::ranges::min_element(
     this->Along, {}, [](double component) { return std::fabs(component); });
   Vector axis{};
@@ -61,7 +63,22 @@ LineOfSight::View LineOfSight::viewOf(std::uint32_t vertex) const
   return { dot(to, this->Across[0]), dot(to, this->Across[1]), dot(to, this->Along) };
 }
 
-bool LineOfSight::leave(std::uint32_t w, const FrontRoot& root, Step& step) const
+bool LineOfSight::crosses(Face& face) const
+{
+  const View a = this->viewOf(face[0]), b = this->viewOf(face[1]), c = this->viewOf(face[2]);
+  double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
+  const double along = bc * a.along + ca * b.along + ab * c.along;
+  double whole = ab + bc + ca;
+  if (whole < 0)
+  {
+    std::swap(face[0], face[1]);
+    ab = -ab, bc = -bc, ca = -ca, whole = -whole;
+    return std::min({ ab, bc, ca }) >= -FaceMargin * whole && along < 0;
+  }
+  return whole > 0 && std::min({ ab, bc, ca }) >= -FaceMargin * whole && along > 0;
+}
+
+bool LineOfSight::leave(std::uint32_t w, Step& step) const
 {
   bool isFound = false;
   this->Window.forCellsOf<4>(w,
@@ -80,33 +97,31 @@ bool LineOfSight::leave(std::uint32_t w, const FrontRoot& root, Step& step) cons
           opposite[k++] = cell[c];
         }
       }
-      const View a = this->viewOf(opposite[0]), b = this->viewOf(opposite[1]),
-                 c = this->viewOf(opposite[2]);
-      double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
-      double whole = ab + bc + ca;
-      if (whole < 0)
-      {
-        std::swap(opposite[0], opposite[1]);
-        ab = -ab, bc = -bc, ca = -ca, whole = -whole;
-      }
-      const double along = bc * a.along + ca * b.along + ab * c.along;
-      isFound = whole > 0 && std::min({ ab, bc, ca }) >= -FaceMargin * whole && along > 0 &&
-                this->pass(opposite, w, root, step);
+      isFound = this->crosses(opposite) && this->pass(opposite, w, step);
     });
   return isFound;
 }
 
-bool LineOfSight::pass(
-  const Face& face, std::uint32_t passed, const FrontRoot& root, Step& step) const
+bool LineOfSight::arrivesAt(const Face& face) const
 {
-  // A source has copies where a mesh is cut.
-  const auto isRoot = [&](std::uint32_t v)
+  if (!this->Root)
   {
-    return std::equal(root.point.begin(), root.point.end(), this->Window.point(v)) &&
-           this->Window.distance()[v] <= root.offset;
+    return std::ranges::all_of(face, [this](std::uint32_t v) { return this->hasNearest(v); });
+  }
+  // A source has copies where a mesh is cut.
+  const auto isRoot = [this](std::uint32_t v)
+  {
+    return std::equal(this->Root->point.begin(), this->Root->point.end(), this->Window.point(v)) &&
+           this->Window.distance()[v] <= this->Root->offset;
   };
-  const auto hasSeen = [&](std::uint32_t v) { return this->Window.root(v) == root || isRoot(v); };
-  const bool arrives = std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen);
+  const auto hasSeen = [&](std::uint32_t v)
+  { return this->Window.root(v) == *this->Root || isRoot(v); };
+  return std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen);
+}
+
+bool LineOfSight::pass(const Face& face, std::uint32_t passed, Step& step) const
+{
+  const bool arrives = this->arrivesAt(face);
   const std::uint32_t corner = arrives ? passed : this->beyond(face, passed);
   if (corner == MarchWindow::NoVertex)
   {
@@ -142,20 +157,33 @@ bool LineOfSight::sees(std::uint32_t w, const FrontRoot& root, Face& face)
   {
     return false;
   }
-  this->look(w, root);
+  this->look(w, &root);
   Step step;
-  bool goesOn = this->leave(w, root, step);
+  const bool leaves = this->leave(w, step);
   face = step.face;
-  for (int cells = 1; goesOn && !step.arrives && cells < MostCells; ++cells)
-  {
-    goesOn = this->follow(root, step);
-  }
-  const bool isSeen = goesOn && step.arrives;
+  const bool isSeen = leaves && this->arrives(step, MostCells);
   this->Unseen[w] = isSeen ? this->Unseen[w] : line;
   return isSeen;
 }
 
-bool LineOfSight::follow(const FrontRoot& root, Step& step) const
+bool LineOfSight::seesNearest(std::uint32_t w, Face face)
+{
+  this->look(w, nullptr);
+  Step step;
+  return this->crosses(face) && this->pass(face, w, step) && this->arrives(step, MostToNearest);
+}
+
+bool LineOfSight::arrives(Step& step, int mostCells) const
+{
+  bool goesOn = true;
+  for (int cells = 1; goesOn && !step.arrives && cells < mostCells; ++cells)
+  {
+    goesOn = this->follow(step);
+  }
+  return goesOn && step.arrives;
+}
+
+bool LineOfSight::follow(Step& step) const
 {
   // On which side of the way from each corner of the face to the new one the line lies.
   const View at = this->viewOf(step.corner);
@@ -169,7 +197,9 @@ bool LineOfSight::follow(const FrontRoot& root, Step& step) const
   }
   if (first >= dot(this->Along, this->Along))
   {
-    return false; // beyond the end
+    // Beyond the end: a root is a vertex, and would have been seen.
+    step.arrives = !this->Root;
+    return step.arrives;
   }
   // The new corner takes the place of the one that leaves the line between the other two ways. Of
   // faces that the line touches alike, as in a plane boundary, one with a cell beyond it.
@@ -183,7 +213,7 @@ bool LineOfSight::follow(const FrontRoot& root, Step& step) const
       Face next = step.face;
       next[k] = step.corner;
       return (k == order[0] || inside(k) >= -FaceMargin * size) &&
-             this->pass(next, step.face[k], root, step);
+             this->pass(next, step.face[k], step);
     });
 }
 

@@ -31,12 +31,23 @@ public:
    * leaves the cells of w. A line that leaves the window, or crosses many cells before it comes to
    * what sees the root, counts as not seen. */
   bool sees(std::uint32_t w, const FrontRoot& root, std::array<std::uint32_t, 3>& face);
+  /** Whether vertex w sees its nearest source, by a line that leaves a cell of w through the face
+   * opposite to w, and soon comes to a face whose corners all see theirs. */
+  bool seesNearest(std::uint32_t w, std::array<std::uint32_t, 3> face);
+  /** Whether the distance of a vertex is that of its nearest source. */
+  bool hasNearest(std::uint32_t vertex) const
+  {
+    return this->Window.distance()[vertex] <=
+           this->Window.nearest(vertex).distance * (1 + Straightness);
+  }
   /** Lines that were not seen may be seen by now: the window has moved. */
   void forget();
 
 private:
   /** Lines through more cells are given up. */
-  static constexpr int MostCells = 64;
+  static constexpr int MostCells = 64, MostToNearest = 16;
+  /** A distance that is longer by at most this share is that of the straight line. */
+  static constexpr double Straightness = 1e-6;
 
   /** A corner seen along the line: in the plane across it, and how far along it. */
   struct View
@@ -53,23 +64,31 @@ private:
     bool arrives = false;                         ///< whether the line need not be followed on
   };
 
-  void look(std::uint32_t w, const FrontRoot& root);
+  /** Begins a line from w to a root, or to the nearest source of w if none is given. */
+  void look(std::uint32_t w, const FrontRoot* root);
   View viewOf(std::uint32_t vertex) const;
+  /** Whether the line crosses a face opposite to w, whose corners are put in order for it. */
+  bool crosses(Face& face) const;
   /** Finds the face opposite to w that the line crosses. */
-  bool leave(std::uint32_t w, const FrontRoot& root, Step& step) const;
+  bool leave(std::uint32_t w, Step& step) const;
+  /** Whether the line need not be followed beyond a face. */
+  bool arrivesAt(const Face& face) const;
   /** Sets the step through a face of the cell of corner `passed`, unless that is at the boundary,
    * or at the end of the window. */
-  bool pass(const Face& face, std::uint32_t passed, const FrontRoot& root, Step& step) const;
+  bool pass(const Face& face, std::uint32_t passed, Step& step) const;
   /** The corner of the cell beyond a face, NoVertex if there is none in the window. */
   std::uint32_t beyond(const Face& face, std::uint32_t passed) const;
   /** Goes on through the cell beyond a face. */
-  bool follow(const FrontRoot& root, Step& step) const;
+  bool follow(Step& step) const;
+  /** Follows the line through at most this many cells; returns whether it arrives. */
+  bool arrives(Step& step, int mostCells) const;
 
   const MarchWindow& Window;
   /** Of each vertex, a digest of the last line that was not seen: many neighbours propose the same
    * one. */
   Buffer Memory;
   std::uint32_t* Unseen;
+  const FrontRoot* Root = nullptr; ///< null: the nearest source
   const double* Origin = nullptr;
   Vector Along{}, Across[2]{};
 };

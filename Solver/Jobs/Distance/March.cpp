@@ -35,8 +35,6 @@ constexpr double Infinite = std::numeric_limits<double>::infinity();
 constexpr double Perpendicular = 1e-6;
 /** A path is a straight line if it is longer by at most this share. */
 constexpr double Straightness = 1e-9;
-/** How far along a region a foot may be from the vertex that stands for it, in mean edges. */
-constexpr double FootRange = 1.5;
 /** What a line from a vertex at which the path turns must be shorter by, relative to its length:
  * the place of the turn is not exact. */
 constexpr double LeastGain = 1e-3;
@@ -79,10 +77,6 @@ void March::settle(std::int64_t first, std::int64_t last)
     // others. Every position of the window that lacks some of its cells does that again, which
     // changes nothing a second time.
     flags[v] |= Changed;
-    if (distances[v] == 0 && (flags[v] & OfRegion) != 0)
-    {
-      this->setRegionRoot<Corners>(v);
-    }
     if (hasAll)
     {
       flags[v] &= static_cast<std::uint8_t>(~Dirty);
@@ -138,9 +132,12 @@ bool March::isNews(std::uint32_t w, const Arrival& arrival) const
 }
 
 template <std::size_t N>
-bool March::offer(
-  std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners)
+bool March::offer(std::uint32_t w, Arrival arrival, const std::array<std::uint32_t, N>& corners)
 {
+  if (this->Window.hasNearest())
+  {
+    arrival.distance = std::max(arrival.distance, this->Window.nearest(w).distance);
+  }
   if (!this->isNews(w, arrival))
   {
     // A distance that is shorter by less than the tolerance is not passed on, but it may have quite
@@ -196,48 +193,14 @@ void March::accept(std::uint32_t w, const Arrival& arrival, std::uint32_t passed
 
 FrontRoot March::rootOf(std::uint32_t vertex) const
 {
+  if (!this->Window.hasRoots())
+  {
+    return {};
+  }
   const double* const point = this->Window.point(vertex);
   const bool isPoint =
     this->Window.distance()[vertex] == 0 && (this->Window.flags()[vertex] & OfRegion) == 0;
   return isPoint ? FrontRoot{ { point[0], point[1], point[2] }, 0 } : this->Window.root(vertex);
-}
-
-template <int Corners>
-void March::setRegionRoot(std::uint32_t v)
-{
-  if (!this->Window.hasRoots())
-  {
-    return;
-  }
-  const double* const point = this->Window.point(v);
-  double sum = 0;
-  int edges = 0;
-  this->Window.forCellsOf<Corners>(v,
-    [&](const std::uint32_t* cell)
-    {
-      for (int c = 0; c < Corners; ++c)
-      {
-        const Vector edge = difference(this->Window.point(cell[c]), point);
-        const bool isOfRegion = cell[c] != v && this->Window.distance()[cell[c]] == 0;
-        sum += isOfRegion ? std::sqrt(dot(edge, edge)) : 0.0;
-        edges += isOfRegion ? 1 : 0;
-      }
-    });
-  // A region of one vertex is a point.
-  const double mean = sum / std::max(edges, 1);
-  this->Window.setRoot(v, { { point[0], point[1], point[2] }, -FootRange * mean });
-}
-
-template <std::size_t N>
-FrontRoot March::regionRoot(std::uint32_t w, const std::array<std::uint32_t, N>& corners) const
-{
-  FrontRoot nearest;
-  for (const std::uint32_t corner : corners)
-  {
-    const FrontRoot root = this->rootOf(corner);
-    nearest = root.at(this->Window.point(w)) < nearest.at(this->Window.point(w)) ? root : nearest;
-  }
-  return nearest;
 }
 
 template <std::size_t N>
@@ -253,8 +216,7 @@ template <std::size_t N>
 void March::limit(
   std::uint32_t w, Arrival& arrival, const std::array<std::uint32_t, N>& corners) const
 {
-  const FrontRoot root =
-    this->isOfRegion(corners[0]) ? this->regionRoot(w, corners) : this->commonRoot(corners);
+  const FrontRoot root = this->commonRoot(corners);
   if (root.isKnown())
   {
     arrival.distance = std::max(arrival.distance, root.at(this->Window.point(w)));
@@ -311,6 +273,29 @@ void March::offerLine(std::uint32_t v, std::uint32_t w)
   }
 }
 
+void March::offerNearest(std::uint32_t w, const std::array<std::uint32_t, 3>& face)
+{
+  const NearestSource& nearest = this->Window.nearest(w);
+  if (this->Sight.hasNearest(w) || !this->Sight.seesNearest(w, face))
+  {
+    return;
+  }
+  // The corner whose own nearest point is closest to this one has its source.
+  const auto away = [&](std::uint32_t v)
+  {
+    const Vector way = difference(this->Window.nearest(v).point.data(), nearest.point.data());
+    return dot(way, way);
+  };
+  const std::uint32_t passed = *std::ranges::min_element(face, {}, away);
+  const Arrival line{ nearest.distance, (this->Window.flags()[passed] & Straight) != 0 };
+  if (this->isNews(w, line))
+  {
+    this->Window.arrive(w, nearest.point, passed);
+    this->Window.setRoot(w, this->isOfRegion(passed) ? FrontRoot() : FrontRoot{ nearest.point, 0 });
+    this->accept(w, line, passed, face);
+  }
+}
+
 /** The path crosses the facet of these corners, an edge or a face, or comes from a single one. */
 template <std::size_t N>
 void March::arrive(
@@ -329,9 +314,8 @@ void March::arrive(
   this->Window.arrive(w, crossing, corners[static_cast<std::size_t>(arrival.nearestCorner())]);
   if (this->Window.hasRoots())
   {
-    this->Window.setRoot(w, this->isOfRegion(corners[0])
-                              ? this->regionRoot(w, corners)
-                              : this->rootThrough(w, arrival.distance, corners));
+    this->Window.setRoot(w,
+      this->isOfRegion(corners[0]) ? FrontRoot() : this->rootThrough(w, arrival.distance, corners));
   }
 }
 
@@ -468,6 +452,10 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
   for (std::size_t k = 0; k < 3; ++k)
   {
     this->offerLine(v, others[k]);
+    if (this->Window.hasNearest() && this->Sight.hasNearest(v))
+    {
+      this->offerNearest(others[k], { v, others[(k + 1) % 3], others[(k + 2) % 3] });
+    }
   }
 }
 

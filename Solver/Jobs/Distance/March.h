@@ -192,12 +192,9 @@ private:
   template <std::size_t N>
   void limit(std::uint32_t w, Arrival& arrival, const std::array<std::uint32_t, N>& corners) const;
   bool isOfRegion(std::uint32_t v) const { return (this->Window.flags()[v] & OfRegion) != 0; }
-  /** Of a source of a region. */
-  template <int Corners>
-  void setRegionRoot(std::uint32_t v);
-  /** Of what these corners know of a region, what is nearest to w. */
-  template <std::size_t N>
-  FrontRoot regionRoot(std::uint32_t w, const std::array<std::uint32_t, N>& corners) const;
+  /** Offers vertex `w` of a solid the straight line to its nearest source, if this leaves a cell
+   * through the face opposite to w, and w sees that. */
+  void offerNearest(std::uint32_t w, const std::array<std::uint32_t, 3>& face);
   /** What w sees by a path through a facet with these corners. */
   template <std::size_t N>
   FrontRoot rootThrough(
@@ -212,7 +209,7 @@ private:
    * distances, down to 0 between two sources.
    */
   template <std::size_t N>
-  bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
+  bool offer(std::uint32_t w, Arrival arrival, const std::array<std::uint32_t, N>& corners);
   /** Takes note of an arrival that counts: its distance, its front, of a corner that it has passed,
    * and the facet. */
   void accept(std::uint32_t w, const Arrival& arrival, std::uint32_t passed,

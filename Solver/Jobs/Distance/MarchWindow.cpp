@@ -11,7 +11,8 @@
 // new one is read into the slot (chunk mod 4) of one that left.
 //
 // Chunks have a fixed number of vertices, so the memory is known before the march: 45 bytes per
-// vertex (8 more with sources, 12 with directions, 40 with paths, 32 in solids) and the lists of
+// vertex (8 more with sources, 12 with directions, 40 with paths, 32 each with
+// roots and nearest sources) and the lists of
 // cells.
 
 namespace smg
@@ -29,7 +30,8 @@ std::int64_t vertexBytes(const ChunkPlan& plan)
          (plan.sources ? std::int64_t(sizeof(std::int64_t)) : 0) +
          (plan.directions ? 3 * std::int64_t(sizeof(float)) : 0) +
          (plan.arrivals ? std::int64_t(sizeof(PathArrival)) : 0) +
-         (plan.roots ? std::int64_t(sizeof(FrontRoot)) : 0);
+         (plan.roots ? std::int64_t(sizeof(FrontRoot)) : 0) +
+         (plan.nearest ? std::int64_t(sizeof(NearestSource)) : 0);
 }
 
 /** The vertices of a window, which may be longer than the mesh. */
@@ -83,6 +85,10 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   if (mesh.plan.roots)
   {
     part(this->Root, 1);
+  }
+  if (mesh.plan.nearest)
+  {
+    part(this->Nearest, 1);
   }
   if (mesh.plan.directions)
   {
@@ -157,7 +163,7 @@ void MarchWindow::readAhead(std::int64_t chunk) const
 void MarchWindow::load(Slot& slot, std::int64_t chunk)
 {
   slot.chunk = chunk;
-  this->loadPositions(chunk);
+  this->loadVertices(chunk);
   this->loadCells(slot, chunk);
   this->loadState(chunk);
   const std::int64_t fronts = chunk * ChunkedMesh::StateParts + ChunkedMesh::Fronts;
@@ -167,26 +173,19 @@ void MarchWindow::load(Slot& slot, std::int64_t chunk)
 }
 
 /** Reads the positions of a chunk, as doubles whatever the file has. */
-void MarchWindow::loadPositions(std::int64_t chunk)
+void MarchWindow::loadVertices(std::int64_t chunk)
 {
-  const auto count = static_cast<std::size_t>(3 * this->Mesh.countOf(chunk));
-  const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::Positions;
-  double* points = this->Point + 3 * std::size_t(this->placeOf(chunk));
-  if (!this->Mesh.plan.singlePositions)
+  this->Mesh.readPositions(chunk, { this->Point + 3 * std::size_t(this->placeOf(chunk)),
+                                    3 * static_cast<std::size_t>(this->Mesh.countOf(chunk)) });
+  const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::NearestSources;
+  if (this->Nearest && this->Mesh.mesh.bytes(index) > 0)
   {
-    this->Mesh.mesh.read(index, std::as_writable_bytes(std::span(points, count)));
-    return;
+    this->Mesh.mesh.read(index, std::as_writable_bytes(this->of(this->Nearest, chunk)));
   }
-  // Single precision is read into the second half of the room and widened from the front: the
-  // writing end never overtakes the reading end.
-  const std::span<std::byte> half =
-    std::as_writable_bytes(std::span(points, count)).subspan(count * sizeof(float));
-  this->Mesh.mesh.read(index, half);
-  for (std::size_t i = 0; i < count; ++i)
+  else if (this->Nearest)
   {
-    float coordinate = 0;
-    std::memcpy(&coordinate, half.data() + i * sizeof(float), sizeof(float));
-    points[i] = coordinate;
+    // Nothing can be reached from sources without facets.
+    std::ranges::fill(this->of(this->Nearest, chunk), NearestSource());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 #include "Solver/Jobs/Distance/FrontInterval.h"
 #include "Solver/Jobs/Distance/FrontRoot.h"
+#include "Solver/Jobs/Distance/NearestSource.h"
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
@@ -221,6 +222,9 @@ public:
     }
   }
   bool hasRoots() const { return this->Root != nullptr; }
+  /** The nearest source of a vertex, if that is wanted. */
+  const NearestSource& nearest(std::uint32_t vertex) const { return this->Nearest[vertex]; }
+  bool hasNearest() const { return this->Nearest != nullptr; }
   /** The corners of the facet across which the front came to a vertex, padded with NoVertex; all
    * NoVertex if that is not known, as after the chunk has been read again. */
   std::array<std::uint32_t, 3>* via() const { return this->Via; }
@@ -255,7 +259,7 @@ private:
   }
 
   void load(Slot& slot, std::int64_t chunk);
-  void loadPositions(std::int64_t chunk);
+  void loadVertices(std::int64_t chunk);
   void loadCells(Slot& slot, std::int64_t chunk);
   template <int Corners>
   void buildStars(Slot& slot);
@@ -281,9 +285,10 @@ private:
   Buffer Memory; ///< of the vertices
   double *Point, *Distance;
   std::int64_t* Source = nullptr;
-  float* Direction = nullptr;     ///< null if they are not wanted
-  PathArrival* Arrival = nullptr; ///< null if they are not wanted
-  FrontRoot* Root = nullptr;      ///< null if they are not wanted
+  float* Direction = nullptr;       ///< null if they are not wanted
+  PathArrival* Arrival = nullptr;   ///< null if they are not wanted
+  FrontRoot* Root = nullptr;        ///< null if they are not wanted
+  NearestSource* Nearest = nullptr; ///< null if they are not wanted
   std::array<std::uint32_t, 3>* Via = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;

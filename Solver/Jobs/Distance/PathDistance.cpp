@@ -89,19 +89,24 @@ void noteAccuracy(
   }
 }
 
-/** Whether there may be several points, or points and regions. */
-bool haveSeveralFronts(const DistanceDescription& description)
+/** What the sources are. */
+struct SourceCounts
 {
-  std::size_t points = 0;
-  bool isRegion = false;
-  for (const Where& place : description.from)
+  explicit SourceCounts(const DistanceDescription& description)
   {
-    const std::size_t here = pointsOf(place);
-    points += here;
-    isRegion = isRegion || here == 0;
+    for (const Where& place : description.from)
+    {
+      const std::size_t here = pointsOf(place);
+      this->points += here;
+      this->hasRegion = this->hasRegion || here == 0;
+    }
   }
-  return points > (isRegion ? 0 : 1);
-}
+  /** Whether there may be several points, or points and regions. */
+  bool haveSeveralFronts() const { return this->points > (this->hasRegion ? 0 : 1); }
+
+  std::size_t points = 0;
+  bool hasRegion = false;
+};
 
 /** Throws Error before the work, rather than in the middle of it. */
 void checkMemory(std::int64_t needed, const Pool& pool)
@@ -140,13 +145,13 @@ void checkExtent(const std::vector<double>& low, const std::vector<double>& high
   }
 }
 
-/** Reads the mesh once: cuts it into chunks, marks sources, and checks the stream and its extent.
- */
-void readMesh(
-  const StoredMesh& mesh, DistanceSources& sources, ChunkedMesh& chunks, DistanceRun& run)
+/** Reads the mesh once: cuts it into chunks, marks sources, collects their facets if wanted, and
+ * checks the stream and its extent. */
+void readMesh(const StoredMesh& mesh, DistanceSources& sources, SourceFacets* facets,
+  ChunkedMesh& chunks, DistanceRun& run)
 {
   const std::unique_ptr<MeshSource> source = sources.read(mesh);
-  ChunkWriter writer(chunks, sources, run.pool);
+  ChunkWriter writer(chunks, sources, facets, run.pool);
   std::vector<double> low(3, HUGE_VAL), high(3, -HUGE_VAL);
   const auto all = static_cast<double>(std::max<std::int64_t>(mesh.info().vertices, 1));
   const StreamCheck check = forCheckedBlocks(*source,
@@ -176,6 +181,29 @@ void readMesh(
   }
   checkExtent(low, high);
   noteUnwelded(chunks.plan.cellType, check.vertices(), check.cells(), run.report);
+}
+
+/** Cuts the mesh into chunks, and finds the nearest sources of its vertices, if these are wanted.
+ */
+void prepareMesh(const StoredMesh& mesh, std::optional<DistanceSources>& sources,
+  ChunkedMesh& chunks, DistanceRun& run)
+{
+  sources->prepare(mesh, run.scratch.path());
+  std::optional<BlockStore> file;
+  std::optional<SourceFacets> facets;
+  if (chunks.plan.nearest)
+  {
+    facets.emplace(file.emplace(run.scratch / "sources", run.traffic.add("sources")));
+  }
+  readMesh(mesh, *sources, facets ? &*facets : nullptr, chunks, run);
+  // Gives its memory back before what follows.
+  sources.reset();
+  if (facets)
+  {
+    const std::int64_t count = facets->finish();
+    Workers threads(run.options.threads);
+    findNearestSources(chunks, *file, count, threads, run.progress, run.pool);
+  }
 }
 
 /** What marches. */
@@ -357,13 +385,15 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     std::in_place, description.from, DataPlace::Vertices, description.group, info, name, run->pool);
   const bool isExact = isExactDistance(info, description);
   // Where the fronts of several points meet, each cell must know which ones.
+  const SourceCounts counts(description);
   const bool needSources = description.source || description.group || !description.to.empty() ||
-                           (!isExact && haveSeveralFronts(description));
+                           (!isExact && counts.haveSeveralFronts());
   ChunkPlan plan = ChunkPlan::of(
     info, info.span >= 0 ? info.span : measuredSpan(mesh), needSources, description.direction);
   plan.within = description.within;
   plan.arrivals = !description.to.empty();
-  plan.roots = info.cellType == CellType::Tetrahedron;
+  plan.roots = info.cellType == CellType::Tetrahedron && counts.points > 0;
+  plan.nearest = !isExact && counts.hasRegion;
   if (chunkVertices > 0)
   {
     // Tests take short chunks, so that small meshes have many.
@@ -385,10 +415,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   noteAccuracy(info, description, isExact, run->report);
   const Timer building;
   const std::vector<PathEnd> ends = pathEnds(mesh, description, name, *run);
-  sources->prepare(mesh, run->scratch.path());
-  readMesh(mesh, *sources, chunks, *run);
-  // Gives its memory back before the march.
-  sources.reset();
+  prepareMesh(mesh, sources, chunks, *run);
   run->report.seconds.build = building.seconds();
   const ChunkedMesh::Chunk largest = largestOf(chunks);
   checkMemory(

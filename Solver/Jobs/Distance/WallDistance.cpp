@@ -15,9 +15,8 @@
 // file. They are then taken in parts that fit into the memory limit, as a rule all at once; a pass
 // over the vertices for each part lowers their distances, if one of its triangles is nearer.
 //
-// Distances are compared, not their squares, and of equally near triangles the first one counts, in
-// a part and among parts: therefore the result has the same bits for any number of parts and
-// threads, and any blocks.
+// Distances are compared, not their squares, and of equally near triangles the first one counts:
+// therefore the result has the same bits for any number of parts and threads, and any blocks.
 //
 // Memory: 116 bytes per triangle of a part, and a chunk of vertices. Time: about logarithmic in the
 // number of triangles for each vertex and part.
@@ -37,52 +36,6 @@ struct WallFiles
   {
   }
   BlockStore triangles, values;
-};
-
-/** The part of the wall that is in memory. */
-class WallPart
-{
-public:
-  WallPart(Pool& pool, std::int64_t triangles)
-    : PointMemory(pool, static_cast<std::size_t>(triangles) * sizeof(TrianglePoints))
-    , NumberMemory(pool, static_cast<std::size_t>(triangles) * sizeof(Numbers))
-    , Points(reinterpret_cast<TrianglePoints*>(this->PointMemory.data()),
-        static_cast<std::size_t>(triangles))
-    , CornerNumbers(
-        reinterpret_cast<Numbers*>(this->NumberMemory.data()), static_cast<std::size_t>(triangles))
-  {
-  }
-
-  using Numbers = std::array<std::int64_t, 3>;
-  /** Bytes per triangle, including its share of the tree. */
-  static constexpr std::int64_t TriangleBytes =
-    sizeof(TrianglePoints) + sizeof(Numbers) + TriangleTree::BytesPerTriangle;
-
-  /** Reads the triangles [first, first + size), where both are multiples of a block except at the
-   * end of the file. */
-  void read(BlockStore& file, std::int64_t first)
-  {
-    std::vector<WallTriangle> block;
-    std::size_t done = 0;
-    for (std::int64_t b = first / WallTriangles::BlockTriangles; done < this->Points.size(); ++b)
-    {
-      block.resize(file.bytes(b) / sizeof(WallTriangle));
-      file.read(b, std::as_writable_bytes(std::span(block)));
-      for (const WallTriangle& triangle : block)
-      {
-        this->Points[done] = triangle.points;
-        this->CornerNumbers[done++] = triangle.numbers;
-      }
-    }
-  }
-
-  std::span<const TrianglePoints> points() const { return this->Points; }
-  std::span<const Numbers> numbers() const { return this->CornerNumbers; }
-
-private:
-  Buffer PointMemory, NumberMemory;
-  std::span<TrianglePoints> Points;
-  std::span<Numbers> CornerNumbers;
 };
 
 /** Reads the mesh and collects the wall; returns the number of its triangles. */
@@ -110,23 +63,6 @@ std::int64_t readWall(const StoredMesh& mesh, const DistanceDescription& descrip
     throw Error(name + ": no face of the boundary of the mesh is wall.");
   }
   return wall.count();
-}
-
-/** The number of triangles of a part: all of them, or the largest multiple of a block that there is
- * memory for. */
-std::int64_t partLength(std::int64_t triangles, const Pool& pool)
-{
-  constexpr std::int64_t Block = WallTriangles::BlockTriangles;
-  // A chunk of values, and something for small allocations.
-  const std::int64_t other = WallValues::ChunkVertices * WallValues::VertexBytes + (1 << 16);
-  const std::int64_t room = pool.limit() - pool.used() - other;
-  const std::int64_t most = room / WallPart::TriangleBytes / Block * Block;
-  if (most < std::min(triangles, Block))
-  {
-    throw MemoryLimitError(
-      pool.used() + other + Block * WallPart::TriangleBytes, pool.limit(), DistanceMemory);
-  }
-  return std::min(most, triangles);
 }
 
 /** A pass over all vertices, with a part of the wall; progress goes from `begin` to `end`. */
@@ -194,7 +130,8 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   Workers threads(run->options.threads);
   report.threads = threads.threads();
   // Fixed for all parts, once the memory of the selections has been given back.
-  const std::int64_t length = partLength(triangles, run->pool);
+  const std::int64_t length = TrianglePart::lengthFor(
+    triangles, WallValues::ChunkVertices * WallValues::VertexBytes, run->pool);
   const WallValues values{ files->values, description.source || description.group,
     description.direction };
   run->beginPasses();
@@ -205,9 +142,8 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
     { return 0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(triangles); };
     const std::int64_t count = std::min(length, triangles - first);
     // The first pass sets the values, later ones lower them.
-    WallPart part(run->pool, count);
-    part.read(files->triangles, first);
-    WallPass pass(part.points(), part.numbers(), first == 0, values, run->pool);
+    const TrianglePart part(files->triangles, first, count, run->pool);
+    WallPass pass(part, first == 0, values, run->pool);
     lowerAll(mesh, pass, *run, threads, share(first), share(first + count));
     ++report.passes;
     run->endPass(1.0 - static_cast<double>(first + count) / static_cast<double>(triangles));

@@ -27,7 +27,6 @@ WallTriangles::WallTriangles(BlockStore& to, DistanceSources& from, bool everywh
   , Points(pool, 3)
   , Numbers(pool)
 {
-  this->Block.reserve(BlockTriangles);
 }
 
 void WallTriangles::add(const MeshBlock& block)
@@ -90,17 +89,14 @@ void WallTriangles::take(std::int64_t end)
         {
           return;
         }
-        WallTriangle& triangle = this->Block.emplace_back();
+        NumberedTriangle triangle;
         const std::int64_t corners[3] = { this->Final, middle, high };
         for (int k = 0; k < 3; ++k)
         {
           std::copy_n(this->Points.at(corners[k]), 3, triangle.points.point[k]);
           triangle.numbers[k] = this->From.label(this->Numbers[corners[k]], wall - 1);
         }
-        if (this->Block.size() == BlockTriangles)
-        {
-          this->writeBlock();
-        }
+        this->To.add(triangle);
       });
   }
   this->Open.release(this->Final);
@@ -108,29 +104,14 @@ void WallTriangles::take(std::int64_t end)
   this->Numbers.release(this->Final);
 }
 
-/** All blocks but the last one have BlockTriangles triangles, so that any of them is found by
- * division. */
-void WallTriangles::writeBlock()
-{
-  this->To.write(this->Count / BlockTriangles, std::as_bytes(std::span(this->Block)));
-  this->Count += static_cast<std::int64_t>(this->Block.size());
-  this->Block.clear();
-}
-
 void WallTriangles::finish()
 {
   this->take(this->Vertices);
-  if (!this->Block.empty())
-  {
-    this->writeBlock();
-  }
+  this->To.finish();
 }
 
-WallPass::WallPass(std::span<const TrianglePoints> points,
-  std::span<const std::array<std::int64_t, 3>> numbers, bool isFirst, WallValues values, Pool& pool)
-  : Points(points)
-  , Numbers(numbers)
-  , Tree(pool, points)
+WallPass::WallPass(const TrianglePart& part, bool isFirst, WallValues values, Pool& pool)
+  : Part(part)
   , IsFirst(isFirst)
   , Values(values)
   , Memory(pool, static_cast<std::size_t>(WallValues::ChunkVertices * WallValues::VertexBytes))
@@ -138,16 +119,16 @@ WallPass::WallPass(std::span<const TrianglePoints> points,
   // One allocation, from the type with the strictest alignment on. All parts have room, wanted or
   // not.
   std::byte* next = this->Memory.data();
-  const auto part = [&]<class T>(std::span<T>& of, std::int64_t components)
+  const auto place = [&]<class T>(std::span<T>& of, std::int64_t components)
   {
     const auto count = static_cast<std::size_t>(components * WallValues::ChunkVertices);
     of = { reinterpret_cast<T*>(next), count };
     next += of.size_bytes();
   };
-  part(this->Position, 3);
-  part(this->Distance, 1);
-  part(this->Source, 1);
-  part(this->Direction, 3);
+  place(this->Position, 3);
+  place(this->Distance, 1);
+  place(this->Source, 1);
+  place(this->Direction, 3);
 }
 
 void WallPass::add(std::span<const double> positions, Workers& threads)
@@ -202,7 +183,8 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
   {
     const double* point = this->Position.data() + 3 * v;
     // The distance so far is the bound: infinite in the first pass.
-    const TriangleTree::Nearest nearest = this->Tree.nearest(point, this->Distance[v], guess);
+    const TriangleTree::Nearest nearest =
+      this->Part.tree().nearest(point, this->Distance[v], guess);
     // An earlier part of the wall has a triangle that is at least as near.
     if (nearest.triangle < 0)
     {
@@ -210,7 +192,7 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
     }
     guess = nearest.triangle;
     const auto triangle = static_cast<std::size_t>(nearest.triangle);
-    const TrianglePoints& corners = this->Points[triangle];
+    const TrianglePoints& corners = this->Part.points()[triangle];
     const Vector away = difference(point, nearestPoint(corners, point).data());
     // The gradient points away from the nearest point of the wall.
     const double distance = nearest.distance;
@@ -228,7 +210,7 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
       };
       // The source is the corner of the nearest triangle that is nearest to the vertex.
       const auto corner = std::ranges::min_element(corners.point, {}, squareTo) - corners.point;
-      this->Source[v] = this->Numbers[triangle][static_cast<std::size_t>(corner)];
+      this->Source[v] = this->Part.numbers()[triangle][static_cast<std::size_t>(corner)];
     }
   }
 }

@@ -5,24 +5,15 @@
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/BlockStore.h"
 #include "Solver/Jobs/Distance/DistanceSources.h"
-#include "Solver/Jobs/Distance/TriangleTree.h"
+#include "Solver/Jobs/Distance/TriangleFile.h"
 #include "Solver/Memory/Ring.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 namespace smg
 {
-
-/** A triangle of a wall: its corners, and their numbers in the original file. */
-struct WallTriangle
-{
-  TrianglePoints points;
-  std::array<std::int64_t, 3> numbers;
-};
 
 /** Collects the wall of a tetrahedral mesh in one reading, in the order of the stream: all boundary
  * triangles, or the selected ones. Cells that are flagged as duplicates or use a vertex twice do
@@ -30,9 +21,6 @@ struct WallTriangle
 class WallTriangles
 {
 public:
-  /** Block n of `to` gets the triangles from n * BlockTriangles on. */
-  static constexpr std::int64_t BlockTriangles = 4096;
-
   /** `numbers` selects the triangles and numbers their corners; `everywhere`: the whole boundary is
    * wall. */
   WallTriangles(BlockStore& to, DistanceSources& numbers, bool everywhere, Pool& pool);
@@ -42,23 +30,21 @@ public:
   /** To be called after the last block. */
   void finish();
 
-  std::int64_t count() const { return this->Count; }
+  std::int64_t count() const { return this->To.count(); }
 
 private:
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
   /** Takes the boundary triangles whose lowest vertex is below `end`. */
   void take(std::int64_t end);
-  void writeBlock();
 
-  BlockStore& To;
+  TriangleWriter To;
   DistanceSources& From;
   bool Everywhere;
   OpenFacets Open;
   Ring<double> Points;
   Ring<std::int64_t> Numbers;
-  std::vector<WallTriangle> Block; ///< not yet written
-  std::int64_t Vertices = 0, Final = 0, Count = 0;
+  std::int64_t Vertices = 0, Final = 0;
 };
 
 /** The results of a wall distance at vertices, in chunks on a scratch file. */
@@ -84,11 +70,8 @@ struct WallValues
 class WallPass
 {
 public:
-  /** `points` and `numbers` belong to the triangles of the part. `isFirst`: there are no values
-   * yet. */
-  WallPass(std::span<const TrianglePoints> points,
-    std::span<const std::array<std::int64_t, 3>> numbers, bool isFirst, WallValues values,
-    Pool& pool);
+  /** `isFirst`: there are no values yet. */
+  WallPass(const TrianglePart& part, bool isFirst, WallValues values, Pool& pool);
 
   /** Adds the positions of the next vertices. */
   void add(std::span<const double> positions, Workers& threads);
@@ -104,9 +87,7 @@ private:
   /** Calls visit(part, values) for the parts that are wanted. */
   void forParts(auto visit);
 
-  std::span<const TrianglePoints> Points;
-  std::span<const std::array<std::int64_t, 3>> Numbers;
-  TriangleTree Tree;
+  const TrianglePart& Part;
   bool IsFirst;
   WallValues Values;
   Buffer Memory;

@@ -2,6 +2,7 @@
 #include "Solver/Jobs/Estimate/Costs.h"
 
 #include "Solver/Core/SimdPack.h"
+#include "Solver/Jobs/Distance/DistanceSources.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 
@@ -233,9 +234,14 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   const std::int64_t bytesOfSpan = surface ? 7300 : 5500;
   const std::int64_t least = std::int64_t(surface ? 1 : 3) << 20;
   costs.memory = least + bytesOfSpan * info.span;
-  const double rootBytes = surface ? 0.0 : 32.0; // FrontRoot
-  costs.scratch = costs.kept =
-    bytesOf(info, ratesOf(info.cellType).chunkBytes + rootBytes + 8.0 * numbers);
+  const bool hasRegion =
+    std::ranges::any_of(description.from, [](const Where& place) { return pointsOf(place) == 0; });
+  // FrontRoot, NearestSource: bytesOfSpan has room for one of them in solids.
+  constexpr std::int64_t RootBytes = 32, WindowSpans = 64;
+  const bool hasNearest = hasRegion && !isExactDistance(info, description);
+  costs.memory += surface && hasNearest ? RootBytes * WindowSpans * info.span : 0;
+  costs.scratch = costs.kept = bytesOf(info,
+    ratesOf(info.cellType).chunkBytes + (surface && !hasNearest ? 0 : RootBytes) + 8.0 * numbers);
   // Larger meshes have more paths that turn against the direction of the stream: one pass up to
   // OnePass vertices, and Growth more for a mesh e times as large.
   constexpr double OnePass = 170000, Growth = 0.94;
