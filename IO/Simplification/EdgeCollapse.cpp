@@ -57,6 +57,18 @@ double extentOf(const SurfacePart& part)
   return extent;
 }
 
+/** The vertices at places of joined seams where three sides or more meet. */
+std::size_t cornersOfSeams(const SurfacePart& part)
+{
+  constexpr std::uint8_t Sides = 3;
+  std::size_t corners = 0;
+  for (const std::uint8_t number : part.atPlace)
+  {
+    corners += number >= Sides ? number : 0;
+  }
+  return corners;
+}
+
 class Collapser
 {
 public:
@@ -120,7 +132,8 @@ public:
   }
 
   /** Passes until the goal is reached or nothing can collapse. Where the topology may change and
-   * nothing else is possible, borders between labels are given up, and then triangles may turn. */
+   * nothing else is possible, borders between labels are given up, then the sides of seams, and
+   * then triangles may turn. */
   Collapsed run(const CollapseGoal& goal)
   {
     if (goal.mayCut && goal.vertices < this->Part.vertices())
@@ -129,7 +142,8 @@ public:
     }
     Collapsed done;
     double error = 0.0; // squared
-    for (std::size_t left = this->Part.vertices(); left > goal.vertices;)
+    std::size_t left = this->Part.wedges.empty() ? this->Part.vertices() : this->usedVertices();
+    while (left > goal.vertices)
     {
       this->Polled.now();
       this->rankEdges(goal.error * goal.error);
@@ -151,6 +165,14 @@ public:
       {
         this->Surface.releaseBorders();
         done.crossesBorders = !this->Part.labels.empty();
+      }
+      else if (const std::size_t welded =
+                 isAll && this->Cuts ? weldSeams(this->Part, left - goal.vertices, this->Polled)
+                                     : 0;
+               welded > 0)
+      {
+        done.welded += welded;
+        left = this->usedVertices();
       }
       else if (isAll && this->Cuts && !this->Surface.mayTurn())
       {
@@ -374,6 +396,11 @@ Collapsed collapseEdges(
     return {};
   }
   joinSeams(part, open, poll);
+  // Where three sides of seams meet no edge can collapse: such places must not be what is left.
+  constexpr std::size_t ShareOfCorners = 4;
+  const bool isTight = goal.mayCut && goal.vertices < part.vertices() &&
+                       ShareOfCorners * cornersOfSeams(part) > goal.vertices;
+  const std::size_t welded = isTight ? weldSeams(part, part.vertices() - goal.vertices, poll) : 0;
   Collapser collapser(part, open, poll);
   if (needsPlanes)
   {
@@ -382,7 +409,9 @@ Collapsed collapseEdges(
   // Also for parts that have quadrics: edges whose ends were open before may be complete by this
   // time.
   collapser.addBoundary();
-  return collapser.run(goal);
+  Collapsed done = collapser.run(goal);
+  done.welded += welded;
+  return done;
 }
 
 Collapsed collapseFlat(

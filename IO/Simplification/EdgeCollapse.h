@@ -20,8 +20,8 @@ struct CollapseGoal
   double error = std::numeric_limits<double>::infinity();
   /** Whether handles and bumps may be cut off, small holes closed, and bodies of four triangles go
    * (LoopCuts), where that costs no more than collapses have by then, or little else is possible.
-   * Where nothing else is possible, borders between labels are given up, too, and triangles may
-   * turn over. */
+   * Where nothing else is possible, borders between labels are given up, too, the sides of seams
+   * get one vertex at a place, and triangles may turn over. */
   bool mayCut = false;
   /** Whether it also ends where a pass leaves nearly all vertices. */
   bool isRough = false;
@@ -34,7 +34,8 @@ struct Collapsed
   std::size_t bodies = 0; ///< that have gone
   /** Whether borders between labels were given up, since nothing else could collapse. */
   bool crossesBorders = false;
-  bool turns = false; ///< whether triangles might turn over
+  std::size_t welded = 0; ///< vertices, see weldSeams(), since nothing else could collapse
+  bool turns = false;     ///< whether triangles might turn over
 };
 
 /** Bytes that collapseEdges() needs for a triangle of a part, in addition to the part itself. */

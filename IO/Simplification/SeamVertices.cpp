@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 // The vertices of seams, found by one reading of the stream, and joined in parts of it.
@@ -46,6 +47,41 @@ struct Place
   bool isJoined;     ///< whether all are in the part and none is open
 };
 
+/** A vertex that stands for those at its place while seams are joined, and one at it that has
+ * triangles. */
+using Joined = std::pair<std::uint32_t, std::uint32_t>;
+
+/** All of a part, sorted. */
+std::vector<Joined> joinedVertices(const SurfacePart& part, const Poll& poll)
+{
+  std::vector<Joined> joined;
+  for (std::size_t i = 0; i < part.wedges.size(); ++i)
+  {
+    poll.at(i);
+    if (part.joinedIn(part.corners[i]) > 1)
+    {
+      joined.emplace_back(part.corners[i], part.wedges[i]);
+    }
+  }
+  std::ranges::sort(joined);
+  joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+  return joined;
+}
+
+/** Calls `visit` for each place of joinedVertices(), with those at it. */
+template <class Visit>
+void visitPlaces(const std::vector<Joined>& joined, const Visit& visit)
+{
+  for (std::size_t begin = 0, end = 0; begin < joined.size(); begin = end)
+  {
+    while (end < joined.size() && joined[end].first == joined[begin].first)
+    {
+      ++end;
+    }
+    visit(std::span(joined).subspan(begin, end - begin));
+  }
+}
+
 /** The vertices of a part that are held or on seams, by their places. */
 struct Places
 {
@@ -68,7 +104,7 @@ struct Places
     {
       poll.at(begin);
       Place place{ begin, begin, begin, false };
-      std::size_t needed = 0;
+      std::size_t needed = 0, held = 0;
       bool isOpen = false;
       for (;
            end < this->vertices.size() && this->vertices[end].first == this->vertices[begin].first;
@@ -77,11 +113,12 @@ struct Places
         const std::uint32_t v = this->vertices[end].second;
         needed = std::max<std::size_t>(needed, part.seamOf(v));
         isOpen = isOpen || open[v] != 0;
-        const bool isBetter = part.isHeld(v) && !part.isHeld(this->vertices[place.first].second);
-        place.first = isBetter ? end : place.first;
+        place.first = part.isHeld(v) ? end : place.first;
+        held += part.isHeld(v) ? 1 : 0;
       }
       place.end = end;
-      place.isJoined = needed > 0 && needed < SurfacePart::MostOfSeam && !isOpen &&
+      // One vertex can stand for all: of several that are held each has its own triangles.
+      place.isJoined = needed > 0 && needed < SurfacePart::MostOfSeam && !isOpen && held <= 1 &&
                        end - begin >= std::max<std::size_t>(needed, 2);
       this->places.push_back(place);
     }
@@ -239,10 +276,62 @@ void joinSeams(SurfacePart& part, std::span<const std::uint8_t> open, const Poll
   }
 }
 
+std::size_t weldSeams(SurfacePart& part, std::size_t most, const Poll& poll)
+{
+  std::size_t gone = 0;
+  visitPlaces(joinedVertices(part, poll),
+    [&](std::span<const Joined> place)
+    {
+      const std::uint32_t one = place.front().first;
+      if (gone < most)
+      {
+        part.atPlace[one] = 1;
+        part.setSeam(one, 0);
+        gone += place.size() - 1;
+      }
+    });
+  for (std::size_t i = 0; i < part.wedges.size(); ++i)
+  {
+    poll.at(i);
+    part.wedges[i] = part.joinedIn(part.corners[i]) == 1 ? part.corners[i] : part.wedges[i];
+  }
+  return gone;
+}
+
 void separateSeams(SurfacePart& part)
 {
   if (!part.wedges.empty())
   {
+    std::unordered_map<std::uint32_t, std::uint32_t> after;
+    visitPlaces(joinedVertices(part, Poll()),
+      [&](std::span<const Joined> place)
+      {
+        // The vertex that stands for the place may have no triangles left itself. If it is held it
+        // gets those of another one.
+        const auto [one, next] = place.front();
+        const bool isUsed = std::ranges::find(place, one, &Joined::second) != place.end();
+        if (!isUsed && part.isHeld(one))
+        {
+          after[next] = one;
+        }
+        else if (!isUsed && !part.quadrics.empty())
+        {
+          part.quadrics[next] = part.quadrics[one];
+          part.lacksBoundary[next] = part.lacksBoundary[one];
+        }
+        for (const Joined& each : place)
+        {
+          if (part.seamOf(each.second) > place.size())
+          {
+            part.setSeam(each.second, place.size());
+          }
+        }
+      });
+    for (std::size_t i = 0; i < part.wedges.size() && !after.empty(); ++i)
+    {
+      const auto found = after.find(part.wedges[i]);
+      part.wedges[i] = found == after.end() ? part.wedges[i] : found->second;
+    }
     part.corners = std::move(part.wedges);
     part.wedges.clear();
   }
@@ -287,7 +376,7 @@ void forgetSeams(SurfacePart& part, const Poll& poll)
       {
         // Each side has that of the place, which one of them had for all.
         part.quadrics[v] = sum;
-        part.forgetSeam(v);
+        part.setSeam(v, 0);
       }
     }
   }

@@ -66,11 +66,18 @@ private:
 };
 
 /** Joins the vertices of a part that lie at one place of a seam, if all of that place are in the
- * part and none is open: corners refer to one of them, and SurfacePart::wedges to their own. */
+ * part, none is open, and at most one is held: corners refer to one of them, and
+ * SurfacePart::wedges to their own. */
 void joinSeams(SurfacePart& part, std::span<const std::uint8_t> open, const Poll& poll = Poll());
 
+/** Gives the triangles of all sides, at places that joinSeams() has joined, one vertex with the
+ * columns of one side, until so many vertices have no triangles more. Returns how many these are.
+ */
+std::size_t weldSeams(SurfacePart& part, std::size_t most, const Poll& poll = Poll());
+
 /** Undoes joinSeams() after collapses: corners are vertices of their own again, those of places
- * that have gone are used by none. One vertex of each place has its quadric. */
+ * that have gone are used by none. One vertex of each place has its quadric, and all of them know
+ * how many are left there. */
 void separateSeams(SurfacePart& part);
 
 /** For each vertex of a part, which is not joined, 1 if it is held, or lies on a seam of which it

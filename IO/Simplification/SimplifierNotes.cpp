@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SimplifierNotes.h"
 
+#include "Solver/Mesh/StreamCheck.h"
+
 #include <cmath>
 #include <cstdio>
 
@@ -21,6 +23,13 @@ void noteShape(const StreamSimplifier& simplifier, bool coincide, std::vector<st
 {
   constexpr double Tolerance = 0.2;
   const SimplificationCounts& counts = simplifier.counts();
+  if (counts.welded > 0)
+  {
+    notes.push_back(
+      "So few vertices are not enough for the sides of seams: " + std::to_string(counts.welded) +
+      (counts.welded == 1 ? " point was" : " points were") +
+      " joined with others at the same places, with the columns of one side.");
+  }
   std::string text;
   if (counts.merged > 0)
   {
@@ -28,8 +37,8 @@ void noteShape(const StreamSimplifier& simplifier, bool coincide, std::vector<st
            (counts.merged == 1 ? " was" : " were") +
            " merged with others near them instead, by an error that is not known.";
     text += coincide ? " If triangles do not share their vertices, join those with the same "
-                       "coordinates first: on the command line with --weld 0, in ParaView by the "
-                       "filter Clean."
+                       "coordinates first " +
+                         std::string(HowToWeld) + '.'
                      : "";
   }
   const double area = simplifier.shareOfArea();

@@ -18,6 +18,7 @@
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/StreamCheck.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
@@ -149,8 +150,8 @@ void noteSeams(const HeldMesh& mesh, const SimplifyReport& report,
                   (mesh.seams() == 1 ? " place" : " places") +
                   ", more than the memory limit has room for: the sides of such a seam are "
                   "simplified each for itself, and a crack may open between them. Raise the limit, "
-                  "or join these points first: on the command line with --weld 0, in ParaView by "
-                  "the filter Clean.");
+                  "or join these points first " +
+                  HowToWeld + '.');
 }
 
 /** Says where the number of vertices is not that which was asked for, or points are held in vain,
@@ -189,8 +190,8 @@ void noteVertices(const StreamInfo& info, const SimplifyTarget& target,
   }
   notes.push_back(
     more + (counts.held > 0 ? std::to_string(counts.held) + " are held, and further" : "further") +
-    " collapses would turn triangles over, tear the surface" +
-    (target.error > 0.0 ? " or exceed the error." : "."));
+    " collapses would " + (target.error > 0.0 ? "exceed the error, " : "") +
+    "turn triangles over or tear the surface.");
 }
 
 /** Says where labels lose or gain area, after what was said of the number of vertices and of the

@@ -148,6 +148,15 @@ double StreamSimplifier::done() const
   return this->Info.vertices > 0 ? static_cast<double>(this->TakenVertices) / vertices : 0.0;
 }
 
+/** The vertices of the result that are aimed at before the end: less than the goal, but by no more
+ * than has to go, so that all stay where all are asked for. */
+double StreamSimplifier::aim() const
+{
+  const auto goal = static_cast<double>(this->Goal.vertices);
+  const double surplus = std::max(0.0, static_cast<double>(this->Info.vertices) - goal);
+  return this->Info.vertices > 0 ? std::max(Aim * goal, goal - surplus) : Aim * goal;
+}
+
 bool StreamSimplifier::next(Result& result)
 {
   // What a killed program has delivered comes first, from the checkpoint.
@@ -357,7 +366,7 @@ void StreamSimplifier::makeRoom()
   else
   {
     // Each part of the stream gets its share of the vertices of the result.
-    const double share = this->done() * Aim * static_cast<double>(this->Goal.vertices);
+    const double share = std::ceil(this->done() * this->aim());
     this->fit(static_cast<std::int64_t>(share) - this->DeliveredVertices);
     if (this->Goal.vertices == 0 || this->Window.triangles() > this->Capacity / 2)
     {
@@ -387,6 +396,7 @@ void StreamSimplifier::count(const Collapsed& done)
   this->Counts.error = std::max(this->Counts.error, done.error);
   this->Counts.dropped += static_cast<std::int64_t>(done.bodies);
   this->Counts.crossesBorders = this->Counts.crossesBorders || done.crossesBorders;
+  this->Counts.welded += static_cast<std::int64_t>(done.welded);
   this->Counts.turns = this->Counts.turns || done.turns;
 }
 
@@ -560,12 +570,17 @@ void StreamSimplifier::finish()
   {
     this->fit(most);
   }
-  // Collapses alone leave too many vertices: they are merged by their positions.
-  const Staying staying = this->staying();
-  if (mayDrop && this->remaining() > most && staying.heldVertices <= most)
+  // Collapses alone leave too many vertices: they are merged by their positions. The sides of
+  // seams are then merged at the same places.
+  std::vector<std::uint8_t> held(this->Window.vertices());
+  for (std::size_t v = 0; v < held.size(); ++v)
+  {
+    held[v] = this->Window.isHeld(v) ? 1 : 0;
+  }
+  if (mayDrop && this->remaining() > most && std::ranges::count(held, 1) <= most)
   {
     SurfacePart merged = this->Window;
-    clusterVertices(merged, staying.held, static_cast<std::size_t>(most), this->Polled);
+    clusterVertices(merged, held, static_cast<std::size_t>(most), this->Polled);
     if (merged.triangles() > 0)
     {
       this->countMerged(this->Window.vertices() - merged.vertices());

@@ -34,6 +34,7 @@ struct SimplificationCounts
   std::int64_t held = 0;       ///< vertices of the result
   std::int64_t merged = 0;     ///< vertices, where edges could not be collapsed
   bool crossesBorders = false; ///< whether borders between labels were given up
+  std::int64_t welded = 0;     ///< vertices on seams, see weldSeams()
   bool turns = false;          ///< whether triangles might turn over
   bool splitsSeams = false;    ///< whether seams were given up, see joinSeams()
   std::int64_t resumedAt = 0;  ///< vertices simplified by an earlier program, see keepIn()
@@ -118,6 +119,7 @@ private:
   void ask() noexcept;
   void poll();
   bool limitsError() const { return std::isfinite(this->Goal.error); }
+  double aim() const;
   void step();
   double shareOfPart() const;
   void append(const StreamPart& part);

@@ -115,9 +115,15 @@ struct SurfacePart
   {
     return this->atPlace.empty() ? 1 : this->atPlace[vertex];
   }
-  void forgetSeam(std::size_t vertex)
+  /** Says how many vertices there are now at the place of one on a seam; 0 and 1: it is on none.
+   * A vertex on no seam stays as it is. */
+  void setSeam(std::size_t vertex, std::size_t number)
   {
-    this->rows[(vertex + 1) * this->rowBytes() - 1] = std::byte{ 0 };
+    if (this->seamOf(vertex) > 0)
+    {
+      this->rows[(vertex + 1) * this->rowBytes() - 1] =
+        static_cast<std::byte>(number > 1 ? number : 0);
+    }
   }
   /** Makes room for so many triangles, with rows and vertices as those of another surface. */
   void reserve(std::size_t triangles, const SurfacePart& like);

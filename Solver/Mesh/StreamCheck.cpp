@@ -121,9 +121,9 @@ std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cell
   return std::string("Most ") + (isSurface ? "triangles" : "tetrahedra") +
          " of the mesh share no " + (isSurface ? "edge" : "face") +
          " with another: " + std::to_string(vertices) + " vertices of " + std::to_string(cells) +
-         " cells. If points that lie together are one point, merge them first: on the command "
-         "line with --weld 0 those of equal coordinates, or with --weld and their distance; in "
-         "ParaView by the filter Clean; in C++ by ConversionOptions::weld";
+         " cells. If points that lie together are one point, merge those of equal coordinates, or "
+         "within a distance, first " +
+         HowToWeld;
 }
 
 void noteUnwelded(CellType type, std::int64_t vertices, std::int64_t cells, Report& report)

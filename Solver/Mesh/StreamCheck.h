@@ -47,6 +47,12 @@ private:
   std::int64_t Final = 0; ///< no cell may use a vertex below this one
 };
 
+/** How points that lie together become one, at the end of sentences, for all interfaces. Those of
+ * ParaView and Python show their own part of it. */
+inline constexpr const char* HowToWeld =
+  "(option --weld 0; in ParaView Clean or Clean to Grid, or Weld of the Streaming Mesh Converter; "
+  "in C++ ConversionOptions::weld)";
+
 /** A note on a mesh with these counts if at least half of its cells must be bodies of their own: a
  * body of m triangles that share edges has at most m + 2 vertices, one of m tetrahedra that share
  * faces at most m + 3. Empty if that is not so, or the mesh has few cells. */

@@ -120,4 +120,25 @@ TEST_F(SimplifyLaw, TheNumberAskedForIsReached)
   }
 }
 
+/** A number of at least the vertices, too, changes nothing, even of a result in parts. */
+TEST_F(SimplifyLaw, AllVerticesAreLeftWhereAllAreAskedFor)
+{
+  const StreamMesh mesh = toStream(shuffled(torus(300, 200, 0.2)));
+  for (const std::int64_t memory : { 256, 16 })
+  {
+    for (const std::int64_t more : { 0, 1, 10, 100000 })
+    {
+      const StreamMesh simple =
+        this->simplified(mesh, { .vertices = mesh.vertices() + more }, memory);
+      EXPECT_EQ(simple.vertices(), mesh.vertices()) << more;
+      EXPECT_EQ(simple.cells(), mesh.cells()) << more;
+      EXPECT_EQ(this->Report.error, 0.0);
+    }
+    // As few more go as must.
+    this->simplified(mesh, { .vertices = mesh.vertices() - 100 }, memory);
+    EXPECT_LE(this->Report.vertices, mesh.vertices() - 100);
+    EXPECT_GE(this->Report.vertices, mesh.vertices() - 200);
+  }
+}
+
 } // namespace smg::testing

@@ -347,12 +347,17 @@ TEST_F(Simplify, ASmallMeshAndOneOfNothingStayAsTheyAre)
 
 TEST_F(Simplify, OddSurfacesDoNoHarm)
 {
-  // Triangles that share no vertices: their vertices are merged where they are near one another.
-  const StreamMesh soup = toStream(unwelded(sphere(4)));
+  // Triangles that share no vertices, nor their places: their vertices are merged where they are
+  // near one another.
+  IndexedTestMesh apart = unwelded(sphere(4));
+  for (std::size_t i = 0; i < apart.positions.size(); ++i)
+  {
+    apart.positions[i] += 1e-9 * static_cast<double>(i);
+  }
+  const StreamMesh soup = toStream(apart);
   const StreamMesh merged = this->simplified(soup, toVertices(300));
   EXPECT_LE(merged.vertices(), 300);
   EXPECT_GT(merged.vertices(), 100);
-  EXPECT_TRUE(this->isSaid("--weld"));
   EXPECT_GT(this->Report.merged_vertices, soup.vertices() / 2);
   EXPECT_TRUE(std::isnan(this->Report.error)); // of merging
   // Every edge of a fan has three triangles, which are wound against each other.

@@ -34,8 +34,8 @@ void warnOfCoincidentPoints(const AssemblyCounts& counts, Report& report)
               (counts.coincident.places == 1 ? " place" : " places") + " (the mesh has " +
               std::to_string(counts.components) +
               " bodies): the bodies are not connected there, and nothing flows from one to the "
-              "other, unless these points are merged (smg convert --weld 0; in ParaView the filter "
-              "Clean; in C++ ConversionOptions::weld)");
+              "other, unless these points are merged " +
+              HowToWeld);
 }
 
 /** Of a defect of `part` of all cells or vertices: from one in a hundred on, the solution may be
@@ -150,8 +150,8 @@ void addAssemblyNotes(Report& report, UndeterminedValues undetermined)
                 (report.coincident_cells == 1 ? " cell without area or volume joins"
                                               : " cells without area or volume join") +
                 " coincident points, as a clip through points of a mesh leaves them: the mesh is "
-                "open there, unless these are merged (Clean to Grid of ParaView; smg convert "
-                "--weld)");
+                "open there, unless these are merged " +
+                HowToWeld);
   }
   if (report.held > 0)
   {
