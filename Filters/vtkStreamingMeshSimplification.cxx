@@ -14,6 +14,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
@@ -115,7 +116,8 @@ struct vtkStreamingMeshSimplification::Internals
       this->Report.notes.insert(this->Report.notes.end(), this->Lost.begin(), this->Lost.end());
       smg::FileDescriptor::removeClosed(*this->Scratch / Copy);
       this->Result.emplace(result);
-      this->Outcome = sentence(this->Report, this->target(), isSurface);
+      this->Outcome =
+        smg::withProperties(sentence(this->Report, this->target(), isSurface), this->Self);
     }
     catch (const std::exception& error)
     {

@@ -43,6 +43,23 @@ void replace(std::string& text, std::string_view from, std::string_view to)
   }
 }
 
+/** "(option --weld 0; in ParaView Clean; in C++ ...)" becomes "(Clean)". */
+void keepOwnPart(std::string& text)
+{
+  constexpr std::string_view word = "; in ParaView ";
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+  {
+    const std::size_t begin = text.rfind('(', at), end = text.find(')', at);
+    if (begin != std::string::npos && end != std::string::npos)
+    {
+      const std::size_t own = at + word.size();
+      const std::size_t length = std::min(text.find(';', own), end) - own;
+      text.replace(begin + 1, end - begin - 1, text.substr(own, length));
+      at = begin;
+    }
+  }
+}
+
 /** As "property MemoryLimit". */
 std::string nameOf(const NamedOption& named, vtkAlgorithm& algorithm)
 {
@@ -67,7 +84,7 @@ std::string withProperties(std::string sentence, vtkAlgorithm& algorithm)
 {
   // Sentences that name both, for whoever reads them.
   replace(sentence, "option --scratch-limit, property", "property");
-  replace(sentence, ", as for smg convert; in ParaView Cells of the converter", "");
+  keepOwnPart(sentence);
   replace(sentence, "without --in-core", "without InCore");
   constexpr std::string_view word = "option --";
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz-";

@@ -139,9 +139,8 @@ bool RawMeshBuilder::wants(CellType type)
   }
   if (*this->Kind != type && this->Choice == CellChoice::Only)
   {
-    throw MeshError(
-      "the file has both surface cells and volume cells: choose the ones to keep, "
-      "triangles or tets (option --cells, as for smg convert; in ParaView Cells of the converter)");
+    throw MeshError("the file has both surface cells and volume cells: choose the ones to keep, "
+                    "triangles or tets (option --cells)");
   }
   return *this->Kind == type;
 }

@@ -139,7 +139,8 @@ SmoothingSize sizeIn(const JsonNode& node)
   const std::optional<SmoothingSize> size = smoothingSizeOf(node.string());
   if (!size)
   {
-    node.fail("is not a size: give a number above 0, as 2.5, \"1%\" or \"6edges\"");
+    node.fail('\'' + node.string() +
+              "' is not a size: give a number above 0, as 2.5, \"1%\" or \"6edges\"");
   }
   return *size;
 }

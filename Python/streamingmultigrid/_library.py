@@ -175,10 +175,14 @@ def json_file(path: Any, what: str) -> Any:
 
 def readable(text: str) -> str:
     """A sentence of the library, with the arguments that it knows as columns called so, and those that it
-    knows as options of the command line."""
-    text = re.sub(
-        r"\(option --([a-z-]+)(?:, property \w+)?\)", lambda option: "(argument %s)" % option[1].replace("-", "_"), text
-    )
+    knows as options of the command line, without what it says to users of others: "(argument weld=0)" for
+    "(option --weld 0; in ParaView ...)"."""
+
+    def argument(option: "re.Match[str]") -> str:
+        value = "=" + option[3] if option[3] else ""
+        return "(%s %s%s)" % ("argument" if option[1] == "option" else "without", option[2].replace("-", "_"), value)
+
+    text = re.sub(r"\((option|without) --([a-z-]+)(?: ([^ ;,)]+))?(?:[;,][^)]*)?\)", argument, text)
     return re.sub(r"(?:the column )?'#([^'\"\n]+)'+", r"the array given as \1", text)
 
 

@@ -67,7 +67,7 @@ def test_what_would_leave_nothing_of_the_shape_is_refused():
             file.write("v %r %r %r\n" % tuple(points[corner]))
         for face in range(0, len(corners), 4):
             file.write("f %d %d %d %d\n" % tuple(range(face + 1, face + 5)))
-    assert "with --weld 0 those of equal coordinates" in smooth("soup.obj", "x.obj", code=1).stderr
+    assert "merge those of equal coordinates, or within a distance, first (option --weld 0" in smooth("soup.obj", "x.obj", code=1).stderr
     pairs = smooth("soup.obj", "x.vsm", "--weld", "0")
     assert pairs["vertices"] == len(points), pairs["vertices"]
 

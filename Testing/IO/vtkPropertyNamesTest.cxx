@@ -2,6 +2,7 @@
 #include "IO/vtkPropertyNames.h"
 #include "IO/vtkStreamingMeshConverter.h"
 #include "IO/vtkStreamingMeshReader.h"
+#include "Solver/Mesh/StreamCheck.h"
 #include "Testing/Support/TestFolders.h"
 
 #include "vtkNew.h"
@@ -59,6 +60,9 @@ TEST(VtkPropertyNames, ReplaceOptions)
     withProperties("(option --scratch-limit, property ScratchLimit) (option --scratch)", *reader),
     "(property ScratchLimit) (property ScratchDirectory)");
   EXPECT_EQ(withProperties("an option --other stays", *reader), "an option --other stays");
+  const std::string both = std::string("merge them ") + HowToWeld + ".\nOr these " + HowToWeld;
+  const std::string own = "(Clean or Clean to Grid, or Weld of the Streaming Mesh Converter)";
+  EXPECT_EQ(withProperties(both, *reader), "merge them " + own + ".\nOr these " + own);
 }
 
 } // namespace

@@ -2,13 +2,16 @@
 """Arrays of any type and stride give the same bits, without copies; wrong ones a clear error."""
 
 import gc
+import inspect
 import os
+import re
 import unittest
 import warnings
 import weakref
 from array import array
 
-from testing import bits, cube, np, smg, sphere, write_off
+from streamingmultigrid._library import readable
+from testing import SOURCE, bits, cube, np, smg, sphere, write_off
 
 
 class TypesTest(unittest.TestCase):
@@ -101,6 +104,28 @@ class ErrorsTest(unittest.TestCase):
             self.assertEqual(str(caught.exception).count("\n"), 0)
             self.assertIsInstance(caught.exception, ValueError)
 
+    def test_sentences_name_arguments(self):
+        """Options of the command line are called as arguments, whatever else a sentence says of them."""
+        for sentence, said in (
+            ("no triangles (option --cells).", "no triangles (argument cells)."),
+            ("more (option --scratch-limit, property ScratchLimit)", "more (argument scratch_limit)"),
+            ("merge (option --weld 0; in ParaView Clean; in C++ x), or (b)", "merge (argument weld=0), or (b)"),
+            ("solve out of core (without --in-core)", "solve out of core (without in_core)"),
+            ("a file (of --x)", "a file (of --x)"),
+        ):
+            self.assertEqual(readable(sentence), said)
+        known = {name for call in (smg.open, smg.Mesh.solve, smg.Mesh.smooth, smg.Mesh.deform, smg.Mesh.simplify)
+                 for name in inspect.signature(call).parameters}  # fmt: skip
+        named = set()
+        for layer in ("Solver", "IO"):
+            for folder, _, files in os.walk(os.path.join(SOURCE, layer)):
+                for file in files:
+                    if file.endswith((".cpp", ".h")):
+                        with open(os.path.join(folder, file), encoding="utf-8") as text:
+                            named.update(re.findall(r"\(option --([a-z-]+)", text.read()))
+        self.assertIn("weld", named)
+        self.assertLessEqual({name.replace("-", "_") for name in named}, known)
+
     def test_jobs(self):
         points, cells = sphere(2)
         mesh = smg.mesh(points, cells)
@@ -117,7 +142,8 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.solve(dirichlet={0: np.nan}), smg.Error, "."),
             (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1 furlong"), smg.Error, "furlong"),
             (lambda: mesh.solve(dirichlet={0: 1.0}, memory="1KB"), smg.InputError, "1KB"),
-            (lambda: mesh.smooth(size="wide"), smg.InputError, "size"),
+            (lambda: mesh.smooth(size="wide"), smg.InputError, "'wide' is not a size"),
+            (lambda: mesh.smooth(size="0edges"), smg.InputError, "'0edges' is not a size"),
             (lambda: mesh.smooth(size=1e200), smg.Error, r"details to smooth \(argument size\)"),
             (lambda: mesh.distance(), smg.InputError, "sources"),
             (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.Error, "."),

@@ -137,7 +137,7 @@ TEST(CErrors, ADescriptionSaysWhereItIsWrong)
     { "solve", R"({"problem": {"source": 1}, "acceleration": "warp"})", "solve: acceleration" },
     { "deform", R"({"handles": {"handles": []}})", "deform: handles.handles: must have" },
     { "deform", R"({"cycles": 1})", "deform: has no 'handles'" },
-    { "smooth", R"({"size": "4 miles"})", "smooth: size: is not a size" },
+    { "smooth", R"({"size": "4 miles"})", "smooth: size: '4 miles' is not a size" },
     { "smooth", R"({"size": -1})", "smooth: size: must be above 0" },
     { "smooth", R"({"steps": 0})", "smooth: steps: must be" },
     { "smooth", R"({"boundary": "wavy"})", "smooth: boundary: must be one of" },
