@@ -160,6 +160,14 @@ class ShortestPath:
     length: float
     points: np.ndarray
 
+    def __repr__(self) -> str:
+        return "<ShortestPath from %d to %d, length %.6g, %d points>" % (
+            self.source,
+            self.to,
+            self.length,
+            len(self.points),
+        )
+
     @classmethod
     def of(cls, entry: Dict[str, Any]) -> ShortestPath:
         """That of an entry of a report."""

@@ -135,6 +135,8 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual(found["Distance"][2], np.sqrt(2))
         self.assertEqual([(path.to, path.source, path.length) for path in found["paths"]], [(2, 0, np.sqrt(2)), (5, -1, np.inf)])
         self.assertEqual([path.points.shape for path in found["paths"]], [(2, 3), (0, 3)])
+        self.assertEqual(repr(found["paths"]), "[<ShortestPath from 0 to 2, length 1.41421, 2 points>, "
+                         "<ShortestPath from -1 to 5, length inf, 0 points>]")  # fmt: skip
         run("distance", SINK, "wall.vsm", "--wall")
         wall = smg.open(SINK).distance(wall=True)
         self.assertEqual(bits(wall.to_numpy()), bits(file_result("wall.vsm", "Distance")))
