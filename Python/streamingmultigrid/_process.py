@@ -52,7 +52,8 @@ class HandleLock:
         self.is_lost = False
         _locks.add(self)
 
-    # Functions of C: an interrupt between steps of Python would leave the lock taken.
+    # Functions of C: no step of Python, at which an interrupt could end the call, is in them. One just
+    # after the lock was taken and before the body of `with` begins is still possible, as of any lock.
     @property
     def __enter__(self) -> Callable[[], bool]:
         return self._lock.__enter__
