@@ -45,16 +45,17 @@ TEST_F(ImportOff, WithColours)
 
 TEST_F(ImportOff, WithNormalsColoursAndTextureCoordinates)
 {
-  const std::string vertices = "0 0 0 0 0 1 0.25 1 0 0.5 0.125\n1 0 0 0 0 1 1 1 1 0.5 1\n"
+  const std::string vertices = "0 0 0 0 0 1 0.25 1 0 0.5 0.1\n1 0 0 0 0 1 1 1 1 0.5 1\n"
                                "0 1 0 1 0 0 0 0 0.5 0 0\n";
   const ReadMesh mesh =
     this->read("a.off", "STCNOFF\n3 2 0\n" + vertices + "3 0 1 2 255 0 7\n3 2 1 0 1 2 3\n");
   ASSERT_EQ(mesh.vertexColumns.size(), 3u);
-  EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Normals", ScalarType::Float32, 3 }));
+  EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Normals", ScalarType::Float64, 3 }));
   EXPECT_EQ(valuesOf(mesh.vertexColumns[0]), (std::vector<double>{ 0, 0, 1, 0, 0, 1, 1, 0, 0 }));
   EXPECT_EQ(
-    mesh.vertexColumns[1].spec, (ColumnSpec{ "TextureCoordinates", ScalarType::Float32, 2 }));
-  EXPECT_EQ(valuesOf(mesh.vertexColumns[1]), (std::vector<double>{ 0.5, 0.125, 0.5, 1, 0, 0 }));
+    mesh.vertexColumns[1].spec, (ColumnSpec{ "TextureCoordinates", ScalarType::Float64, 2 }));
+  // A text has the digits of doubles.
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[1]), (std::vector<double>{ 0.5, 0.1, 0.5, 1, 0, 0 }));
   EXPECT_EQ(mesh.vertexColumns[2].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 3 }));
   EXPECT_EQ(
     valuesOf(mesh.vertexColumns[2]), (std::vector<double>{ 0.25, 1, 0, 1, 1, 1, 0, 0, 0.5 }));

@@ -107,12 +107,12 @@ public:
     }
     if (this->Normals)
     {
-      appendAs<float>(numbers.first(3), *this->Normals);
+      this->append(numbers.first(3), *this->Normals);
       numbers = numbers.subspan(3);
     }
     if (this->Texture)
     {
-      appendAs<float>(numbers.last(2), *this->Texture);
+      this->append(numbers.last(2), *this->Texture);
       numbers = numbers.first(numbers.size() - 2);
     }
     this->Colors.add(numbers);
@@ -122,6 +122,15 @@ public:
   void finish() { this->Colors.finish(); }
 
 private:
+  /** Of normals and texture coordinates: a text may have been written of doubles. */
+  ScalarType type() const
+  {
+    return this->Header.binary ? ScalarType::Float32 : ScalarType::Float64;
+  }
+  void append(std::span<const double> numbers, ImportColumn& column) const
+  {
+    this->Header.binary ? appendAs<float>(numbers, column) : appendAs<double>(numbers, column);
+  }
   /** If the vertices lack the values of the keyword, the columns are omitted. */
   void begin(std::size_t numbers)
   {
@@ -140,12 +149,12 @@ private:
     if (this->Header.normals)
     {
       this->Normals.emplace(
-        this->Builder, ColumnOf::Vertices, ColumnSpec{ NormalsName, ScalarType::Float32, 3 });
+        this->Builder, ColumnOf::Vertices, ColumnSpec{ NormalsName, this->type(), 3 });
     }
     if (this->Header.textureCoordinates)
     {
-      this->Texture.emplace(this->Builder, ColumnOf::Vertices,
-        ColumnSpec{ TextureCoordinatesName, ScalarType::Float32, 2 });
+      this->Texture.emplace(
+        this->Builder, ColumnOf::Vertices, ColumnSpec{ TextureCoordinatesName, this->type(), 2 });
     }
   }
 
