@@ -5,6 +5,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Preview/StreamPreview.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 #include "smg/Preview.h"
@@ -22,12 +23,14 @@ struct PreviewCommand : CommonOptions
 {
   std::filesystem::path in, out;
   std::int64_t points = smg::DefaultPreviewPoints;
+  bool dryRun = false;
 
   void addOptions(CLI::App& command);
   int run() const;
 
 private:
   void checkOutputName() const;
+  int estimate() const;
 };
 
 /** Rejects formats that cannot store the map from the preview to the mesh. */
@@ -43,6 +46,18 @@ void PreviewCommand::checkOutputName() const
   smg::checkForm(this->out, this->writesText);
 }
 
+/** Prints what the preview is expected to cost. */
+int PreviewCommand::estimate() const
+{
+  smg::ConversionOptions conversion = this->inputOptions();
+  conversion.scratch = this->scratchPlace();
+  const smg::JobEstimate costs = smg::previewEstimate(
+    { this->in, conversion }, this->points, this->out, this->writesText, conversion);
+  this->writeReport(costs.json(), { this->in });
+  this->printEstimate(costs);
+  return 0;
+}
+
 int PreviewCommand::run() const
 {
   requireOneProcess();
@@ -52,6 +67,10 @@ int PreviewCommand::run() const
   files.readMesh(this->in);
   files.writeMesh(this->out);
   this->checkFiles(std::move(files));
+  if (this->dryRun)
+  {
+    return this->estimate();
+  }
   nlohmann::ordered_json report;
   std::vector<std::string> notes;
   {
@@ -111,6 +130,7 @@ void PreviewCommand::addOptions(CLI::App& command)
     ->check(CLI::Range(smg::MinPreviewPoints, smg::MaxPreviewPoints))
     ->capture_default_str()
     ->type_name("N");
+  command.add_flag("--dry-run", this->dryRun, "Only estimate the size of the mesh and the costs");
   this->addTextTo(command);
   this->addInputTo(command);
   this->addTo(command, "256", "; to convert IN: a .vsm file is not converted");

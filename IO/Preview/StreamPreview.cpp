@@ -10,6 +10,7 @@
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
 #include "IO/Simplification/VertexClusters.h"
+#include "IO/Simplification/WindowSize.h"
 #include "Solver/Core/Progress.h"
 
 #include <algorithm>
@@ -96,6 +97,33 @@ MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
   }
   done.update(1.0);
   return pieceOf(surface, mesh.info().vertexColumns);
+}
+
+JobEstimate previewEstimate(const EstimatedInput& mesh, std::int64_t maximumPoints,
+  const std::filesystem::path& out, bool text, const ConversionOptions& conversion)
+{
+  constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
+  StreamInfo surface = mesh.info;
+  surface.cellColumns.clear();
+  surface.cells = mesh.info.cellType == CellType::Triangle ? surface.cells : 0; // not known
+  Costs costs;
+  costs.memory = windowBytes(memoryFor(maximumPoints, mesh.info), surface) + openBytes(surface);
+  costs.passes = 1;
+  costs.seconds = SecondsOfCell * static_cast<double>(mesh.info.cells);
+  EstimatedInput result = mesh;
+  result.parts.clear();
+  result.info.cellType = CellType::Triangle;
+  result.info.cellColumns.clear();
+  result.info.vertices = std::min(result.info.vertices, maximumPoints);
+  result.info.cells = std::min(result.info.cells, 2 * result.info.vertices);
+  const ColumnSpec streamIndex{ StreamIndexName, ScalarType::Int64, 1 };
+  JobEstimate estimate(result,
+    { .out = out, .added = { { streamIndex, OriginalIdSpec }, {} }, .text = text }, costs,
+    conversion);
+  estimate.vertices = mesh.info.vertices;
+  estimate.cells = mesh.info.cells;
+  estimate.memory_limit = std::max(conversion.memoryLimit, estimate.memory_bytes);
+  return estimate;
 }
 
 namespace

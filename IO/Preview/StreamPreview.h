@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Conversion/JobEstimate.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 #include "smg/Preview.h"
 #include "smg/VsmReader.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
@@ -33,6 +35,12 @@ SMG_EXPORT MeshPiece makePreview(MeshSource& mesh,
   std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {},
   std::int64_t maxMemory = std::numeric_limits<std::int64_t>::max(),
   std::vector<std::string>* notes = nullptr);
+
+/** The expected cost of a PreviewSource of so many points, and of writing it to the file `out`, as
+ * text or not; `conversion` is that of the mesh. Its memory has no limit but what the preview asks
+ * for. */
+SMG_EXPORT JobEstimate previewEstimate(const EstimatedInput& mesh, std::int64_t maximumPoints,
+  const std::filesystem::path& out, bool text, const ConversionOptions& conversion);
 
 /** What a preview of tetrahedra consists of. */
 enum class SolidPreviewCells

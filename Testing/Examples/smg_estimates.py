@@ -99,6 +99,17 @@ def cases():
         yield "solid", "convert", "solid.vsm", "vsm", ["--memory", memory]
 
 
+def test_previews():
+    for file, out in (("surface.vsm", "p.vsm"), ("surface.vsm", "p.ply"), ("surface.ply", "p.vtp"), ("solid.vsm", "p.ply")):
+        remove(out)
+        shown = run("preview", file, out, "--points", 2000, "--dry-run", "--report", "report.json").stdout
+        said = load("report.json")
+        assert "passes   about 1" in shown and said["counted"] and not os.path.exists(out), shown
+        run("preview", file, out, "--points", 2000, "--quiet")
+        truth = bytes_of(out)
+        assert 0.6 * truth < said["output_bytes"] < 1.7 * truth, (file, out, truth, said)
+
+
 def bytes_of(out):
     return os.path.getsize(out) + (os.path.getsize("o.ele") if out == "o.node" else 0)
 
@@ -283,6 +294,7 @@ for each in ("surface", "solid"):
         for count in ("2", "8"):
             test_costs(each, *task, count)
 test_simplifications()
+test_previews()
 test_threads()
 test_limits_below_the_need()
 test_unconverted()
