@@ -10,9 +10,11 @@
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 #include "IO/vtkSingleBlock.h"
 #include "IO/vtkStreamingMeshKeys.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
 #include "vtkFieldData.h"
@@ -23,7 +25,11 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <limits>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkStreamingMeshPreview);
 
@@ -87,8 +93,10 @@ struct vtkStreamingMeshPreview::Internals
       return;
     }
     this->Preview.reset();
+    this->Notes.clear();
     PulledMesh mesh(input, this->Self.NumberOfPieces, smg::progressOf(this->Self));
-    smg::MeshPiece preview = smg::makePreview(mesh, this->Self.PreviewPoints);
+    smg::MeshPiece preview = smg::makePreview(
+      mesh, this->Self.PreviewPoints, {}, std::numeric_limits<std::int64_t>::max(), &this->Notes);
     this->Full = mesh.counted();
     if (preview.corners.empty() && this->Full.cells > 0)
     {
@@ -99,6 +107,32 @@ struct vtkStreamingMeshPreview::Internals
     this->Attributes.take(*vtkPointSet::SafeDownCast(present)->GetPointData());
     // Requesting pieces may itself have updated modification times of the pipeline.
     this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
+  }
+
+  std::string outcome() const
+  {
+    if (!this->Failures.isLast(this->Self))
+    {
+      return "Not applied yet, or a filter before this one failed.";
+    }
+    if (!this->Failures.error().empty())
+    {
+      return "Failed: " + this->Failures.error();
+    }
+    if (!this->Preview)
+    {
+      return "";
+    }
+    std::ostringstream text;
+    text << smg::groupedDigits(this->Preview->vertices()) << " points and "
+         << smg::groupedDigits(static_cast<std::int64_t>(this->Preview->corners.size() / 3))
+         << " triangles of " << smg::groupedDigits(this->Full.vertices) << " points and "
+         << smg::groupedDigits(this->Full.cells) << " cells";
+    for (const std::string& note : this->Notes)
+    {
+      text << "; " << (note.ends_with('.') ? note.substr(0, note.size() - 1) : note);
+    }
+    return smg::withProperties(text.str(), this->Self);
   }
 
   void deliver(vtkPointSet& output) const
@@ -131,7 +165,9 @@ struct vtkStreamingMeshPreview::Internals
   vtkStreamingMeshPreview& Self;
   smg::Failures Failures;
   std::optional<smg::MeshPiece> Preview;
-  smg::StreamInfo Full; ///< of the mesh that the preview shows
+  std::vector<std::string> Notes; ///< on what the preview does not show
+  std::string Outcome;            ///< storage of the text that is returned
+  smg::StreamInfo Full;           ///< of the mesh that the preview shows
   smg::ActiveAttributes Attributes;
   smg::InputStamp MadeFor;
 };
@@ -142,6 +178,12 @@ vtkStreamingMeshPreview::vtkStreamingMeshPreview()
 }
 
 vtkStreamingMeshPreview::~vtkStreamingMeshPreview() = default;
+
+const char* vtkStreamingMeshPreview::GetOutcome()
+{
+  this->Internal->Outcome = this->Internal->outcome();
+  return this->Internal->Outcome.c_str();
+}
 
 const char* vtkStreamingMeshPreview::GetError()
 {
@@ -223,4 +265,5 @@ void vtkStreamingMeshPreview::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
   os << indent << "FullNumberOfPoints: " << this->GetFullNumberOfPoints() << "\n";
   os << indent << "FullNumberOfCells: " << this->GetFullNumberOfCells() << "\n";
+  os << indent << "Outcome: " << this->GetOutcome() << "\n";
 }

@@ -55,6 +55,9 @@ public:
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
 
+  /** Points and triangles of the last preview, and what it does not show, as `smg preview` says it;
+   * or why it failed. */
+  const char* GetOutcome();
   /** Why it failed, by itself or by an algorithm before it; empty: it did not. */
   const char* GetError();
   ///@}

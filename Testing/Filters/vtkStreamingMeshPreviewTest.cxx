@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace smg::testing
 {
@@ -134,6 +135,31 @@ TEST_F(VtkStreamingMeshPreview, WarnsThatItShowsNothing)
   ASSERT_TRUE(updatePiece(this->Preview, 0, 1));
   EXPECT_EQ(this->Preview->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_TRUE(warnings.contain("at most 1000 points shows nothing")) << warnings.text();
+}
+
+/** The outcome has the notes of `smg preview`. */
+TEST_F(VtkStreamingMeshPreview, SaysWhatItDoesNotShow)
+{
+  const auto isSaid = [this](const std::string& words)
+  { return std::string(this->Preview->GetOutcome()).find(words) != std::string::npos; };
+  EXPECT_TRUE(isSaid("Not applied yet"));
+  ASSERT_TRUE(updatePiece(this->Preview, 0, 1));
+  EXPECT_TRUE(isSaid("triangles of 7,200 points and 14,400 cells")) << this->Preview->GetOutcome();
+  EXPECT_FALSE(isSaid(";"));
+  IndexedTestMesh bodies = sphere(0);
+  for (int k = 1; k < 30; ++k)
+  {
+    bodies = disjointUnion(bodies, sphere(0), { 3.0 * k, 0.0, 0.0 });
+  }
+  this->open(bodies);
+  this->Preview->SetPreviewPoints(100);
+  ASSERT_TRUE(updatePiece(this->Preview, 0, 1));
+  EXPECT_TRUE(isSaid("bodies too small for so few vertices are left out"))
+    << this->Preview->GetOutcome();
+  this->Preview->SetPreviewPoints(1);
+  Errors errors(this->Preview);
+  updatePiece(this->Preview, 0, 1);
+  EXPECT_TRUE(isSaid("Failed: ")) << this->Preview->GetOutcome();
 }
 
 TEST_F(VtkStreamingMeshPreview, SmallMeshStaysAsItIs)

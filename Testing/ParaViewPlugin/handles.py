@@ -74,6 +74,13 @@ assert handle.RegionFunction.GetXMLName() == "Sphere"
 assert (low < handle.Center).all() and (handle.Center < high).all(), list(handle.Center)
 assert numpy.allclose(handle.RegionFunction.Center, reader.GetDataInformation().GetBounds()[1::2]), list(handle.RegionFunction.Center)
 assert 0.0 < handle.RegionFunction.Radius < (high - low).max()
+# Of an input that has not been executed nothing is known: then the centre is the origin until it is set, or reset.
+behind = MeshHandle(Input=MeshHandle(Input=reader))
+assert list(behind.Center) == [0, 0, 0], list(behind.Center)
+behind.Input.UpdatePipeline()
+behind.SMProxy.GetProperty("Center").ResetToDomainDefaults()
+assert numpy.allclose(behind.Center, handle.Center), (list(behind.Center), list(handle.Center))
+Delete(behind)
 defaults = {"InsideOut": 0, "IdType": "Global Ids", "Radius": -1.0, "Rings": 0, "Scale": 1.0,
             "RotationAngle": 0.0, "RotationAxis": [0.0, 0.0, 1.0], "Translation": [0.0, 0.0, 0.0],
             "NumberOfPieces": 0}

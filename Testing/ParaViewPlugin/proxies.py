@@ -58,6 +58,16 @@ estimate = smoothing.GetPropertyValue("Estimate")
 assert f"over {t.BUNNY_POINTS:,} points and {t.BUNNY_CELLS:,} cells" in estimate, estimate
 assert smoothing.GetPropertyValue("Passes") == 0
 
+# What a filter that was not applied says of its last run is nothing, not None.
+for make in (StreamingPoisson, StreamingMeshSimplification, StreamingMeshPreview, MeshHandle):
+    fresh = make(Input=reader)
+    for name in ("Error", "Report", "Notes"):
+        if fresh.SMProxy.GetProperty(name):
+            assert fresh.GetPropertyValue(name) == "", (make, name, fresh.GetPropertyValue(name))
+    fresh.UpdatePropertyInformation()
+    assert fresh.GetPropertyValue("Error") == "", (make, fresh.GetPropertyValue("Error"))
+    Delete(fresh)
+
 # Columns is the former name of Arrays.
 blend = StreamingBlend(Input=reader, Patch="scan", Arrays=["Colors", "Heat"], Columns=["Colors"])
 assert list(blend.Arrays) == ["Colors", "Heat"] and list(blend.Columns) == ["Colors"] and blend.Anchor == 0.01 and blend.Hold == ""
