@@ -40,9 +40,6 @@ constexpr PoolUse HeldMemory{ "the simplification, in which so many vertices sta
  * that is not SmallGoal times what will be left of the mesh, so that the window has something to
  * choose from. */
 constexpr double PartShare = 1.0 / 16.0, SmallGoal = 16.0, UsualShare = 1.0 / 8.0;
-/** The share of the vertices of the result that is aimed at before the end, so that the last window
- * is not left without any. */
-constexpr double Aim = 0.98;
 /** A window has at least so many triangles for each locked vertex: otherwise little of it could be
  * simplified. */
 constexpr std::size_t TrianglesPerLocked = 8;
@@ -146,15 +143,6 @@ double StreamSimplifier::done() const
 {
   const double vertices = static_cast<double>(std::max<std::int64_t>(1, this->Info.vertices));
   return this->Info.vertices > 0 ? static_cast<double>(this->TakenVertices) / vertices : 0.0;
-}
-
-/** The vertices of the result that are aimed at before the end: less than the goal, but by no more
- * than has to go, so that all stay where all are asked for. */
-double StreamSimplifier::aim() const
-{
-  const auto goal = static_cast<double>(this->Goal.vertices);
-  const double surplus = std::max(0.0, static_cast<double>(this->Info.vertices) - goal);
-  return this->Info.vertices > 0 ? std::max(Aim * goal, goal - surplus) : Aim * goal;
 }
 
 bool StreamSimplifier::next(Result& result)
@@ -570,13 +558,9 @@ void StreamSimplifier::finish()
   {
     this->fit(most);
   }
-  // Collapses alone leave too many vertices: they are merged by their positions. The sides of
-  // seams are then merged at the same places.
-  std::vector<std::uint8_t> held(this->Window.vertices());
-  for (std::size_t v = 0; v < held.size(); ++v)
-  {
-    held[v] = this->Window.isHeld(v) ? 1 : 0;
-  }
+  // Collapses alone leave too many vertices: they are merged by their positions, also those of
+  // seams.
+  const std::vector<std::uint8_t> held = this->Window.held();
   if (mayDrop && this->remaining() > most && std::ranges::count(held, 1) <= most)
   {
     SurfacePart merged = this->Window;

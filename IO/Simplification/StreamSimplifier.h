@@ -11,6 +11,7 @@
 #include "smg/MeshSource.h"
 #include "smg/Simplify.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -119,7 +120,16 @@ private:
   void ask() noexcept;
   void poll();
   bool limitsError() const { return std::isfinite(this->Goal.error); }
-  double aim() const;
+  /** The vertices of the result that are aimed at before the end, so that the last window is not
+   * left without any: less than the goal, but by no more than has to go. So all stay where all are
+   * asked for. */
+  double aim() const
+  {
+    constexpr double Aim = 0.98;
+    const auto goal = static_cast<double>(this->Goal.vertices);
+    const double surplus = std::max(0.0, static_cast<double>(this->Info.vertices) - goal);
+    return this->Info.vertices > 0 ? std::max(Aim * goal, goal - surplus) : Aim * goal;
+  }
   void step();
   double shareOfPart() const;
   void append(const StreamPart& part);

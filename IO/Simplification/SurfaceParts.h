@@ -104,6 +104,16 @@ struct SurfacePart
 
   /** Whether a vertex must stay. */
   bool isHeld(std::size_t vertex) const { return this->mark(vertex) == 1; }
+  /** For each vertex 1 if it must stay, else 0. */
+  std::vector<std::uint8_t> held() const
+  {
+    std::vector<std::uint8_t> held(this->vertices());
+    for (std::size_t v = 0; v < held.size(); ++v)
+    {
+      held[v] = this->isHeld(v) ? 1 : 0;
+    }
+    return held;
+  }
   /** The number of vertices at the place of one on a seam, at most MostOfSeam; 0 elsewhere. */
   std::uint8_t seamOf(std::size_t vertex) const
   {
