@@ -24,7 +24,7 @@ namespace smg
 namespace
 {
 
-constexpr std::array<int, 4> Components{ 1, 3, 3, 1 }; // of HandleArrays::names()
+constexpr std::array<int, 4> ComponentsOfArrays{ 1, 3, 3, 1 }; // of HandleArrays::names()
 
 /** Three numbers a point: where the last handle held it. */
 constexpr const char* PlaceName = "HandlePlace";
@@ -105,7 +105,7 @@ void requirePlaces(vtkPointSet& mesh)
 void HandleArrays::require(vtkPointSet& mesh)
 {
   vtkPointData& points = *mesh.GetPointData();
-  for (std::size_t i = 0; i < Components.size(); ++i)
+  for (std::size_t i = 0; i < ComponentsOfArrays.size(); ++i)
   {
     const std::string& name = names()[i];
     vtkDataArray* array = points.GetArray(name.c_str());
@@ -114,10 +114,10 @@ void HandleArrays::require(vtkPointSet& mesh)
       throw Error("The mesh has no numeric point array " + name +
                   ", so it has no handles to deform it by: put a Mesh Handle before this filter.");
     }
-    if (const int components = array->GetNumberOfComponents(); components != Components[i])
+    if (const int components = array->GetNumberOfComponents(); components != ComponentsOfArrays[i])
     {
       throw Error("The point array " + name + " has " + std::to_string(components) +
-                  " components instead of " + std::to_string(Components[i]) +
+                  " components instead of " + std::to_string(ComponentsOfArrays[i]) +
                   ": let a Mesh Handle make it.");
     }
   }
@@ -157,7 +157,7 @@ HandleArrays::HandleArrays(vtkPointData& input, vtkIdType points)
     this->LogScale };
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    begin(*arrays[i], names()[i], Components[i], input, points);
+    begin(*arrays[i], names()[i], ComponentsOfArrays[i], input, points);
   }
   const bool hasPlaces = input.HasArray(PlaceName);
   begin(*this->Place, PlaceName, 3, input, points);

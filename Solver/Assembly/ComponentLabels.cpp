@@ -145,7 +145,7 @@ void ComponentLabels::load(StateReader& state)
   this->Scratch->load(state, (this->Count - 1) / Vertices + 1, check);
 }
 
-void OpenComponents::extend(std::int64_t vertices)
+void OpenLabels::extend(std::int64_t vertices)
 {
   const std::int64_t begin = this->Labels.end();
   if (vertices > begin)
@@ -157,7 +157,7 @@ void OpenComponents::extend(std::int64_t vertices)
 
 /** Joins corners that do not all have the same label. All of them get the first label that is
  * found, or a new one: later cells then find equal labels, and need no search for roots. */
-void OpenComponents::joinOthers(const std::int64_t* corners, int count)
+void OpenLabels::joinOthers(const std::int64_t* corners, int count)
 {
   std::int32_t* of[4] = {};
   std::int32_t label = -1;
@@ -169,7 +169,10 @@ void OpenComponents::joinOthers(const std::int64_t* corners, int count)
             : other < 0 || other == label ? label
                                           : this->Parts.join(label, other);
   }
-  label = label < 0 ? this->Parts.add() : label;
+  if (label < 0)
+  {
+    label = this->Parts.labels() < this->Most ? this->Parts.add() : 0;
+  }
   for (int k = 0; k < count; ++k)
   {
     *of[k] = label;

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -72,14 +73,15 @@ private:
 };
 
 /** The components of open vertices, according to the cells so far. */
-class SMG_EXPORT OpenComponents
+class SMG_EXPORT OpenLabels
 {
 public:
-  /** `labels` receives the component of each closed vertex. */
-  OpenComponents(Pool& pool, Components& components, ComponentLabels& labels)
+  /** Cells that connect nothing, when there are `most` labels, get the first one. */
+  OpenLabels(Pool& pool, Components& components,
+    std::int32_t most = std::numeric_limits<std::int32_t>::max())
     : Parts(components)
-    , Closed(labels)
     , Labels(pool)
+    , Most(most)
   {
   }
 
@@ -103,6 +105,28 @@ public:
   /** A label of the component of an open vertex; -1: none. It depends only on the cells of the
    * vertex and on cells before them in the stream, not on blocks. */
   std::int32_t label(std::int64_t i) const { return this->Labels[i]; }
+
+protected:
+  Components& Parts;
+  Ring<std::int32_t> Labels; // of the first component of a vertex, or -1
+
+private:
+  void joinOthers(const std::int64_t* corners, int count);
+
+  std::int32_t Most;
+};
+
+/** Those of the assembly. */
+class SMG_EXPORT OpenComponents : public OpenLabels
+{
+public:
+  /** `labels` receives the component of each closed vertex. */
+  OpenComponents(Pool& pool, Components& components, ComponentLabels& labels)
+    : OpenLabels(pool, components)
+    , Closed(labels)
+  {
+  }
+
   /** Closes vertex i, the next one, with this mass; returns the root of its component, or -1. */
   std::int32_t close(std::int64_t i, double mass);
   /** close() for a vertex that nothing determines. */
@@ -111,11 +135,7 @@ public:
   void flush();
 
 private:
-  void joinOthers(const std::int64_t* corners, int count);
-
-  Components& Parts;
   ComponentLabels& Closed;
-  Ring<std::int32_t> Labels; // of the first component of a vertex, or -1
   std::vector<std::int32_t> LabelBatch;
   std::vector<double> MassBatch;
 };

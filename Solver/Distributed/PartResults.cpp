@@ -20,17 +20,23 @@ namespace smg
 namespace
 {
 
-/** Replaces the sums of this process by those over all processes, in one reduction. */
+/** Replaces the sums and minima of this process by those of all processes, in two reductions. */
 void sumUp(ResultSums& sums, Team& team)
 {
-  const std::vector<double*> places = sums.numbers();
-  std::vector<double> numbers;
-  std::ranges::transform(places, std::back_inserter(numbers), [](double* place) { return *place; });
-  team.sum(numbers);
-  for (std::size_t k = 0; k < places.size(); ++k)
+  const auto replace = [](const std::vector<double*>& places, auto reduce)
   {
-    *places[k] = numbers[k];
-  }
+    std::vector<double> numbers;
+    std::ranges::transform(
+      places, std::back_inserter(numbers), [](double* place) { return *place; });
+    reduce(numbers);
+    for (std::size_t k = 0; k < places.size(); ++k)
+    {
+      *places[k] = numbers[k];
+    }
+  };
+  const ResultSums::Numbers numbers = sums.numbers();
+  replace(numbers.sums, [&team](std::vector<double>& all) { team.sum(all); });
+  replace(numbers.least, [&team](std::vector<double>& all) { team.least(all); });
 }
 
 /** Replaces the smallest value of each column on this process by the smallest one on all processes,
@@ -104,12 +110,12 @@ void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem&
   {
     const auto vertex = static_cast<std::size_t>(i);
     sums.add(VertexTerms(terms.data() + vertex * lanes), solution.values.data() + vertex * columns,
-      results.dirichlet(i));
+      results.dirichlet(i), 0);
   }
   sumUp(sums, vertices.team());
   findExtremes(vertices, part, 1.0, sums.minimum);
   findExtremes(vertices, part, -1.0, sums.maximum);
-  sums.finish(solution.report);
+  sums.finish(solution.report, false);
 }
 
 /** The owner of a vertex collects the marks of all parts and passes the result on. */

@@ -33,8 +33,10 @@ ProblemResults::ProblemResults(
   , Memory(options.memoryLimit, ResultMemory)
   , Vertices(this->Memory, problem, &solution)
   , Reach(this->Memory)
-  , Flows(this->Memory, problem.columns())
+  , Flows(this->Memory, problem.columns() + 1)
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
+  , Parts(1, &this->Memory)
+  , Labels(this->Memory, this->Parts, BodyFlows::MostLabels)
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux,
       problem.conditionCounts().parts)
@@ -66,11 +68,17 @@ ProblemResults::ProblemResults(
 void ProblemResults::add(const MeshBlock& block)
 {
   this->Check.add(block);
-  this->addPart(block);
+  this->addBlock(block);
   this->finalize(block.finalized);
 }
 
 void ProblemResults::addPart(const MeshBlock& block)
+{
+  this->IsPart = true;
+  this->addBlock(block);
+}
+
+void ProblemResults::addBlock(const MeshBlock& block)
 {
   this->addVertices(block);
   this->addCells(block);
@@ -85,6 +93,7 @@ void ProblemResults::addVertices(const MeshBlock& block)
   this->Facets.extend(end);
   this->Edges.extend(end);
   this->Flows.extend(end);
+  this->Labels.extend(end);
   for (auto* loads : { &this->CellLoads, &this->FacetLoads })
   {
     if (*loads)
@@ -142,14 +151,21 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
   {
     if (this->Given.connectsFlatCells() && isDistinctCell(corners, count, flags))
     {
+      this->Labels.join(corners, count);
       this->connect(corners, points, cell);
     }
     return;
   }
+  this->Labels.join(corners, count);
   const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
   this->relateToFirst(corners, values);
   this->Cells.add(c, points, values, cell, flatness,
     this->Own ? this->Own->conductivity() : nullptr, this->Own ? this->Own->part() : -1);
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    this->Sums.conditions.bodies.of(this->bodyOf(corners[0]), k).energy +=
+      this->Cells.energyOfCell()[k];
+  }
   for (int k = 0; k < count; ++k)
   {
     this->Vertices.mass[corners[k]] += cell.measure / count;
@@ -210,23 +226,37 @@ void ProblemResults::connect(
 }
 
 /** Adds what flows along the edges of a cell to the residuals of its corners, which have these
- * values. */
+ * values, and the magnitudes of its weights. */
 void ProblemResults::addFlows(
   const std::int64_t* corners, const double* const* values, const CellWeights& cell)
 {
-  double* flows[4] = {};
-  for (int k = 0; k < cornersOf(this->Type); ++k)
+  const int count = cornersOf(this->Type), edges = edgesOf(this->Type);
+  double weights[4] = {};
+  for (int e = 0; e < edges; ++e)
   {
-    flows[k] = this->Flows.at(corners[k]);
+    const int* ends = edgeCorners(this->Type, e);
+    weights[ends[0]] += std::fabs(cell.weight[e]);
+    weights[ends[1]] += std::fabs(cell.weight[e]);
   }
-  for (int e = 0; e < edgesOf(this->Type); ++e)
+  double* flows[4] = {};
+  for (int c = 0; c < count; ++c)
   {
-    const int from = edgeCorners(this->Type, e)[0], to = edgeCorners(this->Type, e)[1];
-    for (std::size_t k = 0; k < this->Columns; ++k)
+    flows[c] = this->Flows.at(corners[c]);
+    flows[c][this->Columns] += weights[c];
+  }
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    double sums[4] = {};
+    for (int e = 0; e < edges; ++e)
     {
-      const double flow = cell.weight[e] * (values[from][k] - values[to][k]);
-      flows[from][k] += flow;
-      flows[to][k] -= flow;
+      const int* ends = edgeCorners(this->Type, e);
+      const double flow = cell.weight[e] * (values[ends[0]][k] - values[ends[1]][k]);
+      sums[ends[0]] += flow;
+      sums[ends[1]] -= flow;
+    }
+    for (int c = 0; c < count; ++c)
+    {
+      flows[c][k] += sums[c];
     }
   }
 }
@@ -239,7 +269,7 @@ void ProblemResults::finalize(std::int64_t end)
   {
     this->close(this->Final, this->Terms.data());
     this->Sums.add(VertexTerms(this->Terms.data()), this->Vertices.values.at(this->Final),
-      this->Vertices.dirichlet[this->Final]);
+      this->Vertices.dirichlet[this->Final], this->bodyOf(this->Final));
   }
   this->Vertices.release(this->Reach.advance(this->Final), this->Final);
   for (auto* loads : { &this->CellLoads, &this->FacetLoads })
@@ -250,6 +280,7 @@ void ProblemResults::finalize(std::int64_t end)
     }
   }
   this->Flows.release(this->Final);
+  this->Labels.release(this->Final);
   this->Facets.release(this->Final);
   this->Edges.release(this->Final);
 }
@@ -275,7 +306,7 @@ void ProblemResults::addBoundary(std::int64_t i)
       {
         this->FacetLoads->add(facet, area);
       }
-      this->Sums.conditions.add(facet, area, this->Vertices);
+      this->Sums.conditions.add(facet, area, this->Vertices, this->bodyOf(facet.corners[0]));
     });
 }
 
@@ -289,6 +320,7 @@ void ProblemResults::close(std::int64_t i, double* numbers)
   terms.screening() = this->Vertices.densities[ScreeningDensity][i] * mass +
                       (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
   terms.transfer() = this->FacetLoads ? this->FacetLoads->rowSum(i) : 0.0;
+  terms.weights() = 0.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     terms.source(k) = mass * this->Vertices.densities[SourceDensity].at(i)[k] +
@@ -305,6 +337,7 @@ void ProblemResults::close(std::int64_t i, double* numbers)
     this->addEdges(i, terms);
     return;
   }
+  terms.weights() = this->Flows.at(i)[this->Columns];
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     terms.outflow(k) = this->Flows.at(i)[k];
@@ -325,6 +358,7 @@ void ProblemResults::addEdges(std::int64_t i, VertexTerms terms)
     }
     const double weight = knownWeight(this->Kind, neighbour);
     const double* other = this->Vertices.values.at(neighbour.to);
+    terms.weights() += std::fabs(weight);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       terms.outflow(k) += weight * this->Vertices.difference(i, neighbour.to, k);
@@ -351,7 +385,8 @@ void ProblemResults::finish(Report& report)
 {
   this->finalize(this->Vertices.end());
   this->Sums.setCells(this->Cells);
-  this->Sums.finish(report);
+  this->Sums.conditions.bodies.settle(this->Parts);
+  this->Sums.finish(report, this->Vertices.hasRest());
 }
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/ComponentLabels.h"
 #include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Assembly/Loads.h"
@@ -66,7 +67,7 @@ public:
 
   // Of the part of a mesh that a process has (see MeshPart), instead of add() and finish():
 
-  /** Adds the only block. */
+  /** Adds the only block. All bodies are one, since those of several parts are not known. */
   void addPart(const MeshBlock& block);
   /** The facets and edges of the cells of the part. Before the terms are taken, facets that other
    * parts have as well are to be excluded, and edges joined with those of other parts. */
@@ -81,9 +82,14 @@ public:
   ResultSums& sums() { return this->Sums; }
 
 private:
+  void addBlock(const MeshBlock& block);
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
   void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
+  std::int32_t bodyOf(std::int64_t i) const
+  {
+    return this->IsPart ? 0 : std::max(0, this->Labels.label(i));
+  }
   void relateToFirst(const std::int64_t* corners, const double** values);
   void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
   void addFlows(const std::int64_t* corners, const double* const* values, const CellWeights& cell);
@@ -104,8 +110,12 @@ private:
   NeighbourReach Reach;
   std::optional<ProblemCells> Own;
   std::optional<VertexLoads> CellLoads, FacetLoads;
-  Ring<double> Flows; // along the edges of a vertex, if their weights are sums over cells
+  /** Along the edges of a vertex, per column, and the sum of the magnitudes of their weights, if
+   * these are sums over cells. */
+  Ring<double> Flows;
   ProblemFacets Facets;
+  Components Parts;
+  OpenLabels Labels;   // of the bodies of the mesh, of a part one label
   EdgeStiffness Edges; // from Dirichlet vertices to vertices outside the condition, or all
 
   FacetSet Inner; // facets that other parts have as well
@@ -114,6 +124,7 @@ private:
   ResultSums Sums;
   std::vector<double> Values, Steps, Terms; // of a block, of a cell, of a vertex
   std::vector<RowNeighbour> Neighbours;
+  bool IsPart = false;
   std::int64_t Final = 0;
 };
 

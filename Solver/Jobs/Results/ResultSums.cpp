@@ -2,6 +2,7 @@
 #include "Solver/Jobs/Results/ResultSums.h"
 
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Jobs/Results/KnownFluxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,7 @@ CellResults::CellResults(CellType type, int columns, bool gradient, bool flux, i
   , WantsFlux(flux)
   , Energy(static_cast<std::size_t>(columns))
   , LeftOut(static_cast<std::size_t>(columns))
+  , OfCell(static_cast<std::size_t>(columns))
 {
   const std::vector<double> zeros(3 * static_cast<std::size_t>(columns));
   this->Parts.assign(parts > 0 ? static_cast<std::size_t>(parts) + 1 : 0, { 0.0, zeros, zeros });
@@ -55,6 +57,7 @@ void CellResults::add(std::size_t c, const double* const* points, const double* 
       const double step = values[ends[0]][k] - values[ends[1]][k];
       twice += weights.weight[e] * step * step;
     }
+    this->OfCell[static_cast<std::size_t>(k)] = 0.5 * twice;
     this->Energy[static_cast<std::size_t>(k)] += 0.5 * twice;
     this->LeftOut[static_cast<std::size_t>(k)] += 0.5 * (1.0 - flatness) * twice;
   }
@@ -98,11 +101,10 @@ void CellResults::add(std::size_t c, const double* const* points, const double* 
 }
 
 ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int columns)
-  : Corners(BoundaryFacet::cornersOf(type))
+  : bodies(counts, columns)
+  , Corners(BoundaryFacet::cornersOf(type))
   , Columns(static_cast<std::size_t>(columns))
   , Inflow(this->Columns)
-  , Magnitude(this->Columns)
-  , RobinTerms(this->Columns)
 {
   const std::vector<double> zeros(this->Columns);
   const Sums none{ 0.0, zeros, zeros, zeros, 0.0 };
@@ -113,7 +115,8 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
 
 /** Adds a facet to each condition that holds on it. Vertices without a value (NaN) have no share in
  * the equations, and none here. */
-void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVertices& vertices)
+void ConditionSums::add(
+  const BoundaryFacet& facet, double area, const OpenVertices& vertices, std::int32_t label)
 {
   const double share = area / this->Corners;
   const std::int32_t first = vertices.dirichlet[facet.corners[0]];
@@ -135,38 +138,55 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
     {
       const std::int64_t corner = facet.corners[e / this->Columns];
       const double weight = isUndetermined(vertices.values.at(corner)) ? 0.0 : share;
-      this->addFlux(sums, e % this->Columns, weight * facet.fluxValue[e]);
+      const double flux = weight * facet.fluxValue[e];
+      this->addFlux(sums, e % this->Columns, flux, label);
+      this->bodies.of(label, e % this->Columns).given += std::fabs(flux);
     }
   }
-  if (facet.robin < 0)
+  if (facet.robin >= 0)
   {
-    return;
+    this->addRobin(facet, area, vertices, label);
   }
+}
+
+void ConditionSums::addRobin(
+  const BoundaryFacet& facet, double area, const OpenVertices& vertices, std::int32_t label)
+{
   Sums& sums = this->Robin[static_cast<std::size_t>(facet.robin)];
   this->addMean(sums, facet, area, vertices);
   for (int c = 0; c < this->Corners; ++c)
   {
     const double* value = vertices.values.at(facet.corners[c]);
-    const double factor = isUndetermined(value) ? 0.0 : share * facet.coefficient[c];
-    for (std::size_t k = 0; factor > 0.0 && k < this->Columns; ++k)
+    const double factor = isUndetermined(value) ? 0.0 : area / this->Corners * facet.coefficient[c];
+    if (factor <= 0.0)
+    {
+      continue;
+    }
+    this->bodies.touchRobin(facet.robin, label, factor);
+    for (std::size_t k = 0; k < this->Columns; ++k)
     {
       const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
-      this->addFlux(sums, k, factor * vertices.below(ambient, facet.corners[c], k));
+      this->addFlux(sums, k, factor * vertices.below(ambient, facet.corners[c], k), label);
       // The flux is a small difference of these where u is close to the ambient value.
-      this->RobinTerms[k] += factor * (std::fabs(ambient) + std::fabs(value[k]));
+      BodyFlows::Sums& body = this->bodies.of(label, k);
+      body.terms += factor * (std::fabs(ambient) + std::fabs(value[k]));
+      body.prescribe(ambient);
     }
   }
 }
 
 /** Adds a prescribed vertex; its reaction is the flow through the condition there. */
-void ConditionSums::add(std::int32_t dirichlet, const double* value, const double* reaction)
+void ConditionSums::add(
+  std::int32_t dirichlet, const double* value, const double* reaction, std::int32_t label)
 {
   Sums& sums = this->Dirichlet[static_cast<std::size_t>(dirichlet)];
   sums.vertices += 1.0;
+  this->bodies.touchDirichlet(dirichlet, label);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     sums.vertexValue[k] += value[k];
-    this->addFlux(sums, k, reaction[k]);
+    this->addFlux(sums, k, reaction[k], label);
+    this->bodies.of(label, k).prescribe(value[k]);
   }
 }
 
@@ -192,11 +212,11 @@ void ConditionSums::addMean(
 
 /** Adds a flow to its condition, to the inflow through all conditions, and to the magnitudes
  * against which a balance is judged. */
-void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux)
+void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux, std::int32_t label)
 {
   sums.flux[column] += flux;
   this->Inflow[column] += flux;
-  this->Magnitude[column] += std::fabs(flux);
+  this->bodies.of(label, column).all += std::fabs(flux);
 }
 
 /** Area and number of vertices of each condition, its sums by column, then the sums over all
@@ -216,8 +236,6 @@ void ConditionSums::appendNumbers(std::vector<double*>& numbers)
     }
   }
   append(this->Inflow);
-  append(this->Magnitude);
-  append(this->RobinTerms);
 }
 
 std::vector<Report::Condition> ConditionSums::conditions() const
@@ -255,27 +273,6 @@ void ConditionSums::append(
 namespace
 {
 
-bool isNowhere(const Report::Condition& condition)
-{
-  return condition.vertices == 0 && condition.area == 0.0;
-}
-
-/** Whether Dirichlet conditions prescribe values in column k that differ by more than rounding. */
-bool areDifferent(const std::vector<Report::Condition>& conditions, std::size_t k)
-{
-  constexpr double OfRounding = 1e-13;
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const Report::Condition& condition : conditions)
-  {
-    if (condition.name.starts_with("dirichlet") && !isNowhere(condition))
-    {
-      least = std::min(least, condition.mean[k]);
-      most = std::max(most, condition.mean[k]);
-    }
-  }
-  return most - least > OfRounding * std::max(std::fabs(most), std::fabs(least));
-}
-
 std::string percent(double share)
 {
   char text[32];
@@ -293,12 +290,8 @@ ResultSums::ResultSums(CellType type, Problem& problem)
   , Source(this->Columns)
   , Screening(this->Columns)
   , ScreeningEnergy(this->Columns)
-  , Magnitude(this->Columns)
   , CellEnergy(this->Columns)
   , LeftOut(this->Columns)
-  , ReactionTerms(this->Columns)
-  , ResidualSum(this->Columns)
-  , ResidualSquares(this->Columns)
 {
   // Extremes begin with values that every number replaces; the vertex stays -1 if there is none.
   constexpr double Far = std::numeric_limits<double>::infinity();
@@ -307,13 +300,15 @@ ResultSums::ResultSums(CellType type, Problem& problem)
 }
 
 /** Adds a vertex to all sums, unless nothing determines its value. */
-void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
+void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet, std::int32_t label)
 {
   if (isUndetermined(u))
   {
     return;
   }
   this->Mass += terms.mass();
+  BodyFlows& bodies = this->conditions.bodies;
+  bodies.screen(label, terms.screening());
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     const double source = terms.source(k);
@@ -322,15 +317,20 @@ void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
     this->Source[k] += source;
     this->Screening[k] += screening;
     this->ScreeningEnergy[k] += 0.5 * screening * u[k];
-    this->Magnitude[k] += std::fabs(source) + std::fabs(screening);
+    BodyFlows::Sums& body = bodies.of(label, k);
+    body.all += std::fabs(source) + std::fabs(screening);
+    body.given += std::fabs(source) + std::fabs(screening);
+    body.energy += 0.5 * screening * u[k];
+    body.include(u[k]);
   }
-  this->addResidual(terms, u, dirichlet);
+  this->addResidual(terms, u, dirichlet, label);
 }
 
 /** Adds the residual ((L + S) u - F)_i of a vertex, of a prescribed one as the reaction of its
  * condition: edges within that are left out, since what they carry cancels in the sum over its
  * vertices. */
-void ResultSums::addResidual(VertexTerms terms, const double* u, std::int32_t dirichlet)
+void ResultSums::addResidual(
+  VertexTerms terms, const double* u, std::int32_t dirichlet, std::int32_t label)
 {
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
@@ -339,15 +339,15 @@ void ResultSums::addResidual(VertexTerms terms, const double* u, std::int32_t di
     this->Residual[k] = residual;
     if (dirichlet >= 0)
     {
-      this->ReactionTerms[k] += terms.outflowTerms(k);
+      this->conditions.bodies.of(label, k).terms += terms.outflowTerms(k);
       continue;
     }
-    this->ResidualSum[k] += residual;
-    this->ResidualSquares[k] += residual * residual;
+    const double weights = terms.weights() + terms.screening() + terms.transfer();
+    this->conditions.bodies.of(label, k).addResidual(residual, weights, u[k]);
   }
   if (dirichlet >= 0)
   {
-    this->conditions.add(dirichlet, u, this->Residual.data());
+    this->conditions.add(dirichlet, u, this->Residual.data(), label);
   }
 }
 
@@ -360,12 +360,12 @@ void ResultSums::setCells(const CellResults& cells)
 }
 
 /** The order is the same in all processes, which add these numbers. */
-std::vector<double*> ResultSums::numbers()
+ResultSums::Numbers ResultSums::numbers()
 {
-  std::vector<double*> all{ &this->Mass };
+  Numbers numbers{ { &this->Mass }, {} };
+  std::vector<double*>& all = numbers.sums;
   for (auto* sums : { &this->Mean, &this->Source, &this->Screening, &this->ScreeningEnergy,
-         &this->Magnitude, &this->CellEnergy, &this->LeftOut, &this->ReactionTerms,
-         &this->ResidualSum, &this->ResidualSquares })
+         &this->CellEnergy, &this->LeftOut })
   {
     std::ranges::transform(*sums, std::back_inserter(all), [](double& sum) { return &sum; });
   }
@@ -378,11 +378,12 @@ std::vector<double*> ResultSums::numbers()
     }
   }
   this->conditions.appendNumbers(all);
-  return all;
+  this->conditions.bodies.appendNumbers(all, numbers.least);
+  return numbers;
 }
 
 /** The energy includes the term of screening, 1/2 s u^2. Means are weighted by mass. */
-void ResultSums::finish(Report& report) const
+void ResultSums::finish(Report& report, bool hasRest) const
 {
   report.conditions = this->conditions.conditions();
   report.energy = this->CellEnergy;
@@ -394,7 +395,7 @@ void ResultSums::finish(Report& report) const
   }
   report.minimum = this->minimum;
   report.maximum = this->maximum;
-  this->reportBalance(report);
+  this->reportBalance(report, hasRest);
   this->reportParts(report);
   noteConditionsWithoutEffect(report);
   this->noteFlatCells(report);
@@ -455,88 +456,11 @@ void ResultSums::reportParts(Report& report) const
   }
 }
 
-/**
- * What flows in column k, all 0 if nothing does. With phi the solution for 1 on a condition and 0
- * on the others, without sources, the flux through that condition is wrong by the sum of phi_i r_i
- * over the residuals r, where phi is between 0 and 1. Rounding has residuals of random signs, an
- * unfinished solve of one sign: the larger one of both sums is what a flux may be wrong by.
- *
- * The power, twice the energy, over the range of u is what flows at least through the whole.
- * Nothing flows where the values are one number, up to what the solve leaves, and nothing is
- * prescribed to flow, nor different values: then what flows is only that.
- */
-ResultSums::Flow ResultSums::flowIn(const Report& report, std::size_t k) const
-{
-  constexpr double Sure = 3.0, OfValues = 1e-6, OfTerms = 1e-6;
-  Flow flow;
-  flow.all = this->conditions.magnitude()[k] + this->Magnitude[k];
-  double given = this->Magnitude[k];
-  int free = 0; // conditions whose flux is not given
-  for (const Report::Condition& condition : report.conditions)
-  {
-    const bool isGiven = condition.name.starts_with("flux");
-    given += isGiven ? std::fabs(condition.flux[k]) : 0.0;
-    free += isGiven || isNowhere(condition) ? 0 : 1;
-  }
-  // Of components without a condition, where the solve has changed the sources.
-  const bool isShifted = !report.removed_source.empty() && report.removed_source[k] != 0.0;
-  // The only flux that is not given is what balances the others: phi is 1 there.
-  const bool isShared = free > 1 || (free == 1 && report.screening[k] != 0.0);
-  const double squares = isShared ? this->ResidualSquares[k] : 0.0;
-  flow.doubt =
-    isShifted ? 0.0 : std::max(std::fabs(this->ResidualSum[k]), Sure * std::sqrt(squares));
-  const double most = this->maximum[k].value, least = this->minimum[k].value;
-  const double range = most - least;
-  const bool varies = range > OfValues * std::max(std::fabs(most), std::fabs(least));
-  const double terms = this->ReactionTerms[k] + this->conditions.robinTerms()[k];
-  if (!varies && given == 0.0 && report.converged && flow.all <= OfTerms * terms &&
-      !areDifferent(report.conditions, k))
-  {
-    return {};
-  }
-  if (!varies)
-  {
-    // Fluxes are differences of nearly equal terms.
-    flow.doubt = std::max(flow.doubt, std::numeric_limits<double>::epsilon() * terms);
-  }
-  flow.least = varies ? 2.0 * report.energy[k] / range : flow.all;
-  return flow;
-}
-
-/** Makes the fluxes of column k NaN of which no digit is known; returns whether there are any. */
-bool ResultSums::markLost(Report& report, std::size_t k, const Flow& flow)
-{
-  // Of the flux, of what flows through the whole, and of a tenth of all that flows.
-  constexpr double Unknown = 0.1;
-  const double large = std::max(flow.least, Unknown * flow.all);
-  std::string lost;
-  for (Report::Condition& condition : report.conditions)
-  {
-    const bool isGiven = condition.name.starts_with("flux");
-    if (isGiven || isNowhere(condition) ||
-        flow.doubt <= Unknown * std::max(std::fabs(condition.flux[k]), large))
-    {
-      continue;
-    }
-    lost += (lost.empty() ? "" : ", ") + condition.name;
-    condition.flux[k] = std::numeric_limits<double>::quiet_NaN();
-  }
-  if (lost.empty())
-  {
-    return false;
-  }
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1e", flow.doubt);
-  report.warn("the flux of " + lost +
-              " is not known: what the solve has left may change it by up to " + text);
-  return true;
-}
-
 /** The balance of each column: what flows in through conditions and sources, minus what screening
  * takes, relative to all that flows. */
-void ResultSums::reportBalance(Report& report) const
+void ResultSums::reportBalance(Report& report, bool hasRest) const
 {
-  constexpr double Noted = 1e-3;
+  KnownFluxes known(this->conditions.bodies, report, hasRest);
   double largest = 0.0;
   report.source = this->Source;
   report.screening = this->Screening;
@@ -548,25 +472,21 @@ void ResultSums::reportBalance(Report& report) const
     {
       report.source[k] -= report.removed_source[k];
     }
-    const Flow flow = this->flowIn(report, k);
-    if (flow.all <= 0.0)
+    const KnownFluxes::Column column = known.judge(k);
+    if (column.all <= 0.0)
     {
       continue; // a quotient of rounding errors
     }
-    if (markLost(report, k, flow))
+    if (column.isLost)
     {
       report.balance[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
     const double rest = this->conditions.inflow()[k] + report.source[k] - report.screening[k];
-    report.balance[k] = rest / flow.all;
-    largest = std::max(largest, std::max(std::fabs(rest), flow.doubt) / flow.all);
+    report.balance[k] = rest / column.all;
+    largest = std::max(largest, std::fabs(report.balance[k]));
   }
-  if (largest > Noted && report.converged)
-  {
-    report.warn("the fluxes of the conditions are known up to " + percent(largest) +
-                " % of all that flows: a smaller tolerance may make them better");
-  }
+  known.warn(largest);
 }
 
 /** Notes a bound of the error due to cells that were scaled down (flatnessFactor()). With the

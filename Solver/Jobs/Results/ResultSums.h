@@ -3,6 +3,7 @@
 
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Assembly/OpenVertices.h"
+#include "Solver/Jobs/Results/BodyFlows.h"
 #include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -47,6 +48,8 @@ public:
    * omitted. */
   const std::vector<double>& energy() const { return this->Energy; }
   const std::vector<double>& leftOut() const { return this->LeftOut; }
+  /** Per column: the energy of the cell that was added last. */
+  const std::vector<double>& energyOfCell() const { return this->OfCell; }
   /** One of each part, and one of all other cells; empty without parts. */
   const std::vector<PartSums>& parts() const { return this->Parts; }
 
@@ -54,7 +57,7 @@ private:
   CellType Type;
   int Columns;
   bool WantsGradient, WantsFlux;
-  std::vector<double> Gradient, Flux, Energy, LeftOut;
+  std::vector<double> Gradient, Flux, Energy, LeftOut, OfCell;
   std::vector<PartSums> Parts;
 };
 
@@ -70,20 +73,21 @@ class ConditionSums
 public:
   ConditionSums(CellType type, const ConditionCounts& counts, int columns);
 
-  /** Adds a boundary facet of this length or area; the values of `vertices` are the solution. */
-  void add(const BoundaryFacet& facet, double area, const OpenVertices& vertices);
+  /** Adds a boundary facet of this length or area, of the body of this label; the values of
+   * `vertices` are the solution. */
+  void add(
+    const BoundaryFacet& facet, double area, const OpenVertices& vertices, std::int32_t label);
   /** Adds a vertex of a Dirichlet condition with its value and its reaction, `columns` numbers
    * each. */
-  void add(std::int32_t dirichlet, const double* value, const double* reaction);
+  void add(std::int32_t dirichlet, const double* value, const double* reaction, std::int32_t label);
 
   std::vector<Report::Condition> conditions() const;
   /** Appends pointers to all sums, so that those of the parts of a mesh can be added up. */
   void appendNumbers(std::vector<double*>& numbers);
-  /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
+  /** Per column: the total inflow through all conditions. */
   const std::vector<double>& inflow() const { return this->Inflow; }
-  const std::vector<double>& magnitude() const { return this->Magnitude; }
-  /** Per column: the magnitudes of the terms whose differences are the Robin fluxes. */
-  const std::vector<double>& robinTerms() const { return this->RobinTerms; }
+
+  BodyFlows bodies;
 
 private:
   struct Sums
@@ -94,14 +98,16 @@ private:
   };
 
   void addMean(Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices);
-  void addFlux(Sums& sums, std::size_t column, double flux);
+  void addFlux(Sums& sums, std::size_t column, double flux, std::int32_t label);
+  void addRobin(
+    const BoundaryFacet& facet, double area, const OpenVertices& vertices, std::int32_t label);
   void append(const char* kind, const std::vector<Sums>& all,
     std::vector<Report::Condition>& conditions) const;
 
   int Corners; // of a facet
   std::size_t Columns;
   std::vector<Sums> Dirichlet, Flux, Robin;
-  std::vector<double> Inflow, Magnitude, RobinTerms;
+  std::vector<double> Inflow;
 };
 
 /** What the cells, boundary facets and edges of a vertex contribute to the results. All of these
@@ -121,6 +127,7 @@ public:
   double& mass() { return this->Numbers[0]; }
   double& screening() { return this->Numbers[1]; } ///< its part of the diagonal
   double& transfer() { return this->Numbers[2]; }  ///< the part of Robin conditions in the diagonal
+  double& weights() { return this->Numbers[3]; }   ///< sum of the magnitudes of those of its edges
 
   // Of column k:
 
@@ -132,7 +139,7 @@ public:
   double& outflowTerms(std::size_t k) { return this->at(k, 3); }
 
 private:
-  static constexpr std::size_t OfColumns = 3;
+  static constexpr std::size_t OfColumns = 4;
 
   double& at(std::size_t k, std::size_t place) { return this->Numbers[OfColumns + 4 * k + place]; }
 
@@ -145,8 +152,8 @@ class SMG_EXPORT ResultSums
 public:
   ResultSums(CellType type, Problem& problem);
 
-  /** Adds a vertex with its solution and its condition (-1: none). */
-  void add(VertexTerms terms, const double* u, std::int32_t dirichlet);
+  /** Adds a vertex with its solution, its condition (-1: none) and the label of its body. */
+  void add(VertexTerms terms, const double* u, std::int32_t dirichlet, std::int32_t label);
   /** Sets the sums over the cells. */
   void setCells(const CellResults& cells);
   /** Compares a value of a column with the extremes; of equal ones the first one remains. */
@@ -158,31 +165,26 @@ public:
     most = value > most.value ? Report::Extreme{ value, vertex } : most;
   }
 
-  /** Pointers to all sums, so that those of the parts of a mesh can be added up. */
-  std::vector<double*> numbers();
+  /** Pointers to all sums, so that those of the parts of a mesh can be added up, and to the numbers
+   * of which the least one is that of all. */
+  struct Numbers
+  {
+    std::vector<double*> sums, least;
+  };
+  Numbers numbers();
 
-  /** Sets conditions, energy, mean, minimum, maximum, source, screening and balance of the report
-   * of the solution. Adds a note on the maximum difference from finite elements due to cells that
-   * are too flat. */
-  void finish(Report& report) const;
+  /** `hasRest`: whether the values of the solution have more digits than a double. Sets conditions,
+   * energy, mean, minimum, maximum, source, screening and balance of the report of the solution.
+   * Adds a note on the maximum difference from finite elements due to cells that are too flat. */
+  void finish(Report& report, bool hasRest) const;
 
   ConditionSums conditions;
   std::vector<Report::Extreme> minimum, maximum; ///< per column
 
 private:
-  /** What flows in a column, and how much of a flux the residual of the solution may be. */
-  struct Flow
-  {
-    double all = 0.0;   ///< sum of the magnitudes of what flows in and out; 0: nothing does
-    double least = 0.0; ///< what flows through the whole
-    double doubt = 0.0; ///< of each flux
-  };
-
-  void addResidual(VertexTerms terms, const double* u, std::int32_t dirichlet);
-  void reportBalance(Report& report) const;
+  void addResidual(VertexTerms terms, const double* u, std::int32_t dirichlet, std::int32_t label);
+  void reportBalance(Report& report, bool hasRest) const;
   void reportParts(Report& report) const;
-  Flow flowIn(const Report& report, std::size_t k) const;
-  static bool markLost(Report& report, std::size_t k, const Flow& flow);
   static void noteConditionsWithoutEffect(Report& report);
   void noteFlatCells(Report& report) const;
 
@@ -190,12 +192,9 @@ private:
   std::vector<double> Residual; // of a vertex
   double Mass = 0.0;
   // Per column.
-  std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude;
+  std::vector<double> Mean, Source, Screening, ScreeningEnergy;
   std::vector<double> CellEnergy, LeftOut; // see CellResults
   std::vector<PartSums> Parts;             // likewise
-  std::vector<double> ReactionTerms;       // magnitudes of the terms of the reactions
-  // Of the residuals of vertices without a condition: the sum, and that of the squares.
-  std::vector<double> ResidualSum, ResidualSquares;
 };
 
 } // namespace smg
