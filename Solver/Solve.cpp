@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Solve.h"
 
+#include "Solver/Core/Progress.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
@@ -105,9 +106,15 @@ std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSour
   checkAutomaticTolerance(options, problem);
   PoissonSolver solver(operators, problem.columns(), options);
   std::unique_ptr<Solution> solution = solver.solve(mesh, problem);
-  return options.again && solver.norms().flow > 0.0 && solution->report().converged
-           ? corrected(operators, problem, options, std::move(solution), solver)
-           : std::move(solution);
+  if (options.again && solver.norms().flow > 0.0 && solution->report().converged)
+  {
+    solution = corrected(operators, problem, options, std::move(solution), solver);
+  }
+  if (solver.done() < 1.0)
+  {
+    Progress(options.progress).update(1.0); // with less to correct than expected
+  }
+  return solution;
 }
 
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)

@@ -80,7 +80,8 @@ ProblemDescription PoissonTask::description(const StreamInfo& info) const
 
 Costs PoissonTask::costs(const StreamInfo& info) const
 {
-  return solveCosts(info, this->columnsOn(info), this->problem.weights, this->options);
+  return solveCosts(
+    info, this->columnsOn(info), this->problem.weights, this->options, contrastOf(this->problem));
 }
 
 AddedValues PoissonTask::added(const StreamInfo& info) const

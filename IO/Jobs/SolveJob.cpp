@@ -36,7 +36,8 @@ bool SolveJob::keeps(const ColumnSpec& column, const StreamInfo& /*info*/) const
 
 Costs SolveJob::costsOn(const StreamInfo& info) const
 {
-  return solveCosts(info, this->description.columns, this->description.weights, this->solving);
+  return solveCosts(info, this->description.columns, this->description.weights, this->solving,
+    contrastOf(this->description));
 }
 
 AddedValues SolveJob::addedTo(const StreamInfo& /*info*/) const

@@ -28,6 +28,7 @@ public:
     }
   }
 
+  double done() const { return this->Done; }
   /** The same as before. Throws Cancelled. */
   void poll() { this->update(this->Done); }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -222,6 +223,32 @@ private:
 };
 
 } // namespace
+
+/** Of a tensor the diagonal. Without an entry that holds everywhere, it may be 1 elsewhere. */
+double contrastOf(const ProblemDescription& problem)
+{
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  const auto include = [&](double number)
+  {
+    least = std::min(least, number);
+    most = std::max(most, number);
+  };
+  bool holdsEverywhere = false;
+  for (const PlacedValue& entry : problem.conductivity.entries)
+  {
+    holdsEverywhere = holdsEverywhere || std::holds_alternative<Everywhere>(entry.where);
+    const auto* numbers = std::get_if<std::vector<double>>(&entry.value.content());
+    for (std::size_t n = 0; numbers && n < std::min<std::size_t>(3, numbers->size()); ++n)
+    {
+      include((*numbers)[n]);
+    }
+  }
+  if (!holdsEverywhere)
+  {
+    include(1.0);
+  }
+  return least > 0.0 && most > least ? most / least : 1.0;
+}
 
 /** All members, in the order of the table. */
 std::string textOf(const ProblemDescription& problem)

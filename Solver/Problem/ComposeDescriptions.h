@@ -25,6 +25,10 @@ SMG_EXPORT std::set<std::string> namedColumns(const std::vector<Where>& parts);
  * which alone have the solution 0. */
 SMG_EXPORT bool isPosed(const ProblemDescription& problem);
 
+/** The factor by which the numbers differ that a description gives as conductivities: 1 if there
+ * are less than two. Columns are not known. */
+SMG_EXPORT double contrastOf(const ProblemDescription& problem);
+
 /** A text that differs if anything in the description does, for CheckpointOptions::problem. */
 SMG_EXPORT std::string textOf(const ProblemDescription& problem);
 

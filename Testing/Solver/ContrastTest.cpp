@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Jobs/Estimate/Costs.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Testing/Solver/ContrastTesting.h"
 #include "Testing/Support/QuadrupleElements.h"
@@ -270,6 +271,42 @@ TEST(Contrast, CorrectionsKeepToTheMostVCycles)
           !report.converged || !report.warnings.empty() || errorsOf(report, exact).flux <= 1e-6);
       }
     });
+}
+
+/** Progress goes on while a correction is computed, and estimates count it. */
+TEST(Contrast, ProgressAndEstimatesCountCorrections)
+{
+  int corrections = 0;
+  for (const double contrast : { 1e2, 1e6, 1e7, 1e10 })
+  {
+    forShapes({ contrast },
+      [&](ElementProblem& problem, const std::string&)
+      {
+        std::vector<double> shares;
+        SolveOptions options;
+        options.progress = [&shares](double share)
+        {
+          shares.push_back(share);
+          return true;
+        };
+        const Report report = resultsOf(problem, options);
+        EXPECT_TRUE(std::ranges::is_sorted(shares));
+        EXPECT_EQ(shares.back(), 1.0);
+        EXPECT_LE(std::ranges::count(shares, 1.0), 2);
+        if (report.passes == report.cycles + 1)
+        {
+          return;
+        }
+        ++corrections;
+        const StreamInfo info = MemorySource(problem.mesh()).info();
+        const auto passes = [&info](double of)
+        { return solveCosts(info, 1, Weights::Cotangent, SolveOptions(), of).passes; };
+        EXPECT_TRUE(contrast < 1e7 || passes(contrast) > passes(1.0));
+        EXPECT_LE(passes(contrast), 2 * report.passes);
+        EXPECT_GE(2 * passes(contrast), report.passes);
+      });
+  }
+  EXPECT_GT(corrections, 20);
 }
 
 TEST(Contrast, WhatRoundingTakesIsSaid)

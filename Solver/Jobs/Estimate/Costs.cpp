@@ -3,6 +3,7 @@
 
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Jobs/Distance/DistanceSources.h"
+#include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 
@@ -134,10 +135,26 @@ Costs costsOfCycles(
 
 } // namespace
 
-Costs solveCosts(const StreamInfo& info, int columns, Weights weights, const SolveOptions& options)
+/** A correction builds the hierarchy once more. */
+Costs solveCosts(const StreamInfo& info, int columns, Weights weights, const SolveOptions& options,
+  double contrast)
 {
-  return costsOfCycles(
-    info, columns, weights, options, expectedCycles(ratesOf(info.cellType), options));
+  const Rates& rates = ratesOf(info.cellType);
+  const auto costsOf = [&](const SolveOptions& of)
+  { return costsOfCycles(info, columns, weights, of, expectedCycles(rates, of)); };
+  Costs costs = costsOf(options);
+  SolveOptions again = options;
+  again.tolerance = correctionTolerance(contrast, options.tolerance);
+  again.checkpoint = {};
+  if (again.tolerance < 1.0)
+  {
+    const Costs correction = costsOf(again);
+    costs.scratch = std::max(costs.scratch, costs.kept + correction.scratch);
+    costs.kept += correction.kept;
+    costs.passes += correction.passes;
+    costs.seconds += correction.seconds;
+  }
+  return costs;
 }
 
 /** Two steps with the same number of V-cycles, which share a pass; the first one has four columns

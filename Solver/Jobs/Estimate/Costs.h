@@ -30,8 +30,10 @@ struct Costs
  * span, which must be known. The constants are measured: see docs/performance.md#estimates. Meshes
  * with many slivers take more V-cycles.
  */
-SMG_EXPORT Costs solveCosts(
-  const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
+/** `contrast`: the factor by which conductivities differ. Where that is large, a solve computes a
+ * correction of its solution. */
+SMG_EXPORT Costs solveCosts(const StreamInfo& info, int columns, Weights weights,
+  const SolveOptions& options, double contrast = 1.0);
 SMG_EXPORT Costs deformCosts(const StreamInfo& info, const DeformOptions& options);
 /** `components`: the number of components of the smoothed column; 3 for positions. */
 SMG_EXPORT Costs smoothCosts(const StreamInfo& info, int components, const Smoothing& options);

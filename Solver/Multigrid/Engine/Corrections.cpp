@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -86,6 +87,17 @@ void addCosts(Report& report, const Report& correction, double scale)
 
 } // namespace
 
+/** The last digit of a value makes flow as many times more than flows through the whole as
+ * conductivities differ. Measured over the shapes of Testing/Solver/ContrastTesting.h. */
+double correctionTolerance(double contrast, double tolerance)
+{
+  constexpr double Digit = std::numeric_limits<double>::epsilon();
+  const double left = contrast * Digit / (IterateFlow::Judged * tolerance);
+  return left >= 1.0 && tolerance != SolveOptions::AutomaticTolerance
+           ? std::min(IterateFlow::Judged, 1.0 / left)
+           : 1.0;
+}
+
 UncorrectedSolution::UncorrectedSolution(
   std::unique_ptr<Solution> solution, const std::string& reason)
   : First(std::move(solution))
@@ -154,14 +166,14 @@ std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem&
   // A residual that is somewhat larger than the goal is no reason to build the hierarchy once more.
   constexpr double Enough = 10.0;
   constexpr int Most = 4;
+  constexpr double OfRest = 0.8; // what a correction takes of the progress that is left
   const SolveNorms& norms = solver.norms();
   const double goal = options.tolerance * IterateFlow::Judged * norms.flow;
   // The rounding of independent terms is a bound of what it does to their sums.
   double left = std::max(norms.residual, 0.1 * norms.rounding);
   SolveOptions again = options;
   again.checkpoint = {};
-  again.progress =
-    options.progress ? [&](double) { return options.progress(1.0); } : ProgressFunction();
+  double done = solver.done();
   const auto leave = [&again](const PoissonSolver& kept)
   {
     again.memoryLimit = std::max<std::int64_t>(1, again.memoryLimit - kept.usedBytes());
@@ -178,6 +190,14 @@ std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem&
       return std::make_unique<UncorrectedSolution>(
         std::move(solution), "no V-cycle is left of those that are allowed");
     }
+    // Another one may follow.
+    const double end = done + OfRest * (1.0 - done);
+    if (options.progress)
+    {
+      again.progress = [&options, done, end](double share)
+      { return options.progress(done + share * (end - done)); };
+    }
+    done = end;
     PoissonSolver next(operators, problem.columns(), again);
     std::unique_ptr<Solution> correction;
     try

@@ -26,6 +26,10 @@ struct SolveNorms
   double flow = 0.0;     ///< of what flows: see IterateFlow; 0: not measured
 };
 
+/** The relative residual of a correction that a solve to this tolerance is likely to need, if
+ * conductivities differ by this factor; 1: none. */
+double correctionTolerance(double contrast, double tolerance);
+
 /** A solution without the correction that it needs, since that failed: a warning says why. */
 class UncorrectedSolution final : public Solution
 {

@@ -5,6 +5,7 @@
 #include "Solver/Memory/Pool.h"
 #include "Solver/Multigrid/Cycle/VCycle.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
+#include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Error.h"
@@ -241,6 +242,13 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   if (this->Run.range && assembly.contrast() >= Contrasting)
   {
     this->Built.measureFlow();
+    // Room that is not needed matters less than a correction for which there is none.
+    const SolveOptions& options = this->Run.options;
+    const double contrast = 10.0 * assembly.contrast();
+    if (options.again && correctionTolerance(contrast, options.tolerance) < 1.0)
+    {
+      this->Run.progress.leaveRoom();
+    }
   }
   this->Run.keepReport();
   beginRange(this->Run, assembly.residual());

@@ -111,6 +111,7 @@ std::unique_ptr<Solution> PoissonSolver::finish(
   auto solution =
     std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
   run.progress.finish();
+  this->Done = run.progress.done();
   this->Used = run.pool.used();
   this->ScratchUsed = run.scratch ? run.scratch->account().used() : 0;
   return solution;

@@ -43,6 +43,8 @@ public:
 
   // Afterwards:
 
+  /** How far the progress has come: 1 unless a correction is likely to follow. */
+  double done() const { return this->Done; }
   const SolveNorms& norms() const { return this->Norms; }
   /** The bytes of the pool and of scratch files that the solution has. */
   std::int64_t usedBytes() const { return this->Used; }
@@ -58,6 +60,7 @@ private:
   std::unique_ptr<SolveContext> Run;
   Hierarchy Levels;
   SolveNorms Norms;
+  double Done = 1.0;
   std::int64_t Used = 0, ScratchUsed = 0;
 };
 

@@ -60,6 +60,11 @@ public:
     this->Overall.update(this->Start + (this->To - this->Start) * reached);
   }
 
+  /** Leaves room for what is likely to follow the V-cycles. */
+  void leaveRoom() { this->To = this->Start + WithoutRest * (this->To - this->Start); }
+  /** How far it has come: 1 unless there is room for more. */
+  double done() const { return this->Overall.done(); }
+
   /** The relative residual to reach, if that is not the tolerance. */
   void expect(double goal)
   {
@@ -90,10 +95,11 @@ public:
     }
   }
 
-  void finish() { this->Overall.update(1.0); }
+  void finish() { this->Overall.update(this->To); }
 
 private:
   static constexpr double FirstPass = 0.4;
+  static constexpr double WithoutRest = 0.4; // of what is to come after the first pass
 
   ProgressFunction Function;
   Progress Overall;
