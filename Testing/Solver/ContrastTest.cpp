@@ -273,6 +273,43 @@ TEST(Contrast, CorrectionsKeepToTheMostVCycles)
     });
 }
 
+/** A strip of a good conductor carries most of what flows; beside it are flat cells of a bad one,
+ * whose own condition is to be known as well as without the strip. */
+TEST(Contrast, BadConductorsAreSolvedBesideGoodOnesThatCarryMore)
+{
+  constexpr int n = 60;
+  constexpr double Flatness = 30.0;
+  IndexedTestMesh sheet = grid(n, n, 0.25);
+  const double strip = 0.1 * n * std::sqrt(0.75), height = (n - 1) * std::sqrt(0.75);
+  for (std::size_t k = 1; k < sheet.positions.size(); k += 3)
+  {
+    double& y = sheet.positions[k];
+    y = y <= strip ? y : strip + (y - strip) * Flatness;
+  }
+  const double top = strip + (height - strip) * Flatness;
+  const StreamMesh mesh = toStream(sheet);
+  for (const double contrast : { 1.0, 1e3, 1e6, 1e9 })
+  {
+    SCOPED_TRACE(contrast);
+    ElementProblem problem(mesh);
+    problem.Parts = 2;
+    problem.Part = [=](const Point& x) { return x[1] < strip ? 1 : 0; };
+    problem.Conductivity = [&](const Point& x) -> Eigen::Matrix3d
+    { return (problem.Part(x) == 0 ? 1.0 : contrast) * Eigen::Matrix3d::Identity(); };
+    hold(
+      problem, [=](const Point& x) { return x[1] < strip && x[0] < 0.1; }, 0.0);
+    hold(
+      problem, [=](const Point& x) { return x[1] < strip && x[0] > n - 1.1; }, 1.0);
+    hold(problem, above(1, top - 1.0), 0.0);
+    const Report report = resultsOf(problem);
+    const ExactResults exact = solveInQuadruple(problem);
+    for (const Report::Condition& condition : report.conditions)
+    {
+      EXPECT_NEAR(condition.flux[0] / exact.flux.at(condition.name), 1.0, 1e-5) << condition.name;
+    }
+  }
+}
+
 /** Progress goes on while a correction is computed, and estimates count it. */
 TEST(Contrast, ProgressAndEstimatesCountCorrections)
 {

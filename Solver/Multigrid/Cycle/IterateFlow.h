@@ -5,6 +5,7 @@
 #include "Solver/Multigrid/Cycle/RowBlock.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +20,10 @@ namespace smg
  *
  * Where coefficients differ by many orders of magnitude, the residual of the initial values is as
  * large as the largest of them, but what flows through the whole is limited by the smallest. Fluxes
- * are sums of residuals, so these must be small beside what flows. Restriction on the finest level
- * has the rows and their values in any case.
+ * are sums of residuals, so these must be small beside what flows. A good conductor may carry more
+ * than flows elsewhere, though: so the residual must also be small beside what flows if each row
+ * is divided by its diagonal, where all conductors are alike. Restriction on the finest level has
+ * the rows and their values in any case.
  */
 class IterateFlow
 {
@@ -33,20 +36,25 @@ public:
     : Columns(static_cast<std::size_t>(columns))
     , Squares(static_cast<std::size_t>(strideOf(columns)))
     , TermSquares(static_cast<std::size_t>(strideOf(columns)))
+    , ScaledSquares(static_cast<std::size_t>(strideOf(columns)))
+    , ScaledResidualSquares(static_cast<std::size_t>(strideOf(columns)))
+    , ValueSquares(static_cast<std::size_t>(strideOf(columns)))
   {
   }
 
   void startPass()
   {
-    std::ranges::fill(this->Squares, 0.0);
-    std::ranges::fill(this->TermSquares, 0.0);
+    for (std::vector<double>* sums : this->sums())
+    {
+      std::ranges::fill(*sums, 0.0);
+    }
   }
 
   /** Adds row k of a block, which counts as `share`; x and b point to its node 0, `lane` is the
-   * first of their columns, `term` is A_kk x_k. */
+   * first of their columns. */
   template <class Vectors, class Arrays>
   void add(const RowBlock::Header& h, const Arrays& a, std::int64_t k, std::int64_t stride,
-    const double* x, const double* b, typename Vectors::Vector term, double share, int lane)
+    const double* x, const double* b, typename Vectors::Vector residual, double share, int lane)
   {
     using Vector = typename Vectors::Vector;
     const auto magnitude = [](const Vector& v) { return v < 0.0 ? -v : v; };
@@ -58,10 +66,17 @@ public:
       flow += magnitude(
         static_cast<double>(a.weight[e]) * (Vectors::load(x + (k + a.delta[e]) * stride) - xk));
     }
-    double* sum = this->Squares.data() + lane;
-    Vectors::store(sum, Vectors::load(sum) + share * flow * (share * flow));
-    double* terms = this->TermSquares.data() + lane;
-    Vectors::store(terms, Vectors::load(terms) + share * term * (share * term));
+    const double diagonal = static_cast<double>(a.diagonal[k]), scale = share / diagonal;
+    const auto addSquare = [lane](std::vector<double>& sums, const Vector& value)
+    {
+      double* const sum = sums.data() + lane;
+      Vectors::store(sum, Vectors::load(sum) + value * value);
+    };
+    addSquare(this->Squares, share * flow);
+    addSquare(this->TermSquares, share * diagonal * xk);
+    addSquare(this->ScaledSquares, scale * flow);
+    addSquare(this->ScaledResidualSquares, scale * residual);
+    addSquare(this->ValueSquares, share * xk);
   }
 
   /** The norm of the column in which least flows, of those in which more does than the rounding of
@@ -79,21 +94,46 @@ public:
     return least;
   }
 
+  /** The norm of the residual beside what flows, both in rows divided by their diagonals, of the
+   * column where that is largest; 0 where it is the rounding of values. */
+  double scaledResidual() const
+  {
+    constexpr double Rounding = 4e-15;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      const double residual = this->ScaledResidualSquares[k];
+      const bool isRounding = residual <= Rounding * Rounding * this->ValueSquares[k];
+      largest = isRounding ? largest : std::max(largest, residual / this->ScaledSquares[k]);
+    }
+    return std::sqrt(largest);
+  }
+
   template <class State>
   void exchange(State& state)
   {
     state.part("flow");
     const std::size_t lanes = this->Squares.size();
-    state(this->Squares, this->TermSquares);
-    if constexpr (requires { state.require(true); })
+    for (std::vector<double>* sums : this->sums())
     {
-      state.require(this->Squares.size() == lanes && this->TermSquares.size() == lanes);
+      state(*sums);
+      if constexpr (requires { state.require(true); })
+      {
+        state.require(sums->size() == lanes);
+      }
     }
   }
 
 private:
+  std::array<std::vector<double>*, 5> sums()
+  {
+    return { &this->Squares, &this->TermSquares, &this->ScaledSquares, &this->ScaledResidualSquares,
+      &this->ValueSquares };
+  }
+
   std::size_t Columns;
-  std::vector<double> Squares, TermSquares;
+  std::vector<double> Squares, TermSquares; ///< of what flows, and of A_kk x_k
+  std::vector<double> ScaledSquares, ScaledResidualSquares, ValueSquares;
 };
 
 } // namespace smg

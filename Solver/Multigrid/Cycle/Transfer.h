@@ -143,7 +143,7 @@ private:
           if (this->flow)
           {
             this->flow->template add<Vectors>(
-              h, a, k, stride, part.x, part.b, term, share, part.lane);
+              h, a, k, stride, part.x, part.b, residual, share, part.lane);
           }
         }
       }

@@ -86,7 +86,7 @@ void Convergence::begin(double norm, bool mayEnd, double share)
 
 /** Order matters: an overflow is an error even of the last V-cycle, divergence only if the goal
  * is not met, and a fixed number of V-cycles asks for neither tolerance nor patience. */
-void Convergence::add(double norm, double rounding, double share)
+void Convergence::add(double norm, double rounding, double share, double scaled)
 {
   this->Rounding = std::max(this->Rounding, rounding);
   this->setGoal(share, rounding);
@@ -94,7 +94,8 @@ void Convergence::add(double norm, double rounding, double share)
   this->NormBefore = this->Norm;
   this->Norm = norm;
   this->Residuals.push_back(relative);
-  this->Converged = norm <= this->Goal;
+  this->ScaledResiduals.push_back(scaled);
+  this->Converged = norm <= this->Goal && scaled <= this->Tolerance;
   if (!std::isfinite(norm))
   {
     throw Error("the numbers of the solve overflow in V-cycle " + std::to_string(this->cycles()) +
@@ -123,7 +124,7 @@ void Convergence::add(double norm, double rounding, double share)
   this->Note.clear();
   if (!this->Converged)
   {
-    this->watch(relative);
+    this->watch();
   }
   this->Done = this->Done || this->Converged;
 }
@@ -131,45 +132,52 @@ void Convergence::add(double norm, double rounding, double share)
 /** Ends a solve that has not reached its goal if it stagnates or has used up its V-cycles.
  * Stagnation at the rounding counts as convergence, and so does a residual that met the tolerance.
  */
-void Convergence::watch(double relative)
+void Convergence::watch()
 {
-  const bool rounding = this->Norm <= NearRounding * this->Rounding;
+  const bool isEven = this->ScaledResiduals.back() <= this->Tolerance;
+  const bool rounding = isEven && this->Norm <= NearRounding * this->Rounding;
   // Only the lowered goal is missing.
-  const bool isMet = std::ranges::any_of(
-    this->Residuals, [this](double residual) { return residual <= this->Tolerance; });
+  const bool isMet = isEven && std::ranges::any_of(this->Residuals,
+                                 [this](double residual) { return residual <= this->Tolerance; });
   const int patience =
     rounding || isMet ? RoundingPatience : std::clamp(this->Limit / 2, MinPatience, Patience);
   const int n = this->cycles();
-  const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
-                                     : this->FirstNorm / this->Reference;
-  const bool stagnates = n > patience && relative > Stagnating * before;
+  // Of poor conductors, while the residual of good ones waits for them.
+  const std::vector<double>& watched = isEven ? this->Residuals : this->ScaledResiduals;
+  const double before = n > patience ? watched[static_cast<std::size_t>(n - patience - 1)]
+                        : isEven     ? this->FirstNorm / this->Reference
+                                     : HUGE_VAL;
+  const bool stagnates = n > patience && watched.back() > Stagnating * before;
   if (!stagnates && n < this->Limit)
   {
     return;
   }
   this->Done = true;
   this->Converged = (stagnates && rounding) || isMet;
-  const std::string residual = "the relative residual ";
+  const std::string residual = isEven
+                                 ? "the relative residual "
+                                 : "the residual of poor conductors, beside what flows in them, ";
+  const std::string reached = scientific(watched.back());
   if (stagnates && rounding)
   {
-    this->Note = "converged as far as the rounding of the numbers allows: " + residual + "is " +
-                 scientific(relative);
+    this->Note =
+      "converged as far as the rounding of the numbers allows: " + residual + "is " + reached;
   }
   else if (this->Converged)
   {
     this->Note = "converged, but the solution varies little, or little flows in it, beside its "
                  "distance from the initial values, of which the tolerance is a share: initial "
                  "values nearer to it make it more exact; " +
-                 residual + "is " + scientific(relative);
+                 residual + "is " + reached;
   }
   else if (stagnates)
   {
-    this->Note = "not converged: " + residual + "stagnates at " + scientific(relative);
+    this->Note = "not converged: " + residual + "stagnates at " + reached;
   }
   else
   {
-    this->Note = "not converged: " + residual + "is " + scientific(relative) + " after " +
-                 std::to_string(n) + " V-cycles, the most allowed";
+    this->Note = "not converged: " + residual + "is " + reached + " after " + std::to_string(n) +
+                 " V-cycles, the most allowed";
   }
 }
 

@@ -34,7 +34,8 @@ struct FirstResidual
  * Error, when it diverges or overflows. The relative residual is ||b - A x|| / ||b - A x_0||, x_0
  * the initial values. If the solution varies much less than it differs from these, or much less
  * flows in it than the initial residual, the goal is smaller by as much (IterateRange,
- * IterateFlow).
+ * IterateFlow), and if coefficients differ much, rows that are divided by their diagonals must meet
+ * the tolerance, too.
  */
 class SMG_EXPORT Convergence
 {
@@ -47,9 +48,10 @@ public:
    * already end the solve, unless the right-hand side has changed since. `share`: as for add(). */
   void begin(double norm, bool mayEnd = true, double share = 1.0);
   /** To be called after a V-cycle; `rounding`: the part of the norm that is due to the rounding
-   * of its terms, if that is more than initially; `share`: see SolveContext::shareOfTolerance().
-   * Throws Error if the residual diverges or overflows. */
-  void add(double norm, double rounding = 0.0, double share = 1.0);
+   * of its terms, if that is more than initially; `share`, `scaled`: see
+   * SolveContext::shareOfTolerance(), scaledResidual(). Throws Error if the residual diverges or
+   * overflows. */
+  void add(double norm, double rounding = 0.0, double share = 1.0, double scaled = 0.0);
 
   /** The last V-cycle was enough, for another reason than its residual. */
   void end()
@@ -87,7 +89,7 @@ public:
   {
     state.part("convergence");
     state(this->Rounding, this->Reference, this->Goal, this->FirstNorm, this->NormBefore,
-      this->Norm, this->Residuals, this->Note, this->Done, this->Converged);
+      this->Norm, this->Residuals, this->ScaledResiduals, this->Note, this->Done, this->Converged);
   }
   /** Adds notes for the user that begin with `what`. */
   void addNotes(Report& report, const std::string& what) const;
@@ -96,14 +98,14 @@ public:
 
 private:
   void setGoal(double share, double rounding);
-  void watch(double relative);
+  void watch();
 
   bool Fixed;
   int Limit;
   double Tolerance;
   double Rounding, Reference, Goal;
   double FirstNorm = 0.0, NormBefore = 0.0, Norm = 0.0;
-  std::vector<double> Residuals;
+  std::vector<double> Residuals, ScaledResiduals;
   std::string Note;
   bool Done = false, Converged = false;
 };

@@ -33,7 +33,7 @@ void Iteration::operator()(bool spareLast)
       this->Run.valueNodes = this->Levels.window().x().capacity();
     }
     this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
-      this->Run.shareOfTolerance(this->StoppingRule.reference()));
+      this->Run.shareOfTolerance(this->StoppingRule.reference()), this->Run.scaledResidual());
     if (this->Run.range)
     {
       this->Run.progress.expect(this->StoppingRule.goal());

@@ -92,6 +92,9 @@ struct SMG_EXPORT SolveContext
    * small beside its distance from the initial values, or what flows in it beside `reference`. 1 if
    * the solve needs neither. */
   double shareOfTolerance(double reference) const;
+  /** The residual of the last pass in rows that are all alike: see IterateFlow. 0 if the solve does
+   * not need it. */
+  double scaledResidual() const { return this->flow ? this->flow->scaledResidual() : 0.0; }
 
   SolveOptions options;
   /** The solution whose correction is solved for; null: the problem itself. */
