@@ -113,6 +113,13 @@ struct ChunkedMesh
     return std::min(this->plan.length, this->vertices - this->firstOf(chunk));
   }
   std::int64_t count() const { return static_cast<std::int64_t>(this->chunks.size()); }
+  /** Where an approximate march ends: some edges farther than what is wanted, since a path may
+   * cross facets whose corners are farther than its end. */
+  double farthest() const
+  {
+    constexpr double Margin = 3.0;
+    return this->plan.within + Margin * this->longestEdge;
+  }
   /** Reads x, y, z of the vertices of a chunk. */
   void readPositions(std::int64_t chunk, std::span<double> positions);
   std::int64_t cells() const

@@ -135,7 +135,7 @@ public:
     : ChunkMarch(mesh, pool)
     , Queue(pool, std::min(mesh.plan.window(), mesh.vertices))
     , Sight(this->Window, pool)
-    , Within(mesh.plan.within + Margin * mesh.longestEdge)
+    , Within(mesh.farthest())
   {
   }
 
@@ -230,10 +230,7 @@ private:
   /** Smaller relative changes of a distance are dropped, since each would be passed on through the
    * whole mesh. */
   double Tolerance = 1e-7;
-  /** Where the march ends: some edges farther than what is wanted, since a path may cross facets
-   * whose corners are farther than its end. */
-  double Within;
-  static constexpr double Margin = 3.0;
+  double Within;          ///< ChunkedMesh::farthest()
   std::int64_t Taken = 0; ///< vertices since the tolerance grew
 };
 

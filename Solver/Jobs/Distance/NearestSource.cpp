@@ -6,7 +6,6 @@
 #include "Solver/Memory/Buffer.h"
 
 #include <algorithm>
-#include <cmath>
 
 // The straight distance from regions of sources, which bounds an approximate march from below, and
 // is the distance itself where the line to the nearest source runs through the mesh (March).
@@ -119,7 +118,7 @@ void findNearestSources(ChunkedMesh& mesh, BlockStore& facets, std::int64_t coun
       const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::NearestSources;
       if (first == 0)
       {
-        std::ranges::fill(nearest, NearestSource{ {}, HUGE_VAL });
+        std::ranges::fill(nearest, NearestSource{ {}, mesh.farthest() });
       }
       else
       {

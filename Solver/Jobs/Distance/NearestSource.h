@@ -57,8 +57,9 @@ private:
   std::vector<Facet> Collected;
 };
 
-/** Finds the nearest source of each vertex of a mesh, and stores it with the mesh. The facets are
- * in memory, as many at once as its limit allows. */
+/** Finds the nearest source of each vertex of a mesh, and stores it with the mesh; farther than
+ * ChunkedMesh::farthest(), that is all that is known. The facets are in memory, as many at once as
+ * its limit allows. */
 void findNearestSources(ChunkedMesh& mesh, BlockStore& facets, std::int64_t count, Workers& threads,
   Progress& progress, Pool& pool);
 
