@@ -3,6 +3,7 @@
 
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
@@ -189,6 +190,11 @@ void vtkStreamingDistance::FillFurtherOutputs(
   paths.Initialize();
   paths.SetPoints(points);
   paths.SetLines(lines);
+  if (summary.previewPoints > 0)
+  {
+    // Save Data then asks for those of the mesh.
+    smg::copyPreviewMarks(*vtkDataObject::GetData(&outputVector, MESH), paths);
+  }
   const std::pair<const char*, vtkDataArray*> arrays[] = { { "To", to }, { "From", from },
     { "Length", length } };
   for (const auto& [name, array] : arrays)

@@ -277,9 +277,8 @@ int vtkStreamingSolver::RequestUpdateExtent(
   const int port = asked->Get(vtkExecutive::FROM_OUTPUT_PORT());
   if (port > MESH)
   {
-    smg::PieceRequest ofTable(outputVector->GetInformationObject(port));
-    ofTable.IsStreamed = false;
-    ofTable.forwardTo(outputVector->GetInformationObject(MESH));
+    const smg::PieceRequest further(outputVector->GetInformationObject(port));
+    further.forwardTo(outputVector->GetInformationObject(MESH));
   }
   // Not the first piece to solve on: if the executive requested that and the input failed, the
   // streamed request would not be reset.
@@ -314,6 +313,10 @@ int vtkStreamingSolver::RequestData(
   this->FillFurtherOutputs(isSolved ? this->GetSummary() : smg::SolveSummary(), *outputVector);
   smg::fillText(
     isSolved ? this->Internal->Shown : smg::SolveSummary(), *vtkTable::GetData(outputVector, TEXT));
+  for (int port = PASSES; !isSolved && port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    smg::markAsFailed(*vtkDataObject::GetData(outputVector, port));
+  }
   return answered;
 }
 

@@ -6,9 +6,11 @@
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -27,6 +29,10 @@ namespace smg
 {
 namespace
 {
+
+/** The field arrays of a preview. */
+constexpr const char* PreviewMarks[] = { PreviewName, FullNumberOfPointsName, FullNumberOfCellsName,
+  PreviewOfReaderName };
 
 /** An array of type `Array` with the values, each converted by `convert`. */
 template <class Array, class T, class Convert>
@@ -145,10 +151,20 @@ void markAsReaders(vtkPointSet& preview)
 
 void removePreviewMarks(vtkPointSet& mesh)
 {
-  for (const char* name :
-    { PreviewName, FullNumberOfPointsName, FullNumberOfCellsName, PreviewOfReaderName })
+  for (const char* name : PreviewMarks)
   {
     mesh.GetFieldData()->RemoveArray(name);
+  }
+}
+
+void copyPreviewMarks(vtkDataObject& preview, vtkDataObject& made)
+{
+  for (const char* name : PreviewMarks)
+  {
+    if (vtkAbstractArray* mark = preview.GetFieldData()->GetAbstractArray(name))
+    {
+      made.GetFieldData()->AddArray(mark);
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+class vtkDataObject;
 class vtkPointSet;
 
 namespace smg
@@ -29,6 +30,8 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT bool isPreview(vtkPointSet& mesh);
 
 /** For what is made of the mesh behind a preview: the pipeline passes field data. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void removePreviewMarks(vtkPointSet& mesh);
+/** For what is made of a preview. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void copyPreviewMarks(vtkDataObject& preview, vtkDataObject& made);
 /** Of a preview: the number of points of the mesh, and of its cells; 0 of other data. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t pointsBehind(vtkPointSet& mesh);
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t cellsBehind(vtkPointSet& mesh);

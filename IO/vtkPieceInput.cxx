@@ -260,14 +260,31 @@ std::string PieceInput::placeOfPiece(int piece, int pieces) const
            : "The input from " + this->producerName();
 }
 
+namespace
+{
+
+/** The output of a filter of the user that arrives at that of a filter. */
+vtkAlgorithmOutput* outputOfUser(vtkAlgorithmOutput* output)
+{
+  while (isAdded(*output->GetProducer()) && output->GetProducer()->GetInputConnection(0, 0))
+  {
+    output = output->GetProducer()->GetInputConnection(0, 0);
+  }
+  return output;
+}
+
+} // namespace
+
+bool PieceInput::isBesideMesh() const
+{
+  vtkAlgorithmOutput* output = outputOfUser(this->Producer->GetOutputPort(this->ProducerPort));
+  return output->GetProducer()->IsA("vtkStreamingSolver") && output->GetIndex() > 0;
+}
+
 std::string PieceInput::producerName() const
 {
-  vtkAlgorithm* named = this->Producer;
-  while (isAdded(*named) && named->GetNumberOfInputConnections(0) > 0)
-  {
-    named = named->GetInputAlgorithm(0, 0);
-  }
-  return nameInPipeline(*named);
+  vtkAlgorithmOutput* output = this->Producer->GetOutputPort(this->ProducerPort);
+  return nameInPipeline(*outputOfUser(output)->GetProducer());
 }
 
 bool PieceInput::isFiltered() const

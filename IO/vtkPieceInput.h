@@ -93,6 +93,10 @@ public:
   /** Whether filters of others are before the consumer. */
   bool isFiltered() const;
 
+  /** Whether the input is what a solver computes besides the mesh, as paths: all of it comes with
+   * whichever streamed piece. */
+  bool isBesideMesh() const;
+
   /** Says that two pieces have different values at a point of both. */
   void noteDifference() { this->Differs = true; }
   /** A note, if that was said, which names the filters of others before the consumer; else empty.

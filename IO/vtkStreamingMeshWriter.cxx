@@ -12,11 +12,13 @@
 #include "IO/vtkAbort.h"
 #include "IO/vtkChosenArrays.h"
 #include "IO/vtkFailures.h"
+#include "IO/vtkLineFile.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
 #include "IO/vtkPropertyRange.h"
+#include "IO/vtkSavedInput.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Solver/Core/Text.h"
@@ -36,6 +38,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -334,7 +337,13 @@ struct vtkStreamingMeshWriter::Internals
       // Perhaps no longer, if a filter has been modified since.
       smg::PieceInput(this->Self, 0).update(0, 1, false);
     }
+    smg::checkSavedInput(this->Self);
     code = vtkErrorCode::UnrecognizedFileTypeError;
+    if (smg::PieceInput(this->Self, 0).isBesideMesh())
+    {
+      this->writeBesideMesh(path, code);
+      return;
+    }
     const WriteFunction write = this->Self.RestoreOrder ? writeInOriginalOrder : writerOf(path);
     smg::checkForm(path, this->Self.WriteText);
     code = vtkErrorCode::UnknownError;
@@ -348,6 +357,21 @@ struct vtkStreamingMeshWriter::Internals
     const auto chosen = smg::passChosenArrays(this->Self.GetInputConnection(0, 0), this->choice());
     smg::PieceInput input(*chosen->GetOutputPort());
     this->write(input, write, path, progress);
+  }
+
+  /** Writes what a solver computes besides the mesh, of the whole mesh, whatever is shown. */
+  void writeBesideMesh(const std::filesystem::path& path, int& code)
+  {
+    smg::checkLineFile(path);
+    code = vtkErrorCode::UnknownError;
+    smg::PieceInput input(this->Self, 0);
+    const int pieces = smg::PieceCount{ .given = this->Self.NumberOfStreamedPieces }.first(input);
+    auto* lines = vtkPolyData::SafeDownCast(input.update(0, pieces, true));
+    if (!lines || lines->GetNumberOfLines() == 0)
+    {
+      throw smg::Error("There are no lines to save: look at what the filter before delivers.");
+    }
+    smg::writeLines(*lines, path, this->Self.WriteText);
   }
 
   void write(smg::PieceInput& input, WriteFunction write, const std::filesystem::path& path,
@@ -415,7 +439,8 @@ void vtkStreamingMeshWriter::RemoveAllCellArrays()
 
 int vtkStreamingMeshWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  smg::acceptMeshes(*info);
+  // Others are refused in a sentence.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
 

@@ -23,6 +23,9 @@
  * always requests real pieces, not previews. The file is renamed when it is complete; after an
  * error or an abort no new file is left.
  *
+ * The shortest paths of vtkStreamingDistance are written as .vtp, .vtk or .obj, those of the whole
+ * mesh. What is made of a preview and is no piece of a mesh, as a table, is an error.
+ *
  * With several processes, process 0 writes and the others wait for it.
  *
  * @sa vtkStreamingMeshReader vtkStreamingMeshKeys

@@ -13,12 +13,14 @@
 #include "vtkPVXMLElement.h"
 #include "vtkSMDomain.h"
 #include "vtkSMInputProperty.h"
+#include "vtkSMPropertyIterator.h"
 #include "vtkSMProxy.h"
 #include "vtkSMProxyDefinitionManager.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
 
 #include <algorithm>
 #include <iterator>
@@ -31,9 +33,78 @@
 namespace
 {
 
-/** Data with a field array of a certain name, or without any of some. It is added to prototypes of
- * writers, which ParaView asks whether they take some data: named in XML, its class would be an
- * error on a client that has not loaded the plugin, unlike its server. */
+/** An output in the pipeline. */
+struct Output
+{
+  vtkSMProxy* Source;
+  unsigned int Port;
+
+  vtkPVDataInformation* data() const
+  {
+    auto* source = vtkSMSourceProxy::SafeDownCast(this->Source);
+    return source ? source->GetDataInformation(this->Port) : nullptr;
+  }
+
+  /** Whether its data have a field array. */
+  bool has(const std::string& name) const
+  {
+    vtkPVDataInformation* information = this->data();
+    return information && information->GetArrayInformation(name.c_str(), vtkDataObject::FIELD);
+  }
+
+  bool isMesh() const
+  {
+    vtkPVDataInformation* information = this->data();
+    // Of blocks, the type is that of one of them.
+    const bool isSingle = information && !information->IsCompositeDataSet();
+    const int type = isSingle ? information->GetDataSetType() : -1;
+    return type == VTK_POLY_DATA || type == VTK_UNSTRUCTURED_GRID;
+  }
+
+  /** Whether it is made by this plugin of the whole mesh before it, unless a mark says otherwise:
+   * a mesh of its own, or a table on a solve. */
+  bool isOfWholeMesh() const
+  {
+    const std::string_view name(
+      this->Source->GetVTKClassName() ? this->Source->GetVTKClassName() : "");
+    vtkSMProperty* error = this->Source->GetProperty("Error");
+    return name == "vtkStreamingMeshPreview" || name == "vtkStreamingMeshSimplification" ||
+           (this->Port > 0 && error && error->GetInformationOnly());
+  }
+};
+
+/** Whether its data, or those that they are made of, have a field array: tables, and what some
+ * filters make of a mesh, lose those of their input. */
+bool isMadeOf(const Output& output, const std::string& mark, std::set<vtkSMProxy*> seen = {})
+{
+  if (!output.Source || output.has(mark))
+  {
+    return output.Source != nullptr;
+  }
+  if (output.isOfWholeMesh() || !seen.insert(output.Source).second)
+  {
+    return false;
+  }
+  const auto properties =
+    vtkSmartPointer<vtkSMPropertyIterator>::Take(output.Source->NewPropertyIterator());
+  for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
+  {
+    auto* input = vtkSMInputProperty::SafeDownCast(properties->GetProperty());
+    for (unsigned int k = 0; input && k < input->GetNumberOfProxies(); ++k)
+    {
+      if (isMadeOf({ input->GetProxy(k), input->GetOutputPortForConnection(k) }, mark, seen))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/** What a writer takes: data with all of some marks, made of data with any of some, or of data with
+ * none. It is added to prototypes of writers, which ParaView asks whether they take some data:
+ * named in XML, its class would be an error on a client that has not loaded the plugin, unlike its
+ * server. */
 class vtkSMMarkDomain : public vtkSMDomain
 {
 public:
@@ -45,12 +116,13 @@ public:
     const vtkSMUncheckedPropertyHelper input(property);
     for (unsigned int k = 0; k < input.GetNumberOfElements(); ++k)
     {
-      auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy(k));
-      vtkPVDataInformation* data =
-        source ? source->GetDataInformation(input.GetOutputPort(k)) : nullptr;
-      const auto has = [data](const std::string& name)
-      { return data && data->GetArrayInformation(name.c_str(), vtkDataObject::FIELD); };
-      if (std::ranges::any_of(this->Refused, has) || !std::ranges::all_of(this->Required, has))
+      const Output output{ input.GetAsProxy(k), input.GetOutputPort(k) };
+      const auto has = [&](const std::string& mark) { return output.has(mark); };
+      const auto isOf = [&](const std::string& mark) { return isMadeOf(output, mark); };
+      // Our other writers take meshes with marks.
+      const bool isForOthers = output.isMesh() && std::ranges::any_of(this->Origins, has);
+      if (std::ranges::any_of(this->Refused, isOf) || !std::ranges::all_of(this->Required, has) ||
+          (!this->Origins.empty() && (isForOthers || std::ranges::none_of(this->Origins, isOf))))
       {
         return NOT_IN_DOMAIN;
       }
@@ -58,7 +130,7 @@ public:
     return IN_DOMAIN;
   }
 
-  std::vector<std::string> Required, Refused;
+  std::vector<std::string> Required, Refused, Origins;
 };
 
 vtkStandardNewMacro(vtkSMMarkDomain);
@@ -69,6 +141,12 @@ const char* const DomainName = "marks";
 bool isOurs(const char* className)
 {
   return className && std::string_view(className) == "vtkStreamingMeshWriter";
+}
+
+/** Of these, of that which only explains why no table or image is written. */
+bool isForOtherData(vtkSMProxy& writer)
+{
+  return std::string_view(writer.GetXMLName()) == "WholeMeshRefusal";
 }
 
 std::vector<std::string> suffixesIn(vtkPVXMLElement* hints)
@@ -84,7 +162,8 @@ std::vector<std::string> suffixesIn(vtkPVXMLElement* hints)
 }
 
 /** Adds the suffixes of all writers of others to those of a writer that only explains why they do
- * not write; those of our other writers are left to these. */
+ * not write; those of our other writers are left to these, unless it is for what none of them
+ * takes. */
 void addSuffixes(vtkSMProxy& writer)
 {
   vtkPVXMLElement* hints = writer.GetHints();
@@ -103,7 +182,7 @@ void addSuffixes(vtkSMProxy& writer)
     vtkPVXMLElement* definition = definitions->GetProxyDefinition();
     vtkPVXMLElement* ofWriter = definitions->GetProxyHints();
     vtkPVXMLElement* its = ofWriter ? ofWriter->FindNestedElementByName("WriterFactory") : nullptr;
-    if (!its || its->GetAttribute("others"))
+    if (!its || (its->GetAttribute("others") && !isForOtherData(writer)))
     {
       continue;
     }
@@ -111,7 +190,14 @@ void addSuffixes(vtkSMProxy& writer)
     (isOurs(definition ? definition->GetAttribute("class") : nullptr) ? written : wanted)
       .insert(suffixes.begin(), suffixes.end());
   }
-  std::erase_if(wanted, [&](const std::string& suffix) { return written.contains(suffix); });
+  if (isForOtherData(writer))
+  {
+    wanted.insert(written.begin(), written.end());
+  }
+  else
+  {
+    std::erase_if(wanted, [&](const std::string& suffix) { return written.contains(suffix); });
+  }
   const std::vector<std::string> own = suffixesIn(hints);
   wanted.insert(own.begin(), own.end());
   std::string text;
@@ -134,6 +220,11 @@ void guard(vtkSMProxy& writer)
   if (!isOurs(writer.GetVTKClassName()))
   {
     domain->Refused = marks;
+  }
+  else if (isForOtherData(writer))
+  {
+    domain->Origins = marks;
+    addSuffixes(writer);
   }
   else
   {

@@ -122,7 +122,8 @@ def definition(group, name):
 
 names = [("filters", name) for name in ("MeshRegion", "MeshHandle", "MeshCondition", "StreamingPoisson", "StreamingBlend",
                                         "StreamingMeshDeformation", "StreamingMeshSmoothing", "StreamingDistance")]
-names += [("writers", name) for name in ("BigMeshWriter", "BigMeshPieces", "BigMeshFailure", "BigMeshRefusal")]
+names += [("writers", name) for name in ("BigMeshWriter", "BigMeshPieces", "BigMeshFailure", "BigMeshRefusal",
+                                     "WholeMeshRefusal")]
 for turn in range(2):
     known = {name: definition(*name) for name in names}
     # In the other order, since a definition may take something from another.
