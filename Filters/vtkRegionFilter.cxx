@@ -161,7 +161,8 @@ struct vtkRegionFilter::Internals
     };
     smg::Progress progress(smg::progressOf(this->Self));
     const auto warn = [this](const std::string& sentence) { this->FarPoints.warn(sentence); };
-    const smg::RegionContext context{ input, mesh, selection, stamp, progress, warn };
+    const smg::RegionContext context{ input, mesh, selection, this->Selected, stamp, progress,
+      warn };
     return this->isOfPoints() ? this->Region.fetchPiece(request, context, held)
                               : this->Marked.fetchPiece(request, context, held);
   }
@@ -222,6 +223,7 @@ struct vtkRegionFilter::Internals
   std::vector<std::int64_t> Ids;
   std::vector<double> Points;
   smg::PointRegion Region;
+  smg::KeptSelection Selected;
   smg::MarkedRegion Marked;
 
   smg::HeldCount Count;

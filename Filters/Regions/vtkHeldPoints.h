@@ -3,6 +3,7 @@
 
 #include "Filters/Pieces/vtkPieceRequest.h"
 #include "Filters/Regions/RegionSettings.h"
+#include "Filters/Regions/vtkKeptSelection.h"
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Jobs/Projection/PointProjection.h"
@@ -111,7 +112,8 @@ struct RegionContext
   PieceInput& input; ///< of the region filter
   /** The mesh to search: the same points as those of the input. */
   PieceInput& mesh;
-  vtkSelection* selection;           ///< nullptr: not connected
+  vtkSelection* selection; ///< nullptr: not connected
+  KeptSelection& kept;
   std::function<InputStamp()> stamp; ///< of the current mesh and selection
   Progress& progress;
   std::function<void(const std::string&)> warn;

@@ -83,18 +83,25 @@ HeldPoints DisplayedRegion::find(
     case PointRegionSettings::Kind::Selection:
       return this->holdSelected(mesh, context);
     case PointRegionSettings::Kind::Ids:
-      return isPreview(mesh) ? this->holdNear(mesh, places, context) : this->holdIds(mesh, context);
+      return isPreview(mesh) ? this->holdNear(mesh, places, this->Asked.radius, context)
+                             : this->holdIds(mesh, context);
     default:
-      return this->holdNear(mesh, this->Asked.points, context);
+      return this->holdNear(mesh, this->Asked.points, this->Asked.radius, context);
   }
 }
 
 HeldPoints DisplayedRegion::holdSelected(vtkPointSet& mesh, const RegionContext& context) const
 {
+  if (context.kept.isOfAnother(mesh, *context.selection))
+  {
+    const double radius = this->Asked.radius < 0.0 ? context.kept.radius() : this->Asked.radius;
+    return this->holdNear(mesh, context.kept.places(), radius, context);
+  }
   const std::vector<std::int64_t> points = selectPoints(mesh, context);
+  context.kept.keep(mesh, *context.selection, points);
   if (this->Asked.radius > 0.0 || (this->Asked.rings > 0 && !isPreview(mesh)))
   {
-    return this->holdNear(mesh, positionsOf(mesh, points), context);
+    return this->holdNear(mesh, positionsOf(mesh, points), this->Asked.radius, context);
   }
   return heldByIds(numbersOfPoints(mesh), IdList(points));
 }
@@ -109,11 +116,11 @@ HeldPoints DisplayedRegion::holdIds(vtkPointSet& mesh, const RegionContext& cont
     return heldByIds(ids, this->Ids);
   }
   checkIds(this->Ids, places.isFound());
-  return this->holdNear(mesh, places.positions(), context);
+  return this->holdNear(mesh, places.positions(), this->Asked.radius, context);
 }
 
-HeldPoints DisplayedRegion::holdNear(
-  vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const
+HeldPoints DisplayedRegion::holdNear(vtkPointSet& mesh, const std::vector<double>& places,
+  double asked, const RegionContext& context) const
 {
   std::optional<CellParts> parts; // of the same points
   if (!hasSimplices(mesh))
@@ -123,7 +130,7 @@ HeldPoints DisplayedRegion::holdNear(
   const MeshInMemory whole(parts ? parts->mesh() : mesh);
   // Edges of a preview are not those of the mesh.
   const int rings = isPreview(mesh) ? 0 : this->Asked.rings;
-  const double radius = std::max(0.0, this->Asked.radius);
+  const double radius = std::max(0.0, asked);
   const auto project = [&](const std::vector<double>& points)
   {
     PointProjection projection(points, { radius, rings }, whole.cellType());
@@ -236,16 +243,23 @@ std::vector<double> StreamedRegion::selectedPlaces(
 {
   auto* displayed = vtkPointSet::SafeDownCast(context.input.update(0, 1, false));
   const bool isPreview = smg::isPreview(*displayed);
+  if (context.kept.isOfAnother(*displayed, *context.selection))
+  {
+    radius = this->Asked.radius < 0.0 ? context.kept.radius() : radius;
+    const bool isAlone = radius == 0.0 && this->Asked.rings == 0 && !context.kept.ids().empty();
+    found.ids = isAlone ? IdList(context.kept.ids()) : IdList();
+    return isAlone ? std::vector<double>() : context.kept.places();
+  }
   if (!isPreview && hasSeveralProcesses() && isByNumber(*context.selection))
   {
     throw Error("The selection of the region is by numbers in the pieces of several processes: "
                 "select by GlobalIds, or use Ids.");
   }
   const std::vector<std::int64_t> points = selectPoints(*displayed, context);
+  context.kept.keep(*displayed, *context.selection, points);
   if (isPreview && this->Asked.radius < 0.0)
   {
-    // Balls of this radius around the corners of triangles with this edge length leave no gap.
-    radius = meanEdgeLength(MeshInMemory(*displayed)) / std::sqrt(3.0);
+    radius = radiusBetween(MeshInMemory(*displayed));
   }
   if (!isPreview && radius == 0.0 && this->Asked.rings == 0)
   {

@@ -33,8 +33,8 @@ private:
     vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const;
   HeldPoints holdSelected(vtkPointSet& mesh, const RegionContext& context) const;
   HeldPoints holdIds(vtkPointSet& mesh, const RegionContext& context) const;
-  HeldPoints holdNear(
-    vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const;
+  HeldPoints holdNear(vtkPointSet& mesh, const std::vector<double>& places, double radius,
+    const RegionContext& context) const;
 
   PointRegionSettings Asked;
   IdList Ids;

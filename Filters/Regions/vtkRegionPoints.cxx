@@ -21,6 +21,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <numeric>
 #include <sstream>
@@ -44,6 +45,11 @@ double meanEdgeLength(const MeshInMemory& mesh)
   MeshBlock block;
   mesh.source()->next(block);
   return smg::meanEdgeLength(block, mesh.cellType());
+}
+
+double radiusBetween(const MeshInMemory& mesh)
+{
+  return meanEdgeLength(mesh) / std::sqrt(3.0);
 }
 
 std::vector<std::int64_t> idsOf(vtkPointSet& mesh, const PointRegionSettings& settings)

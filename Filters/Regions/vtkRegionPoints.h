@@ -22,6 +22,9 @@ std::vector<double> positionsOf(vtkPointSet& mesh, const std::vector<std::int64_
 /** The mean edge length of the mesh: see meanEdgeLength() of a block. */
 double meanEdgeLength(const MeshInMemory& mesh);
 
+/** The radius of balls that leave no gap around the corners of triangles of that edge length. */
+double radiusBetween(const MeshInMemory& mesh);
+
 /**
  * The ids of the points of the mesh, of the kind in the settings. Throws Error if there are none.
  */

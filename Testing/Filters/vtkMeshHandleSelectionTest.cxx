@@ -180,6 +180,47 @@ TEST_F(VtkMeshHandleSelection, OnThePreviewHoldsWhatTheSelectedPointsStandFor)
   EXPECT_EQ(collectStreamed(this->Handle, 7).heldIds(), influenced(this->Mesh, selected, { 0, 2 }));
 }
 
+/** Numbers are those of what is shown when the selection is applied. */
+TEST_F(VtkMeshHandleSelection, StaysInItsPlaceWhenTheMeshIsShownOtherwise)
+{
+  this->Reader->SetMaximumPointsInMemory(100);
+  for (const auto& [field, radius] : { std::pair(vtkSelectionNode::POINT, -1.0),
+         std::pair(vtkSelectionNode::POINT, 0.0), std::pair(vtkSelectionNode::CELL, -1.0) })
+  {
+    this->Handle->SetRadius(radius);
+    this->Reader->SetPreviewPoints(300);
+    this->Reader->SetMaximumPointsInMemory(100);
+    this->select<vtkIdTypeArray>(vtkSelectionNode::INDICES, field, { 0, 17, 18, 100 });
+    const HandleUnion onPreview = collectWhole(this->Handle);
+    const HandleUnion onMesh = collectStreamed(this->Handle, 7);
+    this->Reader->SetPreviewPoints(500);
+    const HandleUnion onFiner = collectWhole(this->Handle);
+    ASSERT_GT(vtkPointSet::SafeDownCast(this->displayed())->GetNumberOfPoints(), 400);
+    for (const std::int64_t id : onFiner.heldIds())
+    {
+      EXPECT_TRUE(onMesh.values.at(id).mask) << id;
+    }
+    EXPECT_GT(onFiner.held(), 0);
+    EXPECT_EQ(collectStreamed(this->Handle, 7), onMesh);
+    this->Reader->SetMaximumPointsInMemory(1000000);
+    EXPECT_EQ(collectWhole(this->Handle), onMesh);
+    EXPECT_EQ(collectStreamed(this->Handle, 7), onMesh);
+    // As it was shown first.
+    this->Reader->SetMaximumPointsInMemory(100);
+    this->Reader->SetPreviewPoints(300);
+    EXPECT_EQ(collectWhole(this->Handle), onPreview);
+  }
+
+  // From the whole mesh to a preview.
+  this->Handle->SetRadius(-1.0);
+  this->Reader->SetMaximumPointsInMemory(1000000);
+  this->select<vtkIdTypeArray>(vtkSelectionNode::INDICES, vtkSelectionNode::POINT, { 4, 77, 1500 });
+  const HandleUnion onMesh = collectWhole(this->Handle);
+  this->Reader->SetMaximumPointsInMemory(100);
+  EXPECT_EQ(collectWhole(this->Handle).held(), 3);
+  EXPECT_EQ(collectStreamed(this->Handle, 7), onMesh);
+}
+
 TEST_F(VtkMeshHandleSelection, OnThePreviewGlobalIdsArePointsOfTheMesh)
 {
   this->Reader->SetMaximumPointsInMemory(100);
