@@ -2,6 +2,7 @@
 #include "Filters/Tasks/vtkSolveEstimate.h"
 
 #include "IO/Conversion/FreeSpace.h"
+#include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkSingleBlock.h"
@@ -94,6 +95,10 @@ JobEstimate estimateFor(
   if (const std::string file = fileOf(filter); !file.empty())
   {
     return estimateOf({ file, places }, present ? *present : *nothing);
+  }
+  if (isFailed(filter.GetInputDataObject(0, 0)))
+  {
+    throw Error("the input has failed: see the error of the filter before this one.");
   }
   if (present && isOrdinaryMesh(*present) && !isPreview(*present) && !hasSeveralProcesses())
   {

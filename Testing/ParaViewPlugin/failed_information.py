@@ -80,4 +80,13 @@ for proxy, none in zip(filters, before):
     assert information(proxy) == none, (name, information(proxy), none)
     pieces.Set(0)
     proxy.SMProxy.UpdateVTKObjects()
+# What failed has no size, and is no piece of a mesh.
+empty = MeshHandle(Input=Sphere(), Region="Selection")
+estimated = [proxy for proxy in filters if proxy.SMProxy.GetProperty("Estimate")]
+assert len(estimated) == 6, estimated
+for proxy in estimated:
+    proxy.Input = empty
+    update(proxy)
+    proxy.UpdatePropertyInformation()
+    assert proxy.GetPropertyValue("Estimate").startswith("Not known: the input has failed"), proxy.GetXMLName()
 os.write(1, b"passed\n")
