@@ -46,6 +46,19 @@ double fromTriangle(const StreamMesh& mesh, std::size_t firstCorner, const Vecto
   return least;
 }
 
+IndexedTestMesh twoSquares()
+{
+  IndexedTestMesh squares;
+  for (const double z : { 0.0, 1.0 })
+  {
+    squares.positions.insert(squares.positions.end(), { 0, 0, z, 1, 0, z, 1, 1, z, 0, 1, z });
+    const std::int64_t first = z > 0.0 ? 4 : 0;
+    squares.corners.insert(
+      squares.corners.end(), { first, first + 1, first + 2, first, first + 2, first + 3 });
+  }
+  return squares;
+}
+
 /** Checks all paths of a description on a mesh. */
 void checkPaths(const StreamMesh& mesh, const Solved& solved)
 {
@@ -110,6 +123,27 @@ TEST(ShortestPaths, AreOnTheSurfaceAndAsLongAsTheDistance)
       }
     }
   }
+}
+
+/** Two squares apart from each other. */
+TEST(ShortestPaths, ThatAreMissingAreNamed)
+{
+  const MemoryMesh mesh(toStream(twoSquares()));
+  const auto notes = [&](const std::vector<std::int64_t>& ends, double within)
+  {
+    DistanceDescription description = fromPoints({ 0 }, PathAccuracy::Exact);
+    description.to = { Region(Region::Vertices{ ends }) };
+    description.within = within;
+    return measure(mesh, description).report.notes;
+  };
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(notes({ 1, 2 }, HUGE_VAL), Notes());
+  EXPECT_EQ(
+    notes({ 1, 5 }, HUGE_VAL), Notes({ "There is no path to vertex 5: no source reaches it." }));
+  EXPECT_EQ(notes({ 1, 7, 5 }, HUGE_VAL),
+    Notes({ "There are no paths to vertices 5, 7: no source reaches them." }));
+  EXPECT_EQ(notes({ 1 }, 0.25),
+    Notes({ "There is no path to vertex 1: no source reaches it within a distance of 0.25." }));
 }
 
 /** Where three pages meet, the path goes on in the page that leads to the source, however near to

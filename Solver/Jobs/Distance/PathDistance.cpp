@@ -257,6 +257,35 @@ std::vector<PathEnd> pathEnds(const StoredMesh& mesh, const DistanceDescription&
   return ends;
 }
 
+/** Names the vertices to which there is no path: who draws the paths sees fewer than were wanted.
+ */
+void noteMissing(Report& report, double within)
+{
+  constexpr std::int64_t Named = 10;
+  std::int64_t missing = 0;
+  std::string numbers;
+  for (const Report::Path& path : report.distance->paths)
+  {
+    if (std::isfinite(path.length))
+    {
+      continue;
+    }
+    if (++missing <= Named)
+    {
+      numbers += (missing == 1 ? "" : ", ") + std::to_string(path.to);
+    }
+  }
+  if (missing > 0)
+  {
+    const bool isOne = missing == 1;
+    report.notes.push_back(
+      (isOne ? "There is no path to vertex " : "There are no paths to vertices ") + numbers +
+      (missing > Named ? " and " + std::to_string(missing - Named) + " more" : "") +
+      ": no source reaches " + (isOne ? "it" : "them") +
+      (std::isinf(within) ? "." : " within a distance of " + shortest(within) + "."));
+  }
+}
+
 /** Marches, reports the passes, and follows paths. */
 void march(ChunkedMesh& chunks, bool isExact, const std::vector<PathEnd>& ends, DistanceRun& run)
 {
@@ -291,6 +320,7 @@ void march(ChunkedMesh& chunks, bool isExact, const std::vector<PathEnd>& ends, 
     report.distance->paths.push_back(std::move(found));
   }
   std::ranges::sort(report.distance->paths, {}, &Report::Path::to);
+  noteMissing(report, chunks.plan.within);
 }
 
 /** Makes what is farther than wanted as if it had not been reached. */
