@@ -9,6 +9,8 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
+#include <string>
+
 vtkStandardNewMacro(vtkMeshRegion);
 
 vtkMeshRegion::vtkMeshRegion()
@@ -32,7 +34,12 @@ void vtkMeshRegion::Check()
 void vtkMeshRegion::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output)
 {
   output.ShallowCopy(&piece);
-  smg::addToRegion(output, this->RegionName, held);
+  const bool replaces = smg::addToRegion(output, this->RegionName, held);
+  this->WarnOfReplaced(
+    replaces ? "The array " + std::string(this->RegionName) +
+                 " of the input, which no Mesh Region before this one has made, is replaced by the "
+                 "region: choose another RegionName to keep both."
+             : "");
   // Views show the region.
   output.GetPointData()->SetActiveScalars(this->RegionName);
 }

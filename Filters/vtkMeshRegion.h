@@ -27,8 +27,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** The name of the point array. An array of this name that is no region is an error. Default:
-   * "RegionMask". */
+  /** The name of the point array. An array of this name of the input is replaced, with a warning,
+   * if it is of unsigned char with one component, as those of saved results; another is an error.
+   * Default: "RegionMask". */
   vtkSetStringMacro(RegionName);
   vtkGetStringMacro(RegionName);
   ///@}

@@ -14,6 +14,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Projection/PointProjection.h"
@@ -42,6 +43,7 @@ struct vtkRegionFilter::Internals
     , FarPoints(self)
     , NoPoint(self)
     , Unused(self)
+    , Replaced(self)
   {
   }
 
@@ -229,7 +231,7 @@ struct vtkRegionFilter::Internals
   smg::HeldCount Count;
   std::int64_t PointsBehind = 0; ///< of a preview, whose points were counted
   std::string Outcome;
-  smg::WarnOnce FarPoints, NoPoint, Unused;
+  smg::WarnOnce FarPoints, NoPoint, Unused, Replaced;
 };
 
 vtkRegionFilter::vtkRegionFilter()
@@ -256,6 +258,11 @@ std::string vtkRegionFilter::RegionArray() const
                      ", or another Region.");
   }
   return name;
+}
+
+void vtkRegionFilter::WarnOfReplaced(const std::string& sentence)
+{
+  this->Internal->Replaced.warn(smg::withProperties(sentence, *this));
 }
 
 std::string vtkRegionFilter::UnusedProperty()

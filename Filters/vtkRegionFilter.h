@@ -213,6 +213,9 @@ protected:
   /** Fills the output with the piece and the data of its held points. Throws smg::Error. */
   virtual void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) = 0;
 
+  /** Warns, once, that Deliver() has replaced an array of the input; "": it has not. */
+  void WarnOfReplaced(const std::string& sentence);
+
   /** The name of the array of MASK or TAG. Throws smg::Error if there is none. */
   std::string RegionArray() const;
 

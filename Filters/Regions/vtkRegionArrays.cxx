@@ -30,19 +30,22 @@ bool isRegion(vtkPointSet& mesh, const std::string& name)
 
 } // namespace
 
-void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held)
+bool addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held)
 {
   vtkPointData& points = *mesh.GetPointData();
   vtkNew<vtkUnsignedCharArray> region;
-  if (vtkAbstractArray* present = points.GetAbstractArray(name.c_str()))
+  vtkAbstractArray* present = points.GetAbstractArray(name.c_str());
+  auto* mask = vtkUnsignedCharArray::SafeDownCast(present);
+  if (present && (!mask || mask->GetNumberOfComponents() != 1))
   {
-    if (!isRegion(mesh, name) || !vtkUnsignedCharArray::SafeDownCast(present))
-    {
-      throw Error(
-        "The input has a point array " + name +
-        ", which is not that of a Mesh Region before this one: choose another RegionName, "
-        "or take the array away with Pass Arrays.");
-    }
+    throw Error(
+      "The input has a point array " + name +
+      ", which is not that of a Mesh Region before this one: choose another RegionName, "
+      "or take the array away with Pass Arrays.");
+  }
+  const bool isOfRegion = isRegion(mesh, name);
+  if (present && isOfRegion)
+  {
     region->DeepCopy(present);
   }
   else
@@ -59,10 +62,11 @@ void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& h
     }
   }
   points.AddArray(region);
-  if (!isRegion(mesh, name))
+  if (!isOfRegion)
   {
     appendFieldText(mesh, MeshRegionsName, name);
   }
+  return present && !isOfRegion;
 }
 
 std::vector<Where> placesOn(vtkPointSet& mesh, const char* text, const char* property)

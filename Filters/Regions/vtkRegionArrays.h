@@ -17,9 +17,11 @@ namespace smg
 /** The field array of strings with the names of the point arrays that Mesh Regions have added. */
 inline constexpr const char* MeshRegionsName = "MeshRegions";
 
-/** Adds the held points to the region `name` of the mesh, a point array that is 1 in the region.
- * Throws Error if the mesh has an array of that name which is no region. */
-void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held);
+/** Adds the held points to the region `name` of the mesh, a point array that is 1 in the region. An
+ * array of that name which looks like one, as that of a saved result, but is of no Mesh Region of
+ * the pipeline, is replaced. Throws Error if the mesh has another array of that name.
+ * @return whether an array was replaced */
+bool addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held);
 
 /** The regions of the mesh, and the places that `text`, the property `property` of a filter, lists
  * in JSON, if there is one. Throws Error. */

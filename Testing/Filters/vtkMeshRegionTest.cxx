@@ -256,6 +256,39 @@ TEST_F(VtkMeshRegion, IsSearchedOnceAsLongAsTheMeshIsTheSame)
   EXPECT_LE(reads, 6);
 }
 
+/** As those of saved results, whose field data no longer name the regions. */
+TEST_F(VtkMeshRegion, TheArrayOfNoRegionIsReplaced)
+{
+  this->Region->SetRegion(vtkMeshRegion::IDS);
+  this->Region->AddId(3);
+  const vtkNew<vtkMeshRegion> second;
+  second->SetInputConnection(this->Region->GetOutputPort());
+  second->SetRegion(vtkMeshRegion::IDS);
+  second->AddId(8);
+  this->Last = second;
+  for (const bool isTaken : { true, false, true })
+  {
+    const char* name = isTaken ? "mask" : "RegionMask";
+    const std::string replaced = "The array mask of the input, which no Mesh Region before";
+    Errors warnings(this->Region);
+    const Errors ofSecond(second);
+    for (vtkMeshRegion* region : { this->Region.Get(), second.Get() })
+    {
+      region->SetRegionName(name);
+    }
+    ASSERT_TRUE(updatePiece(second, 0, 1));
+    vtkPointData* points = vtkPointSet::SafeDownCast(second->GetOutput())->GetPointData();
+    double marked = 0.0;
+    for (vtkIdType i = 0; i < points->GetNumberOfTuples(); ++i)
+    {
+      marked += points->GetArray(name)->GetTuple1(i);
+    }
+    EXPECT_EQ(marked, 2.0) << name;
+    EXPECT_EQ(warnings.contain(replaced), isTaken) << warnings.text();
+    EXPECT_EQ(ofSecond.text(), "");
+  }
+}
+
 TEST_F(VtkMeshRegion, MistakesAreOneErrorEach)
 {
   Errors errors(this->Region);
@@ -274,7 +307,7 @@ TEST_F(VtkMeshRegion, MistakesAreOneErrorEach)
   expect("has 3 components", [&] { this->Region->SetMaskArray("three"); });
   expect("not a number", [&] { this->Region->SetMaskArray("nan"); });
   set(vtkMeshRegion::EVERYWHERE);
-  expect("not that of a Mesh Region before this one", [&] { this->Region->SetRegionName("mask"); });
+  expect("not that of a Mesh Region before this one", [&] { this->Region->SetRegionName("three"); });
   expect("has no name", [&] { this->Region->SetRegionName(""); });
   this->Region->SetRegionName("RegionMask");
   expect("holds nothing",
