@@ -19,7 +19,7 @@ namespace
 void refresh(vtkObject* caller, unsigned long, void*, void*)
 {
   auto* proxy = vtkSMProxy::SafeDownCast(caller);
-  for (const char* name : { "Outcome", "Notes", "Error" })
+  for (const char* name : { "Outcome", "Notes", "Error", "HeldBounds" })
   {
     if (vtkSMProperty* property = proxy->GetProperty(name))
     {

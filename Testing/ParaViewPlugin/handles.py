@@ -159,6 +159,14 @@ mask, transformed, rotation, scale = streamed(second)
 assert abs(transformed - target).max() < 1e-12
 assert abs(rotation[later] - [0, -numpy.radians(160), 0]).max() < 1e-12
 
+# The box is around the points that are held now, as soon as they are.
+for center in (list(middle), list(points[ids[5]])):
+    second.RegionFunction.Center = center
+    second.UpdatePipeline()
+    box = second.Transform.SMProxy.GetProperty("ReferenceBounds")
+    box = numpy.array([box.GetElement(k) for k in range(6)]).reshape(3, 2)
+    assert (abs(box - numpy.reshape(center, (3, 1))) < 0.03 + 1e-6).all() and (box[:, 0] < box[:, 1]).all(), box
+
 # A selection on the preview holds the vertices that its points represent.
 handle = MeshHandle(Input=reader, Region="Selection")
 numbers = [3, 100, 101, 400]

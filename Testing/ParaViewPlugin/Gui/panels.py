@@ -104,8 +104,7 @@ def select_mesh():
 
 
 def boxed():
-    handle = GetActiveSource()
-    handle.UpdatePropertyInformation()
+    handle = GetActiveSource()  # whose panel says so without being asked
     bounds = list(handle.GetPropertyValue("HeldBounds"))
     assert all(abs(b - c) <= RADIUS for b, c in zip(bounds, (EAR[0], EAR[0], EAR[1], EAR[1], EAR[2], EAR[2]))), bounds
     assert handle.Transform.GetXMLName() == "HandleTransform", handle.Transform.GetXMLName()
