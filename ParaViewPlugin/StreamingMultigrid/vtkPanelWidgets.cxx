@@ -4,6 +4,7 @@
 #include "IO/Files/Decompressor.h"
 
 #include "pqApplicationCore.h"
+#include "pqDoubleVectorPropertyWidget.h"
 #include "pqIntVectorPropertyWidget.h"
 #include "pqInterfaceTracker.h"
 #include "pqPropertyWidget.h"
@@ -18,6 +19,7 @@
 #include "vtkSmartPointer.h"
 
 #include <QApplication>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QTimer>
@@ -110,14 +112,23 @@ private:
 
 pqPropertyWidget* newNumber(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
 {
-  auto* widget = new pqIntVectorPropertyWidget(property, proxy, parent);
+  pqPropertyWidget* widget = nullptr;
+  if (property->IsA("vtkSMDoubleVectorProperty"))
+  {
+    widget = new pqDoubleVectorPropertyWidget(property, proxy, parent);
+  }
+  else
+  {
+    widget = new pqIntVectorPropertyWidget(property, proxy, parent);
+  }
   vtkPVXMLElement* hints = property->GetHints();
   vtkPVXMLElement* unit = hints ? hints->FindNestedElementByName("Unit") : nullptr;
   if (unit && widget->layout())
   {
     auto* label = new QLabel(unit->GetAttributeOrEmpty("text"), widget);
     label->setObjectName("Unit");
-    widget->layout()->addWidget(label);
+    auto* grid = qobject_cast<QGridLayout*>(widget->layout());
+    grid ? grid->addWidget(label, 0, grid->columnCount()) : widget->layout()->addWidget(label);
   }
   return widget;
 }
