@@ -14,7 +14,6 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
-#include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Projection/PointProjection.h"
@@ -262,7 +261,7 @@ std::string vtkRegionFilter::RegionArray() const
 
 void vtkRegionFilter::WarnOfReplaced(const std::string& sentence)
 {
-  this->Internal->Replaced.warn(smg::withProperties(sentence, *this));
+  this->Internal->Replaced.warn(sentence);
 }
 
 std::string vtkRegionFilter::UnusedProperty()

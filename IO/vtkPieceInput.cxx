@@ -24,6 +24,7 @@
 #include <cctype>
 #include <cstddef>
 #include <exception>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,10 +67,35 @@ std::vector<vtkAlgorithm*> otherFilters(vtkAlgorithm& last)
 
 } // namespace
 
+namespace
+{
+
+/** The filters whose names in ParaView are not those of their classes. */
+constexpr std::pair<std::string_view, const char*> NamesInParaView[] = {
+  { "vtkAppendPolyData", "Append Geometry" },
+  { "vtkAppendFilter", "Append Datasets" },
+  { "vtkGroupDataSetsFilter", "Group Datasets" },
+  { "vtkCleanPolyData", "Clean" },
+  { "vtkCleanUnstructuredGrid", "Clean to Grid" },
+  { "vtkPVMetaClipDataSet", "Clip" },
+  { "vtkPVMetaSliceDataSet", "Slice" },
+  { "vtkPVArrayCalculator", "Calculator" },
+  { "vtkPExtractHistogram", "Histogram" },
+};
+
+} // namespace
+
 std::string nameInPipeline(vtkAlgorithm& filter)
 {
   std::string words;
   const std::string name = filter.GetClassName();
+  for (const auto& [className, inParaView] : NamesInParaView)
+  {
+    if (name == className)
+    {
+      return inParaView;
+    }
+  }
   const auto isCapitalAt = [&name](std::size_t k)
   { return k < name.size() && std::isupper(static_cast<unsigned char>(name[k])) != 0; };
   const std::string ofParaView = "vtkPV";

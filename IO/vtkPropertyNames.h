@@ -15,7 +15,8 @@ namespace smg
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::string_view propertyOf(std::string_view option);
 
 /** A sentence of the libraries with properties instead of options of smg, for what an algorithm
- * shows: "(property MemoryLimit)" for "(option --memory)". */
+ * shows, as panels show them: "(property Memory Limit)" for "(option --memory)", "Region Name" for
+ * "RegionName", and counts as "34,834 points". */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::string withProperties(
   std::string sentence, vtkAlgorithm& algorithm);
 

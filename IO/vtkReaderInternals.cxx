@@ -343,12 +343,13 @@ void vtkStreamingMeshReader::Internals::requireType(
     return;
   }
   const std::string kinds = isSurface ? " is a surface, unlike " : " is a solid, unlike ";
-  throw smg::Error(this->Times.empty()
-                     ? this->Name + kinds +
-                         "what it was when the pipeline asked for its type: reload it (File > "
-                         "Reload Files, or Modified() of the reader)."
-                     : this->Name + ": time step " + std::to_string(this->Step) + kinds +
-                         "others: convert the time steps one by one (smg convert --time-step).");
+  throw smg::Error(
+    this->Times.empty()
+      ? this->Name + kinds +
+          "what it was when the pipeline asked for its type: reload it (File > "
+          "Reload Files, or Modified() of the reader)."
+      : this->Name + ": time step " + std::to_string(this->Step) + kinds +
+          "others: convert the time steps one by one (TimeStep of the Streaming Mesh Converter).");
 }
 
 void vtkStreamingMeshReader::Internals::setTime(vtkPointSet& output) const

@@ -17,6 +17,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 #include "IO/vtkSavedInput.h"
 #include "IO/vtkStreamingMeshKeys.h"
@@ -394,7 +395,8 @@ struct vtkStreamingMeshWriter::Internals
     }
     for (const std::string& note : notes)
     {
-      vtkWarningWithObjectMacro(&this->Self, << smg::oneLine(path.string() + ": " + note));
+      const std::string said = smg::withProperties(note, this->Self);
+      vtkWarningWithObjectMacro(&this->Self, << smg::oneLine(path.string() + ": " + said));
     }
   }
 
@@ -459,11 +461,11 @@ void vtkStreamingMeshWriter::WriteFile()
   catch (const smg::DiskFull& error)
   {
     code = vtkErrorCode::OutOfDiskSpaceError;
-    vtkErrorMacro(<< smg::oneLine(error.what()));
+    vtkErrorMacro(<< smg::withProperties(smg::oneLine(error.what()), *this));
   }
   catch (const std::exception& error)
   {
-    vtkErrorMacro(<< smg::oneLine(error.what()));
+    vtkErrorMacro(<< smg::withProperties(smg::oneLine(error.what()), *this));
   }
   this->SetErrorCode(code);
 }

@@ -38,10 +38,9 @@ bool addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& h
   auto* mask = vtkUnsignedCharArray::SafeDownCast(present);
   if (present && (!mask || mask->GetNumberOfComponents() != 1))
   {
-    throw Error(
-      "The input has a point array " + name +
-      ", which is not that of a Mesh Region before this one: choose another RegionName, "
-      "or take the array away with Pass Arrays.");
+    throw Error("The input has a point array " + name +
+                ", which is not that of a Mesh Region before this one: choose another RegionName, "
+                "or take the array away with Pass Arrays.");
   }
   const bool isOfRegion = isRegion(mesh, name);
   if (present && isOfRegion)

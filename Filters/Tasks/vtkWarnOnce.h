@@ -2,8 +2,10 @@
 #pragma once
 
 #include "Filters/Tasks/SolveSummary.h"
+#include "IO/vtkPropertyNames.h"
 #include "Solver/Core/Text.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkObject.h"
 
 #include <string>
@@ -15,7 +17,7 @@ namespace smg
 class WarnOnce
 {
 public:
-  explicit WarnOnce(vtkObject& object)
+  explicit WarnOnce(vtkAlgorithm& object)
     : Object(object)
   {
   }
@@ -29,7 +31,8 @@ public:
     }
     else if (this->Last != sentence)
     {
-      vtkWarningWithObjectMacro(&this->Object, << oneLine(sentence));
+      const std::string said = withProperties(oneLine(sentence), this->Object);
+      vtkWarningWithObjectMacro(&this->Object, << said);
       this->Last = sentence;
     }
   }
@@ -38,7 +41,7 @@ public:
   void forget() { this->Last.clear(); }
 
 private:
-  vtkObject& Object;
+  vtkAlgorithm& Object;
   std::string Last;
 };
 
@@ -54,7 +57,7 @@ inline void warnOf(vtkObject& object, const SolveSummary& summary, bool mustConv
   {
     vtkWarningWithObjectMacro(&object, << "The solve did not converge: after " << summary.cycles
                                        << " cycles the relative residual is " << summary.residual
-                                       << "; raise MaximumCycles or Tolerance.");
+                                       << "; raise Maximum Cycles or Tolerance.");
   }
 }
 

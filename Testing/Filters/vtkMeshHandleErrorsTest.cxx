@@ -42,7 +42,8 @@ TEST_F(VtkMeshHandle, SaysWhatIsWrongInOneSentence)
     errors.Texts.clear();
     EXPECT_EQ(updatePiece(this->Handle, 0, 1), 0) << words;
     ASSERT_EQ(errors.Texts.size(), 1U) << words;
-    EXPECT_NE(errors.Texts[0].find(words), std::string::npos) << errors.Texts[0];
+    EXPECT_NE(errors.Texts[0].find(withProperties(words, *this->Handle)), std::string::npos)
+      << errors.Texts[0];
     EXPECT_EQ(this->Handle->GetNumberOfHeldPoints(), 0);
   };
   this->Handle->SetRegionFunction(nullptr);

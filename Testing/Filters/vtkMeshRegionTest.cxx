@@ -307,7 +307,8 @@ TEST_F(VtkMeshRegion, MistakesAreOneErrorEach)
   expect("has 3 components", [&] { this->Region->SetMaskArray("three"); });
   expect("not a number", [&] { this->Region->SetMaskArray("nan"); });
   set(vtkMeshRegion::EVERYWHERE);
-  expect("not that of a Mesh Region before this one", [&] { this->Region->SetRegionName("three"); });
+  expect(
+    "not that of a Mesh Region before this one", [&] { this->Region->SetRegionName("three"); });
   expect("has no name", [&] { this->Region->SetRegionName(""); });
   this->Region->SetRegionName("RegionMask");
   expect("holds nothing",

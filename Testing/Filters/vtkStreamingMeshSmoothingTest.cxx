@@ -243,7 +243,7 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
     [&] { this->Smoothing->SetSize(1e200); });
   this->Smoothing->SetSizeUnit(vtkStreamingMeshSmoothing::MEAN_EDGES);
   this->open(tetBox(4, 4, 4));
-  expect("name a column of the vertices", [] {});
+  expect("choose a point array to smooth", [] {});
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/vtkFailures.h"
+#include "IO/vtkPropertyNames.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCallbackCommand.h"
@@ -21,7 +22,11 @@ namespace smg::testing
 class Errors
 {
 public:
-  explicit Errors(vtkAlgorithm* algorithm) { this->watch(algorithm); }
+  explicit Errors(vtkAlgorithm* algorithm)
+    : Algorithm(algorithm)
+  {
+    this->watch(algorithm);
+  }
   ~Errors() { this->Command->SetCallback(nullptr); }
   Errors(const Errors&) = delete;
   Errors& operator=(const Errors&) = delete;
@@ -36,14 +41,17 @@ public:
     algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Command);
   }
 
+  /** Whether these words are among them, in which properties have the names of C++. */
   bool contain(const std::string& words) const
   {
-    return this->Text.find(words) != std::string::npos;
+    return this->Text.find(words) != std::string::npos ||
+           this->Text.find(withProperties(words, *this->Algorithm)) != std::string::npos;
   }
   const std::string& text() const { return this->Text; }
   void clear() { this->Text.clear(); }
 
 private:
+  vtkAlgorithm* Algorithm;
   vtkNew<vtkCallbackCommand> Command;
   std::string Text;
 };

@@ -90,7 +90,7 @@ warnings = warnings_of(turned)
 turned.UpdatePipeline()
 turned.Radius = 2.0
 turned.UpdatePipeline()
-assert len(warnings) == 1 and "RotationAngle has no effect: set Motion to Similarity" in warnings[0], warnings
+assert len(warnings) == 1 and "Rotation Angle has no effect: set Motion to Similarity" in warnings[0], warnings
 # A number out of its range is not taken for another one.
 for filter_of, name, least in ((StreamingMeshSmoothing, "MemoryLimit", 1), (StreamingDistance, "MaximumPasses", 1),
                                (StreamingMeshSimplification, "MemoryLimit", 16), (MeshRegion, "Rings", 0)):
@@ -98,7 +98,7 @@ for filter_of, name, least in ((StreamingMeshSmoothing, "MemoryLimit", 1), (Stre
     made.UpdatePipeline()
     made.UpdatePropertyInformation()
     error = made.GetPropertyValue("Error")
-    assert error.startswith(f"{name} is {least - 1}: set it to "), error
+    assert error.startswith(f"{made.GetProperty(name).GetXMLLabel()} is {least - 1}: set it to "), error
 
 # A preview is said to be one, by the reader and by regions on it.
 reader = OpenDataFile(t.BUNNY)

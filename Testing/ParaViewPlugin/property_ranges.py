@@ -96,7 +96,7 @@ for key, numbers in proxies():
             vtkOutputWindow.SetInstance(vtkStringOutputWindow())
         else:
             error = error_of(proxy)
-        expected = f"{name} is {'nan' if is_real else -1000}: set it to "
+        expected = f"{element.get('label') or name} is {'nan' if is_real else -1000}: set it to "
         if expected not in error:
             messages[key[1], name] = error
         checked += 1

@@ -112,7 +112,7 @@ TEST_F(VtkSolidDeformation, APreviewOfTheSurfaceCannotAndSaysSo)
   const double error = this->errorOfPreview();
   EXPECT_GT(error, 0.5) << error;
   EXPECT_EQ(this->output()->GetCell(0)->GetCellType(), VTK_TRIANGLE);
-  EXPECT_NE(std::string(this->Deformation->GetNotes()).find("PreviewCells of the reader"),
+  EXPECT_NE(std::string(this->Deformation->GetNotes()).find("Preview Cells of the reader"),
     std::string::npos);
 }
 
