@@ -157,6 +157,7 @@ struct vtkStreamingMeshPreview::Internals
     smg::StreamInfo info = this->Full;
     info.cellType = smg::CellType::Triangle;
     smg::setPiece(output, piece, info);
+    smg::removeFinalized(output);
     smg::markAsPreview(output, this->Full);
     // The pipeline passes field data; this preview has no larger mesh upstream.
     output.GetFieldData()->RemoveArray(smg::PreviewOfReaderName);

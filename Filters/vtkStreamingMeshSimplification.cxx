@@ -242,6 +242,10 @@ struct vtkStreamingMeshSimplification::Internals
     smg::MeshPiece found;
     this->Result->readPiece(firstOf(part), firstOf(part + 1), found, request.GhostLevels);
     smg::setPiece(output, found, this->Result->info());
+    if (pieces == 1)
+    {
+      smg::removeFinalized(output);
+    }
     smg::removePreviewMarks(output);
     this->Attributes.giveTo(*output.GetPointData());
   }

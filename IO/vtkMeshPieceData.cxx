@@ -133,6 +133,11 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   }
 }
 
+void removeFinalized(vtkPointSet& mesh)
+{
+  mesh.GetPointData()->RemoveArray(StreamFinalizedName);
+}
+
 void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
 {
   vtkNew<vtkIntArray> mark;

@@ -19,6 +19,9 @@ namespace smg
 VTKSTREAMINGMULTIGRIDIO_EXPORT void setPiece(
   vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info);
 
+/** Of a mesh in one piece, where all points are final: filters would take it for a result. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void removeFinalized(vtkPointSet& mesh);
+
 /** Marks the mesh, in its field data, as a preview of another. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
 

@@ -384,6 +384,10 @@ void vtkStreamingMeshReader::Internals::readPiece(
   reader.readPiece(
     firstCell(part), firstCell(part + 1), piece, parts > 1 ? std::max(0, ghostLevels) : 0);
   smg::setPiece(output, piece, info);
+  if (parts == 1)
+  {
+    smg::removeFinalized(output);
+  }
 }
 
 void vtkStreamingMeshReader::Internals::readPreview(vtkPointSet& output, int part,
@@ -413,6 +417,7 @@ void vtkStreamingMeshReader::Internals::readPreview(vtkPointSet& output, int par
     info.cellType = smg::CellType::Triangle;
   }
   smg::setPiece(output, piece, info);
+  smg::removeFinalized(output);
   smg::markAsPreview(output, full);
   smg::markAsReaders(output);
 }

@@ -20,7 +20,7 @@
  * they use, and
  * - point GlobalIds: the stream index of each point;
  * - point array `vtkGhostType`: DUPLICATEPOINT on points that an earlier piece owns;
- * - point array `StreamFinalized`: 1 where no later piece uses the point;
+ * - point array `StreamFinalized`: 1 where no later piece uses the point; not of one piece of one;
  * - the selected point and cell columns of the file as arrays, and always the cell column
  *   `CellFlags`, which marks duplicate and degenerate cells; never columns with the names above.
  *

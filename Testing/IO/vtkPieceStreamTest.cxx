@@ -259,7 +259,7 @@ TEST_F(VtkPieceStream, MeshGivenDirectlyStaysWhole)
   EXPECT_EQ(this->pull(1), "");
   EXPECT_EQ(whole->GetNumberOfPoints(), this->Mesh.vertices());
   EXPECT_EQ(whole->GetNumberOfCells(), this->Mesh.cells());
-  EXPECT_EQ(whole->GetPointData()->GetNumberOfArrays(), 5);
+  EXPECT_EQ(whole->GetPointData()->GetNumberOfArrays(), 4);
   this->expectSameMesh();
 }
 

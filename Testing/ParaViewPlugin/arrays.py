@@ -14,7 +14,7 @@ LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson
 
 
-INTERNAL = {"GlobalIds", "vtkGhostType", "StreamFinalized"}
+INTERNAL = {"GlobalIds", "vtkGhostType"}  # StreamFinalized is of pieces alone
 LISTS = {"StreamingPoisson": 7, "MeshCondition": 2, "MeshHandle": 2, "MeshRegion": 2, "StreamingBlend": 2,
          "StreamingMeshSmoothing": 1}
 
