@@ -36,6 +36,7 @@ protected:
   {
     this->Mesh = writeVsm(this->Folder / "mesh.vsm", mesh);
     this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    this->Reader->Modified(); // the name may be the same
   }
 
   /** Every point is a vertex of the mesh with its values; no triangle has a point twice. */
