@@ -140,6 +140,9 @@ private:
   std::span<const std::uint8_t> Current;
 };
 
+/** The number of points of a place that names points one by one; 0 if it is a region. */
+std::size_t pointsOf(const Where& place);
+
 /** The selections of a description, which are prepared and pass through the stream together. */
 class Selections
 {

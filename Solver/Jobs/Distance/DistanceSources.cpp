@@ -13,16 +13,6 @@
 namespace smg
 {
 
-std::size_t pointsOf(const Where& place)
-{
-  if (const auto* region = std::get_if<Region>(&place))
-  {
-    return region->vertices() ? region->vertices()->ids.size() : 0;
-  }
-  const auto* nearest = std::get_if<NearestVertices>(&place);
-  return nearest ? nearest->points.size() : 0;
-}
-
 DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place, bool grouped,
   const StreamInfo& mesh, const std::string& name, Pool& memory, const std::string& key)
   : Grouped(grouped)

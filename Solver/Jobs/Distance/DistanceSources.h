@@ -25,9 +25,6 @@ enum SourceKind : std::uint8_t
   RegionSource = 3
 };
 
-/** The number of points of a place that names points one by one; 0 if it is a region. */
-std::size_t pointsOf(const Where& place);
-
 /** The sources of a distance: vertices or facets that are selected on a mesh. */
 class DistanceSources
 {

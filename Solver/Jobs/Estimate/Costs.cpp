@@ -2,10 +2,10 @@
 #include "Solver/Jobs/Estimate/Costs.h"
 
 #include "Solver/Core/SimdPack.h"
-#include "Solver/Jobs/Distance/DistanceSources.h"
 #include "Solver/Multigrid/Engine/Corrections.h"
 #include "Solver/Multigrid/Engine/ErrorBalance.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
+#include "Solver/Problem/Selection.h"
 
 #include <algorithm>
 #include <cmath>
