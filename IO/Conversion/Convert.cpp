@@ -327,13 +327,26 @@ void noteWinding(
   {
     char volume[32];
     std::snprintf(volume, sizeof(volume), "%.4g", winding.cavities());
-    notes.push_back("Bodies that are wound inwards within the bounds of larger ones may be "
-                    "cavities, and stayed as wound: they enclose " +
+    notes.push_back("Bodies that are wound against larger ones that they lie in count as cavities, "
+                    "and are wound inwards: they enclose " +
                     std::string(volume) + '.');
+  }
+  if (winding.ambiguous() > 0)
+  {
+    notes.push_back(counted(winding.ambiguous(), "closed body lies", "closed bodies lie") +
+                    " in others without being wound alike: taken as solid, and wound outwards, "
+                    "though it may be a cavity.");
+  }
+  if (winding.branched() > 0)
+  {
+    notes.push_back(
+      counted(winding.branched(), "part of the surface ends", "parts of the surface end") +
+      " at edges of more than two triangles: which side is outside is not known there, and "
+      "triangles are wound as most of their part are.");
   }
 }
 
-/** The stream that `open` opens, oriented if that is asked for: for that it is read once before. */
+/** The stream that `open` opens, oriented if that is asked for: for that it is read before. */
 std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientation>& winding,
   const std::function<std::unique_ptr<MeshSource>()>& open)
 {
@@ -345,14 +358,23 @@ std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientat
   Workspace& space = conversion.workspace();
   winding.emplace(space.pool(), space.folder());
   Progress reported(conversion.progress());
-  for (MeshBlock block; source->next(block);)
-  {
-    winding->add(block);
-    reported.update(0.0); // asks whether to go on
-  }
-  winding->finish();
+  winding->find(
+    [&](const Orientation::Visit& visit)
+    {
+      if (!source)
+      {
+        source = open();
+      }
+      for (MeshBlock block; source->next(block);)
+      {
+        visit(block);
+        reported.update(0.0); // asks whether to go on
+      }
+      source.reset();
+    });
+  source = open();
   noteWinding(*winding, source->info(), conversion.report().notes);
-  return numberedByFirstUse(oriented(open(), *winding));
+  return numberedByFirstUse(oriented(std::move(source), *winding));
 }
 
 } // namespace

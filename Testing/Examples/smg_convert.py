@@ -288,6 +288,28 @@ def test_orient():
     assert "--orient" in error, error
 
 
+def test_orient_what_is_nested():
+    """A shell that is inside out is turned with its cavity; parts whose outside is not known are said to be there."""
+    corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    box = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
+           (1, 3, 7), (1, 7, 5)]
+    points = [tuple(3 * x - 1 for x in point) for point in corners] + corners
+    hollow = box + [tuple(k + 8 for k in cell[::-1]) for cell in box]
+    for is_turned in (False, True):
+        write_tagged_ply("hollow.ply", points, [cell[::-1] if is_turned else cell for cell in hollow])
+        report = convert("hollow.ply", "hollow.vsm", "--orient")
+        assert ("24 triangles were turned." in report["notes"]) == is_turned, report["notes"]
+        assert any("cavities" in note and "enclose 1." in note for note in report["notes"]), report["notes"]
+        run("info", "hollow.vsm", "--full", "--quiet", "--report", "info.json")
+        assert abs(load("info.json")["description"]["volume"] - 26) < 1e-12
+    second = [tuple(k // 2 + 8 if k % 2 else k + 1 for k in cell) for cell in box]  # on the face x = 1
+    write_tagged_ply("two.ply", corners + [(2, y, z) for z in (0, 1) for y in (0, 1)], box + second)
+    notes = convert("two.ply", "two.vsm", "--orient")["notes"]
+    assert any("more than two triangles" in note for note in notes), notes
+    run("smooth", "two.ply", "smoothed.ply", "--size", "0.1", "--orient", "--quiet", "--report", "report.json")
+    assert load("report.json")["volume"]["before"] is None
+
+
 def test_cells_of_both_kinds():
     points, solids = tetrahedra(5)
     faces = [(0, 1, 5), (1, 5, 6), (5, 6, 10)]
@@ -375,7 +397,7 @@ def test_too_many_vertices_are_said_at_once():
 
 for each in (test_too_many_vertices_are_said_at_once, test_restored_order, test_restored_solids, test_restored_is_the_same_file,
              test_moved_meshes_keep_their_order, test_other_formats_in_the_order_of_the_stream, test_gzip_and_wrong_suffixes,
-             test_compressed_streams, test_own_name, test_weld, test_orient,
+             test_compressed_streams, test_own_name, test_weld, test_orient, test_orient_what_is_nested,
              test_cells_of_both_kinds, test_parts, test_same_mesh_for_any_memory):
     each()
     print("passed", each.__name__)

@@ -2,6 +2,8 @@
 #include "Solver/Jobs/Fairing/Orientation.h"
 
 #include "Solver/Jobs/Fairing/OrientedMesh.h"
+#include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/DirectSmoothing.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/Sanitized.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -70,12 +72,15 @@ Places placesOf(const StreamMesh& mesh, std::size_t cell)
 /** Finds how the mesh is to be wound, and returns it wound so. */
 StreamMesh wellWound(const StreamMesh& mesh, std::int64_t blockCells, Orientation& winding)
 {
-  MemorySource read(mesh, blockCells);
-  for (MeshBlock block; read.next(block);)
-  {
-    winding.add(block);
-  }
-  winding.finish();
+  winding.find(
+    [&](const Orientation::Visit& visit)
+    {
+      MemorySource read(mesh, blockCells);
+      for (MeshBlock block; read.next(block);)
+      {
+        visit(block);
+      }
+    });
   return collect(
     *numberedByFirstUse(oriented(std::make_unique<MemorySource>(mesh, blockCells), winding)));
 }
@@ -129,6 +134,115 @@ TEST(Orientation, AnySurfaceIsWoundAlikeInAStreamNumberedByFirstUse)
       }
     }
     EXPECT_EQ(winding.turned(), std::ranges::count(marks, 1));
+  }
+}
+
+/** A ball of radius 4 with cavities, which may have balls in them, beside balls within its bounds:
+ * well wound, with the volume that it encloses. */
+IndexedTestMesh nested(double& volume)
+{
+  const auto ball = [](double radius, bool isCavity)
+  { return turned(resized(sphere(2), radius), [isCavity](std::int64_t) { return isCavity; }); };
+  const StreamMesh unit = toStream(sphere(2));
+  const double ofUnit = enclosedVolume(unit, positionsOf(unit));
+  IndexedTestMesh all = ball(4.0, false);
+  volume = 64.0 * ofUnit;
+  const auto add = [&](double radius, bool isCavity, const std::array<double, 3>& center)
+  {
+    all = disjointUnion(all, ball(radius, isCavity), center);
+    volume += (isCavity ? -1.0 : 1.0) * radius * radius * radius * ofUnit;
+  };
+  for (const double side : { -1.0, 1.0 })
+  {
+    add(1.5, true, { 1.6 * side, 0, 0 });
+    add(0.9, false, { 1.6 * side, 0, 0.1 });
+    add(0.4, true, { 1.6 * side + 0.2, 0, 0.1 });
+    add(0.5, true, { 0, 0, 3.0 * side });
+    add(0.6, false, { 3.3, 3.3 * side, -3.3 * side }); // beside it, in a corner of its bounds
+    add(0.3, true, { 3.3, 3.3 * side, -3.3 * side });
+  }
+  return all;
+}
+
+TEST(Orientation, WhatLiesInABodyIsWoundWithIt)
+{
+  const TemporaryFolder folder;
+  double volume = 0.0;
+  const IndexedTestMesh well = nested(volume);
+  const std::int64_t ball = sphere(2).cells(), cells = well.cells();
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const bool all = seed % 2 == 0, outer = seed % 3 == 0;
+    const IndexedTestMesh wound =
+      turned(well, [=](std::int64_t c) { return all || (outer && c < ball && c % 3 == 0); });
+    Pool pool(std::int64_t(1) << 30);
+    Orientation winding(pool, folder.path());
+    const StreamMesh mesh = wellWound(
+      toStream(shuffled(wound, seed), TestOrder::BreadthFirst), seed % 4 ? 1000 : 7, winding);
+    EXPECT_TRUE(isWoundAlike(mesh));
+    EXPECT_NEAR(winding.volume(), volume, 1e-9 * volume);
+    EXPECT_NEAR(enclosedVolume(mesh, positionsOf(mesh)), volume, 1e-9 * volume);
+    EXPECT_EQ(winding.turned(), all ? cells : outer ? (ball + 2) / 3 : 0);
+    EXPECT_EQ(winding.ambiguous() + winding.branched() + winding.unorientable(), 0);
+  }
+  // Solids within solids stay solids, inside out or not; of what is wound anyhow that is not known.
+  for (const bool isTurned : { false, true })
+  {
+    Pool pool(std::int64_t(1) << 30);
+    Orientation winding(pool, folder.path());
+    const IndexedTestMesh solids = disjointUnion(sphere(2), resized(sphere(2), 0.5));
+    wellWound(toStream(turned(solids, [=](std::int64_t) { return isTurned; })), 1000, winding);
+    EXPECT_EQ(winding.turned(), isTurned ? solids.cells() : 0);
+    EXPECT_EQ(winding.cavities(), 0.0);
+    Orientation anyhow(pool, folder.path());
+    wellWound(toStream(turned(solids, [](std::int64_t c) { return c % 3 == 0; })), 1000, anyhow);
+    EXPECT_EQ(anyhow.ambiguous(), 1);
+  }
+}
+
+/** Two boxes that share a face, whose triangles are there once or twice: no part is closed. */
+TEST(Orientation, PartsThatEndAtEdgesOfMoreTrianglesHaveNoOutside)
+{
+  const TemporaryFolder folder;
+  constexpr std::int64_t Faces[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
+    { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
+  for (const bool isTwice : { false, true })
+  {
+    IndexedTestMesh boxes{ CellType::Triangle, {}, {} };
+    for (int v = 0; v < 12; ++v)
+    {
+      boxes.positions.insert(
+        boxes.positions.end(), { double(v & 1), double(v >> 1 & 1), double(v >> 2) });
+    }
+    for (const std::int64_t above : { 0, 4 })
+    {
+      for (const auto& face : Faces)
+      {
+        const bool isShared = above == 4 && face[1] == 2;
+        if (isShared && !isTwice)
+        {
+          continue;
+        }
+        for (const int k : { 1, 2 })
+        {
+          boxes.corners.insert(
+            boxes.corners.end(), { above + face[0], above + face[k], above + face[k + 1] });
+        }
+      }
+    }
+    Pool pool(std::int64_t(1) << 30);
+    Orientation winding(pool, folder.path());
+    StreamMesh mesh = toStream(boxes, TestOrder::Keep);
+    std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()));
+    if (isTwice)
+    {
+      flags[12] = flags[13] = DuplicateCell;
+    }
+    mesh.cellColumns.push_back(makeColumn<std::uint8_t>(CellFlagsName, flags));
+    wellWound(mesh, 1000, winding);
+    EXPECT_EQ(winding.turned(), 0);
+    EXPECT_EQ(winding.branched(), 3);
   }
 }
 

@@ -250,6 +250,25 @@ IndexedTestMesh disjointUnion(
   return both;
 }
 
+IndexedTestMesh resized(IndexedTestMesh mesh, double factor)
+{
+  std::ranges::for_each(mesh.positions, [factor](double& x) { x *= factor; });
+  return mesh;
+}
+
+IndexedTestMesh turned(IndexedTestMesh mesh, const std::function<bool(std::int64_t cell)>& isTurned)
+{
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    if (isTurned(c))
+    {
+      const auto first = mesh.corners.begin() + 3 * c;
+      std::iter_swap(first + 1, first + 2);
+    }
+  }
+  return mesh;
+}
+
 IndexedTestMesh shuffled(const IndexedTestMesh& mesh, std::uint64_t seed)
 {
   Random random(seed);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace smg::testing
@@ -54,6 +55,13 @@ IndexedTestMesh tetBox(int nx, int ny, int nz, double jitter = 0.0, std::uint64_
 /** Both meshes without a connection, with b moved by `offset`. The cell types must agree. */
 IndexedTestMesh disjointUnion(
   const IndexedTestMesh& a, const IndexedTestMesh& b, const std::array<double, 3>& offset = {});
+
+/** The mesh scaled by a factor about the origin. */
+IndexedTestMesh resized(IndexedTestMesh mesh, double factor);
+
+/** A surface with the triangles turned for whose numbers `isTurned` is true. */
+IndexedTestMesh turned(
+  IndexedTestMesh mesh, const std::function<bool(std::int64_t cell)>& isTurned);
 
 /** The same mesh with its vertices and cells in a random order. */
 IndexedTestMesh shuffled(const IndexedTestMesh& mesh, std::uint64_t seed = 1);

@@ -68,8 +68,8 @@ struct ConversionOptions
   /** Distance, in the unit of the coordinates, within which points are merged; 0: points of equal
    * coordinates; none: no points. */
   std::optional<double> weld;
-  /** Turn triangles so that those of a body are wound alike, and outwards if it is closed. A closed
-   * body that is wound inwards within the bounds of a larger one may be a cavity, and stays. */
+  /** Turn triangles so that those of a body are wound alike, and outwards if it is closed. Closed
+   * bodies that lie in others keep their winding relative to these: cavities stay cavities. */
   bool orient = false;
   std::int64_t timeStep = 0; ///< of a file with time steps (VTKHDF): which one, from 0
   /** Which partition of a file with partitions (VTKHDF) to read, from 0; none: all, joined. */

@@ -204,8 +204,13 @@ void MeshFairing::orient(Part part)
 {
   Orientation& winding = this->Result->found.emplace(this->Result->memory,
     this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch);
-  this->read(part, [&winding](const MeshBlock& block) { winding.add(block); });
-  winding.finish();
+  double from = 0.0;
+  winding.find(
+    [this, part, &from](const Visit& visit)
+    {
+      this->read(part.of(from, 0.5 + 0.5 * from), visit);
+      from = 0.5;
+    });
   Report& report = this->Result->total;
   if (winding.turned() > 0)
   {
@@ -228,6 +233,19 @@ void MeshFairing::orient(Part part)
                 " cannot be wound so that the surface has two sides: its volume is not known, and "
                 "is not kept there");
     return;
+  }
+  if (const std::int64_t bodies = winding.branched(); bodies > 0)
+  {
+    report.volume->before = std::nan("");
+    report.warn(counted(bodies, "part of the surface ends", "parts of the surface end") +
+                " at edges of more than two triangles: which side is outside is not known there, "
+                "and the volume neither");
+    return;
+  }
+  if (const std::int64_t bodies = winding.ambiguous(); bodies > 0)
+  {
+    report.warn(counted(bodies, "closed body lies", "closed bodies lie") +
+                " in others without being wound alike: taken as solid, though it may be a cavity");
   }
   this->noteCavities(winding.cavities(), winding.volume() + winding.cavities());
 }

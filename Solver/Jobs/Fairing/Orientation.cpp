@@ -21,6 +21,9 @@
 // These links go to a file, which is read backwards once: each refers to a triangle that has been
 // decided. The memory has the open triangles and edges, the closed bodies, and bytes as far as
 // links reach; the time is nearly linear.
+//
+// Closed bodies that may lie in others need winding numbers. They are counted in a second reading,
+// by a ray from each body, as the mesh is wound; only then, the links are read again.
 
 namespace smg
 {
@@ -32,18 +35,47 @@ std::filesystem::path inFolder(const std::filesystem::path& folder, const char* 
   return (folder.empty() ? std::filesystem::temp_directory_path() : folder) / name;
 }
 
+/** Of an edge, the same for all its triangles; the sum of those that run along it from its lower
+ * vertex on and the negative ones of the others is 0, but by chance, only if they cancel. */
+std::uint64_t hashOf(std::int64_t low, std::int64_t high)
+{
+  constexpr std::uint64_t Factor = 0x9e3779b97f4a7c15U;
+  std::uint64_t hash = static_cast<std::uint64_t>(low) * Factor;
+  hash = ((hash ^ hash >> 32) + static_cast<std::uint64_t>(high)) * Factor;
+  hash = (hash ^ hash >> 29) * Factor;
+  return hash ^ hash >> 32;
+}
+
 } // namespace
 
 Orientation::Orientation(Pool& pool, const std::filesystem::path& folder)
   : Memory(pool)
   , Points(pool, 3)
-  , Open(pool)
+  , OpenEdges(pool)
   , Edges(pool)
   , Members(pool)
   , Links(inFolder(folder, "links"), this->Traffic)
   , Marks(inFolder(folder, "turned"), this->Traffic)
   , Kept(pool)
 {
+}
+
+void Orientation::find(const std::function<void(const Visit& visit)>& read)
+{
+  read([this](const MeshBlock& block) { this->add(block); });
+  this->finish();
+  if (this->mayNest())
+  {
+    this->beginNesting();
+    read([this](const MeshBlock& block) { this->nest(block); });
+  }
+  this->decide();
+  this->resolve();
+  this->Written = {};
+  this->Bodies = {};
+  this->Rays.reset();
+  this->Kept.resize(0);
+  this->Points = Ring<double>(this->Memory, 3);
 }
 
 void Orientation::add(const MeshBlock& block)
@@ -55,7 +87,7 @@ void Orientation::add(const MeshBlock& block)
   const std::int64_t end = block.firstVertex + block.vertices();
   this->Points.extendRaw(end);
   std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
-  this->Open.extend(end);
+  this->OpenEdges.extend(end);
   const Column* flags = block.flags();
   for (std::size_t c = 0; c < block.corners.size() / 3; ++c)
   {
@@ -98,6 +130,10 @@ void Orientation::addCell(const std::int64_t* corners, unsigned flags)
       sums.low[d] = std::min(sums.low[d], point[d]);
       sums.high[d] = std::max(sums.high[d], point[d]);
     }
+    if (point[0] == sums.high[0])
+    {
+      sums.farthest = { point[1], point[2] };
+    }
     this->addEdge(corners[k], corners[(k + 1) % 3], cell);
   }
   sums.volume = dot(points[0], cross(points[1], points[2]));
@@ -107,7 +143,7 @@ void Orientation::addEdge(std::int64_t a, std::int64_t b, std::int64_t cell)
 {
   const std::int64_t low = std::min(a, b), high = std::max(a, b);
   const std::int32_t fresh = this->Edges.take();
-  const std::int32_t slot = this->Open.join(low, high, 0, fresh);
+  const std::int32_t slot = this->OpenEdges.join(low, high, 0, fresh);
   Edge& edge = this->Edges[slot];
   if (slot == fresh)
   {
@@ -123,6 +159,7 @@ void Orientation::addEdge(std::int64_t a, std::int64_t b, std::int64_t cell)
     edge.ascends[edge.count] = a == low ? 1 : 0;
   }
   edge.count = static_cast<std::uint8_t>(std::min(3, edge.count + 1));
+  this->Members[cell].sums.rim += a == low ? hashOf(low, high) : -hashOf(low, high);
 }
 
 /** The open triangle with these low bits of its number. */
@@ -145,17 +182,17 @@ void Orientation::finishVertices(std::int64_t end)
     }
     else if (edge.count == 1)
     {
-      ++this->Members[this->find(this->cellOf(edge.cell[0])).cell].sums.boundary;
+      this->Members[this->rootOf(this->cellOf(edge.cell[0])).cell].sums.hasBoundary = true;
     }
   };
   for (; this->Final < end; ++this->Final)
   {
-    this->Open.take(this->Final, finishEdge);
+    this->OpenEdges.take(this->Final, finishEdge);
   }
-  this->Open.release(end);
+  this->OpenEdges.release(end);
 }
 
-Orientation::Root Orientation::find(std::int64_t cell)
+Orientation::Root Orientation::rootOf(std::int64_t cell)
 {
   std::uint8_t opposite = 0;
   while (this->Members[cell].up != 0)
@@ -176,12 +213,13 @@ Orientation::Root Orientation::find(std::int64_t cell)
 /** Joins the sets of two triangles that share an edge. */
 void Orientation::relate(const Edge& edge)
 {
-  const Root a = this->find(this->cellOf(edge.cell[0])), b = this->find(this->cellOf(edge.cell[1]));
+  const Root a = this->rootOf(this->cellOf(edge.cell[0]));
+  const Root b = this->rootOf(this->cellOf(edge.cell[1]));
   const std::uint8_t areTurned = edge.ascends[0] == edge.ascends[1] ? 1 : 0;
   const auto opposite = static_cast<std::uint8_t>(a.opposite ^ b.opposite ^ areTurned);
   if (a.cell == b.cell)
   {
-    this->Members[a.cell].sums.contradictions += opposite;
+    this->Members[a.cell].sums.hasContradiction |= opposite != 0;
     return;
   }
   const std::int64_t low = std::min(a.cell, b.cell), high = std::max(a.cell, b.cell);
@@ -192,8 +230,13 @@ void Orientation::relate(const Edge& edge)
   sums.volume += opposite ? -part.sums.volume : part.sums.volume;
   sums.opposite += opposite ? part.sums.cells - part.sums.opposite : part.sums.opposite;
   sums.cells += part.sums.cells;
-  sums.boundary += part.sums.boundary;
-  sums.contradictions += part.sums.contradictions;
+  sums.rim += opposite ? -part.sums.rim : part.sums.rim;
+  sums.hasBoundary |= part.sums.hasBoundary;
+  sums.hasContradiction |= part.sums.hasContradiction;
+  if (part.sums.high[0] > sums.high[0])
+  {
+    sums.farthest = part.sums.farthest;
+  }
   for (std::size_t d = 0; d < 3; ++d)
   {
     sums.low[d] = std::min(sums.low[d], part.sums.low[d]);
@@ -228,20 +271,20 @@ std::uint32_t Orientation::closeBody(std::int64_t cell, const Sums& sums)
 {
   if (sums.cells == 0)
   {
-    return 0;
+    return Leave;
   }
-  if (sums.contradictions > 0)
+  if (sums.hasContradiction)
   {
     ++this->Unorientable;
     return Leave;
   }
   this->keepBody(cell, sums);
-  if (sums.boundary > 0)
+  if (sums.rim != 0)
   {
-    ++this->OpenBodies;
-    return 2 * sums.opposite > sums.cells ? 1 : 0;
+    this->Branched += sums.hasBoundary ? 0 : 1;
+    return Open | (2 * sums.opposite > sums.cells ? 1U : 0U);
   }
-  // Which of the two ways may depend on other bodies: see decideCavities().
+  // Which of the two ways may depend on other bodies: see decide().
   return 0;
 }
 
@@ -249,13 +292,13 @@ void Orientation::keepBody(std::int64_t cell, const Sums& sums)
 {
   // Unwelded triangles are bodies, too.
   constexpr std::int64_t Large = 16;
-  const bool isClosed = sums.boundary == 0;
+  const bool isClosed = sums.rim == 0;
   if (!isClosed && sums.cells < Large)
   {
     return;
   }
-  this->Bodies.push_back({ cell, sums.volume, isClosed,
-    isClosed && sums.volume < 0.0 && sums.opposite == 0, sums.low, sums.high });
+  this->Bodies.push_back(
+    { cell, sums.volume, isClosed, sums.opposite == 0, sums.low, sums.high, sums.farthest });
   if (this->Bodies.size() % 1024 == 0)
   {
     this->Kept.resize(static_cast<std::int64_t>(this->Bodies.capacity() * sizeof(Body)));
@@ -285,8 +328,66 @@ void Orientation::finish()
   {
     this->flush();
   }
-  this->decideCavities();
+  this->OpenEdges = OpenFacets(this->Memory);
+  this->Edges = Slots<Edge>(this->Memory);
+  this->Members = Ring<Member>(this->Memory);
+}
+
+/** Whether closed bodies that may have to be turned may lie in others, or others in them. */
+bool Orientation::mayNest() const
+{
+  return std::ranges::count_if(this->Bodies, &Body::isClosed) > 1 &&
+         std::ranges::any_of(this->Bodies,
+           [](const Body& body) { return body.isInwards() || (body.isClosed && !body.isAlike); });
+}
+
+/** Finds which triangles count, and how they are wound: those of closed bodies as in the mesh, or
+ * outwards. */
+void Orientation::beginNesting()
+{
+  this->Rays.emplace();
+  for (const Body& body : this->Bodies)
+  {
+    if (body.isClosed)
+    {
+      this->Rays->addPoint({ body.high[0], body.farthest[0], body.farthest[1] });
+    }
+    if (body.isInwards() && !body.isAlike)
+    {
+      this->TurnedBodies.push_back(body.cell);
+    }
+  }
+  this->Rays->sort();
+  this->Kept.resize(static_cast<std::int64_t>(this->Bodies.capacity()) *
+                    (static_cast<std::int64_t>(sizeof(Body)) + WindingRays::RayBytes));
   this->resolve();
+  this->TurnedBodies.clear();
+  this->Points = Ring<double>(this->Memory, 3);
+}
+
+/** Counts the triangles of a block of the second reading. */
+void Orientation::nest(const MeshBlock& block)
+{
+  this->Points.extendRaw(block.firstVertex + block.vertices());
+  std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
+  std::vector<std::uint8_t> states(block.corners.size() / 3);
+  this->readStates(block.firstCell, states);
+  const auto point = [this](std::int64_t vertex)
+  {
+    const double* values = this->Points.at(vertex);
+    return Vector{ values[0], values[1], values[2] };
+  };
+  for (std::size_t c = 0; c < states.size(); ++c)
+  {
+    if ((states[c] & (Leave | Open)) == 0)
+    {
+      const std::int64_t* corners = block.corners.data() + 3 * c;
+      const bool turns = (states[c] & 1) != 0;
+      this->Rays->count(
+        point(corners[0]), point(corners[turns ? 2 : 1]), point(corners[turns ? 1 : 2]));
+    }
+  }
+  this->Points.release(block.finalized);
 }
 
 /** Whether another body, which is closed, lies within the bounds of this one, a larger one. */
@@ -300,27 +401,49 @@ bool Orientation::Body::contains(const Body& other) const
   return isInside;
 }
 
-/** Closed bodies are to be wound outwards, but for those that may be cavities: they were wound
- * inwards throughout, and lie within the bounds of a larger one. */
-void Orientation::decideCavities()
+/** Which way the closed bodies are to be wound. */
+void Orientation::decide()
 {
   // Of thousands, a large one contains most: these come first.
-  std::vector<const Body*> bySize;
+  std::vector<const Body*> open, closed;
   for (const Body& body : this->Bodies)
   {
-    bySize.push_back(&body);
+    (body.isClosed ? closed : open).push_back(&body);
   }
   const auto sizeOf = [](const Body* body) { return body->high[0] - body->low[0]; };
-  std::ranges::sort(bySize, std::ranges::greater(), sizeOf);
+  std::ranges::sort(open, std::ranges::greater(), sizeOf);
+  std::ranges::sort(closed, std::ranges::greater(), sizeOf);
+  const auto isIn = [](const Body& body, const std::vector<const Body*>& others)
+  {
+    return std::ranges::any_of(
+      others, [&body](const Body* other) { return other->contains(body); });
+  };
+  std::size_t ray = 0;
   for (const Body& body : this->Bodies)
   {
     if (!body.isClosed)
     {
       continue;
     }
-    const bool isCavity = body.mayBeCavity && std::ranges::any_of(bySize, [&body](const Body* other)
-                                                { return other->contains(body); });
-    if (body.volume < 0.0 && !isCavity)
+    // Bodies that overlap are not in each other.
+    std::int64_t outside = this->Rays ? this->Rays->around(ray++) : 0;
+    outside = outside != 0 && isIn(body, closed) ? outside : 0;
+    bool isCavity = false;
+    if (!body.isAlike)
+    {
+      this->Ambiguous += outside != 0 ? 1 : 0;
+    }
+    else if (outside != 0)
+    {
+      const std::int64_t inside = outside + (body.volume < 0.0 ? -1 : 1);
+      isCavity = (outside + inside < 0) != body.isInwards();
+    }
+    else
+    {
+      // What is inside of an open body is not known.
+      isCavity = body.isInwards() && isIn(body, open);
+    }
+    if (body.isInwards() != isCavity)
     {
       this->TurnedBodies.push_back(body.cell);
     }
@@ -333,14 +456,15 @@ void Orientation::decideCavities()
 /** Reads the links backwards: what they refer to has been decided. */
 void Orientation::resolve()
 {
+  this->Turned = 0;
   // The states of the triangles ahead, as far as links reach, in a ring.
   std::size_t size = 1;
   while (size <= this->Longest)
   {
     size *= 2;
   }
-  this->Kept.resize(this->Kept.bytes() + static_cast<std::int64_t>(size) +
-                    BlockCells * static_cast<std::int64_t>(sizeof(Link) + 1));
+  const Reservation ring(this->Memory,
+    static_cast<std::int64_t>(size) + BlockCells * static_cast<std::int64_t>(sizeof(Link) + 1));
   std::vector<std::uint8_t> states(size);
   std::vector<std::uint8_t> marks;
   for (std::int64_t block = (this->Cells + BlockCells - 1) / BlockCells - 1; block >= 0; --block)
@@ -358,39 +482,41 @@ void Orientation::resolve()
       if (link.up != 0)
       {
         const std::uint8_t other = states[static_cast<std::size_t>(cell + link.up) % size];
-        state = other == Leave ? Leave : other ^ link.state;
+        state = (other & Leave) != 0 ? Leave : other ^ link.state;
       }
       else if (std::ranges::binary_search(this->TurnedBodies, cell))
       {
         state = 1;
       }
       states[static_cast<std::size_t>(cell) % size] = static_cast<std::uint8_t>(state);
-      marks[k] = state == 1 ? 1 : 0;
-      this->Turned += marks[k];
+      marks[k] = static_cast<std::uint8_t>(state);
+      this->Turned += state & 1U;
     }
     this->Marks.write(block, std::as_bytes(std::span(marks)));
   }
-  this->Written = {};
-  this->Bodies = {};
-  this->Kept.resize(0);
-  this->Points = Ring<double>(this->Memory, 3);
-  this->Open = OpenFacets(this->Memory);
-  this->Edges = Slots<Edge>(this->Memory);
-  this->Members = Ring<Member>(this->Memory);
 }
 
 void Orientation::read(std::int64_t first, std::span<std::uint8_t> marks)
 {
+  this->readStates(first, marks);
+  for (std::uint8_t& mark : marks)
+  {
+    mark &= 1;
+  }
+}
+
+void Orientation::readStates(std::int64_t first, std::span<std::uint8_t> states)
+{
   std::vector<std::uint8_t> block;
-  while (!marks.empty())
+  while (!states.empty())
   {
     const std::int64_t number = first / BlockCells, begin = number * BlockCells;
     block.resize(static_cast<std::size_t>(std::min(BlockCells, this->Cells - begin)));
     this->Marks.read(number, std::as_writable_bytes(std::span(block)));
     const auto from = static_cast<std::size_t>(first - begin);
-    const std::size_t count = std::min(marks.size(), block.size() - from);
-    std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(from), count, marks.begin());
-    marks = marks.subspan(count);
+    const std::size_t count = std::min(states.size(), block.size() - from);
+    std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(from), count, states.begin());
+    states = states.subspan(count);
     first += static_cast<std::int64_t>(count);
   }
 }

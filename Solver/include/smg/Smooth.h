@@ -58,8 +58,8 @@ struct SmoothingDescription
    * 180: about 30 for machined parts. Needs about 5 steps. None: all edges become round. */
   std::optional<double> keepEdges;
   /** Whether the triangles of the result are turned where those of a body are not wound alike, and
-   * all of a closed body that is wound inwards, unless it lies within the bounds of another one and
-   * may be a cavity: MovedMesh has them. Of positions only. */
+   * all of a closed body that is wound inwards, with those that lie in it; one that is wound
+   * against what it lies in is a cavity, and stays one: MovedMesh has them. Of positions only. */
   bool orient = false;
   /** The vertex column to smooth, of any numeric type and at most 64 components; empty: the
    * positions. */
