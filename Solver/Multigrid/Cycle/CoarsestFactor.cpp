@@ -18,6 +18,10 @@
 // and everything that is nearly constant along strong edges are hardly affected, while adding to
 // the diagonal alone would tie free components to zero.
 //
+// Where flat cells have large negative weights, the removal of small entries of coarse operators
+// can cost definiteness, too, of single modes of few nodes: makeDefinite() takes the magnitudes of
+// their pivots. That changes the matrix by as many ranks, and the iteration pays a few steps.
+//
 // The order of elimination and all sums depend on the matrix alone: the factor has the same bits
 // whether the coarse levels were built from windows or in core.
 
@@ -90,8 +94,8 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
   // L L^T fails if the matrix is not definite, which tells that it needs more stiffening. An exact
   // matrix may be indefinite, which L D L^T permits.
   this->Factor.setMode(matrix.rounding > 0.0 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodLDLt);
-  // If a sixteenth of the weights is not enough, their rounding is not the cause.
-  constexpr double MaxShare = 0x1p-4, Growth = 8.0;
+  // If that share of the weights is not enough, their rounding is not the cause.
+  constexpr double MaxShare = 0x1p-12, Growth = 8.0;
   double share = matrix.rounding;
   const Eigen::SparseMatrix<double> first = this->stiffened(matrix, share);
   // The pattern does not depend on the share, so one analysis serves all attempts. It tells the
@@ -105,12 +109,55 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
     share *= Growth;
     if (!(share > 0.0 && share <= MaxShare))
     {
-      throw Error(
-        "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
-        "many orders of magnitude; use uniform weights");
+      this->factorizeIndefinite(matrix);
+      return;
     }
     this->Factor.factorize(this->stiffened(matrix, share));
   }
+}
+
+void CoarsestFactor::factorizeIndefinite(const CoarsestMatrix& matrix)
+{
+  this->Factor.setMode(Eigen::CholmodLDLt);
+  this->Factor.cholmod().final_ll = 0; // which the mode L L^T has set
+  const Eigen::SparseMatrix<double> sparse = this->stiffened(matrix, matrix.rounding);
+  this->Factor.analyzePattern(sparse);
+  this->Factor.factorize(sparse);
+  if (this->Factor.info() != Eigen::Success ||
+      (matrix.rounding > 0.0 && !this->Factor.makeDefinite(sparse.diagonal())))
+  {
+    throw Error("the coarsest level's matrix could not be factorised: its weights, which come from "
+                "the shapes of the cells and from the conductivity, span too many orders of "
+                "magnitude");
+  }
+}
+
+bool CoarsestFactor::Decomposition::makeDefinite(const Eigen::VectorXd& diagonal)
+{
+  // A pivot that is nearly zero says nothing of its mode: it would take all of the correction.
+  constexpr double Least = 0x1p-6;
+  const cholmod_factor& factor = *this->m_cholmodFactor;
+  if (factor.is_ll != 0 || factor.is_super != 0 || factor.xtype != CHOLMOD_REAL)
+  {
+    return false;
+  }
+  // Of each column the first entry is the pivot.
+  const auto* first = static_cast<const int*>(factor.p);
+  const auto* nodes = static_cast<const int*>(factor.Perm);
+  auto* values = static_cast<double*>(factor.x);
+  for (std::size_t k = 0; k < factor.n; ++k)
+  {
+    double& pivot = values[first[k]];
+    if (!(pivot > 0.0))
+    {
+      pivot = std::max(std::fabs(pivot), Least * std::fabs(diagonal[nodes[k]]));
+    }
+    if (!(pivot > 0.0 && std::isfinite(pivot)))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 /** The matrix with every edge stiffened by this share of the magnitude of its weight: a positive

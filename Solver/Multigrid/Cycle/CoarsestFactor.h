@@ -31,14 +31,14 @@ struct CoarsestMatrix
  * the small eigenvalues of modes that only slivers resist, so that the matrix is barely definite or
  * indefinite. Where entries are rounded, every edge is therefore stiffened by about that rounding,
  * which hardly affects weakly constrained modes, and by more until the matrix is definite, and the
- * result is factorised as L L^T.
+ * result is factorised as L L^T. If that does not help, it is factorised as L D L^T, with the
+ * magnitudes of the pivots in D.
  */
 class CoarsestFactor
 {
 public:
   /** Factorises the matrix. The pool accounts for the factor from its analysis on. Throws Error
-   * above the memory limit, if a pivot of an exact matrix is zero, or if a rounded matrix is
-   * far from definite. */
+   * above the memory limit, or if a pivot is zero or not finite. */
   void factorize(const CoarsestMatrix& matrix, Pool& pool);
   /** Solves for each column of b. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
@@ -48,13 +48,23 @@ public:
   std::int64_t floatingComponents() const;
 
 private:
+  class Decomposition
+    : public Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower>
+  {
+  public:
+    /** Makes the pivots of L D L^T positive, given the diagonal of the matrix. Returns whether that
+     * was possible. */
+    bool makeDefinite(const Eigen::VectorXd& diagonal);
+  };
+
+  void factorizeIndefinite(const CoarsestMatrix& matrix);
   void findFloating(const CoarsestMatrix& matrix);
   Eigen::SparseMatrix<double> stiffened(const CoarsestMatrix& matrix, double share) const;
   void project(Eigen::MatrixXd& b) const;
   bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
 
   std::optional<Reservation> Memory;
-  Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
+  Decomposition Factor;
   std::vector<Eigen::Index> Floating; // per node: the first node of its component, -1 if anchored
 };
 
