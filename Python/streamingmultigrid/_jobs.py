@@ -346,6 +346,17 @@ def distance(
     del given["sources"]
     if sources is None and not wall:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
+    if within is not None and not within > 0:
+        raise InputError("distance: within: %r is no length: it must be positive." % (within,))
+    if wall and within is not None:
+        raise InputError("distance: within: the largest distance is one of paths: leave it out with wall=True.")
+    if to is not None and (wall or accuracy == "approximate"):
+        raise InputError(
+            "distance: to: shortest paths are those of exact distances on a surface: leave out %s."
+            % ("wall=True" if wall else "accuracy='approximate'")
+        )
+    if wall and added.mesh.n_corners == 3:
+        raise InputError("distance: wall: the distance to walls is that of tetrahedra; this mesh has triangles.")
     names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceGroup"] * bool(group)
     names += ["DistanceDirection"] * bool(direction)
     return {**given, "from": _where(added, sources), "to": _where(added, to)}, names

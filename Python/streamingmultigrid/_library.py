@@ -173,16 +173,30 @@ def json_file(path: Any, what: str) -> Any:
         raise Error("%s: this is not valid JSON: %s." % (name, error)) from None
 
 
+#: How places of the descriptions of jobs, and what to write there, are called in this package.
+_PLACES = tuple(
+    (re.compile(pattern), words)
+    for pattern, words in (
+        (r"\bregion: dirichlet\[0\](?:: |\.)", "region: "),
+        (r"\bdistance: from\b", "distance: sources"),
+        (r"\bhandles\.handles\[", "handles["),
+        (r'add "center": \[x, y, z\]', "give center=[x, y, z]"),
+    )
+)
+
+
 def readable(text: str) -> str:
     """A sentence of the library, with the arguments that it knows as columns called so, and those that it
     knows as options of the command line, without what it says to users of others: "(argument weld=0)" for
-    "(option --weld 0; in ParaView ...)"."""
+    "(option --weld 0; in ParaView ...)"; places of descriptions are called by their arguments."""
 
     def argument(option: "re.Match[str]") -> str:
         value = "=" + option[3] if option[3] else ""
         return "(%s %s%s)" % ("argument" if option[1] == "option" else "without", option[2].replace("-", "_"), value)
 
     text = re.sub(r"\((option|without) --([a-z-]+)(?: ([^ ;,)]+))?(?:[;,][^)]*)?\)", argument, text)
+    for pattern, words in _PLACES:
+        text = pattern.sub(words, text)
     return re.sub(r"(?:the column )?'#([^'\"\n]+)'+", r"the array given as \1", text)
 
 

@@ -205,7 +205,8 @@ class Mesh:
 
     @property
     def bounds(self) -> Tuple[float, ...]:
-        """(xmin, xmax, ymin, ymax, zmin, zmax), in the unit of the mesh."""
+        """(xmin, xmax, ymin, ymax, zmin, zmax), in the unit of the mesh, of the vertices that cells have:
+        `points` has those of no cell, too."""
         return tuple(self.info()["bounds"])
 
     @property

@@ -295,7 +295,10 @@ class Handle:
 
     def description(self, columns: Columns) -> Dict[str, Any]:
         """The handle as in a handle file."""
-        written: Dict[str, Any] = {"region": self.region.where(columns)}
+        where = self.region.where(columns)
+        if not where:  # a handle file has no word for all of the mesh
+            where = {"mask": columns.add(np.ones(columns.mesh.n_vertices, bool), "mask", False, (1,)).name}
+        written: Dict[str, Any] = {"region": where}
         for key, value in self.motion.items():
             if key in ("target", "rotation", "logScale") and not isinstance(value, str):
                 value = self._of_vertices(value, key, columns)
@@ -352,7 +355,12 @@ def handle(
         if isinstance(rotate, Mapping):
             motion["rotate"] = dict(rotate)
         else:
-            axis, degrees = rotate
+            try:
+                axis, degrees = rotate
+            except (TypeError, ValueError):
+                raise InputError(
+                    "handle: rotate: %r is not (axis, degrees), with an axis of 3 numbers." % (rotate,)
+                ) from None
             motion["rotate"] = {"axis": axis, "degrees": degrees}
         if center is not None:
             motion["rotate"]["center"] = center
@@ -367,7 +375,7 @@ def handle(
     motion.update((key, value) for key, value in words.items() if value is not None)
     part = as_region(region)
     turned = motion.get("rotate", {"center": center} if scale is not None else None)
-    if part.is_plane and turned is not None and turned.get("center") is None:
+    if not part.has_center and turned is not None and turned.get("center") is None:
         raise InputError("handle: %r has no center to turn or scale about: give center=." % part)
     if not motion:
         raise InputError(

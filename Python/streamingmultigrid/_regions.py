@@ -29,7 +29,10 @@ class Region:
     combined vertex by vertex: ``a | b``, ``a & b``, ``a - b``, ``~a``.
     """
 
-    is_plane = False
+    @property
+    def has_center(self) -> bool:
+        """Whether the region has a point of its own to turn or scale about."""
+        return self._kind in ("box", "sphere")
 
     def __init__(self, kind: str, value: Any) -> None:
         self._kind, self._value = kind, value
@@ -131,8 +134,6 @@ class _Boundary(Region):
 
 
 class _Plane(Region):
-    is_plane = True  # a box without ends, which has no center
-
     def __init__(self, axis: int, at: float, tolerance: Optional[float]) -> None:
         super().__init__("plane", {_AXES[axis]: at})
         self._axis, self._at, self._tolerance = axis, at, tolerance

@@ -112,6 +112,12 @@ class ErrorsTest(unittest.TestCase):
             ("merge (option --weld 0; in ParaView Clean; in C++ x), or (b)", "merge (argument weld=0), or (b)"),
             ("solve out of core (without --in-core)", "solve out of core (without in_core)"),
             ("a file (of --x)", "a file (of --x)"),
+            ("distance: from[0].vertices: none", "distance: sources[0].vertices: none"),
+            ("distance: from: none", "distance: sources: none"),
+            ("deform: handles.handles[1].scale: 0", "deform: handles[1].scale: 0"),
+            ('no point: add "center": [x, y, z].', "no point: give center=[x, y, z]."),
+            ("region: dirichlet[0].box: must", "region: box: must"),
+            ("region: dirichlet[0]: must", "region: must"),
         ):
             self.assertEqual(readable(sentence), said)
         known = {name for call in (smg.open, smg.Mesh.solve, smg.Mesh.smooth, smg.Mesh.deform, smg.Mesh.simplify)
@@ -146,7 +152,18 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.smooth(size="0edges"), smg.InputError, "'0edges' is not a size"),
             (lambda: mesh.smooth(size=1e200), smg.Error, r"details to smooth \(argument size\)"),
             (lambda: mesh.distance(), smg.InputError, "sources"),
-            (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.Error, "."),
+            (lambda: mesh.distance([999]), smg.Error, r"sources\[0\].vertices"),
+            (lambda: mesh.distance([0], within=-1), smg.InputError, "within: -1"),
+            (lambda: mesh.distance([0], within=np.nan), smg.InputError, "within: nan"),
+            (lambda: mesh.distance(wall=True, within=1), smg.InputError, "within: .* wall=True"),
+            (lambda: mesh.distance(wall=True), smg.InputError, "wall: .* tetrahedra"),
+            (lambda: mesh.distance([0], to=[1], accuracy="approximate"), smg.InputError, "to: .* accuracy="),
+            (lambda: mesh.deform([smg.handle(smg.everywhere, scale=2)]), smg.InputError, "center="),
+            (lambda: mesh.deform([smg.handle(smg.above(z=0), rotate=((0, 0, 1), 5))]), smg.InputError, "center="),
+            (lambda: smg.handle(smg.above(z=0), rotate=5), smg.InputError, "rotate: 5"),
+            (lambda: mesh.deform([smg.handle(smg.above(z=0), translate=(0, 1))]), smg.InputError, r"handles\[0\]"),
+            (lambda: mesh.select(smg.box((1, 1, 1), (0, 0, 0))), smg.InputError, "^region: box: must be"),
+            (lambda: smg.mesh(points, cells.astype(float)), smg.InputError, "integers"),
             (lambda: mesh.blend("Light", patch="scan"), smg.Error, "scan|Light"),
             (lambda: mesh["Light"], smg.InputError, "Light"),
             (lambda: mesh.add("a\0b", np.ones(162)), smg.InputError, "character 0"),
@@ -169,8 +186,12 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.simplify(), smg.InputError, "vertices"),
             (lambda: smg.open("nowhere.ply"), FileNotFoundError, "nowhere.ply"),
         ):
-            with self.subTest(words=words), self.assertRaisesRegex(error, words):
+            with self.subTest(words=words), self.assertRaisesRegex(error, words) as caught:
                 call()
+            # None of the words of the files and of the command line.
+            self.assertNotRegex(str(caught.exception), r'\bfrom\[|handles\.handles|dirichlet\[0\]\.box|"[a-z]+":|--[a-z]')
+        moved = mesh.deform([smg.handle(smg.everywhere, translate=(0, 0, 1))]).to_numpy()
+        np.testing.assert_allclose(moved, points + [0, 0, 1], atol=1e-12)
         for call in (mesh.solve, mesh.solver, lambda **o: mesh.estimate("solve", **o),
                      lambda **o: mesh.save("a.vsm", **o), lambda **o: mesh.distance([0]).save("a.vsm", **o),
                      lambda **o: smg.solve(points, cells, **o), lambda **o: smg.mesh(points, cells, **o),
