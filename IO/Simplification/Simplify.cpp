@@ -305,6 +305,28 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
 
 } // namespace
 
+namespace
+{
+
+/** The vertices that are held by their numbers, as points or all: others are known when the mesh is
+ * read. */
+std::int64_t heldByName(const std::vector<Where>& parts, const StreamInfo& mesh)
+{
+  std::int64_t held = 0;
+  for (const Where& part : parts)
+  {
+    const auto* region = std::get_if<Region>(&part);
+    const auto* points = std::get_if<NearestVertices>(&part);
+    held += region && region->vertices()               ? std::ssize(region->vertices()->ids)
+            : points                                   ? std::ssize(points->points)
+            : std::holds_alternative<Everywhere>(part) ? mesh.vertices
+                                                       : 0;
+  }
+  return std::min(held, mesh.vertices);
+}
+
+} // namespace
+
 JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& target,
   const std::filesystem::path& out, const SimplifyOptions& options,
   const ConversionOptions& conversion)
@@ -319,7 +341,8 @@ JobEstimate simplifyEstimate(const EstimatedInput& mesh, const SimplifyTarget& t
     surface.cells = 0; // not known
     surface.cellColumns.clear();
   }
-  costs.memory = windowBytes(options.memoryLimit, surface) + openBytes(surface);
+  costs.memory = windowBytes(options.memoryLimit, surface) + openBytes(surface) +
+                 heldBytes(options.memoryLimit, heldByName(options.hold, mesh.info), surface);
   costs.passes = isSurface || !options.hold.empty() ? 2 : 1; // the first for seams and what is held
   costs.seconds = SecondsOfCell * static_cast<double>(mesh.info.cells);
   EstimatedInput result = mesh;

@@ -40,9 +40,6 @@ constexpr PoolUse HeldMemory{ "the simplification, in which so many vertices sta
  * that is not SmallGoal times what will be left of the mesh, so that the window has something to
  * choose from. */
 constexpr double PartShare = 1.0 / 16.0, SmallGoal = 16.0, UsualShare = 1.0 / 8.0;
-/** A window has at least so many triangles for each locked vertex: otherwise little of it could be
- * simplified. */
-constexpr std::size_t TrianglesPerLocked = 8;
 
 } // namespace
 
@@ -298,14 +295,15 @@ void StreamSimplifier::enlarge(std::size_t capacity)
 bool StreamSimplifier::grow()
 {
   const Staying staying = this->staying();
-  const auto fixed = static_cast<std::size_t>(staying.lockedVertices + staying.heldVertices);
-  if (fixed * TrianglesPerLocked <= this->Capacity)
+  const std::size_t wanted =
+    windowOf(this->Capacity, staying.lockedVertices + staying.heldVertices, this->Info);
+  if (wanted == this->Capacity)
   {
     return false;
   }
   try
   {
-    this->enlarge(fixed * TrianglesPerLocked * 3 / 2);
+    this->enlarge(wanted);
   }
   catch (const MemoryLimitError& error)
   {

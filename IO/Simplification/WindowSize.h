@@ -19,6 +19,21 @@ inline constexpr std::int64_t MinWindow = 20000;
 /** The number of parts whose triangles the window holds. */
 inline constexpr std::int64_t PartsOfWindow = 3;
 
+/** A window has at least so many triangles for each vertex that is locked or held: otherwise little
+ * of it could be simplified. */
+inline constexpr std::size_t TrianglesPerLocked = 8;
+
+/** The triangles that a window should have of which so many vertices are locked or held, if it has
+ * `window`: never more than all. */
+inline std::size_t windowOf(std::size_t window, std::int64_t fixed, const StreamInfo& info)
+{
+  const auto vertices = static_cast<std::size_t>(fixed);
+  const auto all = static_cast<std::size_t>(info.cells > 0 ? info.cells : INT64_MAX);
+  return vertices * TrianglesPerLocked <= window
+           ? window
+           : std::max(window, std::min(vertices * TrianglesPerLocked * 3 / 2, all));
+}
+
 /** The bytes that a triangle of a surface with these columns takes while its edges collapse. */
 inline std::int64_t bytesOfTriangle(const StreamInfo& info)
 {
@@ -44,6 +59,13 @@ inline std::int64_t windowBytes(std::int64_t memory, const StreamInfo& info)
 {
   const auto window = PartsOfWindow * static_cast<std::int64_t>(trianglesOfPart(memory, info));
   return 2 * (info.cells > 0 ? std::min(window, info.cells) : window) * bytesOfTriangle(info);
+}
+
+/** What a window takes beside windowBytes() if so many vertices are held. */
+inline std::int64_t heldBytes(std::int64_t memory, std::int64_t held, const StreamInfo& info)
+{
+  const std::size_t window = PartsOfWindow * trianglesOfPart(memory, info);
+  return static_cast<std::int64_t>(windowOf(window, held, info) - window) * bytesOfTriangle(info);
 }
 
 /** What the open vertices of the stream take beside the window, at least. */
