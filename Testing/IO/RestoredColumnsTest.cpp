@@ -28,7 +28,7 @@ void giveTextColumns(MeshOfFile& mesh)
     }
     columns.push_back(makeColumn<decltype(valueOf(0))>(name, values, components));
   };
-  const auto share = [](int i) { return static_cast<float>(i % 11) / 10.0F; };
+  const auto share = [](int i) { return (i % 11) / 10.0; };
   const auto label = [](int i) { return std::int64_t(i % 7 - 2); };
   const auto byte = [](int i) { return static_cast<std::uint8_t>(255 - i % 256); };
   const auto real = [](int i) { return 1.0 / (i + 1); };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/PathDistance.h"
+#include "Solver/Jobs/Distance/TriangleTree.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/SolveMesh.h"
 #include "smg/Distance.h"
@@ -183,6 +185,18 @@ inline auto straightFrom(const StreamMesh& mesh, std::int64_t source)
 {
   const double* s = mesh.positions.data() + 3 * source;
   return [s](const double* p) { return std::hypot(p[0] - s[0], p[1] - s[1], p[2] - s[2]); };
+}
+
+/** The distance of a point to the nearest of the triangles. */
+inline double straightTo(const std::vector<TrianglePoints>& triangles, const double* point)
+{
+  double least = HUGE_VAL;
+  for (const TrianglePoints& triangle : triangles)
+  {
+    const Vector way = difference(nearestPoint(triangle, point).data(), point);
+    least = std::min(least, std::sqrt(dot(way, way)));
+  }
+  return least;
 }
 
 } // namespace smg::testing

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Distance/TriangleTree.h"
 #include "Testing/Solver/DistanceTesting.h"
 
@@ -115,17 +114,6 @@ std::vector<TrianglePoints> facetsOf(
     }
   }
   return facets;
-}
-
-double straightTo(const std::vector<TrianglePoints>& facets, const double* p)
-{
-  double least = HUGE_VAL;
-  for (const TrianglePoints& facet : facets)
-  {
-    const Vector way = difference(nearestPoint(facet, p).data(), p);
-    least = std::min(least, std::sqrt(dot(way, way)));
-  }
-  return least;
 }
 
 } // namespace

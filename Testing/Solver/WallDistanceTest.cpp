@@ -55,18 +55,6 @@ std::vector<TrianglePoints> boundaryTriangles(const StreamMesh& mesh)
   return boundary;
 }
 
-/** The distance of a point to the nearest of the triangles. */
-double minOf(const std::vector<TrianglePoints>& triangles, const double* point)
-{
-  double least = HUGE_VAL;
-  for (const TrianglePoints& triangle : triangles)
-  {
-    const Vector way = difference(nearestPoint(triangle, point).data(), point);
-    least = std::min(least, std::sqrt(dot(way, way)));
-  }
-  return least;
-}
-
 /** The distance of a point to a triangle: to its edges, or to its plane where it lies above the
  * inside. In more digits than doubles have. */
 double distanceTo(const TrianglePoints& triangle, const double* point)
@@ -123,7 +111,8 @@ TEST(WallDistance, IsThatOfAllBoundaryTriangles)
   EXPECT_EQ(solved.report.passes, 1);
   for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
   {
-    EXPECT_NEAR(solved.values(v, 0), minOf(boundary, mesh.mesh().positions.data() + 3 * v), 1e-14);
+    EXPECT_NEAR(
+      solved.values(v, 0), straightTo(boundary, mesh.mesh().positions.data() + 3 * v), 1e-14);
   }
 }
 
@@ -140,7 +129,7 @@ TEST(WallDistance, PointsAwayFromTheWall)
     const Eigen::RowVector3d foot =
       Eigen::Map<const Eigen::RowVector3d>(mesh.mesh().positions.data() + 3 * v) -
       distance * direction;
-    EXPECT_NEAR(minOf(boundary, foot.data()), 0, 1e-6);
+    EXPECT_NEAR(straightTo(boundary, foot.data()), 0, 1e-6);
     const double* source =
       mesh.mesh().positions.data() + 3 * static_cast<std::int64_t>(solved.values(v, 1));
     EXPECT_LT((Eigen::Map<const Eigen::RowVector3d>(source) - foot).norm(), 0.15);
@@ -251,7 +240,7 @@ TEST(TriangleTree, FindsTheFirstOfTheNearest)
   {
     const double point[3] = { random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
       random.uniform(-0.5, 1.5) };
-    const double least = minOf(triangles, point);
+    const double least = straightTo(triangles, point);
     const TriangleTree::Nearest nearest =
       tree.nearest(point, HUGE_VAL, trial % 2 ? random.below(500) : -1);
     EXPECT_DOUBLE_EQ(nearest.distance, least);
