@@ -233,7 +233,7 @@ TEST(ContrastFluxes, OfManyBodiesDependOnNoBlocks)
   IndexedTestMesh all = strip;
   all.positions.clear();
   all.corners.clear();
-  for (int body = 0; body < BodyFlows::MostLabels + 100; ++body)
+  for (int body = 0; body < BodyFlows::mostLabels(1) + 100; ++body)
   {
     const auto first = static_cast<std::int64_t>(all.positions.size() / 3);
     for (std::size_t e = 0; e < strip.positions.size(); ++e)

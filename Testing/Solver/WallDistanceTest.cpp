@@ -184,7 +184,7 @@ TEST(WallDistance, HasErrors)
     },
     "from[0]: no face of the mesh is in this region");
   DistanceOptions options;
-  options.memoryLimit = 1 << 20;
+  options.memoryLimit = 1 << 19;
   const std::string sentence = messageOf([&] { measure(cube, wallOf(), options); });
   EXPECT_TRUE(contains(sentence, "a distance needs at least")) << sentence;
 }

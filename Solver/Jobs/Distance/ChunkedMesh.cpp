@@ -206,6 +206,7 @@ void ChunkWriter::addCell(const std::int64_t* corners)
 /** Of a cell that has other vertices, too: what its vertices of a region span, and points. */
 void ChunkWriter::addSourceFacets(std::span<const std::int64_t> corners)
 {
+  const Ring<std::int64_t>* const labels = this->To.plan.sources ? &this->Numbers : nullptr;
   std::array<std::int64_t, 4> ofRegion{};
   std::size_t count = 0;
   for (const std::int64_t& corner : corners)
@@ -217,12 +218,12 @@ void ChunkWriter::addSourceFacets(std::span<const std::int64_t> corners)
     }
     else if ((mark & Dirty) != 0)
     {
-      this->Facets->add({ &corner, 1 }, this->Points);
+      this->Facets->add({ &corner, 1 }, this->Points, labels);
     }
   }
   if (count > 0 && count < corners.size())
   {
-    this->Facets->add(std::span(ofRegion).first(count), this->Points);
+    this->Facets->add(std::span(ofRegion).first(count), this->Points, labels);
   }
 }
 

@@ -102,32 +102,48 @@ bool LineOfSight::leave(std::uint32_t w, Step& step) const
   return isFound;
 }
 
-bool LineOfSight::arrivesAt(const Face& face) const
+bool LineOfSight::endsAt(const Face& face) const
 {
-  if (!this->Root)
+  if (this->Root)
   {
-    return std::ranges::all_of(face, [this](std::uint32_t v) { return this->hasNearest(v); });
+    // A source has copies where a mesh is cut.
+    return std::ranges::any_of(face, [this](std::uint32_t v) { return this->isRoot(v); });
   }
-  // A source has copies where a mesh is cut.
-  const auto isRoot = [this](std::uint32_t v)
-  {
-    return std::equal(this->Root->point.begin(), this->Root->point.end(), this->Window.point(v)) &&
-           this->Window.distance()[v] <= this->Root->offset;
-  };
-  const auto hasSeen = [&](std::uint32_t v)
-  { return this->Window.root(v) == *this->Root || isRoot(v); };
-  return std::ranges::any_of(face, isRoot) || std::ranges::all_of(face, hasSeen);
+  // A point of the face, as far along the line as this crosses it.
+  const View a = this->viewOf(face[0]), b = this->viewOf(face[1]), c = this->viewOf(face[2]);
+  const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
+  const double whole = ab + bc + ca, end = dot(this->Along, this->Along);
+  const double along = bc * a.along + ca * b.along + ab * c.along;
+  return whole != 0.0 && along / whole >= (1 - FaceMargin) * end;
 }
 
+bool LineOfSight::isRoot(std::uint32_t vertex) const
+{
+  return std::equal(
+           this->Root->point.begin(), this->Root->point.end(), this->Window.point(vertex)) &&
+         this->Window.distance()[vertex] <= this->Root->offset;
+}
+
+bool LineOfSight::hasSeen(const Face& face) const
+{
+  return std::ranges::all_of(face,
+    [this](std::uint32_t v)
+    {
+      return this->Root ? this->Window.root(v) == *this->Root || this->isRoot(v)
+                        : this->hasNearest(v);
+    });
+}
+
+/** Beyond a face of the boundary there is nothing, though its corners have seen the end past it. */
 bool LineOfSight::pass(const Face& face, std::uint32_t passed, Step& step) const
 {
-  const bool arrives = this->arrivesAt(face);
-  const std::uint32_t corner = arrives ? passed : this->beyond(face, passed);
+  const bool ends = this->endsAt(face);
+  const std::uint32_t corner = ends ? passed : this->beyond(face, passed);
   if (corner == MarchWindow::NoVertex)
   {
     return false;
   }
-  step = { face, corner, arrives };
+  step = { face, corner, ends || this->hasSeen(face) };
   return true;
 }
 

@@ -71,8 +71,11 @@ private:
   bool crosses(Face& face) const;
   /** Finds the face opposite to w that the line crosses. */
   bool leave(std::uint32_t w, Step& step) const;
-  /** Whether the line need not be followed beyond a face. */
-  bool arrivesAt(const Face& face) const;
+  bool isRoot(std::uint32_t vertex) const;
+  /** Whether the line comes to its end by a face. */
+  bool endsAt(const Face& face) const;
+  /** Whether all corners of a face see what the line leads to. */
+  bool hasSeen(const Face& face) const;
   /** Sets the step through a face of the cell of corner `passed`, unless that is at the boundary,
    * or at the end of the window. */
   bool pass(const Face& face, std::uint32_t passed, Step& step) const;

@@ -280,7 +280,7 @@ void March::offerNearest(std::uint32_t w, const std::array<std::uint32_t, 3>& fa
   {
     return;
   }
-  // The corner whose own nearest point is closest to this one has its source.
+  // The corner whose own nearest point is closest to this one has its kind of front.
   const auto away = [&](std::uint32_t v)
   {
     const Vector way = difference(this->Window.nearest(v).point.data(), nearest.point.data());
@@ -293,6 +293,10 @@ void March::offerNearest(std::uint32_t w, const std::array<std::uint32_t, 3>& fa
     this->Window.arrive(w, nearest.point, passed);
     this->Window.setRoot(w, this->isOfRegion(passed) ? FrontRoot() : FrontRoot{ nearest.point, 0 });
     this->accept(w, line, passed, face);
+    if (std::int64_t* const source = this->Window.source())
+    {
+      source[w] = nearest.source;
+    }
   }
 }
 

@@ -11,8 +11,8 @@
 // new one is read into the slot (chunk mod 4) of one that left.
 //
 // Chunks have a fixed number of vertices, so the memory is known before the march: 45 bytes per
-// vertex (8 more with sources, 12 with directions, 40 with paths, 32 each with
-// roots and nearest sources) and the lists of
+// vertex (8 more with sources, 12 with directions, 40 with paths, 32 with
+// roots, 40 with nearest sources) and the lists of
 // cells.
 
 namespace smg

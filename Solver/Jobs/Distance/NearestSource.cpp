@@ -14,13 +14,14 @@
 // only the facets of such cells count, which a thick region has few of. They are found with the
 // chunks of the mesh; then a tree of them (TriangleTree) is asked for each vertex.
 //
-// Memory: 116 bytes per facet of a part, and 56 bytes per vertex of a chunk. Time: about
+// Memory: 116 bytes per facet of a part, and 64 bytes per vertex of a chunk. Time: about
 // logarithmic in the number of facets for each vertex and part. The result depends on neither.
 
 namespace smg
 {
 
-void SourceFacets::add(std::span<const std::int64_t> vertices, const Ring<double>& points)
+void SourceFacets::add(std::span<const std::int64_t> vertices, const Ring<double>& points,
+  const Ring<std::int64_t>* labels)
 {
   Facet facet{};
   std::ranges::fill(std::ranges::copy(vertices, facet.vertices.begin()).out, facet.vertices.end(),
@@ -28,7 +29,8 @@ void SourceFacets::add(std::span<const std::int64_t> vertices, const Ring<double
   std::ranges::sort(facet.vertices);
   for (std::size_t k = 0; k < 3; ++k)
   {
-    std::copy_n(points.at(facet.vertices[k]), 3, facet.points.point[k]);
+    std::copy_n(points.at(facet.vertices[k]), 3, facet.triangle.points.point[k]);
+    facet.triangle.numbers[k] = labels ? *labels->at(facet.vertices[k]) : -1;
   }
   this->Collected.push_back(facet);
   if (this->Collected.size() == MostCollected)
@@ -43,7 +45,7 @@ void SourceFacets::write()
   const auto same = std::ranges::unique(this->Collected, {}, &Facet::vertices);
   this->Collected.erase(same.begin(), same.end());
   std::vector<std::array<std::int64_t, 3>> parts;
-  for (const auto& [v, points] : this->Collected)
+  for (const auto& [v, triangle] : this->Collected)
   {
     if (v[0] < v[1])
     {
@@ -61,7 +63,7 @@ void SourceFacets::write()
   {
     if (!std::ranges::binary_search(parts, facet.vertices))
     {
-      this->To.add({ facet.points, {} });
+      this->To.add(facet.triangle);
     }
   }
   this->Collected.clear();
@@ -89,8 +91,17 @@ void lower(
     if (found.triangle >= 0)
     {
       guess = found.triangle;
-      nearest[v] = { nearestPoint(facets.points()[static_cast<std::size_t>(guess)], point),
-        found.distance };
+      const auto triangle = static_cast<std::size_t>(guess);
+      const TrianglePoints& corners = facets.points()[triangle];
+      const Vector foot = nearestPoint(corners, point);
+      const auto squareTo = [&foot](const double* corner)
+      {
+        const Vector way = difference(foot.data(), corner);
+        return dot(way, way);
+      };
+      const auto corner = std::ranges::min_element(corners.point, {}, squareTo) - corners.point;
+      nearest[v] = { foot, found.distance,
+        facets.numbers()[triangle][static_cast<std::size_t>(corner)] };
     }
   }
 }
@@ -118,7 +129,7 @@ void findNearestSources(ChunkedMesh& mesh, BlockStore& facets, std::int64_t coun
       const std::int64_t index = chunk * ChunkedMesh::MeshParts + ChunkedMesh::NearestSources;
       if (first == 0)
       {
-        std::ranges::fill(nearest, NearestSource{ {}, mesh.farthest() });
+        std::ranges::fill(nearest, NearestSource{ {}, mesh.farthest(), -1 });
       }
       else
       {

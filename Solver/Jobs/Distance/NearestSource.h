@@ -23,6 +23,7 @@ struct NearestSource
 {
   std::array<double, 3> point{};
   double distance = 0;
+  std::int64_t source = -1; ///< its label, if labels are wanted
 };
 
 /** Collects the facets of sources at which paths from other vertices end: faces, edges and vertices
@@ -36,19 +37,20 @@ public:
     this->Collected.reserve(MostCollected);
   }
 
-  /** Adds the facet of these 1 to 3 vertices. */
-  void add(std::span<const std::int64_t> vertices, const Ring<double>& points);
+  /** Adds the facet of these 1 to 3 vertices; `labels` are those of their sources, or null. */
+  void add(std::span<const std::int64_t> vertices, const Ring<double>& points,
+    const Ring<std::int64_t>* labels);
   /** To be called after the last facet; returns their number. */
   std::int64_t finish();
 
 private:
-  static constexpr std::size_t MostCollected = 1 << 14;
+  static constexpr std::size_t MostCollected = 1 << 12;
 
   /** Its vertices in ascending order; the last one is repeated where there are fewer. */
   struct Facet
   {
     std::array<std::int64_t, 3> vertices;
-    TrianglePoints points;
+    NumberedTriangle triangle;
   };
   /** Writes what is collected, without what is part of other facets. */
   void write();

@@ -46,14 +46,13 @@ std::int64_t TrianglePart::lengthFor(std::int64_t triangles, std::int64_t other,
   constexpr std::int64_t Block = TriangleWriter::BlockTriangles;
   // Something for small allocations.
   const std::int64_t rest = other + (1 << 16);
-  const std::int64_t room = pool.limit() - pool.used() - rest;
-  const std::int64_t most = room / TriangleBytes / Block * Block;
-  if (most < std::min(triangles, Block))
+  const std::int64_t room = (pool.limit() - pool.used() - rest) / TriangleBytes;
+  if (room < std::min(triangles, Block))
   {
-    throw MemoryLimitError(
-      pool.used() + rest + Block * TriangleBytes, pool.limit(), DistanceMemory);
+    throw MemoryLimitError(pool.used() + rest + std::min(triangles, Block) * TriangleBytes,
+      pool.limit(), DistanceMemory);
   }
-  return std::min(most, triangles);
+  return room < triangles ? room / Block * Block : triangles;
 }
 
 TrianglePart::TrianglePart(BlockStore& file, std::int64_t first, std::int64_t count, Pool& pool)

@@ -253,8 +253,8 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   costs.memory = least + bytesOfSpan * info.span;
   const bool hasRegion =
     std::ranges::any_of(description.from, [](const Where& place) { return pointsOf(place) == 0; });
-  // FrontRoot, NearestSource: bytesOfSpan has room for one of them in solids.
-  constexpr std::int64_t RootBytes = 32, WindowSpans = 64;
+  // NearestSource, or FrontRoot, for which bytesOfSpan has room in solids.
+  constexpr std::int64_t RootBytes = 40, WindowSpans = 64;
   const bool hasNearest = hasRegion && !isExactDistance(info, description);
   costs.memory += surface && hasNearest ? RootBytes * WindowSpans * info.span : 0;
   costs.scratch = costs.kept = bytesOf(info,

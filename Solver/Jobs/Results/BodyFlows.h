@@ -23,7 +23,7 @@ class BodyFlows
 {
 public:
   /** So many labels bound the memory: later bodies are judged as one with the first. */
-  static constexpr std::int32_t MostLabels = 1 << 14;
+  static constexpr std::int32_t mostLabels(int columns) { return (1 << 14) / columns; }
   static constexpr double Far = std::numeric_limits<double>::infinity();
 
   /** The sums of a column. */

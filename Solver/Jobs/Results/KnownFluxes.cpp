@@ -120,6 +120,12 @@ double KnownFluxes::doubt(std::int32_t body, double rowSum, const Flow& flow, st
 {
   constexpr double Sure = 3.0;
   const BodyFlows::Sums& sums = this->Bodies.of(body, k);
+  // With the first body, others may be judged whose sources the solve has changed: their residuals
+  // are what it has taken away.
+  if (body == 0 && !this->Into.removed_source.empty() && this->Into.removed_source[k] != 0.0)
+  {
+    return 0.0;
+  }
   const Hold& hold = this->Holds.at(body);
   const bool isFirm = rowSum == BodyFlows::Far;
   const double others = hold.firm > (isFirm ? 1 : 0)

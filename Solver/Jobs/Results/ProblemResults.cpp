@@ -36,7 +36,7 @@ ProblemResults::ProblemResults(
   , Flows(this->Memory, problem.columns() + 1)
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Parts(1, &this->Memory)
-  , Labels(this->Memory, this->Parts, BodyFlows::MostLabels)
+  , Labels(this->Memory, this->Parts, BodyFlows::mostLabels(problem.columns()))
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux,
       problem.conditionCounts().parts)

@@ -144,10 +144,9 @@ void Convergence::watch()
   const int n = this->cycles();
   // Of poor conductors, while the residual of good ones waits for them.
   const std::vector<double>& watched = isEven ? this->Residuals : this->ScaledResiduals;
-  const double before = n > patience ? watched[static_cast<std::size_t>(n - patience - 1)]
-                        : isEven     ? this->FirstNorm / this->Reference
-                                     : HUGE_VAL;
-  const bool stagnates = n > patience && watched.back() > Stagnating * before;
+  const bool stagnates =
+    n > patience &&
+    watched.back() > Stagnating * watched[static_cast<std::size_t>(n - patience - 1)];
   if (!stagnates && n < this->Limit)
   {
     return;
