@@ -13,6 +13,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
+#include <set>
 #include <string>
 
 namespace smg
@@ -29,16 +30,21 @@ bool isOfWholeMesh(vtkAlgorithmOutput& output)
          (filter.IsA("vtkStreamingSolver") && output.GetIndex() > 0);
 }
 
-/** The first filter before another whose output has a field array; null: none. */
-vtkAlgorithm* markedBefore(vtkAlgorithm& filter, const char* mark)
+/** The first filter before another whose output has a field array; null: none. Those in `seen` have
+ * none before them. */
+vtkAlgorithm* markedBefore(vtkAlgorithm& filter, const char* mark, std::set<vtkAlgorithm*>& seen)
 {
+  if (!seen.insert(&filter).second)
+  {
+    return nullptr;
+  }
   for (int port = 0; port < filter.GetNumberOfInputPorts(); ++port)
   {
     for (int k = 0; k < filter.GetNumberOfInputConnections(port); ++k)
     {
       vtkAlgorithmOutput& before = *filter.GetInputConnection(port, k);
       vtkAlgorithm* first =
-        isOfWholeMesh(before) ? nullptr : markedBefore(*before.GetProducer(), mark);
+        isOfWholeMesh(before) ? nullptr : markedBefore(*before.GetProducer(), mark, seen);
       vtkDataObject* data = filter.GetInputDataObject(port, k);
       if (first || (data && data->GetFieldData()->HasArray(mark)))
       {
@@ -47,6 +53,13 @@ vtkAlgorithm* markedBefore(vtkAlgorithm& filter, const char* mark)
     }
   }
   return nullptr;
+}
+
+/** The same of any filter. */
+vtkAlgorithm* markedBefore(vtkAlgorithm& filter, const char* mark)
+{
+  std::set<vtkAlgorithm*> seen;
+  return markedBefore(filter, mark, seen);
 }
 
 /** Why not to save what is made of something else than who saves it may think, in a sentence;
