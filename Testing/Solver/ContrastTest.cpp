@@ -356,17 +356,7 @@ TEST(Contrast, WhatRoundingTakesIsSaid)
   hold(problem, above(0, 7.5), 1.0);
   problem.Conductivity = [&](const Point& x) -> Eigen::Matrix3d
   { return (problem.Part(x) == 0 ? 1.0 : 1e14) * Eigen::Matrix3d::Identity(); };
-  // The mesh cannot be read again: there is no correction.
-  MemorySource source(mesh);
-  const std::unique_ptr<Solution> solution = solve(source, problem);
-  Report report = solution->report();
-  source.rewind(1000);
-  ProblemResults results(source.info(), problem, *solution);
-  for (MeshBlock block; source.next(block);)
-  {
-    results.add(block);
-  }
-  results.finish(report);
+  const Report report = resultsOfOneReading(problem);
   EXPECT_TRUE(std::isnan(report.conditions[1].flux[0]));
   EXPECT_TRUE(std::isnan(report.balance[0]));
   ASSERT_EQ(report.warnings.size(), 1U);

@@ -133,14 +133,12 @@ inline std::vector<Shape> shapes()
   };
 }
 
-/** The results of a solve with the options of a user who gave none, and others. */
-inline Report resultsOf(
-  ElementProblem& problem, const SolveOptions& others = {}, std::int64_t block = 1000)
+/** The results of a solve of a mesh that cannot be read again, so that there is no correction,
+ * unless the options say how. */
+inline Report resultsOfOneReading(
+  ElementProblem& problem, const SolveOptions& options = {}, std::int64_t block = 1000)
 {
-  const StreamMesh& mesh = problem.mesh();
-  SolveOptions options = others;
-  options.again = [&mesh, block] { return std::make_unique<MemorySource>(mesh, block); };
-  MemorySource source(mesh, block);
+  MemorySource source(problem.mesh(), block);
   const std::unique_ptr<Solution> solution = solve(source, problem, options);
   Report report = solution->report();
   source.rewind(block);
@@ -151,6 +149,16 @@ inline Report resultsOf(
   }
   results.finish(report);
   return report;
+}
+
+/** The results of a solve with the options of a user who gave none, and others. */
+inline Report resultsOf(
+  ElementProblem& problem, const SolveOptions& others = {}, std::int64_t block = 1000)
+{
+  const StreamMesh& mesh = problem.mesh();
+  SolveOptions options = others;
+  options.again = [&mesh, block] { return std::make_unique<MemorySource>(mesh, block); };
+  return resultsOfOneReading(problem, options, block);
 }
 
 /** Calls test(problem, name) for each shape, on a surface and a solid, with these contrasts. */

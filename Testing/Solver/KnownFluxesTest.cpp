@@ -200,17 +200,7 @@ TEST(ContrastFluxes, BodiesAreJudgedApart)
       hold(
         problem, [](const Point& x) { return x[0] > 50.0 && x[0] < 100.5; }, 0.0);
       hold(problem, above(0, 115.5), scale);
-      // Without a correction.
-      MemorySource source(mesh);
-      const std::unique_ptr<Solution> solution = solve(source, problem);
-      Report report = solution->report();
-      source.rewind(1000);
-      ProblemResults results(source.info(), problem, *solution);
-      for (MeshBlock block; source.next(block);)
-      {
-        results.add(block);
-      }
-      results.finish(report);
+      const Report report = resultsOfOneReading(problem);
       const ExactResults exact = solveInQuadruple(problem);
       expectRightOrSaid(report, exact);
       for (const std::size_t c : { 2, 3 })

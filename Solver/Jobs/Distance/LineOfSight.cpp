@@ -63,19 +63,23 @@ LineOfSight::View LineOfSight::viewOf(std::uint32_t vertex) const
   return { dot(to, this->Across[0]), dot(to, this->Across[1]), dot(to, this->Along) };
 }
 
-bool LineOfSight::crosses(Face& face) const
+LineOfSight::Projection LineOfSight::projected(const Face& face) const
 {
   const View a = this->viewOf(face[0]), b = this->viewOf(face[1]), c = this->viewOf(face[2]);
-  double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
-  const double along = bc * a.along + ca * b.along + ab * c.along;
-  double whole = ab + bc + ca;
-  if (whole < 0)
+  const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
+  return { ab, bc, ca, ab + bc + ca, bc * a.along + ca * b.along + ab * c.along };
+}
+
+bool LineOfSight::crosses(Face& face) const
+{
+  const Projection seen = this->projected(face);
+  const double sign = seen.whole < 0 ? -1 : 1, whole = sign * seen.whole;
+  if (sign < 0)
   {
     std::swap(face[0], face[1]);
-    ab = -ab, bc = -bc, ca = -ca, whole = -whole;
-    return std::min({ ab, bc, ca }) >= -FaceMargin * whole && along < 0;
   }
-  return whole > 0 && std::min({ ab, bc, ca }) >= -FaceMargin * whole && along > 0;
+  return whole > 0 && sign * seen.along > 0 &&
+         std::min({ sign * seen.ab, sign * seen.bc, sign * seen.ca }) >= -FaceMargin * whole;
 }
 
 bool LineOfSight::leave(std::uint32_t w, Step& step) const
@@ -110,11 +114,9 @@ bool LineOfSight::endsAt(const Face& face) const
     return std::ranges::any_of(face, [this](std::uint32_t v) { return this->isRoot(v); });
   }
   // A point of the face, as far along the line as this crosses it.
-  const View a = this->viewOf(face[0]), b = this->viewOf(face[1]), c = this->viewOf(face[2]);
-  const double ab = a.x * b.y - a.y * b.x, bc = b.x * c.y - b.y * c.x, ca = c.x * a.y - c.y * a.x;
-  const double whole = ab + bc + ca, end = dot(this->Along, this->Along);
-  const double along = bc * a.along + ca * b.along + ab * c.along;
-  return whole != 0.0 && along / whole >= (1 - FaceMargin) * end;
+  const Projection seen = this->projected(face);
+  const double end = dot(this->Along, this->Along);
+  return seen.whole != 0.0 && seen.along / seen.whole >= (1 - FaceMargin) * end;
 }
 
 bool LineOfSight::isRoot(std::uint32_t vertex) const

@@ -67,6 +67,13 @@ private:
   /** Begins a line from w to a root, or to the nearest source of w if none is given. */
   void look(std::uint32_t w, const FrontRoot* root);
   View viewOf(std::uint32_t vertex) const;
+  /** The areas of a projected face beside its edges ab, bc and ca, as seen from the line, their
+   * sum, and that times how far along the line its plane is met. */
+  struct Projection
+  {
+    double ab, bc, ca, whole, along;
+  };
+  Projection projected(const Face& face) const;
   /** Whether the line crosses a face opposite to w, whose corners are put in order for it. */
   bool crosses(Face& face) const;
   /** Finds the face opposite to w that the line crosses. */

@@ -91,17 +91,8 @@ void lower(
     if (found.triangle >= 0)
     {
       guess = found.triangle;
-      const auto triangle = static_cast<std::size_t>(guess);
-      const TrianglePoints& corners = facets.points()[triangle];
-      const Vector foot = nearestPoint(corners, point);
-      const auto squareTo = [&foot](const double* corner)
-      {
-        const Vector way = difference(foot.data(), corner);
-        return dot(way, way);
-      };
-      const auto corner = std::ranges::min_element(corners.point, {}, squareTo) - corners.point;
-      nearest[v] = { foot, found.distance,
-        facets.numbers()[triangle][static_cast<std::size_t>(corner)] };
+      const Vector foot = nearestPoint(facets.points()[static_cast<std::size_t>(guess)], point);
+      nearest[v] = { foot, found.distance, facets.numberNearest(guess, foot.data()) };
     }
   }
 }

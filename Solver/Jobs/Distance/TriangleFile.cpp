@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/TriangleFile.h"
 
+#include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "smg/Error.h"
 
@@ -63,6 +64,18 @@ TrianglePart::TrianglePart(BlockStore& file, std::int64_t first, std::int64_t co
 {
   this->read(file, first);
   this->Tree.emplace(pool, this->Points);
+}
+
+std::int64_t TrianglePart::numberNearest(std::int64_t triangle, const double* point) const
+{
+  const auto squareTo = [point](const double* corner)
+  {
+    const Vector way = difference(point, corner);
+    return dot(way, way);
+  };
+  const auto& corners = this->Points[static_cast<std::size_t>(triangle)].point;
+  const auto nearest = std::ranges::min_element(corners, {}, squareTo) - corners;
+  return this->Numbers[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(nearest)];
 }
 
 void TrianglePart::read(BlockStore& file, std::int64_t first)

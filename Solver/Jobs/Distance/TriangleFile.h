@@ -61,7 +61,8 @@ public:
   TrianglePart(BlockStore& file, std::int64_t first, std::int64_t count, Pool& pool);
 
   std::span<const TrianglePoints> points() const { return this->Points; }
-  std::span<const std::array<std::int64_t, 3>> numbers() const { return this->Numbers; }
+  /** Of the corners of a triangle, the number of the one that is nearest to a point. */
+  std::int64_t numberNearest(std::int64_t triangle, const double* point) const;
   const TriangleTree& tree() const { return *this->Tree; }
 
 private:

@@ -203,14 +203,8 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
     }
     if (this->Values.sources)
     {
-      const auto squareTo = [point](const double* corner)
-      {
-        const Vector way = difference(point, corner);
-        return dot(way, way);
-      };
       // The source is the corner of the nearest triangle that is nearest to the vertex.
-      const auto corner = std::ranges::min_element(corners.point, {}, squareTo) - corners.point;
-      this->Source[v] = this->Part.numbers()[triangle][static_cast<std::size_t>(corner)];
+      this->Source[v] = this->Part.numberNearest(nearest.triangle, point);
     }
   }
 }
