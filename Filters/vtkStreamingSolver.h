@@ -108,8 +108,8 @@ public:
 
   ///@{
   /**
-   * The solve ends when the norm of the residual is at most this fraction of the initial one, of
-   * Poisson problems whose solution varies little beside its values a smaller one; in (0, 1).
+   * The solve ends when the norm of the residual is at most this fraction of that of the best
+   * constant, or of the mesh at rest where it is moved; in (0, 1).
    * Default: 1e-8, with which the result agrees with that of a direct solver to the digits of a
    * float; of Streaming Mesh Deformation 1e-6.
    */

@@ -135,16 +135,17 @@ void SolvingCommand::print(const smg::Report& report) const
     smg::counted(report.cells, "cell", "cells").c_str());
   if (report.distributed)
   {
-    std::printf("%s, %s, relative residual %.3g\n",
+    std::printf("%s, %s, %s\n",
       smg::counted(report.distributed->processes, "process", "processes").c_str(),
-      smg::counted(report.cycles, "iteration", "iterations").c_str(), report.residual());
+      smg::counted(report.cycles, "iteration", "iterations").c_str(),
+      report.residualText().c_str());
   }
   else
   {
-    std::printf("%zu %s, %d %s in %d %s, relative residual %.3g\n", report.levels.size(),
+    std::printf("%zu %s, %d %s in %d %s, %s\n", report.levels.size(),
       report.levels.size() == 1 ? "level" : "levels", report.cycles,
       iterations(report, report.cycles), report.passes, report.passes == 1 ? "pass" : "passes",
-      report.residual());
+      report.residualText().c_str());
   }
   for (const smg::Report::Step& step : report.steps)
   {

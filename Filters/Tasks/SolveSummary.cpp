@@ -27,6 +27,7 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   summary.paths = report.distance ? report.distance->paths : std::vector<Report::Path>();
   summary.columns = columns;
   summary.residual = report.residual();
+  summary.residualText = report.residualText();
   summary.cycles = report.cycles;
   summary.passes = report.passes;
   summary.processes = report.distributed ? report.distributed->processes : 0;
@@ -74,7 +75,7 @@ std::string SolveSummary::outcome() const
   }
   if (this->cycles > 0)
   {
-    text << "relative residual " << std::setprecision(3) << this->residual << ", ";
+    text << this->residualText << ", ";
   }
   text << std::fixed << std::setprecision(1) << static_cast<double>(this->peakMemory) / MiB
        << " MiB of memory";

@@ -30,6 +30,7 @@ struct SolveSummary
   std::vector<Report::Path> paths;  ///< of a distance; known to the process that solved
   int columns = 0;
   double residual = 0.0;
+  std::string residualText; ///< see Report::residualText()
   int cycles = 0, passes = 0;
   int processes = 0; ///< of the distributed engine, whose iterations `cycles` counts; 0: none
   bool converged = false;

@@ -120,6 +120,7 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   this->shareText(summary.report, from);
   this->shareText(summary.notes, from);
   this->shareText(summary.doubt, from);
+  this->shareText(summary.residualText, from);
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
     double(summary.passes), double(summary.converged), double(summary.peakMemory),
     double(summary.isCancelled), double(summary.processes), double(summary.previewPoints),

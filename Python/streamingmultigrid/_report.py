@@ -130,6 +130,7 @@ class Report(_Facts):
             outcome = "converged" if self["converged"] else "NOT CONVERGED"
             if residuals:
                 outcome += " after %s, residual %s" % (counted(self["cycles"], "V-cycle"), _residual(residuals[-1]))
+                outcome += " of that of %s" % self["relative_to"] if "relative_to" in self else ""
             lines.append("  %s, %s" % (outcome, counted(self.get("passes", 0), "pass", "passes")))
         if "error" in self:
             lines.append("  error %s" % self["error"])

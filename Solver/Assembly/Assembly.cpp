@@ -235,8 +235,9 @@ void Assembly::collectVertex(std::int64_t i)
   // the label does not. Whether the component still is free may depend on it, too, but then it gets
   // a constraint later, and its sums are not used.
   const bool counts = root >= 0 && this->Parts.isFloating(root);
-  made.vertices.push_back({ end, rowSum, weight, this->Reach[i],
-    this->Cells.policy.own() ? open.scale[i] : 1.0F, counts ? this->Cells.parts.label(i) : -1 });
+  made.vertices.push_back(
+    { end, rowSum, weight, this->Reach[i], this->Cells.policy.own() ? open.scale[i] : 1.0F,
+      root < 0 ? -1 : this->Cells.parts.label(i), counts });
 }
 
 /** Completes the rows of the arrived vertices. A row reads values and positions of all its

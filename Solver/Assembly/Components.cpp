@@ -384,16 +384,17 @@ double Components::incompatibility() const
   return largest;
 }
 
-double Components::shiftedSquares() const
+std::vector<double> Components::shiftedSquares() const
 {
-  double squares = 0.0;
+  std::vector<double> squares(static_cast<std::size_t>(this->Columns));
   this->forShifts(
     [&](std::size_t label, int k)
     {
       // ||r - s w||^2 - ||r||^2 with the shift s and the weights w.
       const Weighed all = this->weighed(label, k);
       const double shift = all.b / all.weights;
-      squares += shift * shift * all.squares - 2.0 * shift * all.residual;
+      squares[static_cast<std::size_t>(k)] +=
+        shift * shift * all.squares - 2.0 * shift * all.residual;
     });
   return squares;
 }

@@ -97,8 +97,8 @@ public:
   /** The largest |sum of b| / sum of |b| that the shifts subtract from a free component; 0 without
    * such shifts. */
   double incompatibility() const;
-  /** The change of ||r_0||^2 due to the shifts. */
-  double shiftedSquares() const;
+  /** Per column: the change of ||r_0||^2 due to the shifts. */
+  std::vector<double> shiftedSquares() const;
   /** Per column and floating component: what is to be subtracted from the values, given the sums of
    * the weighted values (label-major): their mean minus that of the initial values; for a component
    * that is held loosely, minus the constant c. */

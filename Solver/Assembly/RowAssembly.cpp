@@ -345,6 +345,11 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   }
   if (vertex.label >= 0)
   {
+    this->Residual.varying.add(
+      vertex.label, this->RowSum - this->Raise, vertex.weight, this->B.data(), share);
+  }
+  if (vertex.counts)
+  {
     this->Parts.count(vertex.label, this->B.data(), x, residual.data(), vertex.weight);
   }
   if (this->Listener)

@@ -4,6 +4,7 @@
 #include "Solver/Assembly/Components.h"
 #include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/OpenVertices.h"
+#include "Solver/Assembly/VaryingRightSide.h"
 #include "Solver/Core/SimdPack.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -70,7 +70,8 @@ public:
     double weight;      ///< in the means of its component: Components::count()
     std::int64_t reach; ///< the largest neighbour of this and all earlier vertices
     float scale;        ///< see OpenVertices
-    std::int32_t label; ///< of the component whose sums an unknown counts for; or -1
+    std::int32_t label; ///< of its component; or -1
+    bool counts;        ///< for the sums of the component, which may float
   };
 
   std::int64_t first = 0; ///< the first vertex
@@ -121,9 +122,11 @@ class InitialResidual
 {
 public:
   explicit InitialResidual(int columns)
-    : OfRow(static_cast<std::size_t>(columns))
-    , Least(OfRow.size(), std::numeric_limits<double>::infinity())
-    , Most(OfRow.size(), -std::numeric_limits<double>::infinity())
+    : varying(columns)
+    , OfRow(static_cast<std::size_t>(columns))
+    , Squares(OfRow.size())
+    , RoundingSquares(OfRow.size())
+    , LoadSquares(OfRow.size())
   {
   }
 
@@ -136,23 +139,24 @@ public:
   std::span<const double> add(
     const Row& row, const double* x, const double* b, std::int64_t stride, double share);
 
-  /** ||b - A x_0||^2 with the shares. */
-  double squares() const { return this->Squares; }
+  /** ||b - A x_0||^2 with the shares, by column. */
+  std::span<const double> squares() const { return this->Squares; }
   /** The sum of the squares of its terms b_i and A_ii x_i. */
   double termSquares() const { return this->TermSquares; }
-  /** The same with the shares by which rows count in later residuals: see residualShare(). */
-  double roundingSquares() const { return this->RoundingSquares; }
+  /** The same with the shares by which rows count in later residuals (see residualShare()), by
+   * column. */
+  std::span<const double> roundingSquares() const { return this->RoundingSquares; }
   /** The part of these that is due to the right-hand side alone. */
-  double loadSquares() const { return this->LoadSquares; }
+  std::span<const double> loadSquares() const { return this->LoadSquares; }
   /** Whether any of the terms is not 0, though its square may be. */
   bool anyTerm() const { return this->AnyTerm; }
-  /** The least and the largest initial value of each column. */
-  std::span<const double> least() const { return this->Least; }
-  std::span<const double> most() const { return this->Most; }
+
+  /** What the residual is measured against; the rows are to be added to it, too. */
+  VaryingRightSide varying;
 
 private:
-  std::vector<double> OfRow, Least, Most;
-  double Squares = 0.0, TermSquares = 0.0, RoundingSquares = 0.0, LoadSquares = 0.0;
+  std::vector<double> OfRow, Squares, RoundingSquares, LoadSquares; // by column
+  double TermSquares = 0.0;
   bool AnyTerm = false;
 };
 
@@ -160,7 +164,7 @@ template <class Row>
 std::span<const double> InitialResidual::add(
   const Row& row, const double* x, const double* b, std::int64_t stride, double share)
 {
-  double squares = 0.0, termSquares = 0.0, loadSquares = 0.0;
+  const double rounding = residualShare(share);
   withColumns(static_cast<int>(this->OfRow.size()),
     [&](auto columns)
     {
@@ -181,20 +185,16 @@ std::span<const double> InitialResidual::add(
       }
       for (int k = 0; k < columns; ++k)
       {
-        squares += sum[k] * sum[k];
-        termSquares += b[k] * b[k] + row.diagonal * row.diagonal * x[k] * x[k];
-        loadSquares += b[k] * b[k];
-        this->AnyTerm = this->AnyTerm || b[k] != 0.0 || x[k] != 0.0;
         const auto column = static_cast<std::size_t>(k);
-        this->Least[column] = std::min(this->Least[column], x[k]);
-        this->Most[column] = std::max(this->Most[column], x[k]);
+        const double loadSquare = b[k] * b[k];
+        const double termSquare = loadSquare + row.diagonal * row.diagonal * x[k] * x[k];
+        this->Squares[column] += share * share * (sum[k] * sum[k]);
+        this->TermSquares += termSquare;
+        this->RoundingSquares[column] += rounding * rounding * termSquare;
+        this->LoadSquares[column] += rounding * rounding * loadSquare;
+        this->AnyTerm = this->AnyTerm || b[k] != 0.0 || x[k] != 0.0;
       }
     });
-  this->Squares += share * share * squares;
-  this->TermSquares += termSquares;
-  const double rounding = residualShare(share);
-  this->RoundingSquares += rounding * rounding * termSquares;
-  this->LoadSquares += rounding * rounding * loadSquares;
   return this->OfRow;
 }
 
@@ -212,7 +212,7 @@ public:
   /** The next vertex, which is free, has an edge to the constrained vertex index + delta. */
   virtual void link(std::int32_t delta, double weight) = 0;
   /** The next vertex is an unknown, whose initial residual counts as `share` (see commonShare());
-   * label: see FinalVertices. */
+   * label: of its component, or -1. */
   virtual void unknown(double /*share*/, std::int32_t /*label*/) {}
   /** The target d_ij of the next edge in the row of the next vertex, one value per column. Called
    * only if the problem has edge targets; `target` is valid during the call. */

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
+
 // The report as JSON: the text that --report writes, the filters return and scripts read. Entries
 // are in the order in which they are inserted here. Those of only some computations (passes, steps,
 // volumes, seams, distances, processes ...) are left out where they do not apply, all others are
@@ -134,6 +136,10 @@ std::string Report::json(int indent) const
   out["resumed_passes"] = this->resumed_passes;
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
+  if (!this->relative_to.empty())
+  {
+    out["relative_to"] = this->relative_to;
+  }
   addPasses(*this, out);
   out["acceleration"] = this->acceleration;
   out["converged"] = this->converged;
@@ -197,6 +203,14 @@ std::string Report::json(int indent) const
   out["notes"] = this->notes;
   out["warnings"] = this->warnings;
   return out.dump(indent);
+}
+
+std::string Report::residualText() const
+{
+  char number[32];
+  std::snprintf(number, sizeof number, "%.3g", this->residual());
+  return std::string("relative residual ") + number +
+         (this->relative_to.empty() ? "" : ", to that of " + this->relative_to);
 }
 
 } // namespace smg

@@ -29,6 +29,7 @@ public:
   PositionProblem(const RotationProblem& rotations, std::span<const double> turns);
 
   int columns() const override { return Columns; }
+  bool beginsAtRest() const override { return true; }
   Weights weights() const override { return this->Rotations.weights(); }
   bool connectsFlatCells() const override { return this->Rotations.connectsFlatCells(); }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;

@@ -85,6 +85,8 @@ void DistributedRun::assemble(Problem& problem)
   this->System = {}; // releases the memory of the problem before
   PartAssembly assembly(pool, this->Vertices, this->Part, problem);
   this->System = assembly.assemble(std::move(matrix));
+  this->MeasuresMotion = problem.beginsAtRest();
+  r.relative_to = this->MeasuresMotion ? MeshAtRest : BestConstant;
   r.pool_bytes_peak = std::max(r.pool_bytes_peak, pool.peak());
   if (isFirst)
   {
@@ -147,8 +149,8 @@ Report::Step DistributedRun::iterate(const std::string& what, double begin, doub
   return step;
 }
 
-/** Solves for one right-hand side. The norm of the initial residual, by which the tolerance is
- * measured, weighs rows by their shares (commonShare()), as in the streaming engine. */
+/** Solves for one right-hand side. What the residual is measured against weighs rows by their
+ * shares (commonShare()), as in the streaming engine. */
 Convergence DistributedRun::solveColumn(std::size_t column, double begin, double end)
 {
   ConjugateGradients& method = *this->Method;
@@ -162,7 +164,8 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
   this->Processes.sum({ &squares, 1 });
   const double tolerance = this->Options.tolerance;
   Convergence convergence({ tolerance, this->Options.maxIterations },
-    { std::sqrt(squares), roundingOf(system.roundingSquares[column]) });
+    { std::sqrt(squares), roundingOf(system.roundingSquares[column]),
+      this->MeasuresMotion ? std::sqrt(squares) : system.references[column] });
   // The residual decreases about geometrically, so its logarithm says how much is done.
   const auto iterated = [&]
   {

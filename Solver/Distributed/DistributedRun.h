@@ -64,6 +64,7 @@ private:
   std::optional<ConjugateGradients> Method; ///< of the matrix
   Report::Distributed Costs;
   bool LeavesUndetermined = false;
+  bool MeasuresMotion = false; ///< Problem::beginsAtRest()
 };
 
 } // namespace smg

@@ -200,6 +200,7 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
   system.roundingSquares.assign(columns, 0.0);
   // Rows that are not unknowns are x = value: 1 on the diagonal.
   this->Diagonals.assign(own, 1.0);
+  this->RowSums.assign(own, 0.0);
   this->IsUnknown.assign(own, 0);
   for (std::size_t k = 0; k < own; ++k)
   {
@@ -251,6 +252,7 @@ void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& 
   this->Raised += raise > 0.0 ? 1 : 0;
   this->IsUnknown[row] = 1;
   this->Diagonals[row] = sums[RowSum] + edges + raise;
+  this->RowSums[row] = sums[RowSum];
   system.share[row] = commonShare(sums[RowSum] + (sums[Terms] - sums[Ordinary]), sums[Ordinary]);
   std::vector<double> x(static_cast<std::size_t>(this->Columns));
   for (std::size_t c = 0; c < x.size(); ++c)
@@ -322,7 +324,46 @@ void PartAssembly::finish(PartSystem& system)
   {
     this->Incomplete->assemble();
   }
+  this->measure(system);
   this->count(system);
+}
+
+/** Finds the best constant c of each column, and then ||b - A c||: A c is c times the row sums. */
+void PartAssembly::measure(PartSystem& system) const
+{
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  std::vector<double> constants(columns), sums(columns + 1);
+  const auto forRows = [&](auto&& add)
+  {
+    for (std::size_t row = 0; row < this->RowSums.size(); ++row)
+    {
+      for (std::size_t c = 0; this->IsUnknown[row] && c < columns; ++c)
+      {
+        add(c, system.share[row] * this->RowSums[row], system.share[row] * system.b[c][row]);
+      }
+    }
+  };
+  forRows(
+    [&](std::size_t c, double w, double b)
+    {
+      sums[c] += w * b;
+      sums[columns] += c == 0 ? w * w : 0.0;
+    });
+  Team& team = this->Vertices.team();
+  team.sum(sums);
+  for (std::size_t c = 0; sums[columns] > 0.0 && c < columns; ++c)
+  {
+    constants[c] = sums[c] / sums[columns];
+  }
+  system.references.assign(columns, 0.0);
+  forRows(
+    [&](std::size_t c, double w, double b)
+    {
+      const double rest = b - constants[c] * w;
+      system.references[c] += rest * rest;
+    });
+  team.sum(system.references);
+  std::ranges::for_each(system.references, [](double& sum) { sum = std::sqrt(sum); });
 }
 
 /** Adds to a row of the matrix, unless that is complete from an earlier problem. */

@@ -28,6 +28,9 @@ struct PartSystem
   std::vector<std::int64_t> undetermined; ///< own vertices, from 0, that nothing determines
   // By column, of all processes: see InitialResidual.
   std::vector<double> termSquares, roundingSquares;
+  /** By column, of all processes: what the residual is measured against, the residual of the best
+   * constant, of all components the same one. */
+  std::vector<double> references;
   std::unique_ptr<SharedComponents> components;
   AssemblyCounts counts;     ///< of all processes
   std::int64_t unknowns = 0; ///< of all processes
@@ -67,6 +70,7 @@ private:
   void closeUnknown(std::int64_t k, const double* sums, PartSystem& system);
   void finish(PartSystem& system);
   void add(std::int64_t row, std::span<const HYPRE_BigInt> columns, std::span<const double> values);
+  void measure(PartSystem& system) const;
   void count(PartSystem& system) const;
   double regularWeight(std::int64_t i, std::int64_t to) const;
   int lanes() const { return Load + this->Columns; }
@@ -85,6 +89,7 @@ private:
   std::vector<std::int32_t> LabelOf; ///< of the vertices of the part
   std::vector<float> Scales;         ///< of the vertices of the part, see OpenVertices
   std::vector<double> Diagonals;     ///< of own vertices
+  std::vector<double> RowSums;       ///< of own vertices
   std::vector<char> IsUnknown;       ///< of own vertices
   std::int64_t Prescribed = 0, Raised = 0, Entries = 0;
   bool AnyTerm = false;

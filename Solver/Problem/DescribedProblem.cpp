@@ -25,10 +25,9 @@ namespace
 
 /**
  * Where the iteration begins if the description does not say: at the undeformed mesh if a Dirichlet
- * value is the position; in each column in the middle of the prescribed and ambient numbers if they
- * differ and it is farther from 0 than they are from each other (temperatures in kelvin), which
- * saves the V-cycles that find a constant; else at 0, which is the mean of components without a
- * condition.
+ * value is the position; in each column in the middle of the prescribed and ambient numbers if it
+ * is farther from 0 than they are from each other (temperatures in kelvin), which saves the
+ * V-cycles that find a constant; else at 0, which is the mean of components without a condition.
  */
 class StartValues
 {
@@ -70,7 +69,7 @@ StartValues::StartValues(const ProblemDescription& description)
     const auto [least, most] = std::ranges::minmax(all, {}, numberOf);
     const double min = numberOf(least), max = numberOf(most);
     const double middle = min / 2 + max / 2;
-    this->Start[k] = min < max && max - min < std::fabs(middle) ? middle : 0.0;
+    this->Start[k] = max - min < std::fabs(middle) ? middle : 0.0;
   }
 }
 
@@ -132,6 +131,7 @@ struct DescribedProblem::OnMesh
   Weights weights;
   std::vector<DatumOnMesh> data; ///< in the order of ProblemData
   StartValues start;
+  bool isPosition = false; ///< a Dirichlet value
   std::vector<std::int32_t> entry,
     other;                    ///< applicable entries at vertices, in cells, or on facets
   std::vector<double> values; ///< their values
@@ -155,6 +155,8 @@ DescribedProblem::OnMesh::OnMesh(
   }
   forProblemData([&](const auto& row) { this->add(row, description); });
   this->start = StartValues(description);
+  this->isPosition = std::ranges::any_of(
+    description.dirichlet, [](const PlacedValue& entry) { return entry.value.isPosition(); });
 }
 
 DataPlace DescribedProblem::OnMesh::placeOf(
@@ -283,6 +285,11 @@ std::int64_t DescribedProblem::bytes() const
 int DescribedProblem::columns() const
 {
   return static_cast<int>(this->Data->columns);
+}
+
+int DescribedProblem::vectorSize() const
+{
+  return this->Data->isPosition ? this->columns() : 1;
 }
 
 Weights DescribedProblem::weights() const

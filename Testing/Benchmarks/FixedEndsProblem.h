@@ -16,6 +16,7 @@ public:
   explicit FixedEndsProblem(const StreamInfo& info);
 
   int columns() const override { return 3; }
+  int vectorSize() const override { return 3; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
 private:

@@ -87,7 +87,7 @@ TEST(Components, TheMeanOfAnIncompatibleRightSideIsItsShift)
   const std::vector<double> shifts = parts.rightSideShifts();
   EXPECT_DOUBLE_EQ(shifts[whole], 1.0);
   EXPECT_EQ(shifts[fixed], 0.0);
-  EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -3.0);
+  EXPECT_DOUBLE_EQ(parts.shiftedSquares().front(), -3.0);
   EXPECT_DOUBLE_EQ(parts.shiftedSums()[0], 3.0);
   EXPECT_DOUBLE_EQ(parts.incompatibility(), 3.0 / 5.0);
 }
@@ -104,7 +104,7 @@ TEST(Components, AConstantSourceIsAllMean)
   }
   parts.settle();
   EXPECT_DOUBLE_EQ(parts.rightSideShifts()[label], 3.0);
-  EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -squares);
+  EXPECT_DOUBLE_EQ(parts.shiftedSquares().front(), -squares);
   EXPECT_EQ(parts.weightOf(label, 0.5), 0.5);
 }
 
@@ -116,7 +116,7 @@ TEST(Components, WhereNoVertexHasAMassAllCountAlike)
   count(parts, label, 1.0, 9.0, 0.0);
   parts.settle();
   EXPECT_DOUBLE_EQ(parts.rightSideShifts()[label], 2.0);
-  EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -8.0);
+  EXPECT_DOUBLE_EQ(parts.shiftedSquares().front(), -8.0);
   EXPECT_EQ(parts.weightOf(label, 0.0), 1.0);
   EXPECT_DOUBLE_EQ(parts.meanShifts(std::vector{ 18.0 })[label], 1.0);
 }

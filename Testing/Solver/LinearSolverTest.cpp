@@ -165,7 +165,7 @@ TEST(LinearSolver, SolvesEquationsThatWereAssembledIndependently)
   }
 }
 
-TEST(LinearSolver, LowersItsGoalAsSolveDoes)
+TEST(LinearSolver, EndsAsSolveDoesFarFromZero)
 {
   const StreamMesh mesh = toStream(torus(90, 45, 0.3));
   ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
@@ -173,7 +173,6 @@ TEST(LinearSolver, LowersItsGoalAsSolveDoes)
   {
     problem.Value[i] += problem.Prescribed[i / 3] ? 1e3 : 0.0;
   }
-  ASSERT_LT(solveMesh(mesh, problem, inCore()).report.residual(), 1e-10);
   MemorySource source(mesh);
   LinearSolver solver(source, problem, inCore());
   expectSame(solver, mesh, problem, 1e-8);
@@ -195,7 +194,7 @@ TEST(LinearSolver, MultipliesAsTheReportCountsResiduals)
     ASSERT_FALSE(report.residuals.empty());
     if (!hasNote(report, "flat"))
     {
-      EXPECT_NEAR(last / first / report.residual(), 1.0, 1e-3);
+      EXPECT_NEAR(last / first / (report.residual() / report.by_pass.front().residual), 1.0, 1e-3);
     }
     // Rows of fixed vertices are those of the identity.
     const Numbers y = product(solver, sides.x);

@@ -122,7 +122,7 @@ TEST(SolveCheckpoint, AnAutomaticToleranceInPartsHasTheSameBits)
   expectSameInParts(mesh, problem, options);
 }
 
-TEST(SolveCheckpoint, ALoweredGoalInPartsHasTheSameBits)
+TEST(SolveCheckpoint, ValuesFarFromZeroInPartsHaveTheSameBits)
 {
   const TemporaryFolder folder;
   const StreamMesh mesh = toStream(shuffled(torus(110, 60, 0.4)), TestOrder::BreadthFirst);
@@ -134,7 +134,6 @@ TEST(SolveCheckpoint, ALoweredGoalInPartsHasTheSameBits)
   }
   SolveOptions options = streamed(folder / "ck");
   options.tolerance = 1e-8;
-  ASSERT_LT(withoutCheckpoint(mesh, problem, options).report.residual(), 1e-10);
   expectSameInParts(mesh, problem, options);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Files/State.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -115,8 +114,6 @@ TEST(State, NumbersForAnotherNumberOfColumnsAreRefused)
     expectError([&] { state(read); }, "state");
     std::filesystem::remove(folder / "state");
   };
-  check(IterateRange(4), IterateRange(1));
-  check(IterateRange(1), IterateRange(8));
   check(IterateEnergy(4), IterateEnergy(1));
   check(IterateEnergy(1), IterateEnergy(8));
 }

@@ -28,6 +28,7 @@ public:
   bool KeepsUndetermined = true;
 
   int columns() const override { return this->Columns; }
+  int vectorSize() const override { return this->Columns; }
   Weights weights() const override { return this->EdgeWeights; }
   bool keepsUndetermined() const override { return this->KeepsUndetermined; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;

@@ -261,9 +261,11 @@ Eigen::MatrixXd DirectSystem::scatter(const Eigen::MatrixXd& unknowns) const
 
 double DirectSystem::relativeResidual(const Eigen::MatrixXd& allVertices) const
 {
-  const double first = (this->rightSide - this->matrix * this->initial()).norm();
-  const double now = (this->rightSide - this->matrix * this->gather(allVertices)).norm();
-  return first > 0 ? now / first : now;
+  const Eigen::VectorXd rowSums = this->matrix * Eigen::VectorXd::Ones(this->unknowns());
+  const Eigen::RowVectorXd constants =
+    rowSums.transpose() * this->rightSide / rowSums.squaredNorm();
+  const double ofConstants = (this->rightSide - rowSums * constants).norm();
+  return (this->rightSide - this->matrix * this->gather(allVertices)).norm() / ofConstants;
 }
 
 DirectSystem assembleDirect(MeshSource& mesh, Problem& problem)

@@ -58,9 +58,13 @@ std::string tiles(Entries& report, const PageFacts& facts)
     const bool isDistributed = report.has("distributed");
     out += tile(isDistributed ? "iterations" : "V-cycles", count(cycles),
       isDistributed ? "" : "in " + counted(passes, "pass", "passes") + " over the mesh");
+    const Json relative = report.take("relative_to");
+    const std::string to = relative.is_string() ? "to that of " + relative.get<std::string>() : "";
+    const std::string tolerance =
+      facts.tolerance > 0.0 ? "tolerance " + number(facts.tolerance) : "";
     out += tile("relative residual",
       last.is_number() ? number(last.get<double>(), 3) : valueText("", last),
-      facts.tolerance > 0.0 ? "tolerance " + number(facts.tolerance) : "");
+      to + (to.empty() || tolerance.empty() ? "" : ", ") + tolerance);
   }
   else if (const Json passes = report.take("passes"); passes.is_number())
   {

@@ -144,6 +144,7 @@ public:
   const SeamSteps& steps() const { return this->Steps; }
 
   int columns() const override { return this->Blended.components(); }
+  int vectorSize() const override { return this->columns(); }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasCells() const override { return true; }
   void cells(CellBatch& batch) override;

@@ -108,6 +108,7 @@ inline void DeformationSteps::solve(const std::function<FirstResidual()>& build)
   positions.iteration(false);
   Report& r = this->Run.report;
   positions.convergence.addStep(r, "position", "position step: ");
+  r.relative_to = MeshAtRest;
   r.converged = rotations.convergence.converged() && positions.convergence.converged();
   r.seconds.solve = this->Run.seconds() - r.seconds.build;
   addDeformationNotes(r);
@@ -149,8 +150,10 @@ inline void DeformationSteps::beginPositions(Step& rotations, Step& positions)
   rotations.convergence.add(std::sqrt(step.rotationSquares()));
   rotations.convergence.addStep(this->Run.report, "rotation", "rotation step: ");
   this->Run.progress.begin(this->stopping(), Share, 1.0, false);
-  positions.convergence = Convergence(
-    this->stopping(), { std::sqrt(step.initialSquares()), roundingOf(step.termSquares()) });
+  // The initial values are the mesh at rest.
+  const double motion = std::sqrt(step.initialSquares());
+  positions.convergence =
+    Convergence(this->stopping(), { motion, roundingOf(step.termSquares()), motion });
   positions.convergence.begin(norm);
 }
 
@@ -264,7 +267,9 @@ inline void DeformationEngine::deform(MeshSource& mesh, Handles& handles)
       RotationProblem problem(handles, this->EdgeWeights,
         [this](std::int64_t vertex, const double* target) { this->Rest.hold(vertex, target); });
       FirstPass build(run, this->Levels, this->Set);
-      const FirstResidual first = build(mesh, problem, &this->Rest, PositionStep::CoreBytes);
+      // Measured against the motion: rotations begin at 0.
+      const FirstResidual first =
+        build(mesh, problem, &this->Rest, PositionStep::CoreBytes).alone();
       this->Rest.finish();
       checkAnyHeld(run.report);
       run.report.shared = problem.shared();

@@ -135,22 +135,22 @@ inline FirstResidual InteractiveEngine::findRightSide()
 {
   LevelWindow<double>& window = this->First.levels().window();
   std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
-  double squares = 0.0;
+  constexpr std::size_t Columns = RotationProblem::Columns;
+  ColumnResiduals residual{ std::vector<double>(Columns), std::vector<double>(Columns), {} };
   const auto addSquares = [&](std::int64_t i)
   {
-    double own = 0.0;
-    for (int c = 0; c < RotationProblem::Columns; ++c)
+    for (std::size_t c = 0; c < Columns; ++c)
     {
-      own += window.b().at(i)[c] * window.b().at(i)[c];
+      residual.squares[c] += window.b().at(i)[c] * window.b().at(i)[c];
     }
-    squares += own;
   };
   for (const RestBlock& block : this->First.rest().blocks())
   {
     addKnownValues(block.first(), std::span<const RestBlock::Link>(block.links()),
       RotationProblem::Columns, window.x(), window.b(), addSquares);
   }
-  return { std::sqrt(squares), roundingOf(squares) };
+  residual.rounding = residual.squares;
+  return residual.alone();
 }
 
 } // namespace smg

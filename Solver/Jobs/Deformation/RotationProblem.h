@@ -32,6 +32,7 @@ public:
   }
 
   int columns() const override { return Columns; }
+  bool beginsAtRest() const override { return true; }
   Weights weights() const override { return this->WeightsOfEdges; }
   /** True: a vertex that has only flat cells follows its neighbours instead of keeping its
    * position. */

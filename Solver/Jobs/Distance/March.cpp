@@ -98,6 +98,12 @@ void March::settle(std::int64_t first, std::int64_t last)
   }
 }
 
+void March::settle(std::int64_t first, std::int64_t last)
+{
+  const bool triangles = this->Window.mesh().plan.cellType == CellType::Triangle;
+  triangles ? this->settle<3>(first, last) : this->settle<4>(first, last);
+}
+
 void March::count()
 {
   constexpr std::int64_t Often = 1 << 14;

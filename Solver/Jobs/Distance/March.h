@@ -156,11 +156,7 @@ private:
    * would not end. */
   void count();
 
-  void settle(std::int64_t first, std::int64_t last) override
-  {
-    const bool triangles = this->Window.mesh().plan.cellType == CellType::Triangle;
-    triangles ? this->settle<3>(first, last) : this->settle<4>(first, last);
-  }
+  void settle(std::int64_t first, std::int64_t last) override;
   /** Settles until its queue is empty. */
   template <int Corners>
   void settle(std::int64_t first, std::int64_t last);

@@ -58,6 +58,8 @@ public:
   void setEdges(const VertexFile& normals, const EdgeConductivity& conductivity);
 
   int columns() const override { return this->Columns; }
+  int vectorSize() const override { return this->Columns; }
+  bool beginsAtRest() const override { return true; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasCells() const override { return this->Surface.has_value(); }
   void cells(CellBatch& batch) override;

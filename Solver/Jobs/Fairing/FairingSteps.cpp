@@ -322,6 +322,7 @@ void addStep(Report& total, const Report& step, const std::string& name)
   total.passes += step.passes;
   total.cycles += step.cycles;
   total.residuals.insert(total.residuals.end(), step.residuals.begin(), step.residuals.end());
+  total.relative_to = step.relative_to;
   total.by_pass.insert(total.by_pass.end(), step.by_pass.begin(), step.by_pass.end());
   total.acceleration = step.acceleration;
   total.peak_nodes = std::max(total.peak_nodes, step.peak_nodes);

@@ -18,7 +18,7 @@ namespace smg
  * What flows along the edges of the iterate of each pass: the norm over the rows of
  * sum_j |w_ij (x_j - x_i)| + |b_i - alpha_i x_i|, alpha_i the row sum.
  *
- * Where coefficients differ by many orders of magnitude, the residual of the initial values is as
+ * Where coefficients differ by many orders of magnitude, the residual of the best constant is as
  * large as the largest of them, but what flows through the whole is limited by the smallest. Fluxes
  * are sums of residuals, so these must be small beside what flows. A good conductor may carry more
  * than flows elsewhere, though: so the residual must also be small beside what flows if each row
@@ -80,8 +80,9 @@ public:
   }
 
   /** The norm of the column in which least flows, of those in which more does than the rounding of
-   * values makes flow; 0 if there is none. */
-  double norm() const
+   * values makes flow, times scale(column); 0 if there is none. */
+  template <class Scale>
+  double norm(Scale scale) const
   {
     constexpr double OfTerms = 3e-16;
     double least = 0.0;
@@ -89,9 +90,14 @@ public:
     {
       const double flow = std::sqrt(this->Squares[k]);
       const bool flows = flow > OfTerms * std::sqrt(this->TermSquares[k]);
-      least = flows && (least == 0.0 || flow < least) ? flow : least;
+      const double scaled = scale(k) * flow;
+      least = flows && (least == 0.0 || scaled < least) ? scaled : least;
     }
     return least;
+  }
+  double norm() const
+  {
+    return this->norm([](std::size_t) { return 1.0; });
   }
 
   /** The norm of the residual beside what flows, both in rows divided by their diagonals, of the

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Cycle/Sweep.h"
 #include "Solver/Multigrid/Cycle/Transfer.h"
@@ -81,10 +80,6 @@ public:
     {
       this->Energy->startPass(first);
     }
-    if (this->Range)
-    {
-      this->Range->startPass();
-    }
     if (this->Flow)
     {
       this->Flow->startPass();
@@ -142,8 +137,6 @@ public:
   void setHistory(IterateHistory* history) { this->History = history; }
   /** On the finest level: sums the energies of the iterates there; null: it does not. */
   void setEnergy(IterateEnergy* energy) { this->Energy = energy; }
-  /** On the finest level: finds the range of the iterates there; null: it does not. */
-  void setRange(IterateRange* range) { this->Range = range; }
   /** On the finest level: measures what flows in the iterates there; null: it does not. */
   void setFlow(IterateFlow* flow) { this->Flow = flow; }
 
@@ -362,7 +355,7 @@ private:
   {
     Real* squares = this->Squares.data();
     return { this->Coarse->window().b(), this->Scale, squares, squares + this->lanes(),
-      this->History, this->Energy, this->Range, this->Flow };
+      this->History, this->Energy, this->Flow };
   }
   template <class Kernel>
   void forAll(State& state, const Kernel& kernel)
@@ -382,7 +375,6 @@ private:
   const LevelCursors* Fine = nullptr;
   IterateHistory* History = nullptr;
   IterateEnergy* Energy = nullptr;
-  IterateRange* Range = nullptr;
   IterateFlow* Flow = nullptr;
   Real Scale = 1;
   Real Unscale = 1;

@@ -5,12 +5,12 @@ namespace smg
 {
 
 /**
- * The factor of a row in the norm of the initial residual, relative to which convergence is
- * measured. `own` is what screening, Robin and soft conditions contribute to the diagonal, and what
- * weights of slivers have beyond those of regular cells; `edges` is the sum of the magnitudes of
- * the ordinary weights. Where `own` is larger, the initial residual of the row is as large as
- * `own`, and would hide all other rows: it is scaled down to what ordinary edges alone would give.
- * In [0, 1]; 0 if there are no edges.
+ * The factor of a row in the norm of the residual, of the initial values or the best constant,
+ * relative to which convergence is measured. `own` is what screening, Robin and soft conditions
+ * contribute to the diagonal, and what weights of slivers have beyond those of regular cells;
+ * `edges` is the sum of the magnitudes of the ordinary weights. Where `own` is larger, that
+ * residual of the row is as large as `own`, and would hide all other rows: it is scaled down to
+ * what ordinary edges alone would give. In [0, 1]; 0 if there are no edges.
  */
 inline double commonShare(double own, double edges)
 {

@@ -4,7 +4,6 @@
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Cycle/IterateFlow.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/Residual.h"
 #include "Solver/Multigrid/Cycle/RowShare.h"
 #include "Solver/Multigrid/Setup/CoarseningData.h"
@@ -79,10 +78,10 @@ double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t 
  * the terms A_kk x_k to `terms`, except for rows without entries, whose values are prescribed; on
  * the finest level both with the share of the row, see residualShare(). Both are summed in node
  * order, so the norm of the residual does not depend on windows or threads. The history and the
- * energy of the iterates, if there are some, get each residual, too, and their range and their flow
- * each unknown. Where what flows is measured, residuals are sums of differences: what rounding of a
- * value takes from a row, it then adds to the rows of neighbours, and a good conductor as a whole
- * is not pushed up or down by it.
+ * energy of the iterates, if there are some, get each residual, too, and their flow each unknown.
+ * Where what flows is measured, residuals are sums of differences: what rounding of a value takes
+ * from a row, it then adds to the rows of neighbours, and a good conductor as a whole is not pushed
+ * up or down by it.
  */
 template <class Real>
 struct Restriction
@@ -92,7 +91,6 @@ struct Restriction
   Real *squares, *terms;
   IterateHistory* history;
   IterateEnergy* energy;
-  IterateRange* range;
   IterateFlow* flow;
 
   template <class Arrays, class Vectors>
@@ -135,10 +133,6 @@ private:
           {
             this->energy->template add<Vectors>(
               x, part.b + k * stride, residual, RowBlock::alphaOf(h, a, k), part.lane);
-          }
-          if (this->range)
-          {
-            this->range->template add<Vectors>(x, part.lane);
           }
           if (this->flow)
           {

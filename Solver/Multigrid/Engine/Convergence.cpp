@@ -25,6 +25,9 @@ constexpr int Patience = 60, RoundingPatience = 2;
 /** Half of the allowed V-cycles if that is less than 60, but at least this many. */
 constexpr int MinPatience = 10;
 constexpr double NearRounding = 10.0;
+/** The rounding of initial values far from the solution is at least this share of their residual.
+ */
+constexpr double OfInitial = 1e-13;
 
 } // namespace
 
@@ -43,16 +46,17 @@ std::string scientific(double value)
   return text;
 }
 
-/** The reference of relative residuals is at least the rounding, so that a start from the
- * solution does not divide by zero. If it starts there, reaching the rounding is all that is
- * asked. */
+/** Initial values that solve the problem up to rounding cannot be improved: reaching the rounding
+ * is all that is asked. */
 Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
   : Fixed(stopping.cycles > 0)
   , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
   , Tolerance(stopping.tolerance)
-  , Rounding(first.rounding)
-  , Reference(std::max(first.norm, first.rounding))
-  , Goal(first.norm <= first.rounding ? first.rounding : stopping.tolerance * first.norm)
+  , Rounding(std::max(first.rounding, OfInitial * first.norm))
+  , Reference(first.reference > 0.0 ? first.reference : first.rounding)
+  , Goal(std::max(
+      stopping.tolerance * first.reference, first.norm <= first.rounding ? first.rounding : 0.0))
+  , Initial(this->Reference > 0.0 ? first.norm / this->Reference : 0.0)
 {
 }
 
@@ -72,16 +76,16 @@ void Convergence::setGoal(double share, double rounding)
   }
 }
 
-void Convergence::begin(double norm, bool mayEnd, double share)
+void Convergence::begin(double norm, bool mayEnd)
 {
-  if (norm <= this->Goal)
-  {
-    this->setGoal(share, 0.0);
-  }
   this->Norm = norm;
   // The first sweeps may increase the residual; divergence is measured from the larger of both.
   this->FirstNorm = std::max(this->Reference, norm);
   this->Done = this->Converged = mayEnd && !this->Fixed && norm <= this->Goal;
+  if (this->Done && this->Initial > 0.0)
+  {
+    this->Note = "the initial values meet the tolerance: no V-cycle was needed";
+  }
 }
 
 /** Order matters: an overflow is an error even of the last V-cycle, divergence only if the goal
@@ -164,10 +168,9 @@ void Convergence::watch()
   }
   else if (this->Converged)
   {
-    this->Note = "converged, but the solution varies little, or little flows in it, beside its "
-                 "distance from the initial values, of which the tolerance is a share: initial "
-                 "values nearer to it make it more exact; " +
-                 residual + "is " + reached;
+    this->Note =
+      "converged, but little flows beside what good conductors would carry: " + residual + "is " +
+      reached;
   }
   else if (stagnates)
   {
@@ -194,7 +197,8 @@ void Convergence::addNotes(Report& report, const std::string& what) const
     return;
   }
   // Rounding has ended the solve, with a residual that is no measure of its error.
-  if (this->Converged && this->Residuals.back() >= 1.0)
+  if (this->Converged && !this->Residuals.empty() &&
+      this->Residuals.back() >= std::max(1.0, this->Initial))
   {
     report.warn(what + this->Note +
                 ", so that the solution may be wrong in all digits: cells are very thin, or "

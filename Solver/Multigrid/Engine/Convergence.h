@@ -13,7 +13,7 @@ namespace smg
 /** The stopping criterion for the V-cycles of a problem. */
 struct Stopping
 {
-  double tolerance = 1e-6; ///< of the residual, relative to the initial one
+  double tolerance = 1e-6; ///< of the residual, relative to FirstResidual::reference
   int maxCycles = 50;
   /**
    * The exact number of V-cycles, regardless of the residual; 0: until the tolerance is reached.
@@ -24,29 +24,28 @@ struct Stopping
 /** The residual of the initial values. */
 struct FirstResidual
 {
-  double norm = 0.0;     ///< ||b - A x_0||
-  double rounding = 0.0; ///< the part of it that is due to the rounding of its terms
+  double norm = 0.0;      ///< ||b - A x_0||
+  double rounding = 0.0;  ///< the part of it that is due to the rounding of its terms
+  double reference = 0.0; ///< what residuals are relative to
 };
 
 /**
  * Follows the residual of a problem over the V-cycles and decides when to stop: at the tolerance,
  * at the limit of rounding, when it stagnates, at the largest number of V-cycles, or, with an
- * Error, when it diverges or overflows. The relative residual is ||b - A x|| / ||b - A x_0||, x_0
- * the initial values. If the solution varies much less than it differs from these, or much less
- * flows in it than the initial residual, the goal is smaller by as much (IterateRange,
- * IterateFlow), and if coefficients differ much, rows that are divided by their diagonals must meet
- * the tolerance, too.
+ * Error, when it diverges or overflows. The relative residual is ||b - A x|| over what the problem
+ * weighs, whatever the initial values: the residual of the best constant (VaryingRightSide), or,
+ * where unknowns are displacements, that of the mesh at rest. If coefficients differ much, and much
+ * less flows than that, the goal is smaller by as much (IterateFlow), and rows that are divided by
+ * their diagonals must meet the tolerance, too.
  */
 class SMG_EXPORT Convergence
 {
 public:
-  /** Initial values that solve the problem up to rounding cannot be improved: the goal is then
-   * the rounding. */
   Convergence(const Stopping& stopping, const FirstResidual& first);
 
   /** To be called before the first V-cycle, with the norm after the first sweeps. This may
-   * already end the solve, unless the right-hand side has changed since. `share`: as for add(). */
-  void begin(double norm, bool mayEnd = true, double share = 1.0);
+   * already end the solve, unless the right-hand side has changed since. */
+  void begin(double norm, bool mayEnd = true);
   /** To be called after a V-cycle; `rounding`: the part of the norm that is due to the rounding
    * of its terms, if that is more than initially; `share`, `scaled`: see
    * SolveContext::shareOfTolerance(), scaledResidual(). Throws Error if the residual diverges or
@@ -66,6 +65,8 @@ public:
   double goal() const { return this->Reference > 0.0 ? this->Goal / this->Reference : 1.0; }
   /** The residual that relative ones are relative to. */
   double reference() const { return this->Reference; }
+  /** The relative residual of the initial values. */
+  double initial() const { return this->Initial; }
   /** The part of the residual that is due to the rounding of its terms. */
   double rounding() const { return this->Rounding; }
   bool done() const { return this->Done; }
@@ -88,8 +89,9 @@ public:
   void exchange(State& state)
   {
     state.part("convergence");
-    state(this->Rounding, this->Reference, this->Goal, this->FirstNorm, this->NormBefore,
-      this->Norm, this->Residuals, this->ScaledResiduals, this->Note, this->Done, this->Converged);
+    state(this->Initial, this->Rounding, this->Reference, this->Goal, this->FirstNorm,
+      this->NormBefore, this->Norm, this->Residuals, this->ScaledResiduals, this->Note, this->Done,
+      this->Converged);
   }
   /** Adds notes for the user that begin with `what`. */
   void addNotes(Report& report, const std::string& what) const;
@@ -104,11 +106,15 @@ private:
   int Limit;
   double Tolerance;
   double Rounding, Reference, Goal;
+  double Initial;
   double FirstNorm = 0.0, NormBefore = 0.0, Norm = 0.0;
   std::vector<double> Residuals, ScaledResiduals;
   std::string Note;
   bool Done = false, Converged = false;
 };
+
+/** What residuals are relative to, in reports. */
+inline constexpr const char *BestConstant = "the best constant", *MeshAtRest = "the mesh at rest";
 
 /** The norm of the rounding of the terms of b - A x, given the sum of their squares. */
 SMG_EXPORT double roundingOf(double termSquares);

@@ -13,11 +13,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace smg
 {
 
-FirstResidual FirstPass::operator()(
+ColumnResiduals FirstPass::operator()(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
   // What one thread is expected to need: more threads take more memory only where the limit leaves
@@ -31,7 +32,7 @@ FirstResidual FirstPass::operator()(
   this->Run.isAmple = permitsTasks(mesh.info(), problem, this->Run.options);
   try
   {
-    const FirstResidual residual = this->run(mesh, problem, listener, furtherCoreBytes);
+    const ColumnResiduals residual = this->run(mesh, problem, listener, furtherCoreBytes);
     this->Run.firstPassPeak = this->Run.pool.peak();
     this->Run.valueNodes = this->Built.window().x().capacity();
     return residual;
@@ -42,7 +43,7 @@ FirstResidual FirstPass::operator()(
   }
 }
 
-FirstResidual FirstPass::run(
+ColumnResiduals FirstPass::run(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
   const Timer building;
@@ -53,7 +54,7 @@ FirstResidual FirstPass::run(
     this->Run.labels.useScratch(*this->Run.scratch, this->Run.traffic.add("labels"));
   }
   this->Built.open(mesh.info().vertices);
-  const FirstResidual residual = this->build(mesh, problem, listener);
+  const ColumnResiduals residual = this->build(mesh, problem, listener);
   project(this->Run, this->Built);
   this->Run.report.seconds.build = building.seconds();
   this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
@@ -92,7 +93,7 @@ private:
 
 } // namespace
 
-FirstResidual FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* listener)
+ColumnResiduals FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows(this->Run.pool, problem.columns());
@@ -219,7 +220,7 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
 
 /** Adds the data of the assembly and of the levels to the report, and what later passes need to
  * the hierarchy. Returns the residual of the initial values. */
-FirstResidual FirstPass::note(const Assembly& assembly)
+ColumnResiduals FirstPass::note(const Assembly& assembly)
 {
   // With more stiff rows than this share, the slowest errors may be local to them; see Iteration.
   constexpr std::int64_t StiffShare = 512;
@@ -239,7 +240,7 @@ FirstResidual FirstPass::note(const Assembly& assembly)
   // Vertices with given values have an empty row, but are not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
-  if (this->Run.range && assembly.contrast() >= Contrasting)
+  if (this->Run.mayMeasureFlow && assembly.contrast() >= Contrasting)
   {
     this->Built.measureFlow();
     // Room that is not needed matters less than a correction for which there is none.
@@ -251,32 +252,31 @@ FirstResidual FirstPass::note(const Assembly& assembly)
     }
   }
   this->Run.keepReport();
-  beginRange(this->Run, assembly.residual());
   return residualOf(assembly.residual(), this->Run.components);
 }
 
-/** Without any condition, or with loose ones alone, the iterates are determined but for a constant,
- * which does not matter. */
-void FirstPass::beginRange(SolveContext& run, const InitialResidual& residual)
+ColumnResiduals FirstPass::residualOf(const InitialResidual& residual, const Components& components)
 {
-  if (run.range && run.components.floatingComponents() < run.report.components)
-  {
-    run.range->begin(residual.least(), residual.most());
-  }
-}
-
-FirstResidual FirstPass::residualOf(const InitialResidual& residual, const Components& components)
-{
-  const double whole = residual.squares();
-  const double shifted = std::max(0.0, whole + components.shiftedSquares());
   // If the sources equal their mean, only the rounding of this difference of squares remains, which
   // does not measure the residual: then the sources themselves do.
   const double minShare = components.anyHeldLoosely() ? 1e-12 : 1e-14;
+  const std::span<const double> squares = residual.squares();
   // The mean of the initial values, whose rounding may be more than all that varies, is no longer
   // in the iterates of components that are held loosely.
-  return { std::sqrt(shifted < minShare * whole ? whole : shifted),
-    roundingOf(
-      components.initialMeans().empty() ? residual.roundingSquares() : residual.loadSquares()) };
+  const std::span<const double> rounding =
+    components.initialMeans().empty() ? residual.roundingSquares() : residual.loadSquares();
+  ColumnResiduals columns{ components.shiftedSquares(), { rounding.begin(), rounding.end() },
+    residual.varying.norms(components) };
+  for (std::size_t k = 0; k < squares.size(); ++k)
+  {
+    const double shifted = std::max(0.0, squares[k] + columns.squares[k]);
+    columns.squares[k] = shifted < minShare * squares[k] ? squares[k] : shifted;
+    if (columns.references[k] == 0.0)
+    {
+      columns.references[k] = std::sqrt(columns.squares[k]);
+    }
+  }
+  return columns;
 }
 
 } // namespace smg

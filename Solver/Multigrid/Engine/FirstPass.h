@@ -38,27 +38,25 @@ public:
   /** Performs the pass and completes the hierarchy; returns the residual of the initial values.
    * `listener`: see Assembly; `furtherCoreBytes`: bytes per vertex that the caller will need in
    * core. */
-  FirstResidual operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
+  ColumnResiduals operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
 
   // For a further problem in core, too:
 
   /** The residual of the initial values, whose right-hand side gets a mean of 0 where a component
    * is free. */
-  static FirstResidual residualOf(const InitialResidual& residual, const Components& components);
-  /** Takes note of the initial values, if the range of the iterates is wanted. */
-  static void beginRange(SolveContext& run, const InitialResidual& residual);
+  static ColumnResiduals residualOf(const InitialResidual& residual, const Components& components);
   /** Makes the right-hand sides of free components sum to zero, after they were restricted. */
   static void project(SolveContext& run, Hierarchy& hierarchy);
 
 private:
-  FirstResidual run(
+  ColumnResiduals run(
     MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);
-  FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
+  ColumnResiduals build(MeshSource& mesh, Problem& problem, RowListener* listener);
   static bool assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly);
   void readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
     HierarchyBuilder& builder);
-  FirstResidual note(const Assembly& assembly);
+  ColumnResiduals note(const Assembly& assembly);
 
   SolveContext& Run;
   Hierarchy& Built;

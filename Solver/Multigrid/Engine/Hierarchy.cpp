@@ -63,7 +63,6 @@ void Hierarchy::addFinestLevel()
   this->Built.finest = std::make_unique<FineLevel>(this->Run.pool, this->Run.resident, 0,
     this->Columns, this->Run.options.sweeps, this->Relaxation);
   this->finest().setEnergy(this->Run.energy ? &*this->Run.energy : nullptr);
-  this->finest().setRange(this->Run.range ? &*this->Run.range : nullptr);
   if (this->Run.scratch)
   {
     this->window().useScratch(*this->Run.scratch, this->Run.traffic);
@@ -258,14 +257,12 @@ void Hierarchy::noteWindows()
 
 double Hierarchy::residualNorm() const
 {
-  const auto squares = this->Built.finest->squares();
-  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
+  return std::sqrt(this->Run.scales.sum(this->Built.finest->squares()));
 }
 
 double Hierarchy::roundingNorm() const
 {
-  const auto squares = this->Built.finest->termSquares();
-  return roundingOf(std::accumulate(squares.begin(), squares.end(), 0.0));
+  return roundingOf(this->Run.scales.sum(this->Built.finest->termSquares()));
 }
 
 LevelWindow<double> Hierarchy::takeWindow()

@@ -74,7 +74,7 @@ public:
   /** After a pass: notes the size of the windows in the report. */
   void noteWindows();
 
-  /** ||b - A x||, from the restriction of the last pass. */
+  /** ||b - A x|| with the scales of columns, from the restriction of the last pass. */
   double residualNorm() const;
   /** The part of it that is due to the rounding of its terms. */
   double roundingNorm() const;

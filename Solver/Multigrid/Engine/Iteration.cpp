@@ -34,10 +34,7 @@ void Iteration::operator()(bool spareLast)
     }
     this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
       this->Run.shareOfTolerance(this->StoppingRule.reference()), this->Run.scaledResidual());
-    if (this->Run.range)
-    {
-      this->Run.progress.expect(this->StoppingRule.goal());
-    }
+    this->Run.progress.expect(this->StoppingRule.goal());
     if (this->Balance && this->Balance->add(this->Run.energy->value(),
                            this->StoppingRule.residuals().back(), this->StoppingRule.factor()))
     {
@@ -161,10 +158,7 @@ void Iteration::load(StateReader& state)
     this->emplaceHistory(this->ResidualStorage);
     state(*this->History);
   }
-  if (this->Run.range)
-  {
-    this->Run.progress.expect(this->StoppingRule.goal());
-  }
+  this->Run.progress.expect(this->StoppingRule.goal());
   this->Run.progress.repeat(this->StoppingRule.residuals());
 }
 

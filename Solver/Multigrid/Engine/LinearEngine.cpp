@@ -50,7 +50,8 @@ void LinearEngine::build(MeshSource& mesh, Problem& problem)
 {
   this->Run.beginReport();
   this->Run.progress.beginFirst();
-  this->Run.range.emplace(this->Columns);
+  this->Run.mayMeasureFlow = true;
+  this->VectorSize = problem.vectorSize();
   FirstPass(this->Run, this->Levels, this->Set)(mesh, problem, &this->Given);
   this->Run.finishReport();
   this->Run.progress.finish();
@@ -126,6 +127,7 @@ void LinearEngine::solve(std::span<const double> b, std::span<double> x, const S
   this->Run.beginAgain();
   Report& r = this->Run.report;
   r.converged = true;
+  r.relative_to = BestConstant;
   std::vector<double> removed;
   LevelWindow<double>& window = this->Levels.window();
   this->forGroups(b, x,
@@ -165,11 +167,12 @@ void LinearEngine::solve(const Group& group, const Stopping& stopping)
 {
   Convergence convergence(stopping, {});
   Iteration iteration(this->Run, this->Levels, convergence);
-  convergence = Convergence(stopping, this->begin());
+  const ColumnResiduals columns = this->begin();
+  this->Run.scales = ColumnScales(columns.references, this->VectorSize);
+  convergence = Convergence(stopping, this->Run.scales.of(columns));
   // As for a first pass: see PoissonSolver.
-  convergence.begin(this->Levels.residualNorm(), !this->Run.components.shiftsRightSide(),
-    this->Run.shareOfTolerance(convergence.reference()));
-  this->Run.endPass(1.0);
+  convergence.begin(this->Levels.residualNorm(), !this->Run.components.shiftsRightSide());
+  this->Run.endPass(convergence.initial());
   iteration(false);
   Report& r = this->Run.report;
   const std::string name = group.name();
@@ -179,7 +182,7 @@ void LinearEngine::solve(const Group& group, const Stopping& stopping)
 }
 
 /** Does what a first pass does after assembly. Returns the residual of the initial values. */
-FirstResidual LinearEngine::begin()
+ColumnResiduals LinearEngine::begin()
 {
   LevelWindow<double>& window = this->Levels.window();
   Components& components = this->Run.components;
@@ -188,7 +191,6 @@ FirstResidual LinearEngine::begin()
   const InitialResidual residual = this->Given.residual(window, components, this->Run.labels);
   components.settle();
   checkSquares(residual.termSquares(), residual.anyTerm());
-  FirstPass::beginRange(this->Run, residual);
   Pass(this->Run, this->Levels).begin();
   FirstPass::project(this->Run, this->Levels);
   return FirstPass::residualOf(residual, components);

@@ -53,11 +53,12 @@ private:
   void load(std::span<const double> values, const Group& group, const char* what, Ring<double>& to);
   void store(const Ring<double>& from, double factor, const Group& group, std::span<double> values);
   void solve(const Group& group, const Stopping& stopping);
-  FirstResidual begin();
+  ColumnResiduals begin();
   void read(const Group& group, std::span<double> x);
 
   CompiledOperators Set;
   int Columns;
+  int VectorSize = 1;
   SolveContext Run;
   Hierarchy Levels;
   RightSides Given;

@@ -25,10 +25,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     run.energy.emplace(problem.columns());
     balance.emplace([&] { return this->discretisation(problem); });
   }
-  else
-  {
-    run.range.emplace(problem.columns());
-  }
+  run.mayMeasureFlow = !balance;
   constexpr double Least = 1e-13; // the tolerance if it is automatic
   const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
   run.progress.begin(
@@ -39,19 +36,21 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
   // What a checkpoint has of this solve, in the order in which it is saved and restored.
   const auto exchange = [&](auto& state)
   {
-    state(this->Levels, convergence, iteration);
+    state(this->Levels, run.scales, convergence, iteration);
     if (balance)
     {
       state(*run.energy, *balance);
     }
-    else
-    {
-      state(*run.range);
-    }
   };
   if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
   {
-    this->begin(convergence, stopping, FirstPass(run, this->Levels, this->Set)(mesh, problem));
+    const ColumnResiduals first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
+    if (!problem.beginsAtRest())
+    {
+      run.scales = ColumnScales(first.references, problem.vectorSize());
+    }
+    this->begin(
+      convergence, stopping, problem.beginsAtRest() ? first.alone() : run.scales.of(first));
   }
   iteration(false);
   return this->finish(convergence, problem, balance ? &*balance : nullptr);
@@ -66,7 +65,7 @@ std::unique_ptr<Solution> PoissonSolver::correct(
   run.beginReport();
   run.corrected = &solution;
   run.progress.begin({ Least, run.options.maxCycles }, 0.0, 1.0, true);
-  const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
+  const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem).alone();
   const Stopping stopping{ first.norm > 0.0 ? std::clamp(goal / first.norm, Least, Most) : Most,
     run.options.maxCycles };
   Convergence convergence(stopping, first);
@@ -84,9 +83,8 @@ void PoissonSolver::begin(
 {
   SolveContext& run = *this->Run;
   convergence = Convergence(stopping, first);
-  convergence.begin(this->Levels.residualNorm(), !run.components.shiftsRightSide() && !run.flow,
-    run.shareOfTolerance(convergence.reference()));
-  run.endPass(1.0);
+  convergence.begin(this->Levels.residualNorm(), !run.components.shiftsRightSide() && !run.flow);
+  run.endPass(convergence.initial());
 }
 
 /** To be called after the last pass: makes the solution, with its report. */
@@ -99,6 +97,7 @@ std::unique_ptr<Solution> PoissonSolver::finish(
   Report& r = run.report;
   r.cycles = convergence.cycles();
   r.residuals = convergence.residuals();
+  r.relative_to = problem.beginsAtRest() ? MeshAtRest : BestConstant;
   r.converged = convergence.converged();
   convergence.addNotes(r, "");
   if (balance)

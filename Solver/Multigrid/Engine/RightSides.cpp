@@ -150,10 +150,16 @@ void RightSides::addRows(const Arrays& rows, const BlockPart<double>& part, Init
     const StoredRow row{ arrays, entriesOf(h, arrays, k), arrays.diagonal[k] };
     const double share = block.shares.empty() ? 1.0 : block.shares[static_cast<std::size_t>(k)];
     const std::span<const double> residual = sum.add(row, x, b, part.stride, share);
-    if (run->label >= 0 && components.isFloating(components.root(run->label)))
+    if (run->label < 0)
     {
-      components.count(run->label, b, x, residual.data(),
-        labels.block(number).masses[static_cast<std::size_t>(k)]);
+      return;
+    }
+    const bool floats = components.isFloating(components.root(run->label));
+    const double mass = floats ? labels.block(number).masses[static_cast<std::size_t>(k)] : 0.0;
+    sum.varying.add(run->label, RowBlock::alphaOf(h, arrays, k), mass, b, share);
+    if (floats)
+    {
+      components.count(run->label, b, x, residual.data(), mass);
     }
   };
   for (NodeRuns runs(h, rows, part.nodes); runs.next();)

@@ -50,7 +50,7 @@ private:
    */
   struct Block
   {
-    /** From this node on, unknowns count for this component; see FinalVertices. */
+    /** From this node on, unknowns are of this component. */
     struct Run
     {
       std::int16_t begin;

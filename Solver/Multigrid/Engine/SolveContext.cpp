@@ -40,9 +40,9 @@ SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
 
 double SolveContext::shareOfTolerance(double reference) const
 {
-  const double ofRange = this->range ? this->range->share() : 1.0;
-  const double flow = this->flow ? IterateFlow::Judged * this->flow->norm() : 0.0;
-  return flow > 0.0 && reference > 0.0 ? std::min(ofRange, flow / reference) : ofRange;
+  const auto scale = [this](std::size_t column) { return this->scales[column]; };
+  const double flow = this->flow ? IterateFlow::Judged * this->flow->norm(scale) : 0.0;
+  return flow > 0.0 && reference > 0.0 ? std::min(1.0, flow / reference) : 1.0;
 }
 
 void SolveContext::beginReport()

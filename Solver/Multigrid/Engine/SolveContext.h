@@ -9,8 +9,8 @@
 #include "Solver/Memory/Pool.h"
 #include "Solver/Multigrid/Cycle/IterateFlow.h"
 #include "Solver/Multigrid/Cycle/IterateHistory.h"
-#include "Solver/Multigrid/Cycle/IterateRange.h"
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
+#include "Solver/Multigrid/Engine/ColumnScales.h"
 #include "Solver/Multigrid/Engine/FreeComponents.h"
 #include "Solver/Multigrid/Engine/SolveProgress.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
@@ -88,9 +88,8 @@ struct SMG_EXPORT SolveContext
   }
 
   /** The part of the tolerance by which a residual of the last pass is judged, `reference` being
-   * the residual that the tolerance is a share of: less than 1 where the range of the iterate is
-   * small beside its distance from the initial values, or what flows in it beside `reference`. 1 if
-   * the solve needs neither. */
+   * the residual that the tolerance is a share of: less than 1 where little flows beside that. 1 if
+   * the solve does not need it. */
   double shareOfTolerance(double reference) const;
   /** The residual of the last pass in rows that are all alike: see IterateFlow. 0 if the solve does
    * not need it. */
@@ -121,8 +120,9 @@ struct SMG_EXPORT SolveContext
   ComponentLabels labels;
   FreeComponents free;
   std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
-  std::optional<IterateRange> range;   ///< of the iterates, if the solve needs it
   std::optional<IterateFlow> flow;     ///< in the iterates, if the solve needs it
+  bool mayMeasureFlow = false;         ///< in later passes, if coefficients differ much
+  ColumnScales scales;                 ///< of the columns in the norms of residuals
   StepThreads threads;
   Report report;
 

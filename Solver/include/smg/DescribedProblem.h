@@ -71,6 +71,8 @@ public:
   void endPreparing(MeshParts& parts);
 
   int columns() const override;
+  /** All columns if a Dirichlet value is the position. */
+  int vectorSize() const override;
   Weights weights() const override;
   ConditionCounts conditionCounts() const override;
   /** False: nothing says what the value is there. */

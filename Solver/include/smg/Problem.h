@@ -149,6 +149,14 @@ public:
 
   /** Number of right-hand sides that are solved at once, at least 1. */
   virtual int columns() const = 0;
+  /** The number of consecutive columns that are one quantity, at least 1: the components of a
+   * vector are as exact as the largest of them, other columns each beside its own range. 1 by
+   * default. */
+  virtual int vectorSize() const { return 1; }
+  /** Whether the initial values are a state at rest, and what matters is how the solution differs
+   * from it: the tolerance is then relative to their residual. By default it is relative to the
+   * residual of the best constant, whatever the initial values. */
+  virtual bool beginsAtRest() const { return false; }
   /** The weights of the edges; cotangent by default. */
   virtual Weights weights() const { return Weights::Cotangent; }
 

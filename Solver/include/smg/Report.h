@@ -212,9 +212,12 @@ struct SMG_EXPORT Report
   /** Of these, the passes of earlier programs whose checkpoint this one continued; 0: none. */
   int resumed_passes = 0;
   int cycles = 0; ///< V-cycles, of all steps
-  /** ||b - A x_k|| / ||b - A x_0|| after V-cycle k = 1, 2, ..., x_0 being the initial values; of
-   * several steps one after the other. */
+  /** ||b - A x_k|| / ||b - A y|| after V-cycle k = 1, 2, ..., with y = relative_to; of several
+   * steps one after the other. */
   std::vector<double> residuals;
+  /** "the best constant" of each column and component of the mesh, or "the mesh at rest"; empty
+   * without V-cycles. */
+  std::string relative_to;
   /** The passes in which V-cycles, or the marches of a distance, were done, one after the other;
    * with several processes: empty. */
   std::vector<Pass> by_pass;
@@ -289,6 +292,8 @@ struct SMG_EXPORT Report
 
   /** The last of the residuals; 0 if no V-cycle was needed. */
   double residual() const { return this->residuals.empty() ? 0.0 : this->residuals.back(); }
+  /** For example "relative residual 1.2e-09, to that of the best constant". */
+  std::string residualText() const;
 
   /**
    * The report as a JSON object with the names above. Numbers that are not finite become null.

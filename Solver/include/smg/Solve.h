@@ -92,11 +92,11 @@ struct SolveOptions
   std::string operators = "extended";
   /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */
   int sweeps = 2;
-  /** The solve stops when ||b - A x|| <= tolerance * ||b - A x_0||, x_0 being the initial values.
-   * Where the solution varies by less than a tenth of its distance from these, as temperatures in
-   * kelvin do from 0, a solve lowers the tolerance by as much, to 1e-12 at least. Between 0 and 1,
-   * both excluded, or AutomaticTolerance. At 1e-8 a solution agrees with that of a direct solver to
-   * the digits of a float. */
+  /** The solve stops when ||b - A x|| <= tolerance * min over the constants c of ||b - A c||: it is
+   * as exact from any initial values, and with any constant added to all values. Where the initial
+   * values are a mesh at rest, as in deform() and smooth(), ||b - A x_0|| takes its place. Between
+   * 0 and 1, both excluded, or AutomaticTolerance. At 1e-8 a solution agrees with that of a direct
+   * solver to the digits of a float. */
   double tolerance = 1e-8;
   /**
    * Of solve() alone: it stops when the algebraic error is below a tenth of the discretisation
