@@ -73,6 +73,10 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   const std::size_t begin = made.begin(k);
   const double* x = this->initial(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
+  if (this->Out.placed)
+  {
+    this->place(i);
+  }
   if (isKnown(this->Vertices.dirichlet[i], vertex.end - begin, vertex.rowSum))
   {
     this->closeKnown(i);
@@ -96,6 +100,20 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
     this->Listener->constraint(this->Constraint.data());
   }
   this->count(i, vertex);
+}
+
+/** Appends the position of a vertex. */
+void RowAssembly::place(std::int64_t i)
+{
+  const double* point = this->Vertices.points.at(i);
+  if (i == 0)
+  {
+    std::copy_n(point, 3, this->Origin.begin());
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Out.points.push_back(static_cast<float>(point[k] - this->Origin[k]));
+  }
 }
 
 /** Completes a vertex that is not an unknown: prescribed, or fixed at its initial value. Its row is

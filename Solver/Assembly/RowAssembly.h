@@ -15,6 +15,7 @@
 #include "smg/Problem.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,17 +24,23 @@
 namespace smg
 {
 
-/** Rows of the finest level with their right-hand sides and initial values, which pass from
- * Assembly to the level between two steps. */
+/** Rows of the finest level with their right-hand sides and initial values, and with positions if
+ * they are `placed`, which pass from Assembly to the level between two steps. */
 struct AssembledRows
 {
-  AssembledRows(Pool& pool, int columns)
-    : rows(pool, 2 * columns * static_cast<std::int64_t>(sizeof(double)))
+  AssembledRows(Pool& pool, int columns, bool placed)
+    : rows(pool, 2 * columns * static_cast<std::int64_t>(sizeof(double)) +
+                   (placed ? 3 * static_cast<std::int64_t>(sizeof(float)) : 0))
+    , placed(placed)
   {
   }
 
   RowBatch rows;
   std::vector<double> x, b; ///< `columns` per row
+  const bool placed;
+  /** If they are placed, 3 per row: positions relative to that of the first vertex, so that single
+   * precision does for meshes anywhere. */
+  std::vector<float> points;
   /** The scale of the weights of the problem relative to finite elements with K = 1, at the first
    * weighted cell. */
   double weightScale = 1.0;
@@ -49,8 +56,14 @@ struct AssembledRows
     pad(this->b.data(), columns, end - begin, window.b().at(begin));
     this->x.clear();
     this->b.clear();
+    if (this->placed && end > begin)
+    {
+      std::ranges::copy(this->points, level.place(end - begin));
+      this->points.clear();
+    }
     if (isLarge)
     {
+      this->points.shrink_to_fit();
       this->x.shrink_to_fit();
       this->b.shrink_to_fit();
     }
@@ -253,6 +266,7 @@ public:
   const InitialResidual& residual() const { return this->Residual; }
 
 private:
+  void place(std::int64_t i);
   void closeKnown(std::int64_t i);
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
@@ -285,6 +299,8 @@ private:
   Components& Parts;
   SliverRows Stiff;
   RowListener* Listener;
+
+  std::array<double, 3> Origin{}; // the first vertex
 
   // The current row.
   RowEntry* Row = nullptr;

@@ -16,7 +16,8 @@ namespace smg
 /**
  * The default operator set. The C-points are those of the paper (Shi, Bao, Zhou 2009), a greedy
  * maximal independent set in stream order, but only strong edges count; the interpolation is
- * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row; the coarse operator
+ * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row, on surfaces
+ * reproducing linear functions where weights cancel (LinearRows); the coarse operator
  * is a sparsified Galerkin product; the smoother is Gauss-Seidel in stream order. A node with a
  * stiff row (see SliverRows) always gets a coarse node of its own.
  *
@@ -25,7 +26,7 @@ namespace smg
  *
  * Unlike the equations as the paper prints them it converges to the solution. The rate hardly
  * depends on the size of the mesh where cells are well shaped, or noisy but not refined; lattices
- * of slivers, which refinement makes of bad cells, slow it down (docs/performance.md).
+ * of slivers, which refinement makes of bad tetrahedra, slow it down (docs/performance.md).
  */
 class Extended
 {
@@ -40,12 +41,13 @@ public:
    * lists the alternatives that were tried.
    *
    * Surfaces: a strength of 0.2 instead of 0.1 costs 5 to 10 % of memory and time per V-cycle and
-   * saves up to a third of the V-cycles on real scans. For rows that cancel, 0.5 costs nothing and
-   * saves a sixth to a half of the V-cycles on lattices of obtuse triangles.
-   * Tetrahedra: a strength of 0 would count the small weights of slivers as strong, and values
-   * above 0.1 cost more memory than the V-cycles that they save are worth. Keeping all entries of
-   * rows that cancel only a little, and negative weights without a common neighbour, pays off only
-   * on surfaces.
+   * saves up to a third of the V-cycles on real scans. For rows that cancel, 0.6 costs up to 1 % of
+   * memory and saves a sixth to a half of the V-cycles on lattices of obtuse triangles; with rows
+   * of P that reproduce linear functions these take 7 to 15 instead of 13 to 22, refined five
+   * times. Tetrahedra: a strength of 0 would count the small weights of slivers as strong, and
+   * values above 0.1 cost more memory than the V-cycles that they save are worth. Keeping all
+   * entries of rows that cancel only a little, and negative weights without a common neighbour,
+   * pays off only on surfaces.
    *
    * Most of the set-up is the Galerkin product from the finest level to the next one. Fewer entries
    * per row of P there (finestEntries) save part of it where no sliver needs more. A second sweep
@@ -62,6 +64,7 @@ public:
     {
       set.Interpolation.coarsePoints = { 0.08F, 0.08F, 1.5F };
       set.Interpolation.entries = 5;
+      set.Interpolation.linear = false;
       set.Product.cancelling = 1.5;
       set.Sparsify.dropsNegative = true;
       set.PatchRings = 2;
@@ -86,6 +89,7 @@ public:
 
   /** See Patches::setRings(). */
   int patchRings() const { return this->PatchRings; }
+  bool readsPositions() const { return this->Interpolation.linear; }
   bool isCoarse(const CoarseningData& data, std::int64_t i) const
   {
     return this->Interpolation.coarsePoints(data, i);

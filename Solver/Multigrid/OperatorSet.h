@@ -27,6 +27,7 @@ namespace smg
  *   o.sparsify(data, c)             and its sparsification
  *   O::Relaxation                   the smoother: see Solver/Multigrid/Cycle/GaussSeidel.h
  *   o.patchRings()                  optional: see Patches::setRings()
+ *   o.readsPositions()              optional: whether the steps read positions of nodes
  *   O::Apart                        optional, the type O itself: see canRunApart
  *
  * Restriction is the transpose of interpolation. Coarsening calls each step once for each fine node
@@ -41,7 +42,9 @@ namespace smg
  * - `relaxInterpolation` may read, of i and its neighbours, the rows, `coarseIndex`, `initial`,
  *   `initialTotal` and `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i.
  *   It may instead set all rows of a patch in the call for the last node of the patch; in that call
- *   it may read the same data of every member and of the neighbours of the members.
+ *   it may read the same data of every member and of the neighbours of the members. If the set
+ *   reads positions and the nodes have any (LevelRows::isPlaced()), it may read those of the nodes
+ *   that it sets and of the coarse nodes in rows that it may read.
  * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, links its entries
  *   into the chains of their columns (`firstChild` to `lastChild`), sets `rowQuanta` and appends to
  *   `parentReach`.
@@ -110,6 +113,18 @@ int patchRingsOf(const O& set)
     return set.patchRings();
   }
   return 1;
+}
+
+/** Whether the steps of a set read positions of nodes: set.readsPositions(), or false without that
+ * member. */
+template <class O>
+bool readsPositionsOf(const O& set)
+{
+  if constexpr (requires { set.readsPositions(); })
+  {
+    return set.readsPositions();
+  }
+  return false;
 }
 
 } // namespace smg

@@ -17,13 +17,16 @@ class LevelsInCore
 public:
   static constexpr int Columns = 3;
 
-  LevelsInCore(const testing::StreamMesh& mesh, int sweeps)
+  /** `linear`: whether rows of P that cancel may reproduce linear functions (LinearRows). */
+  LevelsInCore(const testing::StreamMesh& mesh, int sweeps, bool linear = true)
     : Run(Columns, options(sweeps))
     , Levels(this->Run, Columns, compiledRelaxation<GaussSeidel>)
   {
     testing::MemorySource source(mesh);
     FixedEndsProblem problem(source.info());
-    const CompiledOperators operators = compiled(Extended::forCells(mesh.cellType));
+    CompiledOperators operators = compiled(Extended::forCells(mesh.cellType));
+    // Without positions rows stay as they are.
+    operators.readsPositions = operators.readsPositions && linear;
     FirstPass(this->Run, this->Levels, operators)(source, problem);
     this->Levels.startPass(false);
   }

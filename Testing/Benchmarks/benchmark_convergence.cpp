@@ -6,8 +6,9 @@
 // solves (FixedEndsProblem.h) with and without acceleration, and then looks at the same hierarchy
 // in core, with the kernels of a solve, without changing either. Markdown tables, of each mesh
 //   by level: the factor of the V-cycle from there ("V"), and with the next level solved exactly
-//     ("two-grid"): where the second is much smaller, the loss is on coarser levels; and the
-//     roughness of what two grids leave, see SlowestError::roughness();
+//     ("two-grid"): where the second is much smaller, the loss is on coarser levels; the roughness
+//     of what two grids leave, see SlowestError::roughness(); and of surfaces both factors of a
+//     hierarchy whose rows of P do not reproduce linear functions, see LinearRows;
 //   where the slowest error sits: what share of its square the worst vertices have, and how these
 //     differ from all vertices: the least angle and the greatest one at their cells, their shortest
 //     edge relative to their longest one, edges, and whether they are coarse nodes;
@@ -225,6 +226,12 @@ json measure(const std::string& path, const Options& options)
   LevelsInCore levels(mesh, smg::SolveOptions().sweeps);
   smg::benchmark::SlowestError error(levels);
   result["levels"] = levelsOf(levels, error);
+  if (mesh.cellType == smg::CellType::Triangle)
+  {
+    LevelsInCore others(mesh, smg::SolveOptions().sweeps, false);
+    smg::benchmark::SlowestError otherError(others);
+    result["not_linear"] = levelsOf(others, otherError);
+  }
   // The last one was the V-cycle from the finest level.
   result["slowest"] = whereItSits(levels, mesh, error.squares());
   return result;
@@ -238,14 +245,21 @@ std::string cyclesOf(const json& solve)
 
 void printDetails(const json& result)
 {
-  std::cout << result["mesh"].get<std::string>() << "\n\n"
-            << "| level | nodes | nonzeros a row | two-grid | roughness of its error | V "
-               "|\n| --- | --- | --- | --- | --- | --- |\n";
+  std::cout
+    << result["mesh"].get<std::string>() << "\n\n"
+    << "| level | nodes | nonzeros a row | two-grid | roughness of its error | V | two-grid "
+       "and V without linear rows |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+  const json others = result.value("not_linear", json::array());
   for (const json& row : result["levels"])
   {
+    const std::size_t l = row["level"];
+    const std::string without = l < others.size() ? text("%.2f", others[l]["two_grid"]) + ", " +
+                                                      text("%.2f", others[l]["v_cycle"])
+                                                  : "-";
     std::cout << "| " << row["level"] << " | " << row["nodes"] << " | "
               << text("%.1f", row["nonzeros"]) << " | " << text("%.2f", row["two_grid"]) << " | "
-              << text("%.3f", row["roughness"]) << " | " << text("%.2f", row["v_cycle"]) << " |\n";
+              << text("%.3f", row["roughness"]) << " | " << text("%.2f", row["v_cycle"]) << " | "
+              << without << " |\n";
   }
   std::cout << "\n| worst vertices | share of the slowest error | least angle | greatest angle | "
                "shortest edge | edges | coarse nodes |\n"

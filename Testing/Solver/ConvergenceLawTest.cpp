@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/Isosurface.h"
+#include "Testing/Support/Refinement.h"
 #include "Testing/Support/Sanitized.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +58,19 @@ TEST(ConvergenceLaw, ClustersOnSurfacesCostFewCycles)
   EXPECT_LE(cyclesOn(noisyGyroid(Sanitized ? 60 : 120, 0.02, 2)), 9);
 }
 
+/** Few coarse triangles of up to 179.9 degrees, refined: lattices of obtuse triangles. With rows
+ * of P that do not reproduce linear functions V-cycles are twice as many on the finer one. */
+TEST(ConvergenceLaw, LatticesOfCaps)
+{
+  IndexedTestMesh mesh = withCaps(torus(36, 19, 0.3), 200);
+  for (int times = 0; times < (Sanitized ? 3 : 4); ++times)
+  {
+    mesh = refined(mesh);
+  }
+  EXPECT_LE(cyclesOn(mesh), 7);
+  EXPECT_LE(cyclesOn(refined(mesh)), 8);
+}
+
 TEST(ConvergenceLaw, GoodSolids)
 {
   expectNoGrowth([](int times) { return tetBox(15 * times, 15 * times, 15 * times); });
@@ -72,6 +86,17 @@ TEST(ConvergenceLaw, NoisySolids)
 TEST(ConvergenceLawLong, GoodSurfaces)
 {
   expectNoGrowth([](int times) { return torus(540 * times, 270 * times, 0.2); });
+}
+
+/** Of 2.8 million vertices. */
+TEST(ConvergenceLawLong, LatticesOfCaps)
+{
+  IndexedTestMesh mesh = withCaps(torus(36, 19, 0.3), 200);
+  for (int times = 0; times < 6; ++times)
+  {
+    mesh = refined(mesh);
+  }
+  EXPECT_LE(cyclesOn(mesh), 9);
 }
 
 TEST(ConvergenceLawLong, Solids)

@@ -31,7 +31,8 @@ struct TestLevel
   std::vector<double> rowSum;
   /** The weights of some rows in double precision; empty: none. */
   std::vector<std::vector<double>> precise;
-  bool finest = true; ///< otherwise coarsened from another level
+  bool finest = true;        ///< otherwise coarsened from another level
+  std::vector<float> points; ///< 3 per node, or none
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(this->rows.size()); }
 
@@ -96,6 +97,10 @@ struct TestLevel
       std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
       to.close(
         size, this->rowSum[i], this->finest ? -1 : 0, stiff(this->least(i)), this->preciseOf(i));
+      if (!this->points.empty())
+      {
+        std::copy_n(this->points.begin() + 3 * i, 3, to.place(1));
+      }
     }
   }
   void append(LevelRows& to, std::int64_t begin, std::int64_t end) const
@@ -113,6 +118,10 @@ inline TestLevel levelOf(const LevelRows& rows)
     const auto row = rows.row(i);
     level.rows.emplace_back(row.begin(), row.end());
     level.rowSum.push_back(rows.rowSum(i));
+    if (rows.isPlaced())
+    {
+      level.points.insert(level.points.end(), rows.point(i), rows.point(i) + 3);
+    }
   }
   return level;
 }

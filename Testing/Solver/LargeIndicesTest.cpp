@@ -237,7 +237,7 @@ private:
   std::int64_t First;
   Pool Memory{ std::int64_t(1) << 28 };
   AllKinds Asked;
-  AssembledRows Out{ this->Memory, this->Asked.columns() };
+  AssembledRows Out{ this->Memory, this->Asked.columns(), false };
   Components Parts;
   ComponentLabels Labels;
   CellAssembly Cells;

@@ -171,6 +171,42 @@ IndexedTestMesh torus(int nu, int nv, double jitter, std::uint64_t seed)
   return mesh;
 }
 
+IndexedTestMesh withCaps(const IndexedTestMesh& triangles, int every, std::uint64_t seed)
+{
+  IndexedTestMesh mesh{ CellType::Triangle, triangles.positions, {} };
+  Random random(seed);
+  for (std::int64_t t = 0; t < triangles.cells(); ++t)
+  {
+    const std::int64_t* v = triangles.corners.data() + 3 * t;
+    const std::int64_t first = random.below(3);
+    const std::int64_t a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
+    if (t % every != every / 2)
+    {
+      mesh.corners.insert(mesh.corners.end(), { v[0], v[1], v[2] });
+      continue;
+    }
+    // Beside the place at `share` of the edge from a to b, towards c. The two angles at the edge,
+    // which are nearly the height over their parts of it, sum to `slope`.
+    const double share = random.uniform(0.3, 0.7);
+    const double slope = random.uniform(0.1, 0.6) * std::numbers::pi / 180.0;
+    double place[3], towards[3], edge = 0.0, side = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double along = mesh.positions[3 * b + k] - mesh.positions[3 * a + k];
+      place[k] = mesh.positions[3 * a + k] + share * along;
+      towards[k] = mesh.positions[3 * c + k] - place[k];
+      edge += along * along;
+      side += towards[k] * towards[k];
+    }
+    const double height = slope * std::sqrt(edge) * share * (1.0 - share) / std::sqrt(side);
+    const std::int64_t tip = mesh.vertices();
+    addPoint(mesh, place[0] + height * towards[0], place[1] + height * towards[1],
+      place[2] + height * towards[2]);
+    mesh.corners.insert(mesh.corners.end(), { a, b, tip, b, c, tip, c, a, tip });
+  }
+  return mesh;
+}
+
 IndexedTestMesh sphere(int subdivisions)
 {
   const double p = std::numbers::phi / std::hypot(1.0, std::numbers::phi);

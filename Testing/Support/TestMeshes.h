@@ -42,6 +42,10 @@ IndexedTestMesh gridWithNeedle(int nx, int ny, double height);
 /** A torus with radii 2 and 1 of nu x nv vertices (at least 3 x 3), jittered in its parameters. */
 IndexedTestMesh torus(int nu, int nv, double jitter = 0.0, std::uint64_t seed = 1);
 
+/** The triangles with each `every`-th cut into three by a point next to one of its edges: caps of
+ * 179.4 to 179.9 degrees. */
+IndexedTestMesh withCaps(const IndexedTestMesh& triangles, int every, std::uint64_t seed = 1);
+
 /** The unit sphere: an icosahedron whose triangles are split into four `subdivisions` times. */
 IndexedTestMesh sphere(int subdivisions);
 

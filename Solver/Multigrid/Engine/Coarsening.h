@@ -5,6 +5,7 @@
 #include "Solver/Multigrid/Engine/LevelCoarsening.h"
 #include "Solver/Multigrid/OperatorSet.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -73,6 +74,11 @@ private:
         {
           d.finePoint.append(i);
           ++d.coarseNodes;
+          if (d.fine.isPlaced())
+          {
+            d.coarsePoint.extendRaw(d.coarseNodes);
+            std::copy_n(d.fine.point(i), 3, d.coarsePoint.at(d.coarseNodes - 1));
+          }
         }
       });
     d.firstChild.extend(d.coarseNodes);

@@ -21,6 +21,7 @@ struct CompiledOperators
   const CompiledRelaxation& relaxation;
   /** See canRunApart. */
   bool canRunApart;
+  bool readsPositions; ///< see readsPositionsOf()
   /** Makes the coarsening from a level to the next one; see Coarsening. */
   std::function<std::unique_ptr<LevelCoarsening>(
     Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool apart)>
@@ -31,6 +32,7 @@ template <OperatorSet Operators>
 CompiledOperators compiled(const Operators& set)
 {
   return { compiledRelaxation<typename Operators::Relaxation>, canRunApart<Operators>,
+    readsPositionsOf(set),
     [set](Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool apart)
     { return std::make_unique<Coarsening<Operators>>(pool, set, fine, coarse, stiff, apart); } };
 }

@@ -96,7 +96,9 @@ private:
 ColumnResiduals FirstPass::build(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
-  AssembledRows rows(this->Run.pool, problem.columns());
+  // Only among the true finite elements there are weights that cancel.
+  const bool placed = this->Set.readsPositions && problem.weights() == Weights::Cotangent;
+  AssembledRows rows(this->Run.pool, problem.columns(), placed);
   const bool apart = this->Run.threads.areConcurrent() && this->Run.isAmple;
   CancelCheck check([this] { this->Run.progress.updateFirst(0.0); });
   const AskingWhileAsleep asking(this->Run.threads.workers, check);

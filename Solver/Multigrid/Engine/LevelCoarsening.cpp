@@ -3,6 +3,7 @@
 
 #include "smg/Error.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -53,9 +54,16 @@ std::int64_t LevelCoarsening::beginApart(std::int64_t nodes)
 }
 void LevelCoarsening::handOver()
 {
-  this->Final.moveTo(this->Data.coarse);
-  this->Data.coarse.Ended = this->Data.fine.Ended && this->Chosen == this->Data.fine.end() &&
-                            this->Finished == this->Data.coarseNodes;
+  CoarseningData& d = this->Data;
+  const std::int64_t begin = d.coarse.end();
+  this->Final.moveTo(d.coarse);
+  if (d.fine.isPlaced() && begin < d.coarse.end())
+  {
+    std::ranges::copy(
+      d.coarsePoint.range(begin, d.coarse.end()), d.coarse.place(d.coarse.end() - begin));
+    d.coarsePoint.release(d.coarse.end());
+  }
+  d.coarse.Ended = d.fine.Ended && this->Chosen == d.fine.end() && this->Finished == d.coarseNodes;
 }
 
 void LevelCoarsening::release()
@@ -70,6 +78,7 @@ void LevelCoarsening::release()
   d.initial.release(this->RelaxedDone);
   d.initialTotal.release(this->RelaxedDone);
   d.relaxed.release(this->RelaxedDone);
+  d.fine.releasePoints(this->Interpolated);
   d.patches.release(std::min<std::int64_t>(this->PatchesDone, this->Multiplied));
   d.patchMatrices.release(this->MatricesDone);
   while (this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
@@ -147,6 +156,10 @@ void LevelCoarsening::reserve()
   d.patchMatrices.reserve(rows, this->PatchEntries.of(rows) + PatchMatrix::Entries);
   d.parentReach.reserve(rows);
   d.finePoint.reserve(choices);
+  if (d.fine.isPlaced())
+  {
+    d.coarsePoint.reserveMore(choices);
+  }
   d.firstChild.reserve(d.coarseNodes + choices - d.firstChild.first());
   d.lastChild.reserve(d.coarseNodes + choices - d.lastChild.first());
   this->reserveInitial();

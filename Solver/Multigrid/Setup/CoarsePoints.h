@@ -25,7 +25,7 @@ struct IndependentSetCoarsening
   float strength = 0.2F;
   /** The same for rows that cancel. In a lattice of obtuse triangles the strongest couplings form
    * lines; a smaller strength leaves whole lines without a C-point. */
-  float cancellingStrength = 0.5F;
+  float cancellingStrength = 0.6F;
   /** A row cancels if the magnitudes of its weights sum to more than this multiple of its
    * diagonal; at least 1. If no weight is negative, the sum is at most the diagonal. */
   float cancelling = 1.2F;

@@ -159,6 +159,7 @@ struct CoarseningData
     , product(pool)
     , productSum(pool)
     , finePoint(pool, fineRows.first() - 1)
+    , coarsePoint(pool, 3)
     , firstChild(pool)
     , lastChild(pool)
     , raw(pool)
@@ -225,6 +226,7 @@ struct CoarseningData
 
   // By coarse node.
   MonotoneRing finePoint;                ///< its fine node
+  Ring<float> coarsePoint;               ///< its position, if the nodes have any
   Ring<ChildLink> firstChild, lastChild; ///< of its column of P
   /** Rows of -P^T A P on their way to sparsify(): those made in this step, and those of the step
    * before, which sparsify() takes. */
@@ -354,6 +356,7 @@ private:
     this->product.release(i);
     this->productSum.release(i);
     this->finePoint.release(c);
+    this->coarsePoint.release(c);
     this->firstChild.release(c);
     this->lastChild.release(c);
     this->releaseRaw(c);

@@ -2,6 +2,7 @@
 #include "Solver/Multigrid/Setup/Interpolation.h"
 
 #include "Solver/Multigrid/Setup/InterpolationRow.h"
+#include "Solver/Multigrid/Setup/LinearRows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,6 +126,10 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
     const Candidate& from = largest[k];
     row.entry[k] = { static_cast<CoarseIndex>(data.publishedCoarse + from.distance),
       from.weight + share * std::fabs(from.weight) };
+  }
+  if (this->linear && data.fine.isPlaced() && this->coarsePoints.cancels(data, i))
+  {
+    LinearRows::fit(data, i, row);
   }
 }
 

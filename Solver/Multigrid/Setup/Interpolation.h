@@ -37,8 +37,9 @@ namespace smg
  * largest magnitudes. The others are distributed to them in proportion to their magnitudes, so the
  * row keeps its sum. Next to a stiff row (see SliverRows), where an error of P costs most, a row
  * has RelaxedRow::Most entries: a chain of slivers that loses one end moves with the other. Entries
- * may be negative, which smooth functions across a sliver require. Finally weights are rounded to
- * multiples of 1/Quanta, and the largest entry takes the remainder.
+ * may be negative, which smooth functions across a sliver require. Rows that cancel are then fitted
+ * to linear functions (LinearRows). Finally weights are rounded to multiples of 1/Quanta, and the
+ * largest entry takes the remainder.
  *
  * A row depends on rows within one ring, in stream order, and a sweep is a stage behind the stage
  * of P0: every sweep adds a ring to the window, and 40 bytes per node (RelaxedRow) stay in memory
@@ -54,6 +55,9 @@ public:
   int entries = 4;
   /** Number of sweeps, at least 1. */
   int sweeps = 1;
+  /** Whether rows that cancel are fitted to linear functions (LinearRows), where nodes have
+   * positions. */
+  bool linear = true;
 
   /** Appends row i of P0. The C-points among the nodes up to reach(i) must have been chosen. */
   void initial(CoarseningData& data, std::int64_t i) const;

@@ -125,6 +125,7 @@ public:
     , Precise(pool)
     , RowSum(pool)
     , Strongest(pool)
+    , Points(pool, 3)
     , Reach(pool, 0)
     , ChildReach(pool, -1)
   {
@@ -169,6 +170,10 @@ public:
   float strongest(std::int64_t i) const { return this->Strongest[i].weight(); }
   /** Whether row i is stiff. */
   bool stiff(std::int64_t i) const { return this->Strongest[i].stiff(); }
+  /** Whether the nodes have positions. */
+  bool isPlaced() const { return this->Placed; }
+  /** The position of node i, three numbers: of a coarse node, that of its C-point. */
+  const float* point(std::int64_t i) const { return this->Points.at(i); }
   /** The largest node index that occurs in rows 0 .. i, at least i: what a stage must have
    * passed before the next one may process row i. */
   std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
@@ -210,6 +215,20 @@ public:
     return entries + size;
   }
 
+  /** Places the last `count` nodes; returns room for their positions. Of a level without positions
+   * it is never called, of others for each node. */
+  float* place(std::int64_t count)
+  {
+    const std::int64_t begin = this->end() - count;
+    if (!this->Placed)
+    {
+      this->Placed = true;
+      this->Points.restart(begin);
+    }
+    this->Points.extendRaw(begin + count);
+    return this->Points.at(begin);
+  }
+
   /** The largest i (at most end()) such that no row from `done` on contains a node below i: a
    * stage that has passed `done` needs no data of these nodes any more. It is at least `from`. */
   std::int64_t unreached(std::int64_t from, std::int64_t done) const
@@ -232,6 +251,14 @@ public:
     this->Strongest.release(row);
     this->ChildReach.release(row);
     this->Reach.release(std::min(row, reach));
+  }
+  /** Releases the positions of nodes below `node`. */
+  void releasePoints(std::int64_t node)
+  {
+    if (this->Placed)
+    {
+      this->Points.release(node);
+    }
   }
 
 private:
@@ -292,8 +319,10 @@ private:
   RaggedRing<double> Precise;
   Ring<double> RowSum;
   Ring<StrongestWeight> Strongest;
+  Ring<float> Points; // 3 per node, or none
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0, Frozen = 0;
+  bool Placed = false;
 };
 
 /** The entries of consecutive rows, in memory that stays allocated when they are cleared. */
