@@ -25,9 +25,9 @@ constexpr int Patience = 60, RoundingPatience = 2;
 /** Half of the allowed V-cycles if that is less than 60, but at least this many. */
 constexpr int MinPatience = 10;
 constexpr double NearRounding = 10.0;
-/** The rounding of initial values far from the solution is at least this share of their residual.
- */
-constexpr double OfInitial = 1e-13;
+/** What is left of initial values far from the solution is rounding below this share of their
+ * residual. */
+constexpr double OfInitial = 1e-12;
 
 } // namespace
 
@@ -52,7 +52,7 @@ Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
   : Fixed(stopping.cycles > 0)
   , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
   , Tolerance(stopping.tolerance)
-  , Rounding(std::max(first.rounding, OfInitial * first.norm))
+  , Rounding(first.rounding)
   , Reference(first.reference > 0.0 ? first.reference : first.rounding)
   , Goal(std::max(
       stopping.tolerance * first.reference, first.norm <= first.rounding ? first.rounding : 0.0))
@@ -139,7 +139,9 @@ void Convergence::add(double norm, double rounding, double share, double scaled)
 void Convergence::watch()
 {
   const bool isEven = this->ScaledResiduals.back() <= this->Tolerance;
-  const bool rounding = isEven && this->Norm <= NearRounding * this->Rounding;
+  const double rounded =
+    std::max(NearRounding * this->Rounding, OfInitial * this->Initial * this->Reference);
+  const bool rounding = isEven && this->Norm <= rounded;
   // Only the lowered goal is missing.
   const bool isMet = isEven && std::ranges::any_of(this->Residuals,
                                  [this](double residual) { return residual <= this->Tolerance; });
