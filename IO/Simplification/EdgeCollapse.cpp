@@ -343,6 +343,10 @@ private:
     {
       return this->Cuts->removeBody(from, to, this->Reached, pass);
     }
+    if (topology == Change::Sheet && !this->Cuts->mayRemoveSheet(from, to, this->Reached, pass))
+    {
+      return false;
+    }
     bool isHole = false;
     if (topology == Change::Loop)
     {

@@ -18,10 +18,10 @@ struct CollapseGoal
   std::size_t vertices = 0; ///< number that is left
   /** The largest error of a collapse, see collapseEdges(). */
   double error = std::numeric_limits<double>::infinity();
-  /** Whether handles and bumps may be cut off, small holes closed, and bodies of four triangles go
-   * (LoopCuts), where that costs no more than collapses have by then, or little else is possible.
-   * Where nothing else is possible, borders between labels are given up, too, the sides of seams
-   * get one vertex at a place, and triangles may turn over. */
+  /** Whether handles and bumps may be cut off, small holes closed, and bodies of four triangles and
+   * sheets of one go (LoopCuts), where that costs no more than collapses have by then, or little
+   * else is possible. Where nothing else is possible, borders between labels are given up, too, the
+   * sides of seams get one vertex at a place, and triangles may turn over. */
   bool mayCut = false;
   /** Whether it also ends where a pass leaves nearly all vertices. */
   bool isRough = false;

@@ -484,4 +484,22 @@ bool LoopCuts::removeBody(std::uint32_t from, std::uint32_t to, float limit, Pas
   return true;
 }
 
+bool LoopCuts::mayRemoveSheet(std::uint32_t from, std::uint32_t to, float limit, Pass& pass) const
+{
+  const std::uint32_t opposite = this->Surface.Opposite[0];
+  if (this->Surface.trianglesAt(to, opposite) <= 2)
+  {
+    return true;
+  }
+  // It is at most so far from what is left.
+  const double size =
+    std::min(this->squaredDistance(from, to), this->squaredDistance(from, opposite));
+  if (costsTooMuch(this->rankOf(size), limit, pass))
+  {
+    return false;
+  }
+  pass.error = std::max(pass.error, size);
+  return true;
+}
+
 } // namespace smg

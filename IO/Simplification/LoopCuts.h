@@ -17,7 +17,7 @@ namespace smg
 /**
  * Changes of the topology of a surface that leave it manifold and wound as it is: handles and bumps
  * are cut along loops of three edges that bound no triangle, holes of three edges are closed,
- * bodies of four triangles go.
+ * bodies of four triangles go, and sheets of one triangle at an edge of three or more.
  *
  * Where two neighbours a and b have a common neighbour c without a triangle between them, moving a
  * onto b would leave four triangles at the edge to c. If both sides of the loop a, b, c meet
@@ -28,7 +28,7 @@ namespace smg
  * neck of two large parts, which are not separated.
  *
  * What such a change costs is the square of a distance, as the errors of collapses are: of a loop
- * the radius of the circle inside it, of a bump and of a body its size.
+ * the radius of the circle inside it, of a bump, of a body and of a sheet its size.
  */
 class LoopCuts
 {
@@ -75,6 +75,9 @@ public:
   /** Removes the tetrahedron with an edge, if its size is at most `limit`. Returns whether it has
    * gone. */
   bool removeBody(std::uint32_t from, std::uint32_t to, float limit, Pass& pass);
+  /** Whether the triangle at an edge, which is or may be all of a sheet, may go by the move: if it
+   * is none, or reaches at most `limit` away from the edge where it is attached. */
+  bool mayRemoveSheet(std::uint32_t from, std::uint32_t to, float limit, Pass& pass) const;
 
 private:
   enum class Kind

@@ -256,8 +256,8 @@ std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
   return curves;
 }
 
-/** Whether an edge of a vertex that was not touched has one triangle, or triangles of different
- * labels, or is on a seam; true if both ends may have further triangles elsewhere. */
+/** Whether an edge of a vertex that was not touched has not two triangles, or has triangles of
+ * different labels, or is on a seam; true if both ends may have further triangles elsewhere. */
 bool SurfaceTopology::isCurve(std::uint32_t v, std::uint32_t w) const
 {
   if (this->Open[v] != 0 && this->Open[w] != 0)
@@ -278,7 +278,7 @@ bool SurfaceTopology::isCurve(std::uint32_t v, std::uint32_t w) const
       first = t;
     }
   }
-  return triangles == 1;
+  return triangles != 2;
 }
 
 /** Whether a move would take a vertex off the border between labels that it is on, or a triangle
@@ -424,19 +424,25 @@ SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint3
     // None of two triangles that lie on each other.
     return this->Across.empty() ? Change::Impossible : Change::Loop;
   }
-  // A triangle with two boundary edges may go, but not one with three: it is all of its body.
   if (shared == 2)
   {
     return this->isTetrahedron(from, to, this->Opposite.data()) ? Change::Vanishing : Change::None;
   }
-  return this->hasOneTriangle(from, this->Opposite[0]) &&
-             this->hasOneTriangle(to, this->Opposite[0])
-           ? Change::Impossible
-           : Change::None;
+  // A triangle with two boundary edges may go if there is one other at its third edge. With none it
+  // is all of its body, with several all of a sheet. Two open vertices may have others elsewhere.
+  const std::uint32_t opposite = this->Opposite[0];
+  if (!this->hasOneTriangle(from, opposite))
+  {
+    return Change::None;
+  }
+  const std::size_t atThird = this->trianglesAt(to, opposite);
+  return atThird == 1                                             ? Change::Impossible
+         : atThird > 2 || (this->Open[to] & this->Open[opposite]) ? Change::Sheet
+                                                                  : Change::None;
 }
 
-/** Whether exactly one of the triangles of v is at the edge to w. */
-bool SurfaceTopology::hasOneTriangle(std::uint32_t v, std::uint32_t w) const
+/** The triangles of v at the edge to w, of many at least three. */
+std::size_t SurfaceTopology::trianglesAt(std::uint32_t v, std::uint32_t w) const
 {
   std::size_t triangles = 0;
   for (const std::uint32_t t : this->star(v))
@@ -444,12 +450,12 @@ bool SurfaceTopology::hasOneTriangle(std::uint32_t v, std::uint32_t w) const
     const auto [a, b] = this->others(t, v);
     triangles += a != b && (a == w || b == w) ? 1 : 0;
     // Both ends of an edge of very many triangles have all of them.
-    if (triangles > 1)
+    if (triangles > 2)
     {
-      return false;
+      break;
     }
   }
-  return triangles == 1;
+  return triangles;
 }
 
 /** Whether both ends of the edge have a triangle with both opposite corners: then the body is a

@@ -23,7 +23,8 @@ namespace smg
  * to their edge, and are not two of the four vertices of a tetrahedron; at the boundary, if they
  * move along it (the link condition of Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving
  * edge contraction, 1999). Vertices whose triangles are not one fan, and those of very many
- * triangles, may not go.
+ * triangles, may not go. Edges of three or more triangles are curves as the boundary is: a triangle
+ * that is all of a sheet between two such curves stays.
  *
  * Held vertices (SurfacePart::isHeld()) stay, with triangles. Borders between labels are kept as
  * boundaries are, until releaseBorders(): a vertex on one moves along it, and one where several
@@ -91,6 +92,7 @@ public:
   {
     None,
     Loop,      ///< it closes loops of three edges that bound no triangle
+    Sheet,     ///< the triangle at the edge is all of a sheet at an edge of three or more triangles
     Vanishing, ///< the body is a tetrahedron, of which nothing would be left
     Impossible ///< the vertex may not go there
   };
@@ -123,7 +125,11 @@ private:
   bool findMoves(std::uint32_t from, std::uint32_t to);
   bool crossesBorders(std::uint32_t from, std::uint32_t to) const;
   bool isFan();
-  bool hasOneTriangle(std::uint32_t v, std::uint32_t w) const;
+  std::size_t trianglesAt(std::uint32_t v, std::uint32_t w) const;
+  bool hasOneTriangle(std::uint32_t v, std::uint32_t w) const
+  {
+    return this->trianglesAt(v, w) == 1;
+  }
   bool isTetrahedron(std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const;
 
   SurfacePart& Part;
