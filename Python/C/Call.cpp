@@ -81,10 +81,13 @@ ArrayView viewOf(const smg_array* array, const char* name)
   {
     throw ArgumentError(std::string(name) + ": has a type that does not exist.");
   }
-  if (given.rows < 0 || given.columns < 1 || (given.rows > 0 && !given.data))
+  const bool lacksData = given.rows > 0 && !given.data;
+  if (given.rows < 0 || given.columns < 1 || lacksData)
   {
     throw ArgumentError(
-      std::string(name) + ": must have a number of rows from 0 on, one or more columns, and data.");
+      std::string(name) + (given.rows < 0       ? ": the number of rows is below 0."
+                            : given.columns < 1 ? ": must have one or more columns."
+                                                : ": must have data: the pointer is null."));
   }
   return { given.data, static_cast<ScalarType>(given.type), given.rows, given.columns,
     given.row_stride, given.column_stride };

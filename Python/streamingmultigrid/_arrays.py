@@ -26,12 +26,8 @@ class Array(ctypes.Structure):
     ]
 
 
-def numbers(values: Any, name: str) -> np.ndarray:
-    """`values` as an array of a type that the library knows, without a copy where it is one.
-
-    Booleans become 0 and 1, other kinds of floating-point numbers and byte orders are converted.
-    Raises InputError for what are not real numbers: masked, complex, text, objects, ragged lists.
-    """
+def _real(values: Any, name: str) -> np.ndarray:
+    """`values` as an array of booleans or real numbers of any type; else raises InputError."""
     if isinstance(values, np.ma.MaskedArray):
         if np.ma.is_masked(values):
             raise InputError(
@@ -48,6 +44,16 @@ def numbers(values: Any, name: str) -> np.ndarray:
             array.dtype.kind, "of type %s" % array.dtype
         )
         raise InputError("%s: the values are %s; only real numbers can be used." % (name, kind))
+    return array
+
+
+def numbers(values: Any, name: str) -> np.ndarray:
+    """`values` as an array of a type that the library knows, without a copy where it is one.
+
+    Booleans become 0 and 1, other kinds of floating-point numbers and byte orders are converted.
+    Raises InputError for what are not real numbers: masked, complex, text, objects, ragged lists.
+    """
+    array = _real(values, name)
     if array.dtype.kind == "b":
         return array.view(np.uint8)
     if not array.dtype.isnative:
@@ -73,7 +79,7 @@ def table(values: np.ndarray) -> Array:
 def points_and_cells(points: Any, cells: Any) -> tuple:
     """The arrays of a mesh, checked: (n, 3) numbers and (m, 3) or (m, 4) integers. Points (n, 2) have
     z = 0."""
-    points, cells = numbers(points, "points"), numbers(cells, "cells")
+    points, cells = numbers(points, "points"), _real(cells, "cells")
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise InputError("points: the shape is %s; it must be (n, 3), or (n, 2) with z = 0." % (points.shape,))
     if points.shape[1] == 2:
@@ -87,7 +93,7 @@ def points_and_cells(points: Any, cells: Any) -> tuple:
         raise InputError(
             "cells: the corners are of type %s; they must be integers, rows of points." % cells.dtype
         )
-    return points, cells
+    return points, numbers(cells, "cells")
 
 
 def copy(array: Array) -> np.ndarray:

@@ -109,6 +109,11 @@ def estimate_html(estimate: Any) -> str:
     return _block(repr(estimate).split("\n")[0], _table(estimate.lines()))
 
 
+def closed_html(thing: Any) -> str:
+    """What a notebook shows of a mesh or field that has been closed."""
+    return "<p>%s</p>" % html.escape(repr(thing))
+
+
 def mesh_html(title: str, rows: Iterable[Tuple[str, str]], picture: str) -> str:
     """A mesh: what is known of it, and a picture."""
     return _block(title, _table(rows), picture)

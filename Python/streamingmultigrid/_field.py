@@ -430,11 +430,18 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         self.close()
 
     def __repr__(self) -> str:
-        return "<Field %r %s of %s, by %s>" % (self.name, self.shape, self.mesh.name, self._job)
+        try:
+            shape = " %s" % (self.shape,)
+        except Error:  # closed, or lost as the process forked
+            shape = ""
+        state = ", closed" if self._handle.is_closed else ""
+        return "<Field %r%s of %s, by %s%s>" % (self.name, shape, self.mesh.name, self._job, state)
 
     def _repr_html_(self) -> str:
-        from ._display import report_html
+        from ._display import closed_html, report_html
 
+        if self._handle.is_closed:
+            return closed_html(self)
         return report_html(self.report) + self.mesh.preview_svg(self)
 
 

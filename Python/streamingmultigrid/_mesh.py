@@ -17,7 +17,7 @@ from . import _jobs as jobs
 from . import _types as types
 from ._arrays import table
 from ._columns import Column, Columns
-from ._display import mesh_html, mesh_lines, surface_svg
+from ._display import closed_html, mesh_html, mesh_lines, surface_svg
 from ._errors import Error, InputError, NotConverged, ReportWarning, warn
 from ._field import OF_EVERY_MESH, Block, Field, names_of, read_blocks, read_column, read_columns
 from ._library import NativeHandle, call, call_reporting, encoded, json_text, library, parse
@@ -572,7 +572,8 @@ class Mesh:
     # How it shows itself.
 
     def __repr__(self) -> str:
-        return "<Mesh %s%s>" % (self.name, "" if self._opened else ", not read yet")
+        state = ", closed" if self._is_closed else "" if self._opened else ", not read yet"
+        return "<Mesh %s%s>" % (self.name, state)
 
     def __str__(self) -> str:
         return "\n".join(
@@ -580,6 +581,8 @@ class Mesh:
         )
 
     def _repr_html_(self) -> str:
+        if self._is_closed:
+            return closed_html(self)
         rows = mesh_lines(self.info())
         return mesh_html(self.name, rows, self.preview_svg())
 

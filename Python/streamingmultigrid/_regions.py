@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, List, NoReturn, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -103,6 +103,17 @@ class Placed:
 
     def __repr__(self) -> str:
         return "%r >> %r" % (self.region, self.value)
+
+    __array_ufunc__ = None  # an array on the left leaves these operators to this class
+
+    def refuse(self, *_: Any) -> NoReturn:
+        """Where a region is needed; the operators of one, too."""
+        raise InputError(
+            "%r has a value, where a region without one is needed. As >> comes before & and |, regions are "
+            "combined in parentheses: (a & b) >> value. Several with their values are a list." % (self,)
+        )
+
+    __and__ = __or__ = __sub__ = __rand__ = __ror__ = __rsub__ = __rshift__ = refuse
 
     def of_datum(self, name: str) -> "Placed":
         """Itself. Raises InputError if it is of another datum."""
@@ -344,6 +355,8 @@ def as_region(value: Any) -> Region:
     """A region; of booleans the mask, of integers these vertices, of a dict WHERE of a problem file."""
     if isinstance(value, Region):
         return value
+    if isinstance(value, Placed):
+        value.refuse()
     if isinstance(value, dict) and len(value) == 1:
         return Region(*next(iter(value.items())))
     if isinstance(value, str):

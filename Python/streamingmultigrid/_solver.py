@@ -108,6 +108,8 @@ class Solver:
             x, of the shape of b, float64.
         """
         right = vector(b, "b", self.shape[0])
+        if not right.size:
+            raise InputError("b: the shape is %s: there is no right-hand side." % (right.shape,))
         if x0 is None:
             x = np.zeros(right.shape)
         else:

@@ -89,6 +89,8 @@ class ErrorsTest(unittest.TestCase):
             ((points[:, :1], cells), r"points: the shape is \(42, 1\)"),
             ((points, cells[:, :2]), r"cells: the shape is \(80, 2\)"),
             ((points, cells.astype(float)), "integers"),
+            ((points, cells < 9), "cells: the corners are of type bool; they must be integers"),
+            ((points, [[True, False, True]]), "bool"),
             ((points, wrong), "42"),
             ((points, -cells), "-"),
             ((points * 1j, cells), "complex"),
@@ -135,6 +137,7 @@ class ErrorsTest(unittest.TestCase):
     def test_jobs(self):
         points, cells = sphere(2)
         mesh = smg.mesh(points, cells)
+        mask = points[:, 2] > 0
         with open("wrong.json", "w", encoding="utf-8") as file:
             file.write("{")
         for call, error, words in (
@@ -178,6 +181,15 @@ class ErrorsTest(unittest.TestCase):
             (lambda: mesh.solve(problem="nowhere.json"), smg.Error, "nowhere.json: cannot be opened"),
             (lambda: mesh.solve(problem="wrong.json"), smg.Error, "wrong.json: this is not valid JSON"),
             (lambda: mesh.distance([1.5]), smg.InputError, "integers"),
+            (lambda: smg.above(z=0) & smg.below(z=1) >> 1, smg.InputError, r"in parentheses: \(a & b\) >> value"),
+            (lambda: mask & smg.below(z=1) >> 1, smg.InputError, "in parentheses"),
+            (lambda: mask | smg.below(z=1) >> 1, smg.InputError, "in parentheses"),
+            (lambda: smg.above(z=0) >> 1 | smg.below(z=1) >> 1, smg.InputError, "are a list"),
+            (lambda: smg.above(z=0) >> 1 >> 2, smg.InputError, "has a value"),
+            (lambda: mesh.distance(smg.above(z=0) >> 1), smg.InputError, "has a value"),
+            (lambda: mesh.solver(screening=1).solve(np.ones((162, 2))[:, :0]), smg.InputError,
+             r"b: the shape is \(162, 0\): there is no right-hand side"),
+            (lambda: mesh.add("none", np.ones((162, 0))), smg.InputError, "must have one or more columns"),
             (lambda: mesh.distance(smg.boundary & smg.above(z=0)), smg.Error, "boundary"),
             (lambda: mesh.distance(smg.above(z=0.9) & smg.below(z=-0.9)), smg.InputError, "nothing"),
             (lambda: mesh.distance(~smg.everywhere), smg.InputError, "nothing"),

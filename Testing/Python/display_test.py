@@ -40,6 +40,14 @@ class DisplayTest(unittest.TestCase):
         self.parse(mesh.estimate("solve", dirichlet={0: 0.0})._repr_html_())
         np.testing.assert_array_equal(np.asarray(u), u.to_numpy())
 
+    def test_what_is_closed(self):
+        mesh = smg.mesh(*sphere(1))
+        u = mesh.solve(dirichlet={0: 0.0, 9: 1.0})
+        for thing in (u, mesh):
+            thing.close()
+            self.assertIn(", closed>", repr(thing))
+            self.assertIn(", closed>", "".join(self.parse(thing._repr_html_()).itertext()))
+
     def test_without_cycles(self):
         """Of what is prescribed everywhere, there is no convergence to be shown."""
         points, cells = sphere(1)

@@ -118,7 +118,8 @@ def _class(name, cls):
         if isinstance(value, property):
             result = inspect.signature(value.fget).return_annotation
             lines += ["    @property", "    def %s(self) -> %s: ..." % (member, _type(result))]
-        elif inspect.isfunction(value):
+        # What is there to raise an error is one for checkers of types, too.
+        elif inspect.isfunction(value) and value.__annotations__.get("return") != "NoReturn":
             lines += _function(member, value, "    ")
     return lines if len(lines) > 1 else [lines[0] + " ..."]
 

@@ -216,7 +216,13 @@ TEST(CErrors, AnArraySaysItsRow)
   expectInvalid(open(wrong, cells), "points: has a type");
   wrong = points;
   wrong.data = nullptr;
-  expectInvalid(open(wrong, cells), "points: must have");
+  expectInvalid(open(wrong, cells), "points: must have data");
+  wrong = points;
+  wrong.columns = 0;
+  expectInvalid(open(wrong, cells), "points: must have one or more columns");
+  wrong = points;
+  wrong.rows = -1;
+  expectInvalid(open(wrong, cells), "points: the number of rows is below 0");
 }
 
 TEST(CErrors, AColumnMustFitTheMesh)
