@@ -99,7 +99,7 @@ void SolvingCommand::warn(const smg::Report& report) const
 namespace
 {
 
-/** For example " 1.5 2", one number per column. */
+/** For example " 1.5 2", one number per column; "unknown" for what is null in the report. */
 std::string listOf(const std::vector<double>& numbers)
 {
   std::string list;
@@ -107,7 +107,7 @@ std::string listOf(const std::vector<double>& numbers)
   {
     char text[32];
     std::snprintf(text, sizeof text, " %.6g", number);
-    list += text;
+    list += std::isnan(number) ? " unknown" : text;
   }
   return list;
 }

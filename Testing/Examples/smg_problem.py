@@ -70,6 +70,20 @@ BOTTOM = {"halfspace": [0, 0, -1, 0], "value": [0]}
 TOP = {"halfspace": [0, 0, 1, SIDE], "value": [1]}
 
 
+def test_what_is_unknown():
+    """A flux that the digits of the values do not give is null in the report, and unknown in words."""
+    with open("problem.json", "w", encoding="utf-8") as file:
+        json.dump({"dirichlet": [{**BOTTOM, "value": [1e14]}, {**TOP, "value": [1e14 + 1]}]}, file)
+    for report in "report.json", "report.html":
+        said = run("solve", "cube.vsm", "out.vtu", "--problem", "problem.json", "--report", report).stdout
+        lines = [line for line in said.splitlines() if "flux into the body" in line]
+        assert len(lines) == 2 and all(line.endswith("flux into the body unknown") for line in lines), said
+    assert all(condition["flux"] == [None] for condition in load("report.json")["conditions"])
+    with open("report.html", encoding="utf-8") as file:
+        page = file.read()
+    assert "unknown" in page and "not a number" not in page
+
+
 def test_two_materials():
     """Layers of conductivity 1 and 10: the flux is the area over the sum of the resistances."""
     flux = SIDE ** 2 / (MIDDLE + MIDDLE / 10)
@@ -252,8 +266,8 @@ run("convert", "cube.vtk", "cube.vsm", "--quiet")
 # K applied to the unit vectors, a vector for each of three columns.
 write_vtk("fields.vtk", eye=[(4, 0, 0, 0, 2, 0, 0, 0, 1)] * len(CELLS))
 run("convert", "fields.vtk", "fields.vsm", "--quiet")
-for each in (test_two_materials, test_where, test_boundary, test_everywhere, test_densities, test_earlier_solves,
-             test_errors, test_schema):
+for each in (test_what_is_unknown, test_two_materials, test_where, test_boundary, test_everywhere, test_densities,
+             test_earlier_solves, test_errors, test_schema):
     each()
     print("passed", each.__name__)
 sys.exit(0)

@@ -75,7 +75,7 @@ std::string valueText(const std::string& name, const Json& value)
   }
   if (value.is_null())
   {
-    return "not a number";
+    return "unknown";
   }
   if (!value.is_number())
   {
