@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -161,6 +162,36 @@ TEST_F(TextForm, OfAStreamIsTheMeshOfTheBinaryForm)
             EXPECT_TRUE(path.extension() == ".vsm" || bytes == readFile(path));
           },
           precise);
+      }
+    });
+}
+
+TEST_F(TextForm, NumbersThatVtkDoesNotReadAreSaid)
+{
+  forEachSuffix(
+    [this](const FileSuffix& suffix, CellType cells)
+    {
+      for (const bool areExtreme : { true, false })
+      {
+        MeshOfFile mesh = randomMeshOfFile(cells, 3, true);
+        if (areExtreme)
+        {
+          addExtremes(mesh);
+        }
+        writeVsmOf(mesh, this->Folder / "mesh.vsm", 1);
+        const std::filesystem::path file = this->Folder / ("said" + std::string(suffix.text));
+        for (const bool text : { false, true })
+        {
+          if (suffix.text == ".vsm" || (text && suffix.form == FileForm::Binary))
+          {
+            continue;
+          }
+          const std::vector<std::string> notes =
+            writeFromVsm(this->Folder / "mesh.vsm", file, {}, {}, text);
+          const bool isSaid = std::ranges::any_of(notes, [](const std::string& note)
+            { return note.find("NaN or infinite: VTK") != std::string::npos; });
+          EXPECT_EQ(isSaid, areExtreme && text && suffix.text == ".vtk");
+        }
       }
     });
 }

@@ -7,8 +7,11 @@
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/Text.h"
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -54,6 +57,9 @@ public:
     }
   }
 
+  /** The numbers written that are NaN or infinite. */
+  std::int64_t notFinite() const { return this->NotFinite; }
+
 private:
   template <class T>
   void writeNumbers(TextOutput& out, int column, int components)
@@ -62,6 +68,10 @@ private:
     int component = 0;
     for (T number; reader.get(number);)
     {
+      if constexpr (std::floating_point<T>)
+      {
+        this->NotFinite += std::isfinite(number) ? 0 : 1;
+      }
       out << number << (++component < components ? ' ' : '\n');
       component %= components;
     }
@@ -70,6 +80,7 @@ private:
   const std::vector<ColumnSpec> Specs;
   const LegacyColumns Written;
   BucketFile Kept;
+  std::int64_t NotFinite = 0;
 };
 
 /** Legacy VTK as text: what LegacyVtkWriter writes in binary. */
@@ -128,11 +139,26 @@ public:
     this->PointData.write(this->Out, this->Info.vertices);
     this->CellData.write(this->Out, this->Info.elements);
     this->Out.finish();
-    return {};
+    return this->notes();
   }
 
 private:
   bool isSurface() const { return this->Info.cellType == CellType::Triangle; }
+
+  /** The reader of VTK stops at "nan" and "inf", and has wrong numbers from there on. */
+  WriteNotes notes() const
+  {
+    const std::int64_t number = this->PointData.notFinite() + this->CellData.notFinite();
+    if (number == 0)
+    {
+      return {};
+    }
+    return {
+      counted(number, "number is", "numbers are") +
+      " NaN or infinite: VTK and ParaView read neither from a text, nor what follows. Written as "
+      "binary (without --text), the file is read as it is."
+    };
+  }
 
   TextOutput Out;
   const MeshFileInfo Info;
