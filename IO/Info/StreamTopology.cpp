@@ -5,9 +5,9 @@
 
 // How the cells of a stream fit together, in one pass. When a vertex gets no more cells, all that
 // is around it is known: for surfaces its triangles, hence its edges with their numbers of
-// triangles, and whether the triangles are one fan or disc. An edge is counted at its lower vertex.
-// For solids the same holds for the triangles of the boundary: a face of one tetrahedron is known
-// when its lowest corner is complete, which is before its other corners are.
+// triangles, and whether the triangles are connected across these. An edge is counted at its lower
+// vertex. For solids the same holds for the triangles of the boundary: a face of one tetrahedron is
+// known when its lowest corner is complete, which is before its other corners are.
 
 namespace smg
 {

@@ -81,7 +81,7 @@ struct TopologyCounts
   std::int64_t nonManifoldFacets = 0; ///< of more than two cells
   // Of the surface, or of the boundary of a solid:
   std::int64_t nonManifoldEdges = 0;    ///< of more than two triangles
-  std::int64_t nonManifoldVertices = 0; ///< whose triangles are not one fan or one disc
+  std::int64_t nonManifoldVertices = 0; ///< of VertexStar::fans() above 1
   std::int64_t turnedEdges = 0;         ///< see VertexStar; of surfaces
   std::int64_t unbalancedEdges = 0;     ///< likewise
   double boundarySize = 0.0;            ///< length of the boundary edges, area of the faces

@@ -339,6 +339,9 @@ def test_what_cannot_be_said_is_an_error():
         assert done.returncode == 1 and "standard output" in done.stderr, (command, done)
     error = run("info", "torus.vsm", "--report", "/dev/full", code=1).stderr
     assert "/dev/full" in error and "space" in error, error
+    # The result is complete by then.
+    run("convert", "torus.obj", "o4.vsm", "--report", "/dev/full", code=1)
+    run("info", "o4.vsm", "--check")
 
 
 def test_interrupt_cleans_up():

@@ -130,7 +130,7 @@ struct SMG_EXPORT ConversionReport
   std::int64_t components = -1;           ///< components connected by edges
   std::int64_t boundary_edges = -1;       ///< edges of one triangle
   std::int64_t nonmanifold_edges = -1;    ///< edges of more than two triangles
-  std::int64_t nonmanifold_vertices = -1; ///< vertices whose triangles are not one fan or one disc
+  std::int64_t nonmanifold_vertices = -1; ///< vertices of triangles not connected across edges
   /** Whether OriginalId or OriginalCellId is a column of the file itself: see convert(). */
   bool keeps_numbers = false;
   std::int64_t width = -1;                ///< StreamInfo::width of the result

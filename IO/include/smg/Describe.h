@@ -100,8 +100,8 @@ struct SMG_EXPORT MeshDescription
   std::int64_t nonmanifold_facets = 0; ///< edges of more triangles than two, faces of tetrahedra
   /** Edges of more than two triangles, of the surface or of the boundary of the solid. */
   std::int64_t nonmanifold_edges = 0;
-  /** Vertices whose triangles, of the surface or of the boundary of the solid, are not one fan or
-   * one disc. */
+  /** Vertices whose triangles, of the surface or of the boundary of the solid, are not all
+   * connected across edges at the vertex. Those at an edge of three triangles are. */
   std::int64_t nonmanifold_vertices = 0;
   /** Edges with two triangles that are wound against each other; 0 of solids. */
   std::int64_t turned_edges = 0;
