@@ -35,6 +35,9 @@ namespace
 constexpr double LengthShare = 1e-3;
 /** The weight of the plane that holds a boundary edge, compared with triangles of its length. */
 constexpr double BoundaryWeight = 10.0;
+/** A vertex of the boundary may be so many squared errors from the edge that replaces it: planes do
+ * not see how long a spike is that is narrower than the error. */
+constexpr double Spike = 9.0;
 /** A pass in which less than this share of the vertices goes ends a rough simplification; one in
  * which less than this share of what is still to go does is slow. */
 constexpr std::size_t RoughShare = 20, SlowShare = 32;
@@ -140,6 +143,7 @@ public:
     {
       this->Cuts.emplace(this->Part, this->Surface, this->InverseSquare);
     }
+    this->Limit = goal.error * goal.error;
     Collapsed done;
     double error = 0.0; // squared
     std::size_t left = this->Part.wedges.empty() ? this->Part.vertices() : this->usedVertices();
@@ -357,7 +361,8 @@ private:
         return done == LoopCuts::Done::Cut;
       }
     }
-    if (this->Surface.turn(this->Surface.star(from), from, to))
+    if (this->Surface.turn(this->Surface.star(from), from, to) ||
+        this->Surface.fromBoundary(from, to) > Spike * this->Limit)
     {
       return false;
     }
@@ -384,6 +389,7 @@ private:
   std::size_t Blocked =
     0;                  ///< edges of the last pass that it has come to, and that did not collapse
   float Reached = 0.0F; ///< the largest rank of a collapse, or what cuts may cost
+  double Limit = std::numeric_limits<double>::infinity(); ///< of the squared error
   double InverseSquare = 1.0; ///< of the extent of the part, so that ranks are in single precision
   std::vector<Collapse> Edges;
   std::vector<std::uint32_t> Order, Begin;

@@ -224,6 +224,33 @@ bool SurfaceTopology::turn(
            });
 }
 
+double SurfaceTopology::fromBoundary(std::uint32_t from, std::uint32_t to) const
+{
+  if ((this->Curves[from] & OnBoundary) == 0)
+  {
+    return 0.0;
+  }
+  const auto point = [this](std::uint32_t w)
+  { return this->Part.points.data() + 3 * std::size_t(w); };
+  for (const std::uint32_t t : this->star(from))
+  {
+    const auto [a, b] = this->others(t, from);
+    for (const std::uint32_t w : { a, b })
+    {
+      if (a != b && w != to && this->hasOneTriangle(from, w))
+      {
+        const Vector edge = difference(point(w), point(to)),
+                     way = difference(point(from), point(to));
+        const double length = dot(edge, edge);
+        const double at = length > 0.0 ? std::clamp(dot(way, edge) / length, 0.0, 1.0) : 0.0;
+        const Vector off{ way[0] - at * edge[0], way[1] - at * edge[1], way[2] - at * edge[2] };
+        return dot(off, off);
+      }
+    }
+  }
+  return 0.0;
+}
+
 /** The edges at v of the boundary, of seams and between labels; 0 if its triangles have one label
  * and no seam. */
 std::size_t SurfaceTopology::curvesAt(std::uint32_t v)

@@ -98,6 +98,9 @@ public:
   };
   Change changeBy(std::uint32_t from, std::uint32_t to);
   void move(std::uint32_t from, std::uint32_t to);
+  /** The squared distance of a vertex of the boundary from the boundary edge that replaces it when
+   * it moves along the boundary; 0 of other vertices. */
+  double fromBoundary(std::uint32_t from, std::uint32_t to) const;
 
   /** Whether one of some triangles of v would turn by too much, or collapse, if v were at `to`;
    * those that disappear if v moves there do not count. After letTurn(): false. */

@@ -254,6 +254,19 @@ TEST_F(SimplifySheets, AnErrorKeepsThemInParts)
   }
 }
 
+/** Planes do not see how long a spike of the boundary is that is narrower than the error. */
+TEST_F(SimplifySheets, AnErrorKeepsSpikesOfTheBoundary)
+{
+  for (const double error : { 0.1, 1.0, 2.0, 4.0 })
+  {
+    const StreamMesh mesh = toStream(gridWithNeedle(20, 20, 50.0));
+    const StreamMesh simple = this->simplified(mesh, { .error = error }, 256);
+    EXPECT_EQ(topologyOf(simple), topologyOf(mesh));
+    constexpr double Far = 4.0;
+    EXPECT_LT(distanceOf(mesh.positions, simple), Far * error);
+  }
+}
+
 TEST_F(SimplifySheets, ANumberOfVerticesKeepsThoseLargerThanItsErrors)
 {
   for (const double height : { 0.05, 12.0 })
