@@ -6,8 +6,8 @@
 
 // The lower envelope of the distances of intervals on an edge. Each insertion walks along the
 // intervals of the edge that the new one meets; where two meet, the border between them is a root
-// of a quadratic equation, and the nearer one is found by a look at the middle between borders, so
-// that no root needs to be believed.
+// of a quadratic equation, and the nearer one is found by a look between borders, so that no root
+// needs to be believed.
 
 namespace smg
 {
@@ -35,6 +35,24 @@ bool goesOn(const FrontInterval& a, const FrontInterval& b)
          std::fabs(a.image.x - b.image.x) + std::fabs(a.image.depth - b.image.depth) +
              std::fabs(a.image.offset - b.image.offset) <=
            SameImage * size;
+}
+
+/** Whether a front is the nearer one of two between borders. In the middle they may only touch:
+ * that is no border, and happens where one comes straight through the vertex that the other comes
+ * from.
+ */
+bool isNearer(const FrontImage& front, const FrontImage& other, double begin, double end)
+{
+  for (const double share : { 0.5, 0.25, 0.75 })
+  {
+    const double at = begin + share * (end - begin), known = other.at(at);
+    const double less = known - front.at(at), least = Nearer * std::fabs(known);
+    if (std::fabs(less) > least)
+    {
+      return less > 0;
+    }
+  }
+  return false;
 }
 
 } // namespace
@@ -150,8 +168,7 @@ private:
     border[borders++] = end;
     for (int k = 0; k < borders; ++k)
     {
-      const double middle = 0.5 * (from + border[k]), known = this->Old.image.at(middle);
-      this->pass(from, this->New.image.at(middle) < known - Nearer * std::fabs(known));
+      this->pass(from, isNearer(this->New.image, this->Old.image, from, border[k]));
       from = border[k];
     }
     if (this->Old.end > end)

@@ -68,11 +68,14 @@ struct FrontImage
              ? FrontImage{ -this->x, this->depth, this->offset + this->x * length, true }
              : FrontImage{ length - this->x, this->depth, this->offset, false };
   }
-  /** Where the path to a point above the edge crosses the edge. */
+  /** Where the path to a point above the edge crosses the edge. An image on the edge is that place
+   * itself. */
   double crossing(double px, double py) const
   {
-    return this->isStraight ? px - py * this->x / this->depth
-                            : this->x + (px - this->x) * (this->depth / (this->depth + py));
+    return this->isStraight
+             ? px - py * this->x / this->depth
+             : this->x +
+                 (this->depth > 0 ? (px - this->x) * (this->depth / (this->depth + py)) : 0);
   }
   /** The image in the frame of the edge from the origin to a point above the edge, beyond which the
    * path goes on; that edge has this length. */

@@ -412,14 +412,18 @@ void GeodesicMarch::passOn(std::uint32_t number)
 void GeodesicMarch::enter(const FrontInterval& interval, double length, const Triangle& triangle)
 {
   const FrontImage& image = interval.image;
-  if (!(image.depth > 0))
+  const double x = triangle.x, y = triangle.y, margin = Margin * length;
+  // The middle corner of a cell without area lies on the edge opposite to it: all paths from there
+  // cross the edge at one point, in every direction.
+  const bool isOnEdge = !image.isStraight && image.depth <= margin &&
+                        image.x >= interval.begin - margin && image.x <= interval.end + margin;
+  if (!isOnEdge && !(image.depth > 0))
   {
     return; // along the edge
   }
-  const double x = triangle.x, y = triangle.y, margin = Margin * length;
   const double crossing = image.crossing(x, y);
-  const bool isLeft = crossing > interval.begin + margin,
-             isRight = crossing < interval.end - margin;
+  const bool isLeft = isOnEdge || crossing > interval.begin + margin,
+             isRight = isOnEdge || crossing < interval.end - margin;
   const double reach = margin + Reach * (image.at(x, y) - (image.isStraight ? 0.0 : image.offset));
   if (crossing >= interval.begin - reach && crossing <= interval.end + reach)
   {
@@ -435,7 +439,7 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
   if (isLeft && !isLonger(image.at(interval.begin), known + norm(x - interval.begin, y)))
   {
     const double all = norm(x, y);
-    const double begin = image.shareBeyond(x, y, interval.begin);
+    const double begin = isOnEdge ? 0 : image.shareBeyond(x, y, interval.begin);
     const double end =
       isRight || crossing <= interval.end + margin ? 1 : image.shareBeyond(x, y, interval.end);
     this->cross({ begin * all, end * all, image.beyond(x, y, all), interval.source, a, c, b,
@@ -446,7 +450,7 @@ void GeodesicMarch::enter(const FrontInterval& interval, double length, const Tr
   {
     const FrontImage mirrored = image.reversed(length);
     const double mx = length - x, all = norm(mx, y);
-    const double begin = mirrored.shareBeyond(mx, y, length - interval.end);
+    const double begin = isOnEdge ? 0 : mirrored.shareBeyond(mx, y, length - interval.end);
     const double end = isLeft || crossing >= interval.begin - margin
                          ? 1
                          : mirrored.shareBeyond(mx, y, length - interval.begin);
