@@ -149,7 +149,27 @@ private:
   double Most = 0;
 };
 
-/** Small surfaces of any curvature: closed and open, rough, of long triangles, of several bodies.
+/** The mesh with triangles on some of its edges, at which more than two meet. */
+IndexedTestMesh finned(IndexedTestMesh mesh, Random& random)
+{
+  const std::int64_t corners = std::ssize(mesh.corners);
+  for (int fin = 0; fin < 20; ++fin)
+  {
+    const auto c = static_cast<std::size_t>(random.below(corners));
+    const std::int64_t a = mesh.corners[c], b = mesh.corners[c % 3 == 2 ? c - 2 : c + 1];
+    mesh.corners.insert(mesh.corners.end(), { a, b, mesh.vertices() });
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      mesh.positions.push_back(
+        random.uniform(0.5, 0.8) * (mesh.positions[3 * static_cast<std::size_t>(a) + k] +
+                                     mesh.positions[3 * static_cast<std::size_t>(b) + k]));
+    }
+  }
+  return mesh;
+}
+
+/** Small surfaces of any curvature: closed and open, rough, of long triangles, of several bodies,
+ * with fins.
  */
 std::vector<KnownSurface> curvedSurfaces()
 {
@@ -171,6 +191,8 @@ std::vector<KnownSurface> curvedSurfaces()
       const std::string name = std::to_string(noise) + ", 1 : " + std::to_string(flatness);
       all.push_back({ "torus, " + name, rough(torus(15, 11, noise), noise, flatness), {} });
       all.push_back({ "sphere, " + name, rough(sphere(2), 0.3 * noise, flatness), {} });
+      all.push_back(
+        { "fins, " + name, rough(finned(sphere(2), random), 0.3 * noise, flatness), {} });
     }
   }
   for (const std::uint64_t seed : { 1, 2, 3 })

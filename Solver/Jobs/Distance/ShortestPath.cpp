@@ -13,6 +13,10 @@
 // triangle, until the way by a corner is as short as going on: the path passes there, and goes on
 // with the image of that corner, so that rounding does not add up.
 //
+// At an edge of several triangles each is tried. A wrong one is left as soon as a vertex is farther
+// from the sources than the rest of the path would allow, and what it leads to counts only if it is
+// a source: the length of a path is the distance, or there is no path.
+//
 // Cost: the triangles that are crossed, and reading their chunks of the stream.
 
 namespace smg
@@ -24,6 +28,14 @@ namespace
 /** A way by a corner is as short as the path if it is longer by at most this share of what is left.
  */
 constexpr double AsShort = 1e-10;
+/** What rounding makes of a way of no length, relative to the whole path, and to coordinates. */
+constexpr double NoLength = 1e-12, Digits = 1e-15;
+/** A vertex is too far away for the path if it is by this share of the whole path. */
+constexpr double TooFar = 1e-6;
+/** The length of a path is the distance up to this share of it. */
+constexpr double AsLong = 1e-8;
+/** How many triangles may be tried for one straight part, relative to those of the mesh. */
+constexpr std::int64_t MostTries = 16;
 
 double lengthBetween(const double* a, const double* b)
 {
@@ -40,6 +52,8 @@ Report::Path ShortestPath::to(std::int64_t vertex)
   this->Window.show(vertex / plan.length, vertex / plan.length);
   this->Path = {};
   std::uint32_t v = plan.local(vertex);
+  const double* const end = this->Window.point(v);
+  this->Rounding = Digits * (std::fabs(end[0]) + std::fabs(end[1]) + std::fabs(end[2]));
   const double whole = this->Window.distance()[v];
   if (std::isinf(whole))
   {
@@ -64,8 +78,10 @@ Report::Path ShortestPath::to(std::int64_t vertex)
       pass(v);
     }
   }
-  if (this->Path.from < 0)
+  if (this->Path.from < 0 ||
+      !(std::fabs(this->Path.length - whole) <= AsLong * whole + this->Rounding))
   {
+    this->Path.from = -1;
     this->Path.points.clear();
     this->Path.length = whole;
   }
@@ -76,22 +92,27 @@ Report::Path ShortestPath::to(std::int64_t vertex)
 std::uint32_t ShortestPath::passStraight(std::uint32_t vertex)
 {
   this->Whole = this->Window.distance()[vertex];
-  this->Left = this->Window.mesh().cells();
+  this->Left = MostTries * this->Window.mesh().cells();
+  this->HasForked = false;
+  this->Before = this->Path.length;
   this->Path.from = -1;
   return this->follow(this->firstCrossing(vertex)).value_or(None);
 }
 
 std::optional<std::uint32_t> ShortestPath::follow(Crossing crossing)
 {
-  // A straight path crosses no triangle twice.
-  while (this->Left-- > 0 && crossing.image.depth > 0)
+  while (this->Left-- > 0 && crossing.isAhead())
   {
     const double* const origin = this->Window.point(crossing.a);
     const Vector edge = difference(this->Window.point(crossing.b), origin);
     const double share = crossing.at / crossing.length, left = crossing.left();
     this->add(
       { origin[0] + share * edge[0], origin[1] + share * edge[1], origin[2] + share * edge[2] });
-    if (crossing.image.isStraight && left <= AsShort * this->Whole)
+    if (left < -AsShort * this->Whole || !this->isStraight(left))
+    {
+      return {}; // past the image, or beside the edge
+    }
+    if (left <= AsShort * this->Whole && this->isSource(crossing))
     {
       this->Path.from = numberOfLabel(this->Window.source()[share < 0.5 ? crossing.a : crossing.b]);
       return None;
@@ -102,10 +123,15 @@ std::optional<std::uint32_t> ShortestPath::follow(Crossing crossing)
     ends.insert(ends.end(), { crossing.a, crossing.b });
     for (const std::uint32_t v : ends)
     {
-      if (this->Window.distance()[v] < this->Whole && this->by(v) <= (1 + AsShort) * left)
+      if (this->Window.distance()[v] < this->Whole && this->isBy(v, left))
       {
         return v;
       }
+    }
+    if (this->HasForked && std::ranges::any_of(ends,
+                             [this, left](std::uint32_t v) { return this->isTooFar(v, left); }))
+    {
+      return {};
     }
     if (corners.size() != 1)
     {
@@ -119,6 +145,7 @@ std::optional<std::uint32_t> ShortestPath::follow(Crossing crossing)
 std::optional<std::uint32_t> ShortestPath::followOneOf(
   const Crossing& crossing, const std::vector<std::uint32_t>& corners)
 {
+  this->HasForked = true;
   const std::size_t points = this->Path.points.size();
   const double length = this->Path.length;
   for (const std::uint32_t corner : corners)
@@ -169,8 +196,9 @@ ShortestPath::Crossing ShortestPath::next(Crossing crossing, std::uint32_t corne
   auto [x, y] = inFrame(to, edge, crossing.length);
   const FrontImage& image = crossing.image;
   // Where the path is at the depth of the corner.
-  const double across = image.isStraight ? crossing.at - y * image.x / image.depth
-                                         : crossing.at + y * (image.x - crossing.at) / image.depth;
+  const double across = image.isStraight  ? crossing.at - y * image.x / image.depth
+                        : image.depth > 0 ? crossing.at + y * (image.x - crossing.at) / image.depth
+                                          : image.x;
   if (across > x)
   {
     std::swap(crossing.a, crossing.b);
@@ -200,10 +228,35 @@ void ShortestPath::showAround(std::uint32_t a, std::uint32_t b)
   }
 }
 
-double ShortestPath::by(std::uint32_t vertex) const
+bool ShortestPath::isStraight(double left) const
 {
-  return this->Window.distance()[vertex] +
-         lengthBetween(this->Path.points.back().data(), this->Window.point(vertex));
+  return std::fabs(this->Path.length - this->Before + left - this->Whole) <=
+         AsLong * this->Whole + this->Rounding;
+}
+
+bool ShortestPath::isSource(const Crossing& crossing) const
+{
+  const std::uint8_t* const flags = this->Window.flags();
+  const double* const distance = this->Window.distance();
+  return crossing.image.isStraight && (flags[crossing.a] & flags[crossing.b] & Straight) != 0 &&
+         distance[crossing.a] == 0 && distance[crossing.b] == 0;
+}
+
+bool ShortestPath::isBy(std::uint32_t vertex, double left) const
+{
+  return this->Window.distance()[vertex] + this->wayTo(vertex) <=
+         (1 + AsShort) * left + NoLength * this->Whole + this->Rounding;
+}
+
+bool ShortestPath::isTooFar(std::uint32_t vertex, double left) const
+{
+  const double distance = this->Window.distance()[vertex];
+  return std::isfinite(distance) && distance - this->wayTo(vertex) > left + TooFar * this->Whole;
+}
+
+double ShortestPath::wayTo(std::uint32_t vertex) const
+{
+  return lengthBetween(this->Path.points.back().data(), this->Window.point(vertex));
 }
 
 void ShortestPath::add(const Vector& point)

@@ -23,9 +23,9 @@ public:
   {
   }
 
-  /** The path to a vertex of the stream; without points if no source reaches it. Its length is the
-   * distance if it cannot be followed, which is not expected. Its number is left to the caller.
-   * Throws Cancelled. */
+  /** The path to a vertex of the stream; without points if no source reaches it, or if it cannot be
+   * followed, which is not expected. Its length is the distance always. Its number is left to the
+   * caller. Throws Cancelled. */
   Report::Path to(std::int64_t vertex);
 
 private:
@@ -41,6 +41,12 @@ private:
     double at = 0;        ///< where it crosses, in this frame
     double length = 0;    ///< of the edge
     double left() const { return this->image.at(this->at); }
+    /** Whether the path may go on. An image on the edge is the middle corner of a triangle without
+     * area beyond. */
+    bool isAhead() const
+    {
+      return this->length > 0 && (this->image.depth > 0 || !this->image.isStraight);
+    }
   };
 
   /** Shows all triangles of the edge between two vertices that are shown. */
@@ -57,16 +63,27 @@ private:
   std::vector<std::uint32_t> cornersBeyond(const Crossing& crossing) const;
   /** The crossing of the other edge of the triangle beyond with this corner. */
   Crossing next(Crossing crossing, std::uint32_t corner) const;
-  /** How long the path is that goes straight to a vertex of the triangle it is in. */
-  double by(std::uint32_t vertex) const;
+  /** Whether the path has come straight to where so much is left. */
+  bool isStraight(double left) const;
+  /** Whether an edge at which the path may end is a source. */
+  bool isSource(const Crossing& crossing) const;
+  /** Whether the path that goes straight to a vertex of the triangle it is in is as short as what
+   * is left. */
+  bool isBy(std::uint32_t vertex, double left) const;
+  /** Whether that vertex is too far from the sources for the path to be in its triangle. */
+  bool isTooFar(std::uint32_t vertex, double left) const;
+  double wayTo(std::uint32_t vertex) const;
   void add(const Vector& point);
 
   MarchWindow& Window;
   std::int64_t Middle = -1; ///< of the chunks that are shown
   Progress& Reported;
   Report::Path Path;
-  double Whole = 0;      ///< the distance of the vertex from which the straight part comes
-  std::int64_t Left = 0; ///< triangles that it may still cross
+  double Rounding = 0;    ///< of lengths, by that of coordinates
+  double Whole = 0;       ///< the distance of the vertex from which the straight part comes
+  double Before = 0;      ///< the length of the path up to that vertex
+  std::int64_t Left = 0;  ///< triangles that it may still try
+  bool HasForked = false; ///< whether it has crossed an edge of several triangles
 };
 
 } // namespace smg
