@@ -53,8 +53,8 @@ Report::Path ShortestPath::to(std::int64_t vertex)
   this->Path = {};
   std::uint32_t v = plan.local(vertex);
   const double* const end = this->Window.point(v);
-  this->Rounding = Digits * (std::fabs(end[0]) + std::fabs(end[1]) + std::fabs(end[2]));
   const double whole = this->Window.distance()[v];
+  this->Rounding = Digits * (std::fabs(end[0]) + std::fabs(end[1]) + std::fabs(end[2]) + whole);
   if (std::isinf(whole))
   {
     this->Path.length = whole;
