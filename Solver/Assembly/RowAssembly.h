@@ -28,7 +28,7 @@ namespace smg
  * they are `placed`, which pass from Assembly to the level between two steps. */
 struct AssembledRows
 {
-  AssembledRows(Pool& pool, int columns, bool placed)
+  AssembledRows(Pool& pool, int columns, bool placed = false)
     : rows(pool, 2 * columns * static_cast<std::int64_t>(sizeof(double)) +
                    (placed ? 3 * static_cast<std::int64_t>(sizeof(float)) : 0))
     , placed(placed)
