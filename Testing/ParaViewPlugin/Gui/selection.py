@@ -54,6 +54,11 @@ def selected():
     handle = GetActiveSource()
     notes.share = held() / handle.GetDataInformation().GetNumberOfPoints()
     assert 0.01 < notes.share < 0.5, notes.share
+    # A state in Python has the selection.
+    from paraview import smstate
+
+    script = smstate.get_state()
+    assert "Region = 'Selection'" in script and "servermanager.sources.IDSelectionSource(" in script, script
     ClearSelection()
     ColorBy(GetDisplayProperties(), ("POINTS", "HandleMask"))
     Render()
