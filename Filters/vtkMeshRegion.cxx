@@ -3,6 +3,7 @@
 
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Regions/vtkRegionArrays.h"
+#include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
@@ -28,6 +29,12 @@ void vtkMeshRegion::Check()
   if (!this->RegionName || !*this->RegionName)
   {
     throw smg::Error("The region has no name: set RegionName, the name of its array.");
+  }
+  if (smg::isReservedColumn(this->RegionName) ||
+      std::string(this->RegionName) == smg::OriginalIdName)
+  {
+    throw smg::Error("The name " + std::string(this->RegionName) +
+                     " is that of an array that every piece has: choose another RegionName.");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingDistance.h"
 
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
 #include "IO/vtkMeshPieceData.h"
@@ -296,7 +297,7 @@ void vtkStreamingDistance::Deliver(
           to[i] = static_cast<T>(std::isnan(value) ? ofNoCell : value);
         }
       });
-    output.GetPointData()->AddArray(smg::makeArray(column));
+    smg::addResult(*output.GetPointData(), *smg::makeArray(column));
     first += components;
   }
   output.GetPointData()->SetActiveScalars(smg::DistanceName);

@@ -98,17 +98,17 @@ struct vtkStreamingPoisson::Internals
                        "or neither.");
     }
     const std::string guess = arrays.ofPoints(INITIAL_GUESS);
-    const std::string source = arrays.any(SOURCE);
-    for (const std::string& name : { guess, source, values })
+    const smg::DataValue source = arrays.any(SOURCE);
+    for (const smg::DataValue& value : { smg::DataValue(guess), source, smg::DataValue(values) })
     {
-      problem.columns =
-        name.empty() ? problem.columns : smg::componentsOf(input, name, problem.columns);
+      problem.columns = value.column()->empty() ? problem.columns
+                                                : smg::componentsOf(input, value, problem.columns);
     }
     if (!mask.empty())
     {
       problem.dirichlet = { { smg::ColumnMask{ mask }, values } };
     }
-    if (!source.empty())
+    if (!source.column()->empty())
     {
       problem.source = source;
     }
@@ -116,15 +116,17 @@ struct vtkStreamingPoisson::Internals
     {
       problem.initial = guess;
     }
-    if (const std::string screening = arrays.any(SCREENING_ARRAY); !screening.empty())
+    const smg::DataValue screening = arrays.any(SCREENING_ARRAY);
+    if (!screening.column()->empty())
     {
       problem.screening = screening;
     }
-    if (const std::string conductivity = arrays.any(CONDUCTIVITY_ARRAY); !conductivity.empty())
+    const smg::DataValue conductivity = arrays.any(CONDUCTIVITY_ARRAY);
+    if (!conductivity.column()->empty())
     {
       problem.conductivity = conductivity;
     }
-    problem.field = arrays.any(FIELD_ARRAY);
+    problem.field = arrays.named(FIELD_ARRAY); // of the cells
   }
 
   smg::PoissonTask task(vtkPointSet& input) const
@@ -132,7 +134,7 @@ struct vtkStreamingPoisson::Internals
     smg::PoissonTask task;
     task.problem = this->describe(input);
     const smg::ChosenArrays arrays(this->Self, input);
-    task.values = { arrays.named(INITIAL_GUESS), arrays.named(SOURCE),
+    task.values = { arrays.named(INITIAL_GUESS), arrays.any(SOURCE),
       arrays.named(DIRICHLET_VALUES) };
     this->Self.FillOptions(task.options);
     task.options.inCore = this->Self.InCore;
@@ -350,7 +352,7 @@ void vtkStreamingPoisson::Deliver(
   solution->SetNumberOfTuples(piece.GetNumberOfPoints());
   solution->GetInformation()->Set(vtkStreamingMeshKeys::ISOLATED_VALUE(), std::nan(""));
   std::copy(values.begin(), values.end(), solution->GetPointer(0));
-  output.GetPointData()->AddArray(solution);
+  smg::addResult(*output.GetPointData(), *solution);
   output.GetPointData()->SetActiveScalars(solution->GetName());
   if (piece.GetNumberOfCells() > 0)
   {

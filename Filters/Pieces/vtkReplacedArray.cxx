@@ -3,6 +3,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
@@ -42,6 +43,22 @@ private:
 
 } // namespace
 
+/** Colours and arrows can be drawn of any numbers and of any vectors. */
+void addResult(vtkDataSetAttributes& arrays, vtkAbstractArray& array)
+{
+  arrays.AddArray(&array);
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    const bool isDrawn =
+      type == vtkDataSetAttributes::SCALARS ||
+      (type == vtkDataSetAttributes::VECTORS && array.GetNumberOfComponents() == 3);
+    if (arrays.GetAbstractAttribute(type) == &array && !isDrawn)
+    {
+      arrays.SetActiveAttribute(-1, type);
+    }
+  }
+}
+
 std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   const std::vector<double>& values, std::size_t first, std::size_t stride)
 {
@@ -73,10 +90,12 @@ std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   return static_cast<std::size_t>(after->GetNumberOfComponents());
 }
 
-int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise)
+int componentsOf(vtkPointSet& mesh, const DataValue& column, int otherwise)
 {
-  vtkDataArray* array = mesh.GetPointData()->GetArray(name.c_str());
-  array = array ? array : mesh.GetCellData()->GetArray(name.c_str());
+  vtkDataArray* ofPoints = mesh.GetPointData()->GetArray(column.column()->c_str());
+  vtkDataArray* ofCells = mesh.GetCellData()->GetArray(column.column()->c_str());
+  const bool prefersCells = column.owner() == DataValue::Owner::Cells;
+  vtkDataArray* array = ofCells && (prefersCells || !ofPoints) ? ofCells : ofPoints;
   return array ? array->GetNumberOfComponents() : otherwise;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/vtkFieldMarks.h"
+#include "smg/ProblemDescription.h"
 
 #include "vtkFieldData.h"
 #include "vtkNew.h"
@@ -12,10 +13,16 @@
 #include <string>
 #include <vector>
 
+class vtkAbstractArray;
+class vtkDataSetAttributes;
 class vtkPointSet;
 
 namespace smg
 {
+
+/** Adds an array that may replace one of its name. What that was to VTK, as the normals, the ids or
+ * the texture coordinates of the mesh, the new array is not. */
+void addResult(vtkDataSetAttributes& arrays, vtkAbstractArray& array);
 
 /** Gives a point array of the mesh other values, in its type: integers are rounded to the nearest
  * one that the type holds. `values` has `stride` numbers a point; those of the array begin with
@@ -25,9 +32,10 @@ std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
   const std::vector<double>& values, std::size_t first, std::size_t stride);
 
 /**
- * The number of components of the point or cell array of that name; `otherwise` if there is none.
+ * The number of components of the point or cell array that a value names; `otherwise` if there is
+ * none.
  */
-int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise);
+int componentsOf(vtkPointSet& mesh, const DataValue& column, int otherwise);
 
 /** The texts in the field array `name` of a mesh; null if there is none. */
 inline vtkStringArray* fieldTexts(vtkPointSet& mesh, const char* name)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkHandleArrays.h"
 
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Deform.h"
 #include "smg/Error.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 
@@ -198,11 +200,11 @@ void HandleArrays::addTo(vtkPointData& output) const
   {
     this->Mask->GetInformation()->Set(vtkStreamingMeshKeys::FORMER_SCALARS(), vtkVariant(name));
   }
-  output.AddArray(this->Mask);
-  output.AddArray(this->Target);
-  output.AddArray(this->Rotation);
-  output.AddArray(this->LogScale);
-  output.AddArray(this->Place);
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
+         this->Mask, this->Target, this->Rotation, this->LogScale, this->Place })
+  {
+    addResult(output, *array);
+  }
   output.SetActiveScalars(HandleMaskName);
 }
 

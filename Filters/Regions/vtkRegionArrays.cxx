@@ -60,7 +60,7 @@ bool addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& h
       region->SetValue(static_cast<vtkIdType>(i), 1);
     }
   }
-  points.AddArray(region);
+  addResult(points, *region);
   if (!isOfRegion)
   {
     appendFieldText(mesh, MeshRegionsName, name);

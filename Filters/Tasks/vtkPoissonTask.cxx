@@ -2,6 +2,7 @@
 #include "Filters/Tasks/vtkPoissonTask.h"
 
 #include "Filters/Pieces/vtkPieceBlock.h"
+#include "Filters/Pieces/vtkReplacedArray.h"
 #include "IO/Files/PartialProgress.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
@@ -60,13 +61,18 @@ PieceColumns PoissonTask::columns() const
 int PoissonTask::columnsOn(const StreamInfo& info) const
 {
   int columns = this->problem.columns;
-  for (const std::string& name : this->values)
+  for (const DataValue& value : this->values)
   {
-    for (const auto* specs : { &info.vertexColumns, &info.cellColumns })
+    // The last one that has the column counts.
+    const bool ofCells = value.owner() == DataValue::Owner::Cells;
+    int components = 0;
+    for (const auto* specs : { ofCells ? &info.vertexColumns : &info.cellColumns,
+           ofCells ? &info.cellColumns : &info.vertexColumns })
     {
-      const auto found = std::ranges::find(*specs, name, &ColumnSpec::name);
-      columns = found == specs->end() ? columns : std::max(columns, found->components);
+      const auto found = std::ranges::find(*specs, *value.column(), &ColumnSpec::name);
+      components = found == specs->end() ? components : found->components;
     }
+    columns = std::max(columns, components);
   }
   return columns;
 }
@@ -157,6 +163,26 @@ SolveSummary PoissonTask::solveInMemory(
   return SolveSummary::of(report, problem.columns());
 }
 
+namespace
+{
+
+/** Whether ParaView, between a filter and this one, has made the point array of that of the cells.
+ */
+bool isMadeByParaView(vtkAlgorithm& filter, const std::string& name)
+{
+  vtkAlgorithm* before =
+    filter.GetNumberOfInputConnections(0) > 0 ? filter.GetInputAlgorithm(0, 0) : nullptr;
+  if (!before || !before->IsA("vtkPVPostFilter") || before->GetNumberOfInputConnections(0) == 0)
+  {
+    return false;
+  }
+  auto* mesh = vtkPointSet::SafeDownCast(before->GetInputDataObject(0, 0));
+  return mesh && mesh->GetCellData()->HasArray(name.c_str()) &&
+         !mesh->GetPointData()->HasArray(name.c_str());
+}
+
+} // namespace
+
 std::string ChosenArrays::named(int index) const
 {
   vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
@@ -166,19 +192,21 @@ std::string ChosenArrays::named(int index) const
   return name == "None" ? "" : name;
 }
 
-std::string ChosenArrays::any(int index) const
+/** In pvpython a name alone means the points, for which ParaView makes an array out of that of the
+ * cells: this is not what was chosen. */
+DataValue ChosenArrays::any(int index) const
 {
+  using Owner = DataValue::Owner;
+  vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
   const std::string name = this->named(index);
-  if (!name.empty() && this->Input.GetPointData()->HasArray(name.c_str()) &&
-      this->Input.GetCellData()->HasArray(name.c_str()))
-  {
-    throw Error("The points and the cells of the input both have an array " + name +
-                ": rename one of them, so that it is clear which one is meant. (In pvpython a name "
-                "alone means the points, for which ParaView makes an array out of that of the "
-                "cells: say [\"CELLS\", \"" +
-                name + "\"].)");
-  }
-  return name;
+  const int of = info.Has(vtkDataObject::FIELD_ASSOCIATION())
+                   ? info.Get(vtkDataObject::FIELD_ASSOCIATION())
+                   : vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+  const bool isOfPoints =
+    of == vtkDataObject::FIELD_ASSOCIATION_POINTS && !isMadeByParaView(this->Filter, name);
+  const bool isOfCells =
+    of == vtkDataObject::FIELD_ASSOCIATION_CELLS || of == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  return { name, isOfPoints ? Owner::Vertices : isOfCells ? Owner::Cells : Owner::Usual };
 }
 
 std::string ChosenArrays::ofPoints(int index) const
@@ -218,7 +246,7 @@ void addArray(vtkPointSet& piece, const char* name, int columns, std::span<const
   array->SetNumberOfComponents(3 * columns);
   array->SetNumberOfTuples(piece.GetNumberOfCells());
   std::ranges::copy(numbers, array->GetPointer(0));
-  piece.GetCellData()->AddArray(array);
+  addResult(*piece.GetCellData(), *array);
 }
 
 } // namespace

@@ -23,7 +23,7 @@ public:
   /**
    * Arrays whose number of components is the number of right-hand sides if the problem has fewer.
    */
-  std::vector<std::string> values;
+  std::vector<DataValue> values;
   SolveOptions options;           ///< except for the progress function
   std::vector<std::string> notes; ///< for the report
 
@@ -58,8 +58,8 @@ public:
   std::string named(int index) const;
   /** Array `index`; throws Error if it was chosen from the cells. */
   std::string ofPoints(int index) const;
-  /** Array `index`, of the points or the cells; throws Error if both have one of that name. */
-  std::string any(int index) const;
+  /** Array `index`, of the points or the cells. */
+  DataValue any(int index) const;
 
 private:
   vtkAlgorithm& Filter;

@@ -97,7 +97,7 @@ Coefficient::Coefficient(const DataValue& value, DataPlace place, const ValueRul
   }
   else if (const std::string* name = value.column())
   {
-    this->Values = columns.require(*name, rules.preferred, key);
+    this->Values = columns.require(*name, ownerOf(value, rules.preferred), key);
     this->What = this->Values.owner == ColumnOwner::Cells ? OfCells : OfVertices;
     this->Components = this->Values.components;
   }

@@ -215,7 +215,15 @@ private:
   void add(const Region::Box& box) { (*this)(box.low, box.high); }
   void add(const Region::Sphere& sphere) { (*this)(sphere.center, sphere.radius); }
   void add(const Region::Vertices& vertices) { this->add(vertices.ids); }
-  void add(const DataValue& value) { this->add(value.content()); }
+  void add(const DataValue& value)
+  {
+    this->add(value.content());
+    // The texts of checkpoints are as they were.
+    if (value.owner() != DataValue::Owner::Usual)
+    {
+      this->add(static_cast<std::int64_t>(value.owner()));
+    }
+  }
   void add(const PlacedValue& entry) { (*this)(entry.where, entry.value); }
   void add(const Datum& datum) { this->add(datum.entries); }
 

@@ -162,12 +162,16 @@ DescribedProblem::OnMesh::OnMesh(
 DataPlace DescribedProblem::OnMesh::placeOf(
   const DatumRow& row, const ProblemDescription& description) const
 {
-  const auto isOfCells = [this](const std::string* column)
-  { return column && this->mesh.isOfCells(*column, ColumnOwner::Vertices); };
+  const auto isOfCells = [this](const std::string* column, ColumnOwner owner)
+  { return column && this->mesh.isOfCells(*column, owner); };
   const bool inCells =
     row.density &&
-    std::ranges::any_of((description.*row.member).entries, [&](const PlacedValue& entry)
-      { return isOfCells(columnOf(entry.where)) || isOfCells(entry.value.column()); });
+    std::ranges::any_of((description.*row.member).entries,
+      [&](const PlacedValue& entry)
+      {
+        return isOfCells(columnOf(entry.where), ColumnOwner::Vertices) ||
+               isOfCells(entry.value.column(), ownerOf(entry.value, ColumnOwner::Vertices));
+      });
   return inCells ? DataPlace::Cells : row.place;
 }
 

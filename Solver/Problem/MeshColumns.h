@@ -5,6 +5,7 @@
 #include "smg/Column.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/ProblemDescription.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
 
@@ -24,6 +25,14 @@ enum class ColumnOwner
   Vertices,
   Cells
 };
+
+/** Whose column a value names, if vertices and cells both have it. */
+inline ColumnOwner ownerOf(const DataValue& value, ColumnOwner usual)
+{
+  return value.owner() == DataValue::Owner::Usual   ? usual
+         : value.owner() == DataValue::Owner::Cells ? ColumnOwner::Cells
+                                                    : ColumnOwner::Vertices;
+}
 
 /** A column of a mesh that a problem description names. */
 struct NamedColumn

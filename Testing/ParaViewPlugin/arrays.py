@@ -123,6 +123,77 @@ for scalars, cells, filtered in (
 assert active(StreamingMeshPreview(Input=Elevation(Input=reader)))[0] == active(Elevation(Input=reader))[0] == \
     ["Elevation", None, "Normals", None]
 
+# Points and cells with arrays of one name: what is chosen is taken.
+both = ProgrammableFilter(Input=Sphere(ThetaResolution=20, PhiResolution=14), Script="""
+import numpy
+output.ShallowCopy(inputs[0].VTKObject)
+points = numpy.linspace(1, 3, output.GetNumberOfPoints())
+cells = numpy.linspace(5, 1, output.GetNumberOfCells())
+for data, values, own in ((output.PointData, points, "OwnPoints"), (output.CellData, cells, "OwnCells")):
+    data.append(values, "Both")
+    data.append(values, own)
+output.CellData.append(numpy.resize(numpy.arange(7.0), (len(cells), 3)), "Flow")
+output.PointData.append(numpy.resize(numpy.arange(5.0), (len(points), 3)), "Flow")
+output.CellData.append(numpy.resize(numpy.arange(7.0), (len(cells), 3)), "OwnFlow")
+""")
+held = MeshCondition(Input=both, Region="Ids", Ids=[0, 100])
+
+
+def solved(**settings):
+    values = t.points_of(StreamingPoisson(Input=held, **settings), "Solution")
+    assert values.shape[1] == 1, settings
+    return values
+
+
+for name, others in (("ConductivityArray", {"Source": ["POINTS", "OwnPoints"]}), ("Source", {}),
+                     ("ScreeningArray", {"Source": ["POINTS", "OwnPoints"]})):
+    of_both = {where: solved(**{name: [where, "Both"]}, **others) for where in ("POINTS", "CELLS")}
+    assert numpy.array_equal(of_both["POINTS"], solved(**{name: ["POINTS", "OwnPoints"]}, **others)), name
+    assert numpy.array_equal(of_both["CELLS"], solved(**{name: ["CELLS", "OwnCells"]}, **others)), name
+    # A name alone means the only array of it, though ParaView makes one of points out of that of the cells.
+    assert numpy.array_equal(of_both["CELLS"], solved(**{name: "OwnCells"}, **others)), name
+    assert not numpy.allclose(of_both["POINTS"], of_both["CELLS"]), name
+flow = solved(FieldArray=["CELLS", "OwnFlow"])
+for chosen in ("Flow", "OwnFlow", ["CELLS", "Flow"], ["POINTS", "Flow"]):
+    assert numpy.array_equal(solved(FieldArray=chosen), flow), chosen
+
+# A result in the place of an array is not what that was to VTK, and can be saved.
+ATTRIBUTES = ("Normals", "TCoords", "Tensors", "GlobalIds", "PedigreeIds", "Tangents", "EdgeFlag", "RationalWeights",
+              "HigherOrderDegrees", "Vectors")
+attributed = ProgrammableFilter(Input=Sphere(ThetaResolution=20, PhiResolution=14), Script="""
+import numpy
+from vtkmodules.vtkCommonCore import vtkIdTypeArray
+output.ShallowCopy(inputs[0].VTKObject)
+points = output.VTKObject.GetPointData()
+points.Initialize()
+components = {"Normals": 3, "TCoords": 2, "Tensors": 9, "Tangents": 3, "HigherOrderDegrees": 3, "Vectors": 3}
+from vtkmodules.util.numpy_support import numpy_to_vtk
+for name in %r:
+    values = numpy.resize(numpy.arange(7.0), (output.GetNumberOfPoints(), components.get(name, 1)))
+    array = numpy_to_vtk(values, deep=1)
+    if name.endswith("Ids"):
+        array = vtkIdTypeArray()
+        for i in range(output.GetNumberOfPoints()):
+            array.InsertNextValue(i)
+    array.SetName("An" + name)
+    points.AddArray(array)
+    assert points.SetActiveAttribute("An" + name, %r.index(name)) >= 0, name
+""" % (ATTRIBUTES, ("Scalars", "Vectors", "Normals", "TCoords", "Tensors", "GlobalIds", "PedigreeIds", "EdgeFlag", "Tangents",
+                    "RationalWeights", "HigherOrderDegrees")))
+for name in ATTRIBUTES:
+    condition = MeshCondition(Input=attributed, Region="Everywhere", Condition="Dirichlet", Value=2)
+    filtered = StreamingPoisson(Input=condition, ResultArrayName="An" + name)
+    filtered.UpdatePipeline()
+    points = t.client_object(filtered).GetOutputDataObject(0).GetPointData()
+    array = points.GetAbstractArray("An" + name)
+    assert array.GetNumberOfComponents() == 1 and array.GetTuple1(7) == 2, name
+    for type in range(1, len(ATTRIBUTES) + 1):  # of 0, the scalars, it is
+        assert points.GetAbstractAttribute(type) is not array, (name, type)
+    assert points.GetScalars() is array
+    moved = Transform(Input=filtered)
+    moved.Transform.Rotate = [0, 90, 0]
+    assert t.points_of(moved, "An" + name).shape[1] == 1, name
+
 # Its shading is that of the mesh.
 assert Show(reader, GetActiveView()).SelectNormalArray == "Normals"
 reader.MaximumPointsInMemory = 2000000

@@ -223,13 +223,5 @@ for change in (lambda: numbered), (lambda: Subdivide(Input=numbered)):
     assert ("Points at several places have the id %d" % last in text) == (counts.max() > 1), (last, text)
     assert (counts.max() > 1) == (changed is not numbered), counts.max()
 
-# Of one name for points and cells it is not known which is meant.
-both = Calculator(Input=Calculator(Input=Sphere(), ResultArrayName="Twice", Function="1"), AttributeType="Cell Data",
-                  ResultArrayName="Twice", Function="2")
-held = MeshCondition(Input=both, Region="Ids", Ids=[0])
-for name in ("Source", "ScreeningArray", "ConductivityArray", "FieldArray"):
-    StreamingPoisson(Input=held, **{name: ["POINTS", "Twice"]}).UpdatePipeline()
-    text = said()
-    assert "the cells of the input both have an array Twice" in text, (name, text)
 # Output of Python would go to the window that collects the messages.
 os.write(1, b"passed\n")

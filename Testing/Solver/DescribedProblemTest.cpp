@@ -195,6 +195,35 @@ TEST_F(Described, DensitiesAreOfVerticesUnlessAColumnOfCellsIsNamed)
   EXPECT_EQ(ofCells.vertices.source, std::vector<double>(ofCells.vertices.source.size()));
 }
 
+/** Of vertices and cells that both have a column, whose it is can be said. */
+TEST_F(Described, AColumnIsThatOfTheOwnerThatIsSaid)
+{
+  using Owner = DataValue::Owner;
+  Column ofCells = this->Mesh.cellColumns[0];
+  ofCells.spec.name = "one";
+  this->Mesh.cellColumns.push_back(ofCells);
+  for (const Owner owner : { Owner::Usual, Owner::Vertices, Owner::Cells })
+  {
+    ProblemDescription description;
+    description.screening = DataValue{ "one", owner };
+    description.conductivity = DataValue{ "one", owner };
+    const ProblemAnswers answers = this->ask(description);
+    for (std::int64_t v = 0; owner != Owner::Cells && v < this->Mesh.vertices(); ++v)
+    {
+      EXPECT_EQ(answers.vertices.screening[v], this->one(v));
+    }
+    for (std::int64_t c = 0; c < this->Mesh.cells(); ++c)
+    {
+      const double expected = ofCells.value(c);
+      if (owner == Owner::Cells)
+      {
+        EXPECT_EQ(answers.screening[c], expected);
+      }
+      EXPECT_EQ(answers.conductivity[6 * c], owner == Owner::Vertices ? this->mean(c) : expected);
+    }
+  }
+}
+
 TEST_F(Described, AFieldIsOneVectorForAllColumnsOrOneForEach)
 {
   ProblemDescription description;

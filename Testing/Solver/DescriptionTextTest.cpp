@@ -26,6 +26,12 @@ TEST(DescriptionText, IsAnotherOneForEachChange)
     [](auto& p) { p.source = 1.0; },
     [](auto& p) { p.source = 1.0 + 1e-15; },
     [](auto& p) { p.source = "1"; },
+    [](auto& p) {
+      p.source = DataValue{ "1", DataValue::Owner::Vertices };
+    },
+    [](auto& p) {
+      p.source = DataValue{ "1", DataValue::Owner::Cells };
+    },
     [](auto& p) { p.source = Position{}; },
     [](auto& p) { p.field = "q"; },
     [](auto& p) { p.initial = 1.0; },

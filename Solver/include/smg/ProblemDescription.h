@@ -48,6 +48,19 @@ public:
     : What(std::string(column))
   {
   }
+  /** Whose column is meant if vertices and cells both have one of the name. */
+  enum class Owner
+  {
+    Usual, ///< cells for conductivities, vertices for all others
+    Vertices,
+    Cells
+  };
+  /** The values of the column of the mesh with this name. */
+  DataValue(std::string column, Owner owner)
+    : What(std::move(column))
+    , Of(owner)
+  {
+  }
   /** The position of each vertex. */
   DataValue(Position position)
     : What(position)
@@ -61,6 +74,8 @@ public:
   }
   /** The name of the column; null if this is numbers or the position. */
   const std::string* column() const { return std::get_if<std::string>(&this->What); }
+  /** Whose column it is, if both have it. */
+  Owner owner() const { return this->Of; }
   /** Whether this is the position. */
   bool isPosition() const { return std::holds_alternative<Position>(this->What); }
 
@@ -70,6 +85,7 @@ public:
 
 private:
   Content What;
+  Owner Of = Owner::Usual;
 };
 
 /** A value in a part of the mesh. */
