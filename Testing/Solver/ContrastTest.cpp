@@ -346,6 +346,26 @@ TEST(Contrast, ProgressAndEstimatesCountCorrections)
   EXPECT_GT(corrections, 20);
 }
 
+/** What a correction has mended is not said, and the residual that is said is that of the report.
+ */
+TEST(Contrast, NotesStateTheResidualOfTheReport)
+{
+  forShapes({ 1.0, 1e5, 1e7, 1e9, 1e11 },
+    [](ElementProblem& problem, const std::string&)
+    {
+      const Report report = resultsOf(problem);
+      for (const std::string& note : report.notes)
+      {
+        const std::string before = "the relative residual is ";
+        const std::size_t place = note.find(before);
+        if (place != std::string::npos && !note.starts_with("the correction of rounding"))
+        {
+          EXPECT_EQ(note.substr(place + before.size()), scientific(report.residuals.back()));
+        }
+      }
+    });
+}
+
 TEST(Contrast, WhatRoundingTakesIsSaid)
 {
   const StreamMesh mesh = toStream(tetBox(9, 5, 5, 0.15));

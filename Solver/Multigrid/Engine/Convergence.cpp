@@ -133,6 +133,19 @@ void Convergence::add(double norm, double rounding, double share, double scaled)
   this->Done = this->Done || this->Converged;
 }
 
+namespace
+{
+
+const std::string AtRounding = "converged as far as the rounding of the numbers allows: ";
+const std::string AtFlow = "converged, but little flows beside what good conductors would carry: ";
+
+} // namespace
+
+bool isOnResidual(const std::string& note)
+{
+  return note.find(AtRounding) != std::string::npos || note.find(AtFlow) != std::string::npos;
+}
+
 /** Ends a solve that has not reached its goal if it stagnates or has used up its V-cycles.
  * Stagnation at the rounding counts as convergence, and so does a residual that met the tolerance.
  */
@@ -165,14 +178,11 @@ void Convergence::watch()
   const std::string reached = scientific(watched.back());
   if (stagnates && rounding)
   {
-    this->Note =
-      "converged as far as the rounding of the numbers allows: " + residual + "is " + reached;
+    this->Note = AtRounding + residual + "is " + reached;
   }
   else if (this->Converged)
   {
-    this->Note =
-      "converged, but little flows beside what good conductors would carry: " + residual + "is " +
-      reached;
+    this->Note = AtFlow + residual + "is " + reached;
   }
   else if (stagnates)
   {

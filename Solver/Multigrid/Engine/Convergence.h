@@ -116,6 +116,9 @@ private:
 /** What residuals are relative to, in reports. */
 inline constexpr const char *BestConstant = "the best constant", *MeshAtRest = "the mesh at rest";
 
+/** Whether a note is on the residual with which a solve has converged. */
+bool isOnResidual(const std::string& note);
+
 /** The norm of the rounding of the terms of b - A x, given the sum of their squares. */
 SMG_EXPORT double roundingOf(double termSquares);
 

@@ -49,6 +49,12 @@ void addCosts(Report& report, const Report& correction, double scale)
     report.by_pass.push_back(pass);
   }
   report.converged = correction.converged; // only what has converged is corrected
+  if (correction.converged)
+  {
+    // Of before.
+    std::erase_if(report.notes, isOnResidual);
+    std::erase_if(report.warnings, isOnResidual);
+  }
   for (const std::string& note : correction.notes)
   {
     // What the assembly says of the mesh, it has said before.
