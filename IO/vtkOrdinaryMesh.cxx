@@ -12,6 +12,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
@@ -161,6 +162,26 @@ vtkSmartPointer<vtkPointSet> withoutOriginalNumbers(vtkPointSet& mesh)
   return copy;
 }
 
+namespace
+{
+
+/** Throws Error that names the type of a cell of which no parts are known. */
+void requireKnownTypes(vtkPointSet& mesh)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(&mesh);
+  for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const int type = grid->GetCellType(cell);
+    if (type != VTK_EMPTY_CELL && !isReadFromVtk(type))
+    {
+      throw Error("The input has cells of the type " + nameOfVtkType(type) +
+                  ", which are not cut into tetrahedra here: put Tetrahedralize before.");
+    }
+  }
+}
+
+} // namespace
+
 ConversionReport writeOrdinaryMesh(
   vtkPointSet& mesh, const std::filesystem::path& path, const ConversionOptions& options)
 {
@@ -168,6 +189,7 @@ ConversionReport writeOrdinaryMesh(
   given.cells = countingCells(mesh);
   if (ordinaryMeshInfo(mesh).cells <= 0)
   {
+    requireKnownTypes(mesh);
     throw Error("The input has only points and lines, as a slice or a contour of a surface has: a "
                 "mesh of triangles, other polygons or solid cells is needed.");
   }

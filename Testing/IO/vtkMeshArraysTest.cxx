@@ -369,8 +369,17 @@ TEST(VtkMeshArrays, NameTheirPointsAndCellsInErrors)
       "triangles, other polygons or solid cells is needed." },
     { gridOfCells(
         { { VTK_TETRA, { 0, 1, 4, 16 } }, { VTK_CONVEX_POINT_SET, { 0, 1, 4, 16, 17 } } }),
-      "The input, cell 1: its type is VTK's type 41, which is not read: cut the mesh into "
+      "The input, cell 1: its type is convex point set, which is not read: cut the mesh into "
       "triangles or tetrahedra first." },
+    { gridOfCells({ { VTK_LINE, { 0, 1 } }, { VTK_CONVEX_POINT_SET, { 0, 1, 4, 16, 17 } } }),
+      "The input has cells of the type convex point set, which are not cut into tetrahedra here: "
+      "put Tetrahedralize before." },
+    { gridOfCells({ { VTK_PENTAGONAL_PRISM, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 } } }),
+      "The input has cells of the type pentagonal prism, which are not cut into tetrahedra here: "
+      "put Tetrahedralize before." },
+    { gridOfCells({ { VTK_HEXAGONAL_PRISM, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 } } }),
+      "The input has cells of the type hexagonal prism, which are not cut into tetrahedra here: "
+      "put Tetrahedralize before." },
     { gridOfCells({ { VTK_TETRA, { 0, 1, 4, 16 } }, { VTK_HEXAHEDRON, { 0, 1, 4, 16, 17 } } }),
       "The input, cell 1: it has 5 points, which its type, VTK's 12, cannot have." },
   };

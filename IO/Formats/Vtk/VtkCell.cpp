@@ -96,11 +96,34 @@ const TypeOfCell& typeOf(int type)
 
 [[noreturn]] void failForType(int type)
 {
-  throw MeshError("its type is VTK's type " + std::to_string(type) +
+  throw MeshError("its type is " + nameOfVtkType(type) +
                   ", which is not read: cut the mesh into triangles or tetrahedra first");
 }
 
 } // namespace
+
+/** Of those that other programs write and are not read. */
+std::string nameOfVtkType(int type)
+{
+  switch (type)
+  {
+    case 15:
+      return "pentagonal prism";
+    case 16:
+      return "hexagonal prism";
+    case 41:
+      return "convex point set";
+    case 42:
+      return "polyhedron";
+    default:
+      return "VTK's type " + std::to_string(type);
+  }
+}
+
+bool isReadFromVtk(int type)
+{
+  return typeOf(type).shape != Shape::Unknown;
+}
 
 bool isPointOrLine(int type)
 {

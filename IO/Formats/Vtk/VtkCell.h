@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -18,6 +19,12 @@ namespace smg
 
 /** Whether cells of VTK's type `type` are points or lines, which have no triangles. */
 bool isPointOrLine(int type);
+
+/** As "polyhedron", or "VTK's type 50". */
+SMG_EXPORT std::string nameOfVtkType(int type);
+
+/** Whether cells of VTK's type `type` are read; those of an empty cell, 0, are not. */
+SMG_EXPORT bool isReadFromVtk(int type);
 
 /** Whether cells of VTK's type `type` are solid, and have tetrahedra. */
 SMG_EXPORT bool isSolidOfVtk(int type);
