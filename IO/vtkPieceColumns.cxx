@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -262,8 +263,22 @@ bool isSelectable(const ColumnSpec& column)
 
 } // namespace
 
-void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns)
+void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns,
+  std::vector<std::string>* before)
 {
+  if (before)
+  {
+    std::vector<std::string> names;
+    std::ranges::transform(columns, std::back_inserter(names), &ColumnSpec::name);
+    for (const std::string& name : *before)
+    {
+      if (std::ranges::find(names, name) == names.end())
+      {
+        selection.RemoveArrayByName(name.c_str());
+      }
+    }
+    *before = std::move(names);
+  }
   for (const ColumnSpec& column : columns)
   {
     if (isSelectable(column) && !selection.ArrayExists(column.name.c_str()))

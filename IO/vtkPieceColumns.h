@@ -48,9 +48,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT void copyColumn(vtkDataSetAttributes& arrays,
 /**
  * Adds the columns to a selection as selected; existing entries do not change. The marks of
  * degenerate and duplicate cells, and the arrays of the piece contract, are part of every piece and
- * cannot be selected.
+ * cannot be selected. `before`, unless null, has the names of the columns that were offered before,
+ * of which the others are removed, and gets those of these columns.
  */
-void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns);
+void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns,
+  std::vector<std::string>* before = nullptr);
 
 /** The names of the selected columns, and of those marks. */
 std::vector<std::string> chosenColumns(

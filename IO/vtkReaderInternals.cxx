@@ -220,8 +220,11 @@ void vtkStreamingMeshReader::Internals::tell(vtkStreamingMeshReader& self, vtkIn
   {
     output.Set(vtkStreamingMeshKeys::STREAM_FINGERPRINT(), this->Mesh->fingerprint().c_str());
   }
-  smg::offerColumns(*this->PointArrays, info.vertexColumns);
-  smg::offerColumns(*this->CellArrays, info.cellColumns);
+  // A replaced file may not have what was offered of the one before; another time step that has
+  // not may be followed by one that has.
+  const bool isSeries = this->Times.size() > 1;
+  smg::offerColumns(*this->PointArrays, info.vertexColumns, isSeries ? nullptr : &this->OfPoints);
+  smg::offerColumns(*this->CellArrays, info.cellColumns, isSeries ? nullptr : &this->OfCells);
 }
 
 /** The time step of a request: the last one that has begun, or else the first. */
@@ -390,6 +393,22 @@ void vtkStreamingMeshReader::Internals::readPiece(
   }
 }
 
+namespace
+{
+
+/** A preview of tetrahedra is a mesh to compute on while the whole one is not. */
+std::int64_t pointsOfPreview(
+  const smg::StreamInfo& mesh, std::int64_t maximum, smg::SolidPreviewCells cells)
+{
+  constexpr std::int64_t VerticesPerPoint = 20;
+  const bool isCoarse =
+    mesh.cellType == smg::CellType::Tetrahedron && cells == smg::SolidPreviewCells::Tetrahedra;
+  return isCoarse ? std::clamp(mesh.vertices / VerticesPerPoint, smg::MinPreviewPoints, maximum)
+                  : maximum;
+}
+
+} // namespace
+
 void vtkStreamingMeshReader::Internals::readPreview(vtkPointSet& output, int part,
   const vtkStreamingMeshReader& self, const smg::ProgressFunction& progress)
 {
@@ -399,7 +418,8 @@ void vtkStreamingMeshReader::Internals::readPreview(vtkPointSet& output, int par
   smg::MeshPiece piece;
   if (part == 0)
   {
-    piece = this->Preview.of(this->Mesh->reader(), self.PreviewPoints, cells, progress);
+    piece = this->Preview.of(
+      this->Mesh->reader(), pointsOfPreview(full, self.PreviewPoints, cells), cells, progress);
   }
   else
   {

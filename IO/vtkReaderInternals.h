@@ -44,6 +44,7 @@ struct vtkStreamingMeshReader::Internals
 
   smg::Failures Failures;
   vtkNew<vtkDataArraySelection> PointArrays;
+  std::vector<std::string> OfPoints, OfCells; ///< names of the columns in the lists of arrays
   vtkNew<vtkDataArraySelection> CellArrays;
   std::string Name, Scratch;
   std::unique_ptr<smg::OpenedMesh> Mesh;

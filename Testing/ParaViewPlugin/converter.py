@@ -61,6 +61,33 @@ ReloadFiles(converter)
 converter.UpdatePipeline()
 assert converter.GetDataInformation().GetNumberOfPoints() == 3
 
+# A replaced file offers what it has, and what was not chosen of the one before is not chosen.
+replaced = os.path.join(folder, "replaced.ply")
+
+
+def write_with(*columns):
+    with open(replaced, "w", encoding="utf-8") as file:
+        file.write("ply\nformat ascii 1.0\nelement vertex 3\n")
+        file.writelines(f"property float {name}\n" for name in ("x", "y", "z") + columns)
+        file.write("element face 1\nproperty list uchar int vertex_indices\nend_header\n")
+        file.writelines(f"{place} {'7 ' * len(columns)}\n" for place in ("0 0 0", "1 0 0", "0 1 0"))
+        file.write("3 0 1 2\n")
+
+
+write_with("heat", "age")
+reader = StreamingMeshReader(FileName=replaced)
+reader.UpdatePipeline()
+assert set(reader.PointArrayStatus.Available) == {"heat", "age", "OriginalId"}, reader.PointArrayStatus.Available
+reader.PointArrayStatus = ["heat", "OriginalId"]
+for columns in (("age", "size"), ("heat", "size", "age")):
+    write_with(*columns)
+    ReloadFiles(reader)
+    reader.UpdatePipeline()
+    reader.UpdatePropertyInformation()
+    available = set(reader.PointArrayStatus.Available)
+    assert available == set(columns) | {"OriginalId"}, (columns, available)
+    assert ("age" in reader.PointData.keys()) is False and "size" in reader.PointData.keys(), reader.PointData.keys()
+
 hints = converter.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
 assert hints.GetAttribute("category") == "Streaming Multigrid"
 print("passed")

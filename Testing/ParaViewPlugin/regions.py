@@ -143,6 +143,12 @@ for cells in ("Surface", "Tetrahedra"):
     region = MeshRegion(Input=sink, Region="Boundary")
     marks = shown(region, "RegionMask")
     assert marks.all() if cells == "Surface" else 0 < marks.sum(), (cells, marks.sum(), len(marks))
+# Of tetrahedra a preview is coarse, however many points it may have.
+sink.PreviewPoints = 100000
+sink.UpdatePipeline()
+sink.UpdatePropertyInformation()
+assert 0 < 20 * sink.GetDataInformation().GetNumberOfPoints() <= sink.GetPropertyValue("FullNumberOfPoints")
+sink.PreviewPoints = 800
 check(sink, {'{"tag": ["Material", 1]}': {"Region": "Tag", "TagArray": "Material", "Tag": 1},
              '{"boundary": true}': {"Region": "Boundary"}})
 
