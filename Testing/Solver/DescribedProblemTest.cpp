@@ -202,6 +202,7 @@ TEST_F(Described, AColumnIsThatOfTheOwnerThatIsSaid)
   Column ofCells = this->Mesh.cellColumns[0];
   ofCells.spec.name = "one";
   this->Mesh.cellColumns.push_back(ofCells);
+  this->Source = MemorySource(this->Mesh);
   for (const Owner owner : { Owner::Usual, Owner::Vertices, Owner::Cells })
   {
     ProblemDescription description;
