@@ -322,6 +322,7 @@ class Report(Dict[str, Any]):
     resumed_passes: int
     cycles: int
     residuals: List[float]
+    relative_to: str
     by_pass: List[Dict[str, Any]]
     stages: List[Dict[str, Any]]
     acceleration: str

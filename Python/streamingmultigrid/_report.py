@@ -69,6 +69,7 @@ class Report(_Facts):
     resumed_passes: int
     cycles: int
     residuals: List[float]
+    relative_to: str
     by_pass: List[Dict[str, Any]]
     stages: List[Dict[str, Any]]
     acceleration: str

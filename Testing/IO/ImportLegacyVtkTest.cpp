@@ -317,7 +317,7 @@ TEST_F(ImportLegacyVtk, WhatIsWrongIsSaidWithItsPlace)
     { triangle + "POINT_DATA 4\nSCALARS s int\n1 2 3 4\n", "LOOKUP_TABLE" },
     { triangle + "POINT_DATA 4\nSCALARS s short\nLOOKUP_TABLE t\n1 2 3 70000\n", "'70000'" },
     { triangle + "RUBBISH\n", "'RUBBISH'" }, { grid + "CELLS 1 5\n4 0 1 2 3\n", "CELL_TYPES" },
-    { grid + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n42\n", "type 42" },
+    { grid + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n42\n", "its type is polyhedron" },
     { grid + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n", "cannot have" },
     { head(false, "5.1", "POLYDATA") + Square +
         "POLYGONS 2 3\nOFFSETS vtktypeint64\n1 4\nCONNECTIVITY vtktypeint64\n0 1 2\n",

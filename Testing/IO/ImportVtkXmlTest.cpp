@@ -419,7 +419,7 @@ TEST_F(ImportVtkXml, WhatIsWrongIsSaidWithItsPlace)
     { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5"), "cell 1: the corner 5" },
     { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3"), "fewer numbers" },
     { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4 4"), "more numbers" },
-    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4x"), "'4x'" }, { with("10 10", "10 42"), "type 42" },
+    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4x"), "'4x'" }, { with("10 10", "10 42"), "its type is polyhedron" },
     { with("4 8", "4 3"), "before it begins" }, { with("4 8", "4 9"), "fewer numbers" },
     { with("4 8", "8 8"), "cannot have" }, { with("1.5", "nan"), "point 4" },
     { with("\"5\"", "\"6\""), "fewer numbers" }, { with("\"5\"", "\"-5\""), "NumberOfPoints" },

@@ -20,8 +20,8 @@ Run it:
 
     blending ../../Data/bunny.smb bunny-blended.vsm
 
-    34834 vertices: converged in 10 passes
-      Light: the largest step between scans was 64.7098 and is 0.968178
+    34834 vertices: converged in 9 passes
+      Light: the largest step between scans was 64.7098 and is 0.968176
 */
 
 #include <smg/Blend.h>

@@ -22,12 +22,12 @@ Run it:
 
     custom_operators ../../Data/bunny.smb
 
-    sheet, extended: converged after 8 cycles, relative residual 2.74882e-11
-    sheet, over-relaxed: converged after 8 cycles, relative residual 9.97187e-12
-    sheet, direct: converged after 14 cycles, relative residual 7.25853e-11
-    wires, extended: converged after 9 cycles, relative residual 1.57788e-13
-    wires, over-relaxed: converged after 8 cycles, relative residual 1.5429e-12
-    wires, direct: converged after 14 cycles, relative residual 1.72203e-12
+    sheet, extended: converged after 8 cycles, relative residual 2.96724e-11
+    sheet, over-relaxed: converged after 8 cycles, relative residual 1.07642e-11
+    sheet, direct: converged after 14 cycles, relative residual 7.83529e-11
+    wires, extended: converged after 9 cycles, relative residual 1.716e-13
+    wires, over-relaxed: converged after 8 cycles, relative residual 1.67796e-12
+    wires, direct: converged after 14 cycles, relative residual 1.87277e-12
 */
 
 #include <smg/Convert.h>

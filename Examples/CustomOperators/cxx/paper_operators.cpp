@@ -23,12 +23,12 @@ Run it:
 
     | weights | operators | V-cycles | alone | passes | residual | levels | lifted | memory |
     |---|---|---|---|---|---|---|---|---|
-    | cotangent | extended | 6 | 9 | 7 | 6.2e-09 | 4 | 42 25 24 | 11.8 MiB |
-    | cotangent | paper | 13 | 29 | 14 | 7.4e-09 | 4 | 28 29 24 | 9.5 MiB |
-    | cotangent | paper, full | 16 | 43 | 17 | 9.9e-09 | 4 | 28 23 19 | 9.6 MiB |
-    | clamped | extended | 6 | 9 | 7 | 5.5e-09 | 4 | 43 25 24 | 11.7 MiB |
-    | clamped | paper | 14 | 29 | 15 | 3.3e-09 | 4 | 28 29 23 | 9.4 MiB |
-    | clamped | paper, full | 17 | 47 | 18 | 6.9e-09 | 4 | 28 24 19 | 9.5 MiB |
+    | cotangent | extended | 6 | 9 | 7 | 6.9e-09 | 4 | 42 25 24 | 12.3 MiB |
+    | cotangent | paper | 13 | 29 | 14 | 8.4e-09 | 4 | 28 29 24 | 9.5 MiB |
+    | cotangent | paper, full | 17 | 44 | 18 | 4.2e-09 | 4 | 28 23 19 | 9.6 MiB |
+    | clamped | extended | 6 | 9 | 7 | 6.3e-09 | 4 | 43 25 24 | 11.7 MiB |
+    | clamped | paper | 14 | 29 | 15 | 3.8e-09 | 4 | 28 29 23 | 9.4 MiB |
+    | clamped | paper, full | 17 | 48 | 18 | 7.8e-09 | 4 | 28 24 19 | 9.5 MiB |
     Streamed and in core: the same bits.
 */
 

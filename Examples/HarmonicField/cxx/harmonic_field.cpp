@@ -17,7 +17,7 @@ Run it:
 
     harmonic_field ../../Data/bunny.smb isolines.obj
 
-    34834 vertices, 69451 cells: converged after 6 cycles, relative residual 6.09889e-09
+    34834 vertices, 69451 cells: converged after 6 cycles, relative residual 7.42985e-09
     isolines.obj: 7379 segments of 23 isolines
 */
 

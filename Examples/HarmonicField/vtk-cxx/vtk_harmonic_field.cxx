@@ -16,7 +16,7 @@ Run it:
 
     vtk_harmonic_field ../../Data/bunny.smb isolines.vtp
 
-    34834 points: converged after 6 cycles, relative residual 6.09889e-09
+    34834 points: converged after 6 cycles, relative residual 7.42985e-09
     isolines.vtp: 7379 segments
 */
 

@@ -19,11 +19,11 @@ Run it:
 
     heat_conduction ../../Data/heat_sink.vtk heat.vtu
 
-    2116 vertices, 6822 cells: converged after 8 cycles, relative residual 7.15205e-09
+    2116 vertices, 6822 cells: converged after 8 cycles, relative residual 6.84237e-09
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
     robin[0]: -19.6 W into the body through 5476 mm^2 of 55.7925 degrees
-    relative imbalance of all flows: 1.65411e-11
+    relative imbalance of all flows: 1.69165e-11
 */
 
 #include <smg/Convert.h>

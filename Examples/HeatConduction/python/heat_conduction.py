@@ -15,7 +15,7 @@ Run it:
 
     python3 heat_conduction.py ../../Data/heat_sink.vtk heat.vtu
 
-    2116 vertices, 6822 cells: converged after 8 cycles, relative residual 7.2e-09
+    2116 vertices, 6822 cells: converged after 8 cycles, relative residual 6.8e-09
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
     robin[0]: -19.6 W into the body through 5476 mm^2 of 55.7925 degrees

@@ -16,8 +16,8 @@ Run it:
 
     34834 vertices, 4 levels
     level 0: 34834 nodes, 0.39 of them C-points, 2.0 entries in a row of P
-    level 1: 13740 nodes, 0.25 of them C-points, 3.2 entries in a row of P
-    level 2: 3450 nodes, 0.24 of them C-points, 3.3 entries in a row of P
+    level 1: 13722 nodes, 0.25 of them C-points, 3.2 entries in a row of P
+    level 2: 3441 nodes, 0.24 of them C-points, 3.3 entries in a row of P
 
 The table has the columns level, node, relation, other, weight. Relation "edge": other is a
 neighbour on the level, and the weight that of the edge. "C-point": other is the coarse node of the
