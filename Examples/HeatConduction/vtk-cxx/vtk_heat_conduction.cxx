@@ -19,7 +19,7 @@ Run it:
 
     vtk_heat_conduction ../../Data/heat_sink.vtk heat.vtu
 
-    Converged after 8 V-cycles in 9 passes, relative residual 6.84e-09, to that of the best constant, 3.0 MiB of memory
+    Converged after 8 V-cycles in 9 passes, relative residual 6.84e-09, to that of the best constant
     2116 vertices, 6822 cells
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
