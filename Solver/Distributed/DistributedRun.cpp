@@ -165,7 +165,8 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
   const double tolerance = this->Options.tolerance;
   Convergence convergence({ tolerance, this->Options.maxIterations },
     { std::sqrt(squares), roundingOf(system.roundingSquares[column]),
-      this->MeasuresMotion ? std::sqrt(squares) : system.references[column] });
+      this->MeasuresMotion || system.references[column] == 0.0 ? std::sqrt(squares)
+                                                               : system.references[column] });
   // The residual decreases about geometrically, so its logarithm says how much is done.
   const auto iterated = [&]
   {

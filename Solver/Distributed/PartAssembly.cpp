@@ -332,7 +332,9 @@ void PartAssembly::finish(PartSystem& system)
 void PartAssembly::measure(PartSystem& system) const
 {
   const auto columns = static_cast<std::size_t>(this->Columns);
-  std::vector<double> constants(columns), sums(columns + 1);
+  // Of a column whose solution is constant, a share of the right-hand side; see VaryingRightSide.
+  constexpr double Rounding = 1e-13, LeastShare = 1e-4;
+  std::vector<double> constants(columns), sums(columns + 1), squares(columns);
   const auto forRows = [&](auto&& add)
   {
     for (std::size_t row = 0; row < this->RowSums.size(); ++row)
@@ -361,9 +363,15 @@ void PartAssembly::measure(PartSystem& system) const
     {
       const double rest = b - constants[c] * w;
       system.references[c] += rest * rest;
+      squares[c] += b * b;
     });
   team.sum(system.references);
-  std::ranges::for_each(system.references, [](double& sum) { sum = std::sqrt(sum); });
+  team.sum(squares);
+  for (std::size_t c = 0; c < columns; ++c)
+  {
+    const double rest = std::sqrt(system.references[c]), all = std::sqrt(squares[c]);
+    system.references[c] = rest > Rounding * all ? rest : LeastShare * all;
+  }
 }
 
 /** Adds to a row of the matrix, unless that is complete from an earlier problem. */
