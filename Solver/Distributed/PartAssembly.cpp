@@ -332,8 +332,8 @@ void PartAssembly::finish(PartSystem& system)
 void PartAssembly::measure(PartSystem& system) const
 {
   const auto columns = static_cast<std::size_t>(this->Columns);
-  // Of a column whose solution is constant, a share of the right-hand side; see VaryingRightSide.
-  constexpr double Rounding = 1e-13, LeastShare = 1e-4;
+  // A column whose solution is constant is measured against that.
+  constexpr double Rounding = 1e-13;
   std::vector<double> constants(columns), sums(columns + 1), squares(columns);
   const auto forRows = [&](auto&& add)
   {
@@ -370,7 +370,7 @@ void PartAssembly::measure(PartSystem& system) const
   for (std::size_t c = 0; c < columns; ++c)
   {
     const double rest = std::sqrt(system.references[c]), all = std::sqrt(squares[c]);
-    system.references[c] = rest > Rounding * all ? rest : LeastShare * all;
+    system.references[c] = rest > Rounding * all ? rest : all;
   }
 }
 
