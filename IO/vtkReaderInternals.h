@@ -44,8 +44,8 @@ struct vtkStreamingMeshReader::Internals
 
   smg::Failures Failures;
   vtkNew<vtkDataArraySelection> PointArrays;
-  std::vector<std::string> OfPoints, OfCells; ///< names of the columns in the lists of arrays
   vtkNew<vtkDataArraySelection> CellArrays;
+  std::vector<std::string> OfPoints, OfCells; ///< names of the columns in the lists of arrays
   std::string Name, Scratch;
   std::unique_ptr<smg::OpenedMesh> Mesh;
   std::vector<double> Times; ///< of the time steps; empty: the file has none

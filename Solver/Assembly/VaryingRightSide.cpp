@@ -32,7 +32,7 @@ void VaryingRightSide::add(
 std::vector<double> VaryingRightSide::norms(const Components& components) const
 {
   std::vector<double> norms;
-  std::vector<Body> bodies(this->Most + 1);
+  std::vector<Body> bodies(std::min(static_cast<std::size_t>(components.labels()), this->Most) + 1);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     std::ranges::fill(bodies, Body{});

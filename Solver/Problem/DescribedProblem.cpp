@@ -23,6 +23,12 @@ namespace smg
 namespace
 {
 
+bool prescribesPosition(const ProblemDescription& description)
+{
+  return std::ranges::any_of(
+    description.dirichlet, [](const PlacedValue& entry) { return entry.value.isPosition(); });
+}
+
 /**
  * Where the iteration begins if the description does not say: at the undeformed mesh if a Dirichlet
  * value is the position; in each column in the middle of the prescribed and ambient numbers if it
@@ -51,10 +57,10 @@ StartValues::StartValues(const ProblemDescription& description)
   {
     return;
   }
+  this->IsPosition = prescribesPosition(description);
   std::vector<const DataValue*> all;
   for (const PlacedValue& entry : description.dirichlet)
   {
-    this->IsPosition = this->IsPosition || entry.value.isPosition();
     all.push_back(&entry.value);
   }
   for (const ProblemDescription::Robin& robin : description.robin)
@@ -155,8 +161,7 @@ DescribedProblem::OnMesh::OnMesh(
   }
   forProblemData([&](const auto& row) { this->add(row, description); });
   this->start = StartValues(description);
-  this->isPosition = std::ranges::any_of(
-    description.dirichlet, [](const PlacedValue& entry) { return entry.value.isPosition(); });
+  this->isPosition = prescribesPosition(description);
 }
 
 DataPlace DescribedProblem::OnMesh::placeOf(
