@@ -121,7 +121,7 @@ TEST_F(VtkSolvePlace, ThePassesAreATable)
     vtkTable::SafeDownCast(this->Poisson->GetOutputDataObject(vtkStreamingSolver::PASSES));
   ASSERT_EQ(table->GetNumberOfRows(), this->Poisson->GetPasses());
   auto* residuals = vtkDataArray::SafeDownCast(table->GetColumnByName("Residual"));
-  EXPECT_EQ(residuals->GetTuple1(0), 1.0);
+  EXPECT_GE(residuals->GetTuple1(0), 1.0); // of zero, beside that of the best constant
   EXPECT_EQ(residuals->GetTuple1(table->GetNumberOfRows() - 1), this->Poisson->GetResidual());
   this->Poisson->SetTolerance(-1.0);
   const Errors errors(this->Poisson);

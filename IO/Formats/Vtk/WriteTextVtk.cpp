@@ -156,7 +156,7 @@ private:
     return {
       counted(number, "number is", "numbers are") +
       " NaN or infinite: VTK and ParaView read neither from a text, nor what follows. Written as "
-      "binary (without --text), the file is read as it is."
+      "binary, which is the default, the file is read as it is."
     };
   }
 
