@@ -22,7 +22,8 @@ foreach (header
     Multigrid/Setup/CoarsePoints.h Multigrid/Setup/CoarseningData.h
     Multigrid/Setup/GalerkinProduct.h Multigrid/Setup/GatheredRows.h
     Multigrid/Setup/Interpolation.h Multigrid/Setup/InterpolationRow.h
-    Multigrid/Setup/LevelRows.h Multigrid/Setup/Patches.h Multigrid/Setup/RowBatch.h
+    Multigrid/Setup/LevelRows.h Multigrid/Setup/OverlappingPatches.h
+    Multigrid/Setup/Patches.h Multigrid/Setup/RowBatch.h
     Multigrid/Setup/SliverRows.h Multigrid/Setup/Sparsification.h)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES "Solver/${header}"

@@ -16,10 +16,11 @@ namespace smg
 /**
  * The default operator set. The C-points are those of the paper (Shi, Bao, Zhou 2009), a greedy
  * maximal independent set in stream order, but only strong edges count; the interpolation is
- * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row, on surfaces
- * reproducing linear functions where weights cancel (LinearRows); the coarse operator
- * is a sparsified Galerkin product; the smoother is Gauss-Seidel in stream order. A node with a
- * stiff row (see SliverRows) always gets a coarse node of its own.
+ * extended+i (De Sterck, Falgout, Nolting, Yang 2008) with few entries per row that
+ * reproduce linear functions where weights cancel (LinearRows); the coarse operator is a sparsified
+ * Galerkin product; the smoother is Gauss-Seidel in stream order, with exact solves on clusters of
+ * slivers (Patches, OverlappingPatches). A node with a stiff row (see SliverRows) always gets a
+ * coarse node of its own.
  *
  * Every step works in stream order on data that the window of a pass contains, so the hierarchy is
  * the same, bit for bit, for any window, block size and number of threads.
@@ -64,7 +65,6 @@ public:
     {
       set.Interpolation.coarsePoints = { 0.08F, 0.08F, 1.5F };
       set.Interpolation.entries = 5;
-      set.Interpolation.linear = false;
       set.Product.cancelling = 1.5;
       set.Sparsify.dropsNegative = true;
       set.PatchRings = 2;

@@ -75,7 +75,9 @@ public:
   using TestedLevel = Level<Real>;
   using CoarserLevel = Level<float>;
 
-  DenseHierarchy(const TestLevel& finest, int levels, int columns, int sweeps, bool wide = false)
+  /** `rings`: of the patches; 2: the finest level has overlapping ones. */
+  DenseHierarchy(
+    const TestLevel& finest, int levels, int columns, int sweeps, bool wide = false, int rings = 1)
     : Memory(std::int64_t(1) << 32)
   {
     std::vector<std::unique_ptr<LevelRows>> rows;
@@ -86,6 +88,7 @@ public:
     for (int l = 0; l + 1 < levels; ++l)
     {
       RecordingOperators operators;
+      operators.rings = rings;
       rows.push_back(std::make_unique<LevelRows>(this->Memory));
       steps.push_back(std::make_unique<Coarsening<RecordingOperators>>(
         this->Memory, operators, *rows[l], *rows[l + 1]));
@@ -98,13 +101,17 @@ public:
       const TestLevel level = l > 0 ? levelOf(*rows[l]) : finest;
       this->Matrices.push_back(level.dense());
       // The coarsest level is solved directly and has no patches.
-      this->PatchLists.push_back(l + 1 < levels ? patchesOf(level) : PatchList{});
+      this->PatchLists.push_back(l + 1 < levels ? patchesOf(level, rings) : PatchList{});
       if (l > 0)
       {
         this->Coarse.push_back(std::make_unique<CoarserLevel>(
           this->Memory, this->Resident, l, columns, sweeps, compiledRelaxation<GaussSeidel>));
         this->Coarse.back()->setCore();
       }
+    }
+    if (rings > 1)
+    {
+      this->Overlapping = overlappingPatchesOf(finest, rings);
     }
     this->Finest = std::make_unique<TestedLevel>(
       this->Memory, this->Resident, 0, columns, sweeps, compiledRelaxation<GaussSeidel>);
@@ -141,6 +148,8 @@ public:
   CoarserLevel& coarse(int l) { return *this->Coarse[l - 1]; }
   const Eigen::MatrixXd& matrix(int l) const { return this->Matrices[l]; }
   const PatchList& patches(int l) const { return this->PatchLists[l]; }
+  /** The overlapping patches of the finest level by their last members; or none. */
+  const std::vector<PatchList>& overlapping() const { return this->Overlapping; }
   Eigen::MatrixXd interpolation(int l) const { return this->Records[l]->interpolation(); }
 
 private:
@@ -150,6 +159,7 @@ private:
   ResidentNodes Resident;
   std::vector<Eigen::MatrixXd> Matrices;
   std::vector<PatchList> PatchLists;
+  std::vector<PatchList> Overlapping;
   std::vector<std::shared_ptr<CoarseningRecord>> Records;
   std::unique_ptr<TestedLevel> Finest;
   std::vector<std::unique_ptr<CoarserLevel>> Coarse;
@@ -183,10 +193,18 @@ void setState(Ring<Real>& state, const Eigen::MatrixXd& values)
   }
 }
 
+/** Solves the equations of a patch. */
+inline void denseSolve(const Eigen::MatrixXd& a, const std::vector<std::int64_t>& patch,
+  const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+{
+  const Eigen::MatrixXd residual = b(patch, AllIndices) - a(patch, AllIndices) * x;
+  x(patch, AllIndices) += partOf(a, patch).inverse() * residual;
+}
+
 /** One forward Gauss-Seidel sweep; a patch, if there are any, is solved when its last node is
- * reached. */
-inline void denseSweep(
-  const Eigen::MatrixXd& a, const PatchList& patches, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+ * reached, and after it the overlapping ones that end there. */
+inline void denseSweep(const Eigen::MatrixXd& a, const PatchList& patches, const Eigen::MatrixXd& b,
+  Eigen::MatrixXd& x, const std::vector<PatchList>& overlapping = {})
 {
   for (Eigen::Index i = 0; i < a.rows(); ++i)
   {
@@ -198,8 +216,11 @@ inline void denseSweep(
     }
     else if (patch.back() == i)
     {
-      const Eigen::MatrixXd residual = b(patch, AllIndices) - a(patch, AllIndices) * x;
-      x(patch, AllIndices) += partOf(a, patch).inverse() * residual;
+      denseSolve(a, patch, b, x);
+    }
+    for (const auto& members : overlapping.empty() ? PatchList{} : overlapping[i])
+    {
+      denseSolve(a, members, b, x);
     }
   }
 }

@@ -248,8 +248,10 @@ public:
   double cancelling = 1.5;
   float tolerance = 0.1F; ///< of sparsification; 0: the raw product
   bool dropsNegative = false;
+  int rings = 1; ///< of patches; 2: the finest level has overlapping ones
   std::shared_ptr<CoarseningRecord> record = std::make_shared<CoarseningRecord>();
 
+  int patchRings() const { return this->rings; }
   bool isCoarse(const CoarseningData& data, std::int64_t i)
   {
     this->Interpolation.coarsePoints.strength = this->strength;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -30,15 +31,16 @@ inline std::vector<std::int64_t> reachesOf(const TestLevel& level)
   return reach;
 }
 
-/** Whether the weights of row i cancel by 5 %. */
-inline bool cancels(const TestLevel& level, std::int64_t i)
+/** Whether the magnitudes of the weights of row i sum to more than this multiple of its diagonal.
+ */
+inline bool cancels(const TestLevel& level, std::int64_t i, double least = 1.05)
 {
   double terms = 0.0;
   for (const RowEntry& entry : level.rows[i])
   {
     terms += std::fabs(static_cast<double>(entry.weight()));
   }
-  return terms > 1.05 * level.diagonal(i);
+  return terms > least * level.diagonal(i);
 }
 
 /** The patches of a level, directly from their definition: within one or two rings. */
@@ -77,6 +79,57 @@ inline PatchList patchesOf(const TestLevel& level, int rings = 1)
     }
   }
   return patchOf;
+}
+
+/** The overlapping patches of a level by their last members, directly from their definition: a list
+ * for each node, in the order of descending first nodes. */
+inline std::vector<PatchList> overlappingPatchesOf(const TestLevel& level, int rings)
+{
+  const std::vector<std::int64_t> reach = reachesOf(level);
+  const PatchList patchOf = patchesOf(level, rings);
+  std::vector<PatchList> endingAt(static_cast<std::size_t>(level.nodes()));
+  for (std::int64_t first = level.nodes() - 1; first >= 0; --first)
+  {
+    const std::vector<std::int64_t>& core = patchOf[first];
+    const bool isWorst = std::ranges::any_of(
+      core, [&](std::int64_t i) { return cancels(level, i, OverlappingPatches::Cancelling); });
+    if (core.size() == 1 || core.front() != first || !isWorst)
+    {
+      continue;
+    }
+    const std::int64_t last = rings > 1 ? reach[reach[first]] : reach[first];
+    std::map<std::int64_t, double> couplings; // by node, negative
+    for (const std::int64_t i : core)
+    {
+      for (const RowEntry& entry : level.rows[i])
+      {
+        const std::int64_t j = i + entry.delta();
+        const double weight = entry.weight();
+        if (j > first && j <= last && !std::ranges::binary_search(core, j))
+        {
+          couplings[j] =
+            std::min(couplings[j], -weight * weight / (level.diagonal(i) * level.diagonal(j)));
+        }
+      }
+    }
+    std::vector<std::pair<double, std::int64_t>> strongest;
+    for (const auto& [j, coupling] : couplings)
+    {
+      strongest.emplace_back(coupling, j);
+    }
+    std::ranges::sort(strongest);
+    std::vector<std::int64_t> members = core;
+    for (const auto& [coupling, j] : strongest)
+    {
+      if (members.size() < OverlappingPatches::Patch::Most)
+      {
+        members.push_back(j);
+      }
+    }
+    std::ranges::sort(members);
+    endingAt[members.back()].push_back(members);
+  }
+  return endingAt;
 }
 
 /** Rows and columns `nodes` of a matrix. */

@@ -2,7 +2,9 @@
 #include "Solver/Multigrid/Cycle/LevelWindow.h"
 #include "Solver/Multigrid/Cycle/Residual.h"
 #include "Solver/Multigrid/Cycle/Sweep.h"
-#include "Solver/Multigrid/Setup/Patches.h"
+#include "Solver/Multigrid/Setup/OverlappingPatches.h"
+
+#include <optional>
 
 // Patches are solved by the inverses of their matrices, which blocks contain. The residuals of all
 // members come first, in the order of the members.
@@ -12,10 +14,9 @@ namespace smg
 namespace
 {
 
-/** b_k + sum_j w_kj x_j of node k of a block, with x taken as zero for node k and for all nodes
- * from `limit` on. Members of the patch below `limit` are zero at that time. */
+/** The residual of node k of a block, with x taken as zero for all nodes from `limit` on. */
 template <class Vectors, class Real, class Arrays>
-typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+typename Vectors::Vector residualBelow(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
   std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
 {
   const BlockRange row = entriesOf(h, a, k);
@@ -24,14 +25,15 @@ typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& 
   {
     sum += static_cast<Real>(a.weight[e]) * Vectors::load(x + (k + a.delta[e]) * stride);
   }
-  return sum;
+  // In an overlapping patch it may have a value before its own patch is complete.
+  return k < limit ? sum - static_cast<Real>(a.diagonal[k]) * Vectors::load(x + k * stride) : sum;
 }
 
 /** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given their residuals and the inverse
  * of the matrix on the patch. x points to the last member; the others are at `distance`.
- * LowerOnly: x of the last member was zero and is not read. */
-template <bool LowerOnly, class Vectors, class Real>
-void correctPatch(int size, const double* distance, const double* inverse,
+ * `isLastZero`: x of the last member was zero and is not read. */
+template <class Vectors, class Real>
+void correctPatch(bool isLastZero, int size, const double* distance, const double* inverse,
   const typename Vectors::Vector* residual, std::int64_t stride, Real* x)
 {
   for (int a = 0; a < size; ++a)
@@ -42,7 +44,7 @@ void correctPatch(int size, const double* distance, const double* inverse,
       sum += static_cast<Real>(inverse[PatchMatrix::place(a, k)]) * residual[k];
     }
     Real* at = x + (a + 1 < size ? static_cast<std::int64_t>(distance[a]) : 0) * stride;
-    if (!LowerOnly || a + 1 < size)
+    if (!isLastZero || a + 1 < size)
     {
       sum += Vectors::load(at);
     }
@@ -50,69 +52,78 @@ void correctPatch(int size, const double* distance, const double* inverse,
   }
 }
 
-/** The residual of node k of a block, a member of the patch that ends at node `last`. */
-template <bool LowerOnly, class Vectors, class Real, class Arrays>
-typename Vectors::Vector memberResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
-  std::int64_t last, std::int64_t stride, const Real* x, const Real* b)
-{
-  typename Vectors::Vector residual{};
-  visitSpecial<Real>(h, a, *specialFrom(h, a, k),
-    [&](const auto& row)
-    {
-      if constexpr (LowerOnly)
-      {
-        residual = lowerResidual<Vectors>(h, row, k, last - h.first, stride, x, b);
-      }
-      else
-      {
-        residual = ResidualOfDifferences::of<Vectors>(h, row, k, stride, x, b);
-      }
-    });
-  return residual;
-}
-
 } // namespace
 
 template <class Real>
-template <bool LowerOnly, class Vectors>
-void PatchRelaxation<Real>::relax(const BlockPart<Real>& part, const RowBlock::Special& node) const
+template <class Vectors>
+void PatchRelaxation<Real>::relax(const BlockPart<Real>& part, std::int64_t last, int size,
+  const double* values, std::optional<std::int64_t> zeroFrom) const
+{
+  // The values of a patch are the distances of the other members, then the inverse.
+  typename Vectors::Vector residual[OverlappingPatches::Patch::Most];
+  for (int m = 0; m < size; ++m)
+  {
+    const bool isLast = m + 1 == size;
+    this->Window->visitRow(isLast ? last : last + static_cast<std::int64_t>(values[m]),
+      [&](const RowBlock::Header& h, const auto& rows, std::int64_t k)
+      {
+        const Real* x = this->X->at(h.first) + part.lane;
+        const Real* b = this->B->at(h.first) + part.lane;
+        const auto measure = [&](const auto& row)
+        {
+          residual[m] =
+            zeroFrom ? residualBelow<Vectors>(h, row, k, *zeroFrom - h.first, part.stride, x, b)
+                     : ResidualOfDifferences::of<Vectors>(h, row, k, part.stride, x, b);
+        };
+        // Members of overlapping patches may be ordinary nodes.
+        const RowBlock::Special* special = specialFrom(h, rows, k);
+        special < rows.special + h.specials && special->node == k
+          ? visitSpecial<Real>(h, rows, *special, measure)
+          : measure(rows);
+      });
+  }
+  correctPatch<Vectors>(zeroFrom && *zeroFrom <= last, size, values, values + size - 1, residual,
+    part.stride, this->X->at(last) + part.lane);
+}
+
+template <class Real>
+template <class Vectors>
+void PatchRelaxation<Real>::relaxOverlapping(
+  const BlockPart<Real>& part, const RowBlock::Special& node, SweepKind sweep) const
 {
   const std::int64_t last = part.header().first + node.node;
-  part.block.template visit<Real>(
-    [&](const auto& a)
+  const auto zeroFrom = sweep == SweepKind::LowerOnly ? std::optional(last + 1) : std::nullopt;
+  const double* first = part.block.values() + node.overlapping;
+  const auto patches = static_cast<int>(*first++);
+  for (int k = 0; k < patches; ++k)
+  {
+    // Hardly ever more than one: the walk to the last one of them costs nothing.
+    const double* values = first;
+    for (int before = sweep == SweepKind::Backward ? patches - 1 - k : k; before > 0; --before)
     {
-      // The values of the patch are the distances of the other members, then the inverse.
-      const double* distance = a.value + node.value;
-      typename Vectors::Vector residual[PatchMatrix::Most];
-      for (int m = 0; m < node.size; ++m)
-      {
-        const bool isLast = m + 1 == node.size;
-        this->Window->visitRow(isLast ? last : last + static_cast<std::int64_t>(distance[m]),
-          [&](const RowBlock::Header& h, const auto& rows, std::int64_t k)
-          {
-            residual[m] = memberResidual<LowerOnly, Vectors>(h, rows, k, last, part.stride,
-              this->X->at(h.first) + part.lane, this->B->at(h.first) + part.lane);
-          });
-      }
-      correctPatch<LowerOnly, Vectors>(node.size, distance, distance + node.size - 1, residual,
-        part.stride, this->X->at(last) + part.lane);
-    });
+      values += 1 + RowBlock::Special::valuesOf(static_cast<int>(*values));
+    }
+    this->relax<Vectors>(part, last, static_cast<int>(*values), values + 1, zeroFrom);
+  }
 }
 
 template <class Real>
 void PatchRelaxation<Real>::operator()(
   const BlockPart<Real>& part, const RowBlock::Special& node, bool lowerOnly) const
 {
-  using One = SimdPack<Real, 1>;
-  using Four = SimdPack<Real, 4>;
-  if (part.stride == 1)
-  {
-    lowerOnly ? this->relax<true, One>(part, node) : this->relax<false, One>(part, node);
-  }
-  else
-  {
-    lowerOnly ? this->relax<true, Four>(part, node) : this->relax<false, Four>(part, node);
-  }
+  const std::int64_t last = part.header().first + node.node;
+  const double* values = part.block.values() + node.value;
+  const auto zeroFrom = lowerOnly ? std::optional(last) : std::nullopt;
+  part.stride == 1 ? this->relax<SimdPack<Real, 1>>(part, last, node.size, values, zeroFrom)
+                   : this->relax<SimdPack<Real, 4>>(part, last, node.size, values, zeroFrom);
+}
+
+template <class Real>
+void PatchRelaxation<Real>::relaxOverlapping(
+  const BlockPart<Real>& part, const RowBlock::Special& node, SweepKind sweep) const
+{
+  part.stride == 1 ? this->relaxOverlapping<SimdPack<Real, 1>>(part, node, sweep)
+                   : this->relaxOverlapping<SimdPack<Real, 4>>(part, node, sweep);
 }
 
 template class PatchRelaxation<double>;

@@ -123,7 +123,9 @@ public:
      * other members, then the lower triangle of the inverse of the matrix on the patch. */
     std::int32_t value;
     std::int32_t precise; ///< begin of the weights of the row in double precision; -1: none
-    std::int32_t reserved;
+    /** Where the values of the overlapping patches begin whose last member it is; -1: it is that of
+     * none. First their number; then, for each, its size and its values, as those of a patch. */
+    std::int32_t overlapping;
 
     static constexpr int valuesOf(int size) { return size - 1 + size * (size + 1) / 2; }
   };
@@ -196,6 +198,14 @@ public:
     take(at, a.precise, h.precise);
     take(at, a.diagonal, h.nodes);
     return a;
+  }
+
+  /** The values of the patches that end in this block, see Special::value. */
+  const double* values() const
+  {
+    const double* values = nullptr;
+    this->visit<float>([&values](const auto& arrays) { values = arrays.value; });
+    return values;
   }
 
   /** Calls f(arrays, args...) with the arrays of this block, for a level whose unknowns have type

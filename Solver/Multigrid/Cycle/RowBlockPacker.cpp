@@ -48,12 +48,14 @@ struct Specials
     {
       const Patch* patch = coarsening ? coarsening->patches.of(i) : nullptr;
       const std::span<const double> weights = rows.precise(i);
+      const std::int32_t overlapping =
+        coarsening && coarsening->overlaps ? this->addOverlapping(coarsening->overlapping, i) : -1;
       this->cancelling = this->cancelling || rows.stiff(i);
-      if (!patch && weights.empty())
+      if (!patch && weights.empty() && overlapping < 0)
       {
         continue;
       }
-      RowBlock::Special node{ static_cast<std::int16_t>(i - first), 1, 0, -1, 0 };
+      RowBlock::Special node{ static_cast<std::int16_t>(i - first), 1, 0, -1, overlapping };
       // The inverse is stored once, at the last member, where the sweep relaxes the patch; the
       // others are marked to wait for it.
       if (patch && i < patch->last())
@@ -79,16 +81,36 @@ struct Specials
 private:
   double MinPivot = MinPivotOfDoubles;
 
+  /** Adds the values of the overlapping patches whose last member is node i. Returns where they
+   * begin; -1: there are none. */
+  std::int32_t addOverlapping(const OverlappingPatches& overlapping, std::int64_t i)
+  {
+    const std::size_t begin = this->values.size();
+    overlapping.forEndingAt(i,
+      [&](const OverlappingPatches::Patch& patch, const double* matrix)
+      {
+        if (this->values.size() == begin)
+        {
+          this->values.push_back(0.0);
+        }
+        this->values[begin] += 1.0;
+        this->values.push_back(static_cast<double>(patch.size));
+        this->addValues(patch, matrix);
+      });
+    return this->values.size() > begin ? static_cast<std::int32_t>(begin) : -1;
+  }
+
   /** Adds the values of a patch, at its last node: distances, which are negative, and the
    * inverse. */
-  void addValues(const Patch& patch, const double* matrix)
+  template <int Most>
+  void addValues(const PatchUpTo<Most>& patch, const double* matrix)
   {
     for (int k = 0; k + 1 < patch.size; ++k)
     {
       this->values.push_back(static_cast<double>(patch.member(k) - patch.last()));
     }
     const int entries = PatchMatrix::entriesOf(patch.size);
-    PatchMatrix inverse;
+    PatchMatrixUpTo<Most> inverse;
     inverse.order = patch.size;
     std::copy_n(matrix, entries, inverse.entry);
     // Where a pivot is too small this is a generalised inverse, which leaves the node as it is.

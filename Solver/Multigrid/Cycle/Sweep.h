@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 // A sweep over a block of a level. A relaxation is a template; for the engine it becomes a table of
@@ -18,6 +19,16 @@ namespace smg
 
 template <class Real>
 class LevelWindow;
+
+/** A sweep forwards, in the order of the stream; the same with x taken as zero above each node (see
+ * Relaxation); or backwards, the transpose of a sweep forwards, for which all nodes must be in
+ * memory. */
+enum class SweepKind
+{
+  Forward,
+  LowerOnly,
+  Backward
+};
 
 /**
  * Relaxes the nodes of a patch b together: x_b += A_bb^-1 (b - A x)_b. The members may lie in
@@ -37,10 +48,19 @@ public:
   /** Relaxes the patch whose last member is `node`, in the block of the part: the columns that the
    * part points to. `lowerOnly`: see Relaxation. */
   void operator()(const BlockPart<Real>& part, const RowBlock::Special& node, bool lowerOnly) const;
+  /** The same with the overlapping patches whose last member is `node`, one after the other. */
+  void relaxOverlapping(
+    const BlockPart<Real>& part, const RowBlock::Special& node, SweepKind sweep) const;
 
 private:
-  template <bool LowerOnly, class Vectors>
-  void relax(const BlockPart<Real>& part, const RowBlock::Special& node) const;
+  /** Relaxes a patch of `size` nodes; `values`: see RowBlock::Special. x counts as zero from the
+   * node `zeroFrom` on, where there is one, and is not read there. */
+  template <class Vectors>
+  void relax(const BlockPart<Real>& part, std::int64_t last, int size, const double* values,
+    std::optional<std::int64_t> zeroFrom) const;
+  template <class Vectors>
+  void relaxOverlapping(
+    const BlockPart<Real>& part, const RowBlock::Special& node, SweepKind sweep) const;
 
   const LevelWindow<Real>* Window;
   const Ring<Real>*X, *B;
@@ -49,20 +69,10 @@ private:
 extern template class PatchRelaxation<double>;
 extern template class PatchRelaxation<float>;
 
-/** A sweep forwards, in the order of the stream; the same with x taken as zero above each node (see
- * Relaxation); or backwards, the transpose of a sweep forwards, for which all nodes must be in
- * memory. */
-enum class SweepKind
-{
-  Forward,
-  LowerOnly,
-  Backward
-};
-
 /** Relaxes a special node: alone, by its precise weights if it has some; or, with `patches`, with
  * its patch if it is the last member of that. */
 template <class Relaxation, bool LowerOnly, class Vectors, class Real, class Arrays>
-void relaxSpecial(const BlockPart<Real>& part, const Arrays& a, const RowBlock::Special& node,
+void relaxOwn(const BlockPart<Real>& part, const Arrays& a, const RowBlock::Special& node,
   std::int64_t stride, const PatchRelaxation<Real>* patches)
 {
   const RowBlock::Header& h = part.header();
@@ -89,6 +99,30 @@ void relaxSpecial(const BlockPart<Real>& part, const Arrays& a, const RowBlock::
   }
 }
 
+/** Relaxes a special node, and then, with `patches`, the overlapping patches that end there; or the
+ * other way round in a sweep backwards. */
+template <class Relaxation, SweepKind Kind, class Vectors, class Real, class Arrays>
+void relaxSpecial(const BlockPart<Real>& part, const Arrays& a, const RowBlock::Special& node,
+  std::int64_t stride, const PatchRelaxation<Real>* patches)
+{
+  const auto relaxOverlapping = [&]
+  {
+    if (patches && node.overlapping >= 0)
+    {
+      patches->relaxOverlapping(part, node, Kind);
+    }
+  };
+  if constexpr (Kind == SweepKind::Backward)
+  {
+    relaxOverlapping();
+  }
+  relaxOwn<Relaxation, Kind == SweepKind::LowerOnly, Vectors>(part, a, node, stride, patches);
+  if constexpr (Kind != SweepKind::Backward)
+  {
+    relaxOverlapping();
+  }
+}
+
 /** Relaxes the nodes of a part in descending order, one at a time, since a Relaxation ascends. */
 template <class Relaxation, class Vectors, class Real, class Arrays>
 void sweepBackward(const BlockPart<Real>& part, const Arrays& a, std::int64_t stride,
@@ -101,7 +135,7 @@ void sweepBackward(const BlockPart<Real>& part, const Arrays& a, std::int64_t st
     if (special != a.special && (special - 1)->node == k)
     {
       --special;
-      relaxSpecial<Relaxation, false, Vectors>(part, a, *special, stride, patches);
+      relaxSpecial<Relaxation, SweepKind::Backward, Vectors>(part, a, *special, stride, patches);
     }
     else
     {
@@ -142,7 +176,7 @@ void sweepBlock(BlockPart<Real> part, const PatchRelaxation<Real>* patches)
       }
       else
       {
-        relaxSpecial<Relaxation, LowerOnly, Vectors>(part, a, *special, stride, patches);
+        relaxSpecial<Relaxation, Kind, Vectors>(part, a, *special, stride, patches);
       }
     }
   }

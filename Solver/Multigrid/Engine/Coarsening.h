@@ -67,6 +67,10 @@ private:
       {
         // First, since the choice needs the diagonal of the row.
         d.patches.add(d.fine);
+        if (d.overlaps)
+        {
+          d.overlapping.add();
+        }
         const bool isCoarse = this->Set.isCoarse(d, i);
         d.coarseIndex[i] =
           isCoarse ? CoarseningData::coarseIndexOf(d.coarseNodes) : CoarseningData::FPoint;
@@ -110,12 +114,17 @@ private:
     this->Sweeps.advance(this->Set, d, this->Initial.published());
     this->Limits.interpolate.run(
       this->Interpolated, this->Sweeps.settled(),
-      [&](std::int64_t) { return !(this->Apart && d.patchMatrices.isFull()); },
+      [&](std::int64_t) {
+        return !(
+          this->Apart && (d.patchMatrices.isFull() || (d.overlaps && d.overlapping.isFull())));
+      },
       [&](std::int64_t i)
       {
         d.rowQuanta.extendRaw(i + 1);
         this->Set.interpolate(d, i);
-        this->PatchEntries.add(d.appendPatchMatrix(i));
+        const CoarseningData::PatchEntries entries = d.appendPatchMatrix(i);
+        this->PatchEntries.add(entries.own);
+        this->OverlappingEntries.add(entries.overlapping);
       });
   }
 
@@ -135,7 +144,7 @@ private:
       {
         d.productSum.extendRaw(i + 1);
         this->Set.productAP(d, i);
-        d.settledReach.append(d.patches.lastAround(d.fine, i));
+        d.settledReach.append(d.lastAround(i));
         this->ProductEntries.add(d.product.size(i));
       });
   }

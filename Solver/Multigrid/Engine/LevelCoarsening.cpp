@@ -79,7 +79,12 @@ void LevelCoarsening::release()
   d.initialTotal.release(this->RelaxedDone);
   d.relaxed.release(this->RelaxedDone);
   d.fine.releasePoints(this->Interpolated);
-  d.patches.release(std::min<std::int64_t>(this->PatchesDone, this->Multiplied));
+  const std::int64_t patchesDone = std::min<std::int64_t>(this->PatchesDone, this->Multiplied);
+  d.patches.release(patchesDone);
+  if (d.overlaps)
+  {
+    d.overlapping.release(patchesDone);
+  }
   d.patchMatrices.release(this->MatricesDone);
   while (this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
   {
@@ -109,6 +114,10 @@ void LevelCoarsening::release()
 void LevelCoarsening::begin(std::int64_t rows)
 {
   this->Rows = std::min(rows, this->Data.fine.end());
+  this->Data.overlaps =
+    this->Data.overlaps ||
+    (this->Data.patches.rings() > 1 && this->Rows > this->Begin && this->Chosen == this->Begin &&
+      this->Data.fine.childReach(this->Begin) < 0);
   if (this->Data.coarseNodes - this->Finished >= CoarseWindow)
   {
     throw Error("neighbours lie too far apart in the stream: convert the mesh with the order bfs");
@@ -154,6 +163,13 @@ void LevelCoarsening::reserve()
   d.interpolation.reserve(rows, RelaxedRow::Most * rows);
   d.rowQuanta.reserve(this->Interpolated + rows - d.rowQuanta.first());
   d.patchMatrices.reserve(rows, this->PatchEntries.of(rows) + PatchMatrix::Entries);
+  if (d.overlaps)
+  {
+    using Matrix = OverlappingPatches::Matrix;
+    const std::int64_t entries = this->OverlappingEntries.of(rows) + Matrix::Entries;
+    d.overlapping.reserve(choices);
+    d.overlapping.reserve(1 + entries / Patch::Most, entries);
+  }
   d.parentReach.reserve(rows);
   d.finePoint.reserve(choices);
   if (d.fine.isPlaced())

@@ -206,7 +206,7 @@ protected:
   std::int64_t Chosen = Begin;           // by fine node
   Cursor Initial{ Begin }, Interpolated{ Begin }, Multiplied{ Begin };
   std::int64_t Gathered = CoarseBegin, Sparsified = CoarseBegin; // by coarse node
-  MeanRowLength InitialEntries, PatchEntries, ProductEntries;
+  MeanRowLength InitialEntries, PatchEntries, OverlappingEntries, ProductEntries;
 
 private:
   void begin(std::int64_t rows);

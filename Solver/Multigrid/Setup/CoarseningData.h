@@ -6,6 +6,7 @@
 #include "Solver/Memory/Ring.h"
 #include "Solver/Multigrid/Setup/GatheredRows.h"
 #include "Solver/Multigrid/Setup/LevelRows.h"
+#include "Solver/Multigrid/Setup/OverlappingPatches.h"
 #include "Solver/Multigrid/Setup/Patches.h"
 #include "Solver/Multigrid/Setup/SliverRows.h"
 
@@ -149,6 +150,7 @@ struct CoarseningData
     , coarseIndex(pool)
     , patches(pool)
     , patchMatrices(pool)
+    , overlapping(pool)
     , initial(pool)
     , initialTotal(pool)
     , relaxed(pool)
@@ -212,6 +214,8 @@ struct CoarseningData
   }
   Patches patches;
   PatchMatrices patchMatrices;     ///< by patch
+  OverlappingPatches overlapping;  ///< empty unless `overlaps`
+  bool overlaps = false;           ///< whether the level has overlapping patches
   RaggedRing<CoarseEntry> initial; ///< rows of P0
   Ring<float> initialTotal;        ///< Z_i: row i of `initial` has the weights over Z_i
   Ring<RelaxedRow> relaxed;
@@ -278,12 +282,37 @@ struct CoarseningData
     return this->coarseIndex[i] != FPoint ? 1.0F : total > rowSum ? (total - rowSum) / total : 0.0F;
   }
 
-  /** Appends the matrix of the patch that begins at node i, if one does; the rows of the patch
-   * must exist. Returns the number of entries. */
-  std::int64_t appendPatchMatrix(std::int64_t i)
+  /** Appends the matrix of the patch that begins at node i, if one does, and the overlapping patch
+   * around it; the rows within its rings must exist. Returns the numbers of their entries. */
+  struct PatchEntries
+  {
+    std::int64_t own = 0, overlapping = 0;
+  };
+  PatchEntries appendPatchMatrix(std::int64_t i)
   {
     Patch* patch = this->patches.beginningAt(i);
-    return patch ? this->patchMatrices.append(this->fine, *patch) : 0;
+    PatchEntries entries;
+    if (patch)
+    {
+      entries.own = this->patchMatrices.append(this->fine, *patch);
+      entries.overlapping =
+        this->overlaps ? this->overlapping.append(this->fine, *patch, this->patches.rings()) : 0;
+    }
+    return entries;
+  }
+  /** The last member of the patches of node i and its neighbours, overlapping ones included. */
+  std::int64_t lastAround(std::int64_t i) const
+  {
+    std::int64_t last = this->patches.lastAround(this->fine, i);
+    if (this->overlaps)
+    {
+      last = std::max(last, this->overlapping.last(i));
+      for (const RowEntry& entry : this->fine.row(i))
+      {
+        last = std::max(last, this->overlapping.last(i + entry.delta()));
+      }
+    }
+    return last;
   }
 
   /** Appends the next row, c, to `raw`, and advances rawMirrored of the rows below that have an
@@ -346,6 +375,7 @@ private:
   {
     this->coarseIndex.release(i);
     this->patches.release(i);
+    this->overlapping.release(i);
     this->initial.release(i);
     this->initialTotal.release(i);
     this->relaxed.release(i);

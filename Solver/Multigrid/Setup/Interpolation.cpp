@@ -127,7 +127,7 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
     row.entry[k] = { static_cast<CoarseIndex>(data.publishedCoarse + from.distance),
       from.weight + share * std::fabs(from.weight) };
   }
-  if (this->linear && data.fine.isPlaced() && this->coarsePoints.cancels(data, i))
+  if (this->linear && data.fine.isPlaced() && LinearRows::isFitted(data, i))
   {
     LinearRows::fit(data, i, row);
   }

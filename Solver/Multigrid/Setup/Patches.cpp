@@ -2,7 +2,6 @@
 #include "Solver/Multigrid/Setup/Patches.h"
 
 #include <algorithm>
-#include <span>
 
 // Patches: groups of up to twelve nodes that Gauss-Seidel relaxes together, found greedily in one
 // sweep over the rows of a level. Each new node is compared with its lower neighbours only, so the
@@ -15,19 +14,14 @@
 
 namespace smg
 {
-namespace
-{
 
-/** The largest node that a patch which begins at `first` may contain: within one ring, or two.
- * Where row `ring` does not exist yet, all existing rows lie within the first ring, whose bound
- * then suffices. */
+// Where row `ring` does not exist yet, all existing rows lie within the first ring, whose bound
+// then suffices.
 std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings)
 {
   const std::int64_t ring = rows.reach(first);
   return rings > 1 && ring < rows.end() ? rows.reach(ring) : ring;
 }
-
-} // namespace
 
 /** Whether row i, with this diagonal, has negative weights that count: the magnitudes of its
  * weights exceed the diagonal by more than 5 %. */
@@ -35,36 +29,6 @@ bool cancels(const LevelRows& rows, std::int64_t i, double diagonal)
 {
   constexpr double Least = 1.05;
   return static_cast<double>(rows.magnitudes(i)) > Least * diagonal;
-}
-
-PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch)
-{
-  PatchMatrix matrix;
-  matrix.order = patch.size;
-  for (int a = 0; a < patch.size; ++a)
-  {
-    const std::int64_t i = patch.member(a);
-    matrix.at(a, a) = rows.diagonal(i);
-    const auto row = rows.row(i);
-    // Where a row has weights in double precision these count: the matrix of a sliver is nearly
-    // singular, and floats would lose its smallest eigenvalues.
-    const std::span<const double> precise = rows.precise(i);
-    std::size_t e = 0;
-    for (int b = 0; b < a; ++b)
-    {
-      const auto delta = static_cast<std::int32_t>(patch.member(b) - i);
-      // Members and columns both ascend: one walk along the row finds all of them.
-      while (e < row.size() && row[e].delta() < delta)
-      {
-        ++e;
-      }
-      if (e < row.size() && row[e].delta() == delta)
-      {
-        matrix.at(a, b) = precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
-      }
-    }
-  }
-  return matrix;
 }
 
 /** Adds node j: collects its strongest couplings to lower neighbours, then joins patches along
@@ -162,12 +126,9 @@ void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
     this->Of.extend(next + 1);
     number = static_cast<std::uint32_t>(next);
   }
-  Patch& patch = this->patch(number);
-  patch.first = members[0];
-  patch.size = size;
+  this->patch(number).setMembers({ members, static_cast<std::size_t>(size) });
   for (int k = 0; k < size; ++k)
   {
-    patch.offset[k] = static_cast<std::int32_t>(members[k] - members[0]);
     this->Number[members[k]] = number;
   }
 }

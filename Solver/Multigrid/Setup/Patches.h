@@ -9,16 +9,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace smg
 {
 
-/** A symmetric matrix on the nodes of a patch, of order up to Most: its lower triangle by rows. */
-struct PatchMatrix
+/** A symmetric matrix on the nodes of a patch, of order up to Largest: its lower triangle by rows.
+ */
+template <int Largest>
+struct PatchMatrixUpTo
 {
-  /** A tetrahedral sliver that was refined once is a cluster of ten vertices, of which patches
-   * of 8 would leave some out. */
-  static constexpr int Most = 12;
+  static constexpr int Most = Largest;
   static constexpr int Entries = Most * (Most + 1) / 2;
 
   int order = 0;
@@ -34,9 +35,9 @@ struct PatchMatrix
   double at(int a, int b) const { return this->entry[place(a, b)]; }
 
   /** The submatrix of the nodes `members`. */
-  PatchMatrix part(const int* members, int count) const
+  PatchMatrixUpTo part(const int* members, int count) const
   {
-    PatchMatrix part;
+    PatchMatrixUpTo part;
     part.order = count;
     for (int a = 0; a < count; ++a)
     {
@@ -107,12 +108,11 @@ struct PatchMatrix
   }
 };
 
-/** A patch: a few nodes of a level that are coupled so strongly that they must be relaxed
- * together. The stiffness of a sliver is nearly of rank one, so that one of its vertices alone
- * can hardly move. */
-struct Patch
+/** Nodes of a level, at most Largest. */
+template <int Largest>
+struct PatchUpTo
 {
-  static constexpr int Most = PatchMatrix::Most;
+  static constexpr int Most = Largest;
 
   std::int64_t first;
   std::int32_t size;
@@ -121,10 +121,59 @@ struct Patch
 
   std::int64_t member(int k) const { return this->first + this->offset[k]; }
   std::int64_t last() const { return this->member(this->size - 1); }
+  /** Makes `nodes`, ascending, the members. */
+  void setMembers(std::span<const std::int64_t> nodes)
+  {
+    this->first = nodes.front();
+    this->size = static_cast<std::int32_t>(nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+      this->offset[k] = static_cast<std::int32_t>(nodes[k] - this->first);
+    }
+  }
 };
 
+/** A patch: a few nodes of a level that are coupled so strongly that they must be relaxed
+ * together. The stiffness of a sliver is nearly of rank one, so that one of its vertices alone
+ * can hardly move. A tetrahedral sliver that was refined once is a cluster of ten vertices, of
+ * which patches of 8 would leave some out. */
+using Patch = PatchUpTo<12>;
+using PatchMatrix = PatchMatrixUpTo<Patch::Most>;
+
 /** The matrix of the level on the members of a patch, whose rows must exist. */
-SMG_EXPORT PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch);
+template <int Most>
+PatchMatrixUpTo<Most> matrixOf(const LevelRows& rows, const PatchUpTo<Most>& patch)
+{
+  PatchMatrixUpTo<Most> matrix;
+  matrix.order = patch.size;
+  for (int a = 0; a < patch.size; ++a)
+  {
+    const std::int64_t i = patch.member(a);
+    matrix.at(a, a) = rows.diagonal(i);
+    const auto row = rows.row(i);
+    // Where a row has weights in double precision these count: the matrix of a sliver is nearly
+    // singular, and floats would lose its smallest eigenvalues.
+    const std::span<const double> precise = rows.precise(i);
+    std::size_t e = 0;
+    for (int b = 0; b < a; ++b)
+    {
+      const auto delta = static_cast<std::int32_t>(patch.member(b) - i);
+      // Members and columns both ascend: one walk along the row finds all of them.
+      while (e < row.size() && row[e].delta() < delta)
+      {
+        ++e;
+      }
+      if (e < row.size() && row[e].delta() == delta)
+      {
+        matrix.at(a, b) = precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
+      }
+    }
+  }
+  return matrix;
+}
+
+/** The largest node that a patch which begins at `first` may contain: within one ring, or two. */
+SMG_EXPORT std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings);
 
 /** The matrices of complete patches, by ascending first nodes, kept until the blocks with their
  * members have been packed. */
@@ -229,6 +278,7 @@ public:
    * Clusters in solids need 2; on surfaces the second ring costs up to an eighth more memory
    * and saves few V-cycles. To be called before the first node. */
   void setRings(int rings) { this->Rings = rings; }
+  int rings() const { return this->Rings; }
 
   /** The patch of node i, or null. It is complete once all nodes within the rings of its first
    * node have been added. */
