@@ -8,38 +8,43 @@ namespace smg
  * What is left of a vector b beside the best multiple of a vector w: the least ||b - c w||^2 over
  * the constants c, summed up entry by entry.
  *
- * The sums are those of b - c0 w, c0 the constant of the first entry with w != 0: a large constant,
- * as that of 293 K, costs no digits of what varies beside it.
+ * The constant of the entries so far and what is left beside it are updated together, as in
+ * recursive least squares: nothing large is subtracted, and a large constant, as that of 293 K, or
+ * one entry with a small w, costs no digits of what is left.
  */
 class ConstantFit
 {
 public:
   void add(double w, double b)
   {
-    if (w != 0.0 && this->WW == 0.0)
-    {
-      this->Constant = b / w;
-    }
-    const double rest = b - this->Constant * w;
+    const double before = this->WW;
+    const double misfit = b - this->Constant * w;
     this->Squares += b * b;
     this->WW += w * w;
-    this->WB += w * rest;
-    this->BB += rest * rest;
+    if (w != 0.0 && this->WW > 0.0)
+    {
+      this->Constant += w / this->WW * misfit;
+      this->Rest += misfit * misfit * (before / this->WW);
+    }
+    else
+    {
+      this->Rest += misfit * misfit;
+    }
   }
 
   /** Adds the entries of another fit. */
   void join(const ConstantFit& other)
   {
-    if (this->WW == 0.0)
-    {
-      this->Constant = other.Constant;
-    }
-    // Of the other one: b - c0 w = (b - c1 w) + (c1 - c0) w.
-    const double change = other.WW == 0.0 ? 0.0 : other.Constant - this->Constant;
+    const double both = this->WW + other.WW;
     this->Squares += other.Squares;
-    this->WW += other.WW;
-    this->WB += other.WB + change * other.WW;
-    this->BB += other.BB + change * (2.0 * other.WB + change * other.WW);
+    this->Rest += other.Rest;
+    if (other.WW > 0.0)
+    {
+      const double change = other.Constant - this->Constant;
+      this->Rest += change * change * this->WW * (other.WW / both);
+      this->Constant += change * (other.WW / both);
+      this->WW = both;
+    }
   }
 
   /** Whether any w is not 0. */
@@ -50,14 +55,14 @@ public:
   double rest() const
   {
     constexpr double Rounding = 1e-26;
-    const double rest = this->BB - (this->WW > 0.0 ? this->WB * (this->WB / this->WW) : 0.0);
-    return rest > Rounding * this->Squares ? rest : 0.0;
+    return this->Rest > Rounding * this->Squares ? this->Rest : 0.0;
   }
 
 private:
-  double Constant = 0.0;
-  double Squares = 0.0;                ///< of b
-  double WW = 0.0, WB = 0.0, BB = 0.0; ///< of w and b - Constant w
+  double Constant = 0.0; ///< the best one so far
+  double WW = 0.0;       ///< ||w||^2
+  double Squares = 0.0;  ///< ||b||^2
+  double Rest = 0.0;     ///< ||b - Constant w||^2
 };
 
 } // namespace smg

@@ -23,8 +23,8 @@ class Components;
  * Of a body that nothing holds all row sums are 0; a constant source, which is subtracted there
  * (see Components), takes the place of the constant: b - c m, with the masses m.
  *
- * Memory: 160 bytes for each of the first 16,384 labels of components, divided by the columns;
- * later ones count as one body.
+ * Memory: 72 bytes and what a vector grows by for each of the first 16,384 labels of components,
+ * divided by the columns; later ones count as one body.
  */
 class SMG_EXPORT VaryingRightSide
 {

@@ -26,7 +26,8 @@ namespace smg
  *   o.productPtAP(data, c)          row c of P^T A P,
  *   o.sparsify(data, c)             and its sparsification
  *   O::Relaxation                   the smoother: see Solver/Multigrid/Cycle/GaussSeidel.h
- *   o.patchRings()                  optional: see Patches::setRings()
+ *   o.patchRings()                  optional: see Patches::setRings(); with 2 the finest level also
+ *                                   has OverlappingPatches
  *   o.readsPositions()              optional: whether the steps read positions of nodes
  *   O::Apart                        optional, the type O itself: see canRunApart
  *

@@ -6,6 +6,7 @@
 #include "smg/VsmReader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace smg::benchmark
@@ -25,8 +26,14 @@ testing::DirectSystem assemble(const Task& task)
     [](const ColumnSpec& column) { return column.name == CellFlagsName; });
   const auto source = reader.source(
     {}, hasFlags ? std::vector<std::string>{ CellFlagsName } : std::vector<std::string>{});
-  FixedEndsProblem problem(reader.info());
+  FixedEndsProblem problem(reader.info(), task.start);
   return testing::assembleDirect(*source, problem);
+}
+
+double goalOfColumns(const Task& task, const testing::DirectSystem& system)
+{
+  return task.tolerance * system.residualOfConstants() /
+         std::sqrt(static_cast<double>(system.rightSide.cols()));
 }
 
 void writeSolution(const Task& task, const Eigen::MatrixXd& values)

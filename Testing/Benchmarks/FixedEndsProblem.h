@@ -8,12 +8,19 @@ namespace smg::benchmark
 
 /**
  * The measured problem: three columns, cotangent weights; vertices within 2 % of the mesh's height
- * from its lowest or highest z keep their positions, which are the initial values of the others.
+ * from its lowest or highest z keep their positions.
  */
 class FixedEndsProblem : public Problem
 {
 public:
-  explicit FixedEndsProblem(const StreamInfo& info);
+  /** The initial values of the other vertices. */
+  enum class Start
+  {
+    Zero,
+    Positions
+  };
+
+  explicit FixedEndsProblem(const StreamInfo& info, Start start = Start::Positions);
 
   int columns() const override { return 3; }
   int vectorSize() const override { return 3; }
@@ -22,6 +29,7 @@ public:
 private:
   double Low;
   double High;
+  Start From;
 };
 
 } // namespace smg::benchmark

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Testing/Benchmarks/FixedEndsProblem.h"
+
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -13,8 +15,9 @@ struct Task
 {
   std::filesystem::path mesh;     ///< a .vsm file
   std::filesystem::path solution; ///< output: 3 doubles per vertex, in stream order
-  double tolerance = 1e-6;        ///< of the relative residual
-  int threads = 1;                ///< of smg; the peers use one
+  double tolerance = 1e-6;        ///< of the residual beside that of the best constant
+  FixedEndsProblem::Start start = FixedEndsProblem::Start::Positions;
+  int threads = 1; ///< of smg; the peers use one
 };
 
 /**

@@ -18,7 +18,7 @@ nlohmann::json run(const Task& task, bool inCore)
   const VsmReader reader(task.mesh);
   double reading = 0.0;
   TimedSource source(reader.source(), reading);
-  FixedEndsProblem problem(reader.info());
+  FixedEndsProblem problem(reader.info(), task.start);
   SolveOptions options;
   options.tolerance = task.tolerance;
   options.threads = task.threads;

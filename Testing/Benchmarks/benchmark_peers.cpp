@@ -118,7 +118,10 @@ try
   std::string jsonFile;
   bool isChecked = true;
   app.add_option("MESH", task.mesh, "A .vsm file")->required()->check(CLI::ExistingFile);
-  app.add_option("--tolerance", task.tolerance, "Of the relative residual")->capture_default_str();
+  app.add_option("--tolerance", task.tolerance, "Of the residual beside that of the best constant")
+    ->capture_default_str();
+  bool fromZero = false;
+  app.add_flag("--from-zero", fromZero, "Initial values 0 instead of the positions");
   app.add_option("--threads", task.threads, "Of smg")->capture_default_str();
   app.add_option("--peers", names, "Which ones, separated by commas")
     ->delimiter(',')
@@ -128,6 +131,8 @@ try
     "Whether to check each solution with a system assembled in core, which needs its memory");
   app.add_option("--json", jsonFile, "Where to write the numbers");
   CLI11_PARSE(app, argc, argv);
+  using Start = smg::benchmark::FixedEndsProblem::Start;
+  task.start = fromZero ? Start::Zero : Start::Positions;
 
   const smg::testing::TemporaryFolder folder;
   task.solution = folder / "solution";
@@ -139,11 +144,13 @@ try
     results[name] = measure(name, task, isChecked);
   }
   std::cout << task.mesh.filename().string() << ": " << info.vertices << " vertices, " << info.cells
-            << " cells, 3 columns, relative residual " << task.tolerance << "\n\n";
+            << " cells, 3 columns, from " << (fromZero ? "zero" : "the positions")
+            << ", relative residual " << task.tolerance << "\n\n";
   printTable(names, results, info.vertices);
   smg::benchmark::writeNumbers(jsonFile,
     { { "mesh", task.mesh.string() }, { "vertices", info.vertices }, { "cells", info.cells },
-      { "tolerance", task.tolerance }, { "threads", task.threads }, { "results", results } });
+      { "tolerance", task.tolerance }, { "start", fromZero ? "zero" : "positions" },
+      { "threads", task.threads }, { "results", results } });
   return 0;
 }
 catch (const std::exception& error)

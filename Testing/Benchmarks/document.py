@@ -125,25 +125,25 @@ class Tables:
 
         def row(mesh):
             plain, finest = mesh["plain"]["residuals"], mesh["levels"][0]
-            return [MESHES.get(mesh["mesh"], mesh["mesh"]), f"{mesh['vertices']:,}", count(mesh["accelerated"]),
-                    count(mesh["plain"]), f"{plain[-1] / plain[-2]:.2f}", f"{finest['two_grid']:.2f}",
+            return [MESHES.get(mesh["mesh"], mesh["mesh"]), f"{mesh['vertices']:,}", count(mesh["from_zero"]),
+                    count(mesh["from_positions"]), count(mesh["plain"]), f"{plain[-1] / plain[-2]:.2f}", f"{finest['two_grid']:.2f}",
                     f"{finest['v_cycle']:.2f}", f"{100 * mesh['slowest'][1]['share']:.0f} %"]
-        return markdown(["mesh", "vertices", "V-cycles", "without acceleration", "their last factor", "two-grid", "V",
+        return markdown(["mesh", "vertices", "V-cycles from zero", "from the positions", "without acceleration", "their last factor", "two-grid", "V",
                          "the worst 100"], map(row, self.json("convergence")))
 
     def hypre(self):
-        """V-cycles beside hypre's iterations."""
+        """V-cycles beside hypre's iterations, from zero and from the positions."""
         rows = []
         for mesh in (result["mesh"] for result in self.json("convergence")):
-            numbers = self.json(f"{mesh}-hypre")
+            numbers, others = self.json(f"{mesh}-hypre-zero"), self.json(f"{mesh}-hypre")
             vertices, smg, hypre = numbers["vertices"], numbers["results"]["smg"], numbers["results"]["hypre"]
             size = f"{smg['peak_bytes'] / vertices:.0f}"
-            row = [MESHES.get(mesh, mesh), f"{vertices:,}", smg["iterations"]]
-            if "failed" in hypre:
-                row += ["did not converge", f"{size}, -", "-"]
-            else:
-                row += [f"{hypre['iterations'] / 3:.0f}", f"{size}, {hypre['peak_bytes'] / vertices:.0f}",
-                        f"{smg['cpu_total'] / hypre['cpu_total']:.2f}"]
+            cycles = f"{smg['iterations']}, {others['results']['smg']['iterations']}"
+            row = [MESHES.get(mesh, mesh), f"{vertices:,}", cycles]
+            iterations = [f"{run['iterations'] / 3:.0f}" if "failed" not in run else "fails"
+                          for run in (hypre, others["results"]["hypre"])]
+            row += [", ".join(iterations), f"{size}, {hypre['peak_bytes'] / vertices:.0f}",
+                    f"{smg['cpu_total'] / hypre['cpu_total']:.2f}"]
             rows.append(row)
         return markdown(["mesh", "vertices", "V-cycles of smg", "iterations of hypre, mean of three columns",
                          "memory, bytes per vertex", "CPU time of smg over hypre's"], rows)

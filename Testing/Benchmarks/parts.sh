@@ -185,6 +185,7 @@ convergence_part() {
   for mesh in "${meshes[@]}"; do
     out=$results/$(basename "$mesh" .vsm)-hypre
     "$bin/benchmark_peers" "$mesh" --peers smg,hypre --json "$out.json" | tee "$out.md"
+    "$bin/benchmark_peers" "$mesh" --peers smg,hypre --from-zero --json "$out-zero.json" | tee "$out-zero.md"
   done
 }
 

@@ -69,6 +69,39 @@ TEST(VaryingRightSide, IsTheLeastSquaresOfAConstantWhateverTheOffset)
   }
 }
 
+/** As of a source and a screening of 1e-4 to 1e-12 far from conditions: the constants of single
+ * rows are up to 1e12 times that of all. */
+TEST(VaryingRightSide, DoesNotDependOnTheOrderOfRowsOfAnySize)
+{
+  for (const double screening : { 1e-4, 1e-8, 1e-12 })
+  {
+    constexpr Eigen::Index Inside = 2000, Beside = 40;
+    Rows rows(3, Inside + Beside, 0.0, 1.0);
+    for (Eigen::Index i = 0; i < Inside; ++i)
+    {
+      rows.rowSums[i] = 1e-6 * screening;
+      rows.b[i] = 1e-6;
+    }
+    rows.rowSums.tail(Beside).setOnes();
+    rows.b.tail(Beside).setConstant(1e-9);
+    const double expected = rows.rest();
+    ASSERT_NEAR(expected, 1e-6 * std::sqrt(double(Inside)), 1e-8);
+    Components components(1);
+    const std::int32_t a = components.add(), b = components.add();
+    components.join(a, b);
+    for (const Eigen::Index first : { Eigen::Index(0), Inside })
+    {
+      VaryingRightSide whole(1), parts(1);
+      rows.addTo(whole, a, first, Inside + Beside);
+      rows.addTo(whole, a, 0, first);
+      rows.addTo(parts, a, first, Inside + Beside);
+      rows.addTo(parts, b, 0, first);
+      EXPECT_NEAR(normOf(whole, components), expected, 1e-9 * expected);
+      EXPECT_NEAR(normOf(parts, components), expected, 1e-9 * expected);
+    }
+  }
+}
+
 TEST(VaryingRightSide, JoinedLabelsAreOneBody)
 {
   const Rows rows(5, 300, 1e4, 1e-3);

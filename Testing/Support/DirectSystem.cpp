@@ -259,13 +259,18 @@ Eigen::MatrixXd DirectSystem::scatter(const Eigen::MatrixXd& unknowns) const
   return all;
 }
 
-double DirectSystem::relativeResidual(const Eigen::MatrixXd& allVertices) const
+double DirectSystem::residualOfConstants() const
 {
   const Eigen::VectorXd rowSums = this->matrix * Eigen::VectorXd::Ones(this->unknowns());
   const Eigen::RowVectorXd constants =
     rowSums.transpose() * this->rightSide / rowSums.squaredNorm();
-  const double ofConstants = (this->rightSide - rowSums * constants).norm();
-  return (this->rightSide - this->matrix * this->gather(allVertices)).norm() / ofConstants;
+  return (this->rightSide - rowSums * constants).norm();
+}
+
+double DirectSystem::relativeResidual(const Eigen::MatrixXd& allVertices) const
+{
+  return (this->rightSide - this->matrix * this->gather(allVertices)).norm() /
+         this->residualOfConstants();
 }
 
 DirectSystem assembleDirect(MeshSource& mesh, Problem& problem)

@@ -46,6 +46,8 @@ struct DirectSystem
   Eigen::MatrixXd gather(const Eigen::MatrixXd& allVertices) const;
   /** The solution at all vertices from the unknowns. */
   Eigen::MatrixXd scatter(const Eigen::MatrixXd& unknowns) const;
+  /** ||b - A c|| over all columns, for the best constant c of each. */
+  double residualOfConstants() const;
   /** ||b - A x|| / ||b - A c|| over all columns, for x at all vertices and the best constant c of
    * each column. For a connected mesh that something holds. */
   double relativeResidual(const Eigen::MatrixXd& allVertices) const;

@@ -79,7 +79,7 @@ std::string convergenceSection(Entries& report, double tolerance)
   std::string content;
   if (residuals.empty())
   {
-    content = "<p>The initial values were the solution: no V-cycle was needed.</p>\n";
+    content = "<p>The initial values meet the tolerance: no V-cycle was needed.</p>\n";
   }
   else
   {
@@ -87,8 +87,7 @@ std::string convergenceSection(Entries& report, double tolerance)
     const auto iterations = static_cast<std::int64_t>(residuals.size());
     ResidualChart chart{ stepsOf(steps, residuals), isDistributed ? "iterations" : "V-cycles",
       tolerance, {} };
-    chart.caption = "The norm of the residual, relative to that of the initial values, after each "
-                    "of " +
+    chart.caption = "The relative residual after each of " +
                     (isDistributed ? counted(iterations, "iteration", "iterations")
                                    : counted(iterations, "V-cycle", "V-cycles")) +
                     (acceleration == "none"         ? std::string(", without acceleration.")

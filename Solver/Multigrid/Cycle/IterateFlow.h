@@ -95,10 +95,6 @@ public:
     }
     return least;
   }
-  double norm() const
-  {
-    return this->norm([](std::size_t) { return 1.0; });
-  }
 
   /** The norm of the residual beside what flows, both in rows divided by their diagonals, of the
    * column where that is largest; 0 where it is the rounding of values. */

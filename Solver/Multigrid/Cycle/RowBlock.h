@@ -263,7 +263,9 @@ public:
     return sizeof(Header) + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
            aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * count) +
            aligned(parents) + static_cast<std::size_t>(h.specials) * sizeof(Special) +
-           static_cast<std::size_t>(rowSums(h) + h.values + h.precise) * sizeof(double);
+           (static_cast<std::size_t>(rowSums(h)) + static_cast<std::size_t>(h.values) +
+             static_cast<std::size_t>(h.precise)) *
+             sizeof(double);
   }
 
   /** Whether these bytes may be a block of the nodes [first, first + nodes) and have the size

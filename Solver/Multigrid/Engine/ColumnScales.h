@@ -33,7 +33,7 @@ public:
   /** `vectorSize`: see Problem::vectorSize(). */
   ColumnScales(std::span<const double> references, int vectorSize)
   {
-    const auto size = static_cast<std::size_t>(vectorSize);
+    const auto size = static_cast<std::size_t>(std::max(1, vectorSize));
     double squares = 0.0, count = 0.0;
     for (std::size_t first = 0; first < references.size(); first += size)
     {

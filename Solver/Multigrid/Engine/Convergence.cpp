@@ -54,15 +54,15 @@ Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
   , Tolerance(stopping.tolerance)
   , Rounding(first.rounding)
   , Reference(first.reference > 0.0 ? first.reference : first.rounding)
-  , Goal(std::max(
-      stopping.tolerance * first.reference, first.norm <= first.rounding ? first.rounding : 0.0))
+  , Least(first.norm <= first.rounding ? first.rounding : 0.0)
+  , Goal(std::max(stopping.tolerance * first.reference, this->Least))
   , Initial(this->Reference > 0.0 ? first.norm / this->Reference : 0.0)
 {
 }
 
 /** A share near 1 does not count: the goal is then that of the residual alone. Below the least goal
  * rounding begins: that of the iterate, if it is known, which may be far below that of the initial
- * values. A goal that is the rounding stays. */
+ * values. */
 void Convergence::setGoal(double share, double rounding)
 {
   constexpr double Near = 0.1, Least = 1e-12;
@@ -70,9 +70,9 @@ void Convergence::setGoal(double share, double rounding)
   {
     const double least =
       rounding > 0.0 ? std::min(Least, NearRounding * rounding / this->Reference) : Least;
-    this->Goal = this->Reference *
-                 std::min(this->Tolerance,
-                   share < Near ? std::max(this->Tolerance * share, least) : this->Tolerance);
+    const double tolerance = std::min(
+      this->Tolerance, share < Near ? std::max(this->Tolerance * share, least) : this->Tolerance);
+    this->Goal = std::max(this->Reference * tolerance, this->Least);
   }
 }
 

@@ -89,7 +89,7 @@ public:
   void exchange(State& state)
   {
     state.part("convergence");
-    state(this->Initial, this->Rounding, this->Reference, this->Goal, this->FirstNorm,
+    state(this->Initial, this->Rounding, this->Reference, this->Least, this->Goal, this->FirstNorm,
       this->NormBefore, this->Norm, this->Residuals, this->ScaledResiduals, this->Note, this->Done,
       this->Converged);
   }
@@ -105,7 +105,10 @@ private:
   bool Fixed;
   int Limit;
   double Tolerance;
-  double Rounding, Reference, Goal;
+  double Rounding, Reference;
+  /** The least goal: the rounding, if the initial values solve the problem up to that. */
+  double Least;
+  double Goal;
   double Initial;
   double FirstNorm = 0.0, NormBefore = 0.0, Norm = 0.0;
   std::vector<double> Residuals, ScaledResiduals;

@@ -209,7 +209,7 @@ std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem&
     try
     {
       const std::unique_ptr<MeshSource> mesh = options.again();
-      correction = next.correct(*mesh, problem, *solution, goal);
+      correction = next.correct(*mesh, problem, *solution, goal, norms.scales);
     }
     catch (const Cancelled&)
     {

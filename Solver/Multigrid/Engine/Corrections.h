@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Multigrid/Engine/ColumnScales.h"
 #include "Solver/Multigrid/Engine/CompiledOperators.h"
 #include "smg/Problem.h"
 #include "smg/Report.h"
@@ -24,6 +25,7 @@ struct SolveNorms
   double residual = 0.0; ///< of the last residual
   double rounding = 0.0; ///< of the rounding of the terms of that
   double flow = 0.0;     ///< of what flows: see IterateFlow; 0: not measured
+  ColumnScales scales;   ///< of the columns in all of these
 };
 
 /** The relative residual of a correction that a solve to this tolerance is likely to need, if

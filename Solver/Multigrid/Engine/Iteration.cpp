@@ -34,7 +34,7 @@ void Iteration::operator()(bool spareLast)
     }
     this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
       this->Run.shareOfTolerance(this->StoppingRule.reference()), this->Run.scaledResidual());
-    this->Run.progress.expect(this->StoppingRule.goal());
+    this->expect();
     if (this->Balance && this->Balance->add(this->Run.energy->value(),
                            this->StoppingRule.residuals().back(), this->StoppingRule.factor()))
     {
@@ -137,6 +137,15 @@ void Iteration::emplaceHistory(KeptResiduals residuals)
   }
 }
 
+void Iteration::expect()
+{
+  // A balance has a goal of its own, far above the least tolerance.
+  if (!this->Balance)
+  {
+    this->Run.progress.expect(this->StoppingRule.goal());
+  }
+}
+
 void Iteration::save(StateWriter& state)
 {
   state.part("iteration");
@@ -158,7 +167,7 @@ void Iteration::load(StateReader& state)
     this->emplaceHistory(this->ResidualStorage);
     state(*this->History);
   }
-  this->Run.progress.expect(this->StoppingRule.goal());
+  this->expect();
   this->Run.progress.repeat(this->StoppingRule.residuals());
 }
 

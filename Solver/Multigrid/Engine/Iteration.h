@@ -46,6 +46,8 @@ public:
   void load(StateReader& state);
 
 private:
+  /** Tells the progress how far V-cycles go. */
+  void expect();
   void addHistory();
   void emplaceHistoryWithRoom();
   bool measuresMemory() const;

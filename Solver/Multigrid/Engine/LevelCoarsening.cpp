@@ -114,10 +114,12 @@ void LevelCoarsening::release()
 void LevelCoarsening::begin(std::int64_t rows)
 {
   this->Rows = std::min(rows, this->Data.fine.end());
-  this->Data.overlaps =
-    this->Data.overlaps ||
-    (this->Data.patches.rings() > 1 && this->Rows > this->Begin && this->Chosen == this->Begin &&
-      this->Data.fine.childReach(this->Begin) < 0);
+  if (this->Chosen == this->Begin && this->Rows > this->Begin)
+  {
+    // childReach() is -1 on the finest level only.
+    this->Data.overlaps =
+      this->Data.patches.rings() > 1 && this->Data.fine.childReach(this->Begin) < 0;
+  }
   if (this->Data.coarseNodes - this->Finished >= CoarseWindow)
   {
     throw Error("neighbours lie too far apart in the stream: convert the mesh with the order bfs");
@@ -168,6 +170,7 @@ void LevelCoarsening::reserve()
     using Matrix = OverlappingPatches::Matrix;
     const std::int64_t entries = this->OverlappingEntries.of(rows) + Matrix::Entries;
     d.overlapping.reserve(choices);
+    // They have at least two nodes, and most of them more than a dozen.
     d.overlapping.reserve(1 + entries / Patch::Most, entries);
   }
   d.parentReach.reserve(rows);

@@ -57,15 +57,17 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
 }
 
 std::unique_ptr<Solution> PoissonSolver::correct(
-  MeshSource& mesh, Problem& problem, Solution& solution, double goal)
+  MeshSource& mesh, Problem& problem, Solution& solution, double goal, const ColumnScales& scales)
 {
   // At least this share of the residual is to go, whose digits a double has.
   constexpr double Most = 0.1, Least = 1e-12;
   SolveContext& run = *this->Run;
   run.beginReport();
   run.corrected = &solution;
+  run.scales = scales;
   run.progress.begin({ Least, run.options.maxCycles }, 0.0, 1.0, true);
-  const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem).alone();
+  FirstResidual first = scales.of(FirstPass(run, this->Levels, this->Set)(mesh, problem));
+  first.reference = first.norm; // it is measured against itself
   const Stopping stopping{ first.norm > 0.0 ? std::clamp(goal / first.norm, Least, Most) : Most,
     run.options.maxCycles };
   Convergence convergence(stopping, first);
@@ -93,7 +95,7 @@ std::unique_ptr<Solution> PoissonSolver::finish(
 {
   SolveContext& run = *this->Run;
   this->Norms = { convergence.reference(), convergence.norm(), convergence.rounding(),
-    run.flow ? run.flow->norm() : 0.0 };
+    run.flow ? run.flowNorm() : 0.0, run.scales };
   Report& r = run.report;
   r.cycles = convergence.cycles();
   r.residuals = convergence.residuals();

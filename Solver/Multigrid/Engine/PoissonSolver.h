@@ -34,10 +34,10 @@ public:
 
   /** To be called once. */
   std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem);
-  /** Instead: solves for what is to be added to this solution of the problem, until the residual is
-   * at most `goal`. */
-  std::unique_ptr<Solution> correct(
-    MeshSource& mesh, Problem& problem, Solution& solution, double goal);
+  /** Instead: solves for what is to be added to this solution of the problem, until the residual,
+   * with these scales of columns, is at most `goal`. */
+  std::unique_ptr<Solution> correct(MeshSource& mesh, Problem& problem, Solution& solution,
+    double goal, const ColumnScales& scales);
 
   SolveContext& run() { return *this->Run; }
 

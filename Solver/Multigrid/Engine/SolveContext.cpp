@@ -38,10 +38,14 @@ SolveContext::SolveContext(int columns, const SolveOptions& solveOptions)
   }
 }
 
+double SolveContext::flowNorm() const
+{
+  return this->flow->norm([this](std::size_t column) { return this->scales[column]; });
+}
+
 double SolveContext::shareOfTolerance(double reference) const
 {
-  const auto scale = [this](std::size_t column) { return this->scales[column]; };
-  const double flow = this->flow ? IterateFlow::Judged * this->flow->norm(scale) : 0.0;
+  const double flow = this->flow ? IterateFlow::Judged * this->flowNorm() : 0.0;
   return flow > 0.0 && reference > 0.0 ? std::min(1.0, flow / reference) : 1.0;
 }
 

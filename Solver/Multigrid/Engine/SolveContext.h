@@ -87,6 +87,8 @@ struct SMG_EXPORT SolveContext
     return error.expecting(this->expectedBytes);
   }
 
+  /** The norm of what flows, where `flow` measures it, with the scales of columns. */
+  double flowNorm() const;
   /** The part of the tolerance by which a residual of the last pass is judged, `reference` being
    * the residual that the tolerance is a share of: less than 1 where little flows beside that. 1 if
    * the solve does not need it. */

@@ -75,7 +75,9 @@ public:
   void reserve(std::int64_t patches, std::int64_t entries)
   {
     this->Found.reserveMore(patches);
-    this->Triangles.reserve(patches, entries);
+    // As many as isFull() lets in: there is room by whole pages.
+    this->Triangles.reserve(
+      this->Found.capacity() - (this->Found.end() - this->Found.first()), entries);
   }
   bool isFull()
   {
@@ -95,8 +97,8 @@ private:
     std::uint32_t next;
   };
 
-  /** The number of a patch of which these are the low 32 bits, plus 1: there are fewer than 2^32 in
-   * memory. 0 is no link. */
+  /** The number of a patch of which these are the low 32 bits, plus 1: a level has fewer than 2^32
+   * - 1 of them. 0 is no link. */
   std::int64_t number(std::uint32_t link) const
   {
     const std::int64_t first = this->Found.first();

@@ -117,7 +117,6 @@ struct PatchUpTo
   std::int64_t first;
   std::int32_t size;
   std::int32_t offset[Most]; ///< distance of each member from the first one, ascending
-  std::uint32_t matrix;      ///< low 32 bits of the number of its matrix in PatchMatrices
 
   std::int64_t member(int k) const { return this->first + this->offset[k]; }
   std::int64_t last() const { return this->member(this->size - 1); }
@@ -137,7 +136,10 @@ struct PatchUpTo
  * together. The stiffness of a sliver is nearly of rank one, so that one of its vertices alone
  * can hardly move. A tetrahedral sliver that was refined once is a cluster of ten vertices, of
  * which patches of 8 would leave some out. */
-using Patch = PatchUpTo<12>;
+struct Patch : PatchUpTo<12>
+{
+  std::uint32_t matrix; ///< low 32 bits of the number of its matrix in PatchMatrices
+};
 using PatchMatrix = PatchMatrixUpTo<Patch::Most>;
 
 /** The matrix of the level on the members of a patch, whose rows must exist. */
