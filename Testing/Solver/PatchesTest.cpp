@@ -235,7 +235,7 @@ TEST(PatchMatrices, HaveRoomForOneOfEachNodeOfAStep)
   Pool pool(1 << 28);
   LevelRows rows(pool);
   level.append(rows, 0, level.nodes());
-  Patch patch{ { 0, 2, { 0, 1 } }, 0 };
+  Patch patch{ 0, 2, { 0, 1 }, 0 };
   PatchMatrices matrices(pool);
   for (std::int64_t step = 0; step < 10; ++step)
   {

@@ -90,17 +90,17 @@ std::int64_t OverlappingPatches::append(const LevelRows& rows, const smg::Patch&
   std::ranges::sort(members);
   const std::int64_t number = this->Found.end();
   this->Found.extendRaw(number + 1);
-  Entry& entry = this->Found[number];
-  entry.patch.setMembers(members);
+  Patch& patch = this->Found[number];
+  patch.setMembers(members);
   for (const std::int64_t i : members)
   {
     std::int32_t& last = this->LastWith[i];
     last = std::max(last, static_cast<std::int32_t>(members.back() - i));
   }
-  entry.next =
+  patch.link =
     std::exchange(this->EndingAt[members.back()], static_cast<std::uint32_t>(number) + 1);
-  const int size = Matrix::entriesOf(entry.patch.size);
-  std::copy_n(matrixOf(rows, entry.patch).entry, size, this->Triangles.open(size));
+  const int size = Matrix::entriesOf(patch.size);
+  std::copy_n(matrixOf(rows, patch).entry, size, this->Triangles.open(size));
   this->Triangles.close(size);
   return size;
 }
@@ -108,7 +108,7 @@ std::int64_t OverlappingPatches::append(const LevelRows& rows, const smg::Patch&
 void OverlappingPatches::release(std::int64_t node)
 {
   std::int64_t number = this->Found.first();
-  while (number < this->Found.end() && this->Found[number].patch.last() < node)
+  while (number < this->Found.end() && this->Found[number].last() < node)
   {
     ++number;
   }

@@ -57,10 +57,9 @@ public:
   template <class F>
   void forEndingAt(std::int64_t i, F&& f) const
   {
-    for (std::uint32_t link = this->EndingAt[i]; link != 0; link = this->found(link).next)
+    for (std::uint32_t link = this->EndingAt[i]; link != 0; link = this->found(link).link)
     {
-      f(this->found(link).patch,
-        static_cast<const double*>(this->Triangles.row(this->number(link))));
+      f(this->found(link), static_cast<const double*>(this->Triangles.row(this->number(link))));
     }
   }
 
@@ -90,13 +89,6 @@ public:
   void release(std::int64_t node);
 
 private:
-  /** A patch, and a link to another one that ends at the same node. */
-  struct Entry
-  {
-    Patch patch;
-    std::uint32_t next;
-  };
-
   /** The number of a patch of which these are the low 32 bits, plus 1: a level has fewer than 2^32
    * - 1 of them. 0 is no link. */
   std::int64_t number(std::uint32_t link) const
@@ -104,9 +96,10 @@ private:
     const std::int64_t first = this->Found.first();
     return first + (link - 1 - static_cast<std::uint32_t>(first));
   }
-  const Entry& found(std::uint32_t link) const { return this->Found[this->number(link)]; }
+  const Patch& found(std::uint32_t link) const { return this->Found[this->number(link)]; }
 
-  Ring<Entry> Found;            // by number, with ascending first nodes
+  Ring<Patch> Found;            // by number, with ascending first nodes; linked to another one that
+                                // ends at the same node
   RaggedRing<double> Triangles; // by number
   Ring<std::int32_t> LastWith;  // by node: distance of the last member of patches with it
   Ring<std::uint32_t> EndingAt; // by node: link to the patches whose last member it is

@@ -117,6 +117,7 @@ struct PatchUpTo
   std::int64_t first;
   std::int32_t size;
   std::int32_t offset[Most]; ///< distance of each member from the first one, ascending
+  std::uint32_t link;        ///< of what keeps the patch, to what it keeps beside it
 
   std::int64_t member(int k) const { return this->first + this->offset[k]; }
   std::int64_t last() const { return this->member(this->size - 1); }
@@ -136,10 +137,7 @@ struct PatchUpTo
  * together. The stiffness of a sliver is nearly of rank one, so that one of its vertices alone
  * can hardly move. A tetrahedral sliver that was refined once is a cluster of ten vertices, of
  * which patches of 8 would leave some out. */
-struct Patch : PatchUpTo<12>
-{
-  std::uint32_t matrix; ///< low 32 bits of the number of its matrix in PatchMatrices
-};
+using Patch = PatchUpTo<12>;
 using PatchMatrix = PatchMatrixUpTo<Patch::Most>;
 
 /** The matrix of the level on the members of a patch, whose rows must exist. */
@@ -198,7 +196,7 @@ public:
     this->Triangles.close(size);
     this->First.extendRaw(number + 1);
     this->First[number] = patch.first;
-    patch.matrix = static_cast<std::uint32_t>(number);
+    patch.link = static_cast<std::uint32_t>(number);
     return size;
   }
 
@@ -206,7 +204,7 @@ public:
   const double* of(const Patch& patch) const
   {
     const std::int64_t first = this->Triangles.first();
-    return this->Triangles.row(first + (patch.matrix - static_cast<std::uint32_t>(first)));
+    return this->Triangles.row(first + (patch.link - static_cast<std::uint32_t>(first)));
   }
 
   /** Provides room for this number of matrices with this number of entries in all. Until they
