@@ -65,11 +65,12 @@ Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
  * values. */
 void Convergence::setGoal(double share, double rounding)
 {
-  constexpr double Near = 0.1, Least = 1e-12;
+  constexpr double Near = 0.1, OfReference = 1e-12;
   if (this->Goal < this->Reference)
   {
-    const double least =
-      rounding > 0.0 ? std::min(Least, NearRounding * rounding / this->Reference) : Least;
+    const double least = rounding > 0.0
+                           ? std::min(OfReference, NearRounding * rounding / this->Reference)
+                           : OfReference;
     const double tolerance = std::min(
       this->Tolerance, share < Near ? std::max(this->Tolerance * share, least) : this->Tolerance);
     this->Goal = std::max(this->Reference * tolerance, this->Least);
