@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# report_page.sh SMG : draws report-page.png, the page of the report of the solve in the README, by
+# report_page.sh SMG : draws report-page.png, the page of the report of the harmonic field in solve.md, by
 # Chromium, in an empty temporary folder.
 set -euo pipefail
 smg=$(realpath "$1")

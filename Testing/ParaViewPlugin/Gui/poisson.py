@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The steps of the README in the real ParaView, as they stand there: opens a scan in millimetres above
+"""The steps of docs/paraview.md in the real ParaView, as they stand there: opens a scan in millimetres above
 the guard, holds two ends by conditions, solves on the preview, then on the full mesh, and saves the field.
 
     poisson.py PLUGIN MESH FOLDER [--pictures FOLDER] [--guard POINTS] [--timeout SECONDS]
