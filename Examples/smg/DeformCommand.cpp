@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineCommand.h"
 
-#include "IO/Description/ParseWhere.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/DeformJob.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
 #include <cstdio>
-#include <optional>
 
 namespace
 {
@@ -27,31 +25,12 @@ public:
       "The deformed mesh: " + smg::suffixList(smg::FormatUse::Write, "or") +
         " in stream order; of a mesh file IN, " + smg::suffixList(smg::FormatUse::Restore, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded. From .vsm, "
-        "and from a streaming format to a streaming format, the order is kept",
-      this->Job.deforming);
-    command.get_option("--max-cycles")
-      ->description("Maximum number of V-cycles of each of the two steps");
+        "and from a streaming format to a streaming format, the order is kept");
     this->addEngineTo(command);
     command.add_option("--handles", this->File, "The handles, a JSON file")
       ->required()
       ->type_name("FILE");
-    command
-      .add_option("--weights", this->Weights,
-        "Weights of the edges, instead of those of the file: clamped, cotangent (finite elements) "
-        "or uniform")
-      ->check(oneOf({ "clamped", "cotangent", "uniform" }));
-    CLI::Option* tolerance = addTolerance(command, this->Tolerance);
     this->addCheckpointTo(command);
-    command
-      .add_option(
-        "--cycles", this->Cycles, "V-cycles of each of the two steps, instead of a tolerance")
-      ->check(CLI::Range(1, 1000000))
-      ->excludes(tolerance);
-    command
-      .add_option(
-        "--normals", this->Normals, "Columns Normals of IN: recompute (tetrahedra: drop) or drop")
-      ->check(oneOf({ "recompute", "drop" }))
-      ->capture_default_str();
     command.footer(
       "Keys of a handle file: handles [region {sphere | box | halfspace | vertices | tag "
       "| mask | nearest | boundary}, fixed | translate, rotate {axis, degrees, center}, scale, "
@@ -64,12 +43,12 @@ protected:
     DistributedDeformation deformation;
     deformation.read = [this]
     {
-      this->readTask();
+      this->readJob();
       this->Job.description.weights = this->Job.deforming.weights;
       this->Job.description.tolerance = this->Job.deforming.tolerance;
       return this->Job.description;
     };
-    deformation.normals = this->movedNormals();
+    deformation.normals = this->Job.normals;
     return engine.deform(job, deformation);
   }
 
@@ -88,8 +67,6 @@ protected:
   {
     this->Job.description = smg::readHandleText(this->readText(), this->File.string());
     this->Job.description.applyTo(this->Job.deforming);
-    this->applyCommandLine();
-    this->Job.normals = this->movedNormals();
     this->announceCheckpoint("pass");
   }
 
@@ -112,33 +89,6 @@ protected:
   }
 
 private:
-  smg::MovedNormals movedNormals() const
-  {
-    return this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute;
-  }
-
-  /** The command line takes precedence over the file. */
-  void applyCommandLine()
-  {
-    if (!this->Weights.empty())
-    {
-      this->Job.deforming.weights = *smg::weightsOfName(this->Weights);
-    }
-    if (this->Cycles)
-    {
-      this->Job.deforming.cycles = *this->Cycles;
-    }
-    if (this->Tolerance)
-    {
-      this->Job.deforming.cycles = 0;
-      this->Job.deforming.tolerance = *this->Tolerance;
-    }
-  }
-
-  std::string Weights; ///< empty: those of the file
-  std::optional<int> Cycles;
-  std::optional<double> Tolerance;
-  std::string Normals = "recompute";
   smg::DeformJob Job;
 };
 

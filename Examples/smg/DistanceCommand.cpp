@@ -28,51 +28,10 @@ public:
         " in stream order; of a mesh file IN, " +
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded");
-    this->From.addTo(
-      command, "The sources, or with --wall the wall, which is the whole boundary by default");
-    command.add_flag("--wall", this->Job.description.wall,
-      "Of tetrahedra: the Euclidean distance to the boundary instead of that along paths");
-    command.add_flag("--source", this->Job.description.source,
-      "Add the column DistanceSource: the number of the nearest source vertex");
-    command.add_flag("--group", this->Job.description.group,
-      "Add the column DistanceGroup: which WHERE the nearest source is of, from 0");
-    command.add_flag("--direction", this->Job.description.direction,
-      "Add the column DistanceDirection: the unit gradient of the distance");
-    this->To.addTo(command,
-      "Of exact distances on a surface: vertices whose shortest paths are wanted, in the report");
+    this->addJobOptions(command);
     command.add_option("--path", this->PathFile,
       "Write the shortest paths to the vertices of --to as polylines: .vtp or .obj");
-    command
-      .add_option_function<std::string>(
-        "--accuracy",
-        [this](const std::string& name)
-        {
-          this->Job.description.accuracy = name == "exact"         ? smg::PathAccuracy::Exact
-                                           : name == "approximate" ? smg::PathAccuracy::Approximate
-                                                                   : smg::PathAccuracy::Automatic;
-        },
-        "Of paths on a surface: exact (10 to 50 us a vertex of a scan, more on smooth ones), "
-        "approximate (about 1 us, too long on "
-        "long thin triangles), or auto: exact up to 1,000,000 vertices")
-      ->check(oneOf({ "auto", "exact", "approximate" }))
-      ->default_str("auto");
-    command
-      .add_option("--within", this->Job.description.within,
-        "Of paths, in the unit of the mesh: vertices farther than this are not reached")
-      ->check(CLI::Validator(
-        [](const std::string& text)
-        {
-          double length = 0.0;
-          const bool isLength = CLI::detail::lexical_cast(text, length) && length > 0.0;
-          return isLength ? std::string() : '\'' + text + "' is no length above 0";
-        },
-        ""));
-    command
-      .add_option(
-        "--max-passes", this->Job.options.maxPasses, "Maximum number of passes over the mesh")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-    this->addInputAndCommon(command, this->Job.options.memoryLimit);
+    this->addInputAndCommon(command);
     command.footer(
       "WHERE is one of {\"vertices\": [numbers]}, {\"nearest\": [[x, y, z], ...]}, "
       "{\"boundary\": true}, {\"sphere\": [x, y, z, r]}, {\"box\": [x0, y0, z0, x1, y1, z1]}, "
@@ -81,11 +40,11 @@ public:
 
   void checkUsage() const override
   {
-    if (!this->From.isGiven() && !this->Job.description.wall)
+    if (!this->isGiven("from") && !this->Job.description.wall)
     {
       throw CLI::RequiredError("--from or --wall");
     }
-    if (!this->PathFile.empty() && !this->To.isGiven())
+    if (!this->PathFile.empty() && !this->isGiven("to"))
     {
       throw CLI::RequiresError("--path", "--to");
     }
@@ -97,17 +56,12 @@ protected:
   smg::UsedFiles files() const override
   {
     smg::UsedFiles files = this->MeshCommand::files();
-    this->From.addFiles(files);
-    this->To.addFiles(files);
     files.write(this->PathFile, "file of paths");
     return files;
   }
 
   void readTask() override
   {
-    this->Job.description.from = this->From.places();
-    this->Job.description.to = this->To.places();
-    this->Job.name = "distance";
     if (!this->PathFile.empty())
     {
       smg::checkPathFile(this->PathFile);
@@ -166,7 +120,6 @@ protected:
   }
 
 private:
-  PlacesOption From{ "--from" }, To{ "--to" };
   std::string PathFile;
   smg::DistanceJob Job;
 };

@@ -191,7 +191,7 @@ void EngineCommand::checkDistributed()
   {
     smg::checkOutputPlace(this->Out);
     this->checkFiles(this->files());
-    this->readTask();
+    this->readJob();
   }
   else
   {

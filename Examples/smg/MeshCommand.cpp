@@ -9,22 +9,14 @@
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/ScratchAccount.h"
-#include "smg/DescriptionFiles.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iterator>
 #include <set>
 
 namespace
 {
-
-/** Of the value of an option that may be a file instead. */
-bool isJson(const std::string& given)
-{
-  return given.starts_with('{') || given.starts_with('[');
-}
 
 /** Prints time and memory, and the notes that are no warnings. */
 void printCosts(const smg::Report& report)
@@ -46,69 +38,18 @@ void printCosts(const smg::Report& report)
 
 } // namespace
 
-void PlacesOption::addTo(CLI::App& command, const std::string& what)
-{
-  command
-    .add_option(this->Name, this->Given,
-      what +
-        ", as WHERE of a problem file: JSON, as '{\"sphere\": [0, 0, 0, 1]}', a list of these, or "
-        "a file; may be given several times")
-    ->check(
-      [this](const std::string& given)
-      {
-        // What a file says is no matter of the usage.
-        try
-        {
-          if (isJson(given))
-          {
-            this->placesOf(given);
-          }
-        }
-        catch (const smg::Error& error)
-        {
-          const std::string sentence = error.what(), prefix = this->Name + ": ";
-          return sentence.substr(sentence.starts_with(prefix) ? prefix.size() : 0);
-        }
-        return std::string(given.empty() ? "names no part of the mesh" : "");
-      })
-    ->allow_extra_args(false)
-    ->type_name("WHERE");
-}
-
-void PlacesOption::addFiles(smg::UsedFiles& files) const
-{
-  for (const std::string& given : this->Given)
-  {
-    files.read(isJson(given) ? "" : given, "the file of " + this->Name);
-  }
-}
-
-std::vector<smg::Where> PlacesOption::placesOf(const std::string& given) const
-{
-  return isJson(given) ? smg::readPlacesText(given, this->Name) : smg::readPlacesFile(given);
-}
-
-std::vector<smg::Where> PlacesOption::places() const
-{
-  std::vector<smg::Where> all;
-  for (const std::string& given : this->Given)
-  {
-    std::ranges::move(this->placesOf(given), std::back_inserter(all));
-  }
-  return all;
-}
-
 void MeshCommand::addFiles(CLI::App& command, const std::string& result)
 {
   command.add_option("IN", this->In, "The mesh, preferably a .vsm file")->required();
   command.add_option("OUT", this->Out, result)->required();
 }
 
-void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
+void MeshCommand::addInputAndCommon(CLI::App& command)
 {
   this->addTextTo(command);
   this->addInputTo(command);
-  this->addTo(command, std::to_string(memoryLimit >> 20), "; without it, 256 MiB to convert IN");
+  this->addTo(command, std::to_string(this->job().memoryLimit() >> 20),
+    "; without it, 256 MiB to convert IN");
   this->addThreadsTo(command);
   command.add_flag("--dry-run", this->DryRun, "Only estimate the cost; IN is not read");
 }
@@ -162,7 +103,14 @@ smg::UsedFiles MeshCommand::files() const
   files.readMesh(this->In);
   files.read(this->File, "the file that says what to do");
   files.writeMesh(this->Out);
+  this->Options.addFiles(files);
   return files;
+}
+
+void MeshCommand::readJob()
+{
+  this->readTask();
+  this->Options.apply(this->job());
 }
 
 smg::ResultFile MeshCommand::prepareFiles()
@@ -175,7 +123,7 @@ smg::ResultFile MeshCommand::prepareFiles()
                                      .text = this->writesText });
   this->checkFiles(this->files());
   this->checkCheckpoint({ this->Out, this->report });
-  this->readTask();
+  this->readJob();
   this->job().setLimits({ this->memoryBytes(0), this->threads, this->scratch });
   return out;
 }

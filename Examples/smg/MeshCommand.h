@@ -2,47 +2,21 @@
 #pragma once
 
 #include "CommonOptions.h"
+#include "JobOptions.h"
 
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Jobs/MeshJob.h"
 #include "IO/Jobs/ResultFile.h"
 #include "smg/Convert.h"
 #include "smg/MeshSource.h"
-#include "smg/Region.h"
 #include "smg/Solve.h"
 
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
-
-/** An option that names parts of the mesh in JSON, and may be given several times. */
-class PlacesOption
-{
-public:
-  /** `name` is the name of the option, for example "--hold". */
-  explicit PlacesOption(std::string name)
-    : Name(std::move(name))
-  {
-  }
-
-  /** Adds the option. `what` is what it names, for example "A part of the mesh that does not move".
-   */
-  void addTo(CLI::App& command, const std::string& what);
-
-  bool isGiven() const { return !this->Given.empty(); }
-  /** Adds the files among the values. */
-  void addFiles(smg::UsedFiles& files) const;
-  /** The parts of all options. Throws smg::Error. */
-  std::vector<smg::Where> places() const;
-
-private:
-  std::vector<smg::Where> placesOf(const std::string& given) const;
-
-  std::string Name;
-  std::vector<std::string> Given;
-};
 
 /** Base of the commands that compute something on a mesh: opens the mesh, computes, writes the mesh
  * with the result and reports. */
@@ -69,8 +43,12 @@ protected:
 
   /** Adds IN and OUT; `result` describes OUT. */
   void addFiles(CLI::App& command, const std::string& result);
-  /** Adds the options of the input and the common ones; `memoryLimit` is the default limit. */
-  void addInputAndCommon(CLI::App& command, std::int64_t memoryLimit);
+  /** Adds the options of the job. */
+  void addJobOptions(CLI::App& command) { this->Options.addTo(command, this->job()); }
+  /** Whether the option of the job with this key was given. */
+  bool isGiven(std::string_view key) const { return this->Options.isGiven(key); }
+  /** Adds the options of the input and the common ones. */
+  void addInputAndCommon(CLI::App& command);
 
   /** Whether the processes of mpiexec work together, instead of each for itself. */
   virtual bool isForProcesses() const { return false; }
@@ -88,7 +66,9 @@ protected:
   bool isDryRun() const { return this->DryRun; }
   const std::string& title() const { return this->Title; }
   /** Reads the task file, before the mesh is read. */
-  virtual void readTask() = 0;
+  virtual void readTask() {}
+  /** Reads all that the job is asked: the command line takes precedence over the file. */
+  void readJob();
   /** What the computation is expected to cost on such a mesh. */
   virtual smg::Costs costsOn(const smg::StreamInfo& info) const
   {
@@ -125,6 +105,7 @@ private:
   html::ResultSurface draw(
     const smg::StoredMesh& mesh, const smg::Report& report, const smg::ProgressFunction& progress);
 
+  JobOptions Options;
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   std::string Title;
   std::unique_ptr<smg::Solution> Solution;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CommonOptions.h"
 #include "DrawMesh.h"
-#include "MeshCommand.h"
+#include "JobOptions.h"
 #include "ProgressBar.h"
 
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Jobs/SimplifyJob.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
@@ -15,7 +17,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 namespace
 {
@@ -33,9 +34,8 @@ private:
   void print(const smg::SimplifyReport& report) const;
 
   std::filesystem::path In, Out;
-  smg::SimplifyTarget Target;
-  smg::SimplifyOptions Simplify;
-  PlacesOption Hold{ "--hold" };
+  smg::SimplifyJob Job;
+  JobOptions Options;
   bool DryRun = false;
 };
 
@@ -43,11 +43,11 @@ smg::JobEstimate SimplifyCommand::estimate() const
 {
   smg::ConversionOptions conversion = this->inputOptions();
   conversion.scratch = this->scratchPlace();
-  smg::SimplifyOptions options = this->Simplify;
+  smg::SimplifyOptions options = this->Job.options;
   options.memoryLimit = this->memoryBytes(options.memoryLimit);
   options.text = this->writesText;
   return smg::simplifyEstimate(
-    { this->In, conversion }, this->Target, this->Out, options, conversion);
+    { this->In, conversion }, this->Job.target, this->Out, options, conversion);
 }
 
 /** The times are those of the conversion, too. */
@@ -61,14 +61,14 @@ smg::SimplifyReport SimplifyCommand::simplified()
     ProgressBar bar("simplifying", this->quiet);
     const std::unique_ptr<smg::OpenedMesh> mesh =
       this->openInput(this->In, smg::partOf(bar.function(), 0.0, 0.5));
-    this->Simplify.memoryLimit = this->memoryBytes(this->Simplify.memoryLimit);
-    this->Simplify.threads = this->threads;
-    this->Simplify.text = this->writesText;
-    this->Simplify.scratch = this->scratch;
-    this->Simplify.checkpoint = this->checkpoint;
-    this->Simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
+    this->Job.options.memoryLimit = this->memoryBytes(this->Job.options.memoryLimit);
+    this->Job.options.threads = this->threads;
+    this->Job.options.text = this->writesText;
+    this->Job.options.scratch = this->scratch;
+    this->Job.options.checkpoint = this->checkpoint;
+    this->Job.options.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
     smg::SimplifyReport report =
-      smg::simplify(mesh->reader(), this->Target, this->Out, this->Simplify);
+      smg::simplify(mesh->reader(), this->Job.target, this->Out, this->Job.options);
     addNotes(*mesh, report.notes);
     report.seconds = timer.seconds();
     report.cpu_seconds = smg::processSeconds() - cpu;
@@ -106,10 +106,10 @@ int SimplifyCommand::run()
   smg::UsedFiles files;
   files.readMesh(this->In);
   files.writeMesh(this->Out);
-  this->Hold.addFiles(files);
+  this->Options.addFiles(files);
   this->checkFiles(std::move(files));
   this->checkCheckpoint({ this->Out, this->report });
-  this->Simplify.hold = this->Hold.places();
+  this->Options.apply(this->Job);
   if (this->DryRun)
   {
     const smg::JobEstimate costs = this->estimate();
@@ -118,7 +118,7 @@ int SimplifyCommand::run()
     return 0;
   }
   const smg::SimplifyReport report = this->simplified();
-  html::PageFacts facts{ this->In, this->Simplify.memoryLimit };
+  html::PageFacts facts{ this->In, this->Job.options.memoryLimit };
   if (this->reportsPage())
   {
     facts.surface = surfaceOf(this->Out, *this);
@@ -141,22 +141,7 @@ void SimplifyCommand::addOptions(CLI::App& command)
         " with the columns of IN, and with OriginalId, the number that each vertex "
         "has in IN; or any other format of surfaces that is written")
     ->required();
-  command.add_option("--vertices", this->Target.vertices, "Maximum number of vertices")
-    ->check(CLI::Range(smg::SimplifyTarget::MinVertices, smg::SimplifyTarget::MaxVertices))
-    ->type_name("N");
-  command
-    .add_option("--error", this->Target.error,
-      "Largest distance, in the unit of the mesh, from the planes of the triangles that were "
-      "there; "
-      "at sharp edges of thin parts the surface may be farther away")
-    ->check(
-      [](const std::string& given)
-      {
-        const std::optional<double> length = numberOf(given);
-        return length && *length > 0.0 ? std::string() : '\'' + given + "' is not a number above 0";
-      })
-    ->type_name("LENGTH");
-  this->Hold.addTo(command, "A part of the mesh whose points all stay");
+  this->Options.addTo(command, this->Job);
   command.add_flag("--dry-run", this->DryRun, "Only estimate the size of the mesh and the costs");
   this->addTextTo(command);
   this->addInputTo(command);
@@ -167,7 +152,7 @@ void SimplifyCommand::addOptions(CLI::App& command)
 
 void SimplifyCommand::checkUsage() const
 {
-  if (this->Target.vertices == 0 && this->Target.error == 0.0)
+  if (this->Job.target.vertices == 0 && this->Job.target.error == 0.0)
   {
     throw CLI::RequiredError("--vertices, --error or both");
   }

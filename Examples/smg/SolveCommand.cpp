@@ -8,16 +8,8 @@
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
-#include <algorithm>
-
 namespace
 {
-
-/** In the order of smg::AccelerationKind. */
-const std::vector<std::string> Accelerations{ "automatic", "none", "chebyshev", "cg" };
-
-/** The tolerance that is SolveOptions::AutomaticTolerance. */
-constexpr const char* Automatic = "auto";
 
 /** The help on problem files. */
 std::string problemHelp()
@@ -46,35 +38,8 @@ public:
       "The mesh with its solution: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
         " in stream order; of a mesh file IN, " +
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
-        " in the order of IN, unless that has a column OriginalId or points are welded",
-      this->Job.solving);
-    command
-      .add_option_function<std::string>(
-        "--tolerance",
-        [this](const std::string& given)
-        {
-          this->Job.solving.tolerance =
-            given == Automatic ? smg::SolveOptions::AutomaticTolerance : std::stod(given);
-        },
-        "Relative residual to stop at, between 0 and 1; auto: until the algebraic error is below a "
-        "tenth of the estimated discretisation error")
-      ->check([](const std::string& given)
-        { return given == Automatic ? std::string() : checkTolerance(given); })
-      ->type_name("FLOAT|auto")
-      ->default_str(CLI::detail::to_string(this->Job.solving.tolerance));
+        " in the order of IN, unless that has a column OriginalId or points are welded");
     this->addCheckpointTo(command);
-    command
-      .add_option_function<std::string>(
-        "--acceleration",
-        [this](const std::string& name)
-        {
-          const auto place = std::find(Accelerations.begin(), Accelerations.end(), name);
-          this->Job.solving.acceleration =
-            static_cast<smg::AccelerationKind>(place - Accelerations.begin());
-        },
-        "Acceleration of the V-cycles: automatic, none, chebyshev or cg")
-      ->check(oneOf(Accelerations))
-      ->default_str(Accelerations.front());
     this->addEngineTo(command);
     command.add_option("--problem", this->File, "The problem, a JSON file")
       ->required()
@@ -98,7 +63,7 @@ protected:
     DistributedSolve solve;
     solve.read = [this]
     {
-      this->readTask();
+      this->readJob();
       return this->Job.description;
     };
     solve.tolerance = this->Job.solving.tolerance;

@@ -6,40 +6,22 @@
 
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <utility>
 
-std::string SolvingCommand::checkTolerance(const std::string& text)
+void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result)
 {
-  const std::optional<double> tolerance = numberOf(text);
-  return tolerance && *tolerance > 0.0 && *tolerance < 1.0
-           ? std::string()
-           : '\'' + text + "' is not a number between 0 and 1, both excluded";
-}
-
-void SolvingCommand::addSolverOptions(
-  CLI::App& command, const std::string& result, smg::SolveOptions& options)
-{
+  smg::SolveOptions& options = this->job().options();
   this->addFiles(command, result);
+  this->addJobOptions(command);
   // checkOperators() says where shi2006, which there was, is found.
   command.add_option("--operators", options.operators, "Operator set")
     ->check([](const std::string& name)
       { return name == "shi2006" ? std::string() : oneOf({ "extended" })(name); })
     ->capture_default_str();
-  command
-    .add_option(
-      "--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a coarse-grid correction")
-    ->check(CLI::Range(1, 20))
-    ->capture_default_str();
-  command.add_option("--max-cycles", options.maxCycles, "Maximum number of V-cycles")
-    ->check(CLI::Range(1, 1000000))
-    ->capture_default_str();
-  command.add_flag(
-    "--in-core", options.inCore, "Keep everything in memory and use no scratch files");
   // For experiments and tests: they affect the speed, not the result.
   command.add_option("--block-nodes", options.blockNodes)->group("");
   command.add_option("--core-nodes", options.coreNodes)->group("");
-  this->addInputAndCommon(command, options.memoryLimit);
+  this->addInputAndCommon(command);
 }
 
 const std::string& SolvingCommand::readText()

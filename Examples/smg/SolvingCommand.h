@@ -15,21 +15,8 @@ class SolvingCommand : public MeshCommand
 protected:
   using MeshCommand::MeshCommand;
 
-  /** Adds IN, OUT and the options of the solver, except the tolerance. `result` describes
-   * OUT. */
-  void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options);
-  /** Whether a tolerance is one: "", or what is wrong. CLI::Range includes its ends and accepts
-   * nan.
-   */
-  static std::string checkTolerance(const std::string& text);
-  /** Adds the option --tolerance. */
-  template <class Number>
-  static CLI::Option* addTolerance(CLI::App& command, Number& tolerance)
-  {
-    return command
-      .add_option("--tolerance", tolerance, "Relative residual to stop at, between 0 and 1")
-      ->check(checkTolerance);
-  }
+  /** Adds IN, OUT, which `result` describes, and the options of the job and of the solver. */
+  void addSolverOptions(CLI::App& command, const std::string& result);
 
   /** Reads the file that says what to do, once: it may be a pipe. Throws smg::Error. */
   const std::string& readText();

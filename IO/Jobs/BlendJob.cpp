@@ -1,11 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/BlendJob.h"
 
+#include "IO/Jobs/JobOption.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/SolvedMesh.h"
 
 namespace smg
 {
+namespace
+{
+
+/** In the order of SeamGradient. */
+constexpr const char* SeamNames[] = { "zero", "average" };
+
+template <class Value, auto Member>
+constexpr OptionMember<Value> BlendMember =
+  memberOf<Value, BlendJob, &BlendJob::description, Member>;
+
+constexpr auto BlendTable = joined(
+  std::array{
+    JobOption{ .key = "patch",
+      .kind = ColumnOption{ BlendMember<std::string, &BlendDescription::patch> },
+      .help = "Column of one component with the patch of each vertex, or of each cell; any numbers "
+              "name patches",
+      .isRequired = true },
+    JobOption{ .key = "columns",
+      .kind = ColumnsOption{ BlendMember<std::vector<std::string>, &BlendDescription::columns> },
+      .help = "Columns of the vertices to blend, of any numeric type, with at most 64 components "
+              "together",
+      .isRequired = true },
+    JobOption{ .key = "hold",
+      .kind = WhereOption{ BlendMember<std::vector<Where>, &BlendDescription::hold> },
+      .help = "Parts of the mesh that keep their values" },
+    JobOption{ .key = "anchor",
+      .kind = NumberOption{ BlendMember<double, &BlendDescription::anchor>, { 0.0 } },
+      .help = "How strongly all values are pulled towards the original ones: corrections over less "
+              "than 1 / sqrt(anchor) diagonals of the bounding box are hardly pulled; 0: not at "
+              "all" },
+    JobOption{ .key = "seam",
+      .kind = ChoiceOption{ BlendMember<std::size_t, &BlendDescription::seam>, SeamNames },
+      .help = "Gradients between patches: zero, or the average of those on both sides" },
+  },
+  ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
+
+} // namespace
+
+std::span<const JobOption> BlendJob::table() const
+{
+  return BlendTable;
+}
 
 std::vector<ColumnSpec> BlendJob::solutionColumns(const StreamInfo& info) const
 {

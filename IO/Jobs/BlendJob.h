@@ -5,6 +5,7 @@
 #include "smg/Blend.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ public:
 
   using SolvingJob::options;
   SolveOptions& options() override { return this->solving; }
+  std::span<const JobOption> table() const override;
   void check() const override {}
   std::string resultColumns() const override { return "these columns of vertices"; }
   std::vector<std::string> changedColumns() const override { return this->description.columns; }

@@ -1,13 +1,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/DeformJob.h"
 
+#include "IO/Description/ParseDescriptions.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/JobOption.h"
 #include "IO/Jobs/MovedResult.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/DescribedHandles.h"
 
 namespace smg
 {
+namespace
+{
+
+/** In the order of Weights. */
+constexpr const char* WeightsNames[] = { "uniform", "cotangent", "clamped" };
+
+template <class Value, auto Member>
+constexpr OptionMember<Value> DeformMember =
+  memberOf<Value, DeformJob, &DeformJob::deforming, Member>;
+
+/** A number of V-cycles counts instead of a tolerance. */
+constexpr OptionMember<double> DeformTolerance{ solverMember<double, &SolveOptions::tolerance>.get,
+  [](Job& job, double tolerance)
+  {
+    DeformOptions& options = static_cast<DeformJob&>(job).deforming;
+    options.tolerance = tolerance;
+    options.cycles = 0;
+  } };
+
+constexpr OptionMember<std::int64_t> DeformCycles{ [](const Job& job)
+  {
+    const int cycles = static_cast<const DeformJob&>(job).deforming.cycles;
+    return cycles > 0 ? std::optional<std::int64_t>(cycles) : std::nullopt;
+  },
+  DeformMember<std::int64_t, &DeformOptions::cycles>.set };
+
+constexpr auto DeformTable = joined(
+  std::array{
+    JobOption{ .key = "handles",
+      .kind = DescriptionOption{ [](const JsonNode& node, Job& job)
+        {
+          auto& deform = static_cast<DeformJob&>(job);
+          deform.description = parseDeformation(node);
+          deform.description.applyTo(deform.deforming);
+          deform.text = node.value().dump();
+        } },
+      .help = "The handles, in a JSON file",
+      .isRequired = true },
+    JobOption{ .key = "weights",
+      .kind = ChoiceOption{ DeformMember<std::size_t, &DeformOptions::weights>, WeightsNames,
+        "raw-cotangent", static_cast<std::size_t>(Weights::Cotangent) },
+      .help = "Weights of the edges, instead of those of the handle file: clamped, cotangent "
+              "(finite elements) or uniform" },
+    JobOption{ .key = "tolerance",
+      .kind = NumberOption{ DeformTolerance, { 0.0, 1.0, true } },
+      .help = "Relative residual at which each of the two steps stops" },
+    JobOption{ .key = "cycles",
+      .kind = CountOption{ DeformCycles, 1, 1000000 },
+      .help = "V-cycles of each of the two steps, instead of a tolerance",
+      .isAdvanced = true,
+      .excludes = "tolerance" },
+    JobOption{ .key = "normals",
+      .kind = ChoiceOption{ memberOf<std::size_t, DeformJob, &DeformJob::normals>, NormalsNames },
+      .help = "Columns Normals of the mesh: recompute (tetrahedra: drop) or drop" },
+  },
+  SolverOptions, LimitOptions, ScratchLimitOption, CheckpointOption);
+
+} // namespace
+
+std::span<const JobOption> DeformJob::table() const
+{
+  return DeformTable;
+}
 
 std::vector<ColumnSpec> DeformJob::solutionColumns(const StreamInfo& /*info*/) const
 {

@@ -7,6 +7,7 @@
 #include "smg/MovedMesh.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace smg
 class SMG_EXPORT DeformJob : public SolvingJob
 {
 public:
+  DeformJob() { this->name = "handles"; }
+
   DeformationDescription
     description; ///< its weights, cycles and tolerance are those of `deforming`
   DeformOptions deforming;
@@ -24,6 +27,7 @@ public:
 
   using SolvingJob::options;
   SolveOptions& options() override { return this->deforming; }
+  std::span<const JobOption> table() const override;
   void check() const override {}
   std::string resultColumns() const override { return {}; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;

@@ -1,11 +1,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/DistanceJob.h"
 
+#include "IO/Jobs/JobOption.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/SolvedMesh.h"
 
 namespace smg
 {
+namespace
+{
+
+/** In the order of PathAccuracy. */
+constexpr const char* AccuracyNames[] = { "auto", "exact", "approximate" };
+
+template <class Value, auto Member>
+constexpr OptionMember<Value> DistanceMember =
+  memberOf<Value, DistanceJob, &DistanceJob::description, Member>;
+
+constexpr auto DistanceTable = joined(
+  std::array{
+    JobOption{ .key = "from",
+      .kind = WhereOption{ DistanceMember<std::vector<Where>, &DistanceDescription::from> },
+      .help = "The sources, where the distance is 0; of distances to a wall the wall, which is the "
+              "whole boundary by default" },
+    JobOption{ .key = "wall",
+      .kind = FlagOption{ DistanceMember<bool, &DistanceDescription::wall> },
+      .help = "Of tetrahedra: the Euclidean distance to the boundary instead of that along paths" },
+    JobOption{ .key = "source",
+      .kind = FlagOption{ DistanceMember<bool, &DistanceDescription::source> },
+      .help =
+        "Add the column DistanceSource (int64): the number of the nearest source in the file, of "
+        "distances to a wall of a corner of the nearest wall face; -1 where none is reached" },
+    JobOption{ .key = "group",
+      .kind = FlagOption{ DistanceMember<bool, &DistanceDescription::group> },
+      .help =
+        "Add the column DistanceGroup (int32): which of the sources, as they are listed, the "
+        "nearest one is of, from 0; of what several select the first; -1 where none is reached" },
+    JobOption{ .key = "direction",
+      .kind = FlagOption{ DistanceMember<bool, &DistanceDescription::direction> },
+      .help = "Add the column DistanceDirection (3 x float64): the unit gradient of the distance" },
+    JobOption{ .key = "to",
+      .kind = WhereOption{ DistanceMember<std::vector<Where>, &DistanceDescription::to> },
+      .help = "Of exact distances on a surface: vertices whose shortest paths are wanted, at most "
+              "1,000" },
+    JobOption{ .key = "accuracy",
+      .kind =
+        ChoiceOption{ DistanceMember<std::size_t, &DistanceDescription::accuracy>, AccuracyNames },
+      .help = "Of paths on a surface: exact (10 to 50 us a vertex of a scan, more on smooth ones), "
+              "approximate (about 1 us, too long on long thin triangles), or auto: exact up to "
+              "1,000,000 vertices" },
+    JobOption{ .key = "within",
+      .kind = NumberOption{ DistanceMember<double, &DistanceDescription::within>,
+        { .least = 0.0, .isOpen = true }, "the unit of the mesh" },
+      .help = "Of paths: vertices farther than this are not reached" },
+    JobOption{ .key = "max_passes",
+      .kind =
+        CountOption{
+          memberOf<std::int64_t, DistanceJob, &DistanceJob::options, &DistanceOptions::maxPasses>,
+          1, 1000000 },
+      .help = "Maximum number of passes over the mesh",
+      .isAdvanced = true },
+  },
+  LimitOptions, ScratchLimitOption);
+
+} // namespace
+
+std::span<const JobOption> DistanceJob::table() const
+{
+  return DistanceTable;
+}
+
+void DistanceJob::check() const
+{
+  if (this->description.from.empty() && !this->description.wall)
+  {
+    throw Error(this->name + ": needs \"from\", or \"wall\".");
+  }
+}
 
 void DistanceJob::setLimits(const JobLimits& limits)
 {

@@ -5,6 +5,7 @@
 #include "smg/Distance.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,15 @@ namespace smg
 class SMG_EXPORT DistanceJob : public MeshJob
 {
 public:
+  DistanceJob() { this->name = "distance"; }
+
   DistanceDescription description;
   DistanceOptions options;
 
   void setLimits(const JobLimits& limits) override;
   std::int64_t memoryLimit() const override { return this->options.memoryLimit; }
-  void check() const override {}
+  std::span<const JobOption> table() const override;
+  void check() const override;
   std::string resultColumns() const override { return "a distance"; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
   Costs costsOn(const StreamInfo& info) const override;

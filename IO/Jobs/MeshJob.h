@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Conversion/JobEstimate.h"
+#include "IO/Jobs/Job.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
@@ -9,7 +10,6 @@
 #include "smg/Solve.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,33 +18,16 @@
 namespace smg
 {
 
-/** What any computation may take. */
-struct JobLimits
-{
-  std::int64_t memory = 0;       ///< bytes of accounted memory; 0: the default of the job
-  int threads = 0;               ///< that compute; 0: one per core
-  std::filesystem::path scratch; ///< folder for scratch files; empty: the temporary one
-  std::int64_t scratchLimit = 0; ///< bytes of scratch files at once; 0: any number
-};
-
 /**
  * A computation on a stored mesh, with what it is to compute: what it costs, what it adds to the
  * mesh, how it is done, and the mesh with its result. The command line and the interface for other
  * languages fill it, each in its way.
  */
-class SMG_EXPORT MeshJob
+class SMG_EXPORT MeshJob : public Job
 {
 public:
-  virtual ~MeshJob() = default;
-
-  /** What error messages call the text that says what to do. */
-  std::string name;
-
-  virtual void setLimits(const JobLimits& limits) = 0;
   /** The limit of the accounted memory, bytes. */
   virtual std::int64_t memoryLimit() const = 0;
-  /** Throws Error if what is to be done cannot be right, whatever the mesh. */
-  virtual void check() const = 0;
 
   /** The columns of the result for an error, for example "a solution"; empty if the result is the
    * mesh with other positions. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/SmoothJob.h"
 
+#include "IO/Jobs/JobOption.h"
 #include "IO/Jobs/MovedResult.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/Error.h"
@@ -11,6 +12,59 @@
 
 namespace smg
 {
+namespace
+{
+
+/** In the order of SmoothedBoundary. */
+constexpr const char* BoundaryNames[] = { "smooth", "fixed", "free" };
+
+template <class Value, auto Member>
+constexpr OptionMember<Value> SmoothMember =
+  memberOf<Value, SmoothJob, &SmoothJob::smoothing, Member>;
+
+constexpr auto SmoothTable = joined(
+  std::array{
+    JobOption{ .key = "size",
+      .kind = SizeOption{ SmoothMember<SmoothingSize, &Smoothing::size> },
+      .help = "Size of the details that are halved: in the unit of the mesh, in % of the diagonal "
+              "of its bounds, or in mean edges, as 6edges" },
+    JobOption{ .key = "steps",
+      .kind = CountOption{ SmoothMember<std::int64_t, &Smoothing::steps>, 1, 1000 },
+      .help = "Implicit steps" },
+    JobOption{ .key = "keep_edges",
+      .kind = NumberOption{ SmoothMember<double, &Smoothing::keepEdges>, { 0.0, 180.0, true },
+        "degrees" },
+      .help = "Keep edges at which the surface turns by more than this angle, about 30 for "
+              "machined parts; with about 5 steps" },
+    JobOption{ .key = "keep_volume",
+      .kind = FlagOption{ SmoothMember<bool, &Smoothing::keepVolume> },
+      .help = "Move the surface along its normals so that it keeps its volume" },
+    JobOption{ .key = "orient",
+      .kind = FlagOption{ SmoothMember<bool, &Smoothing::orient> },
+      .help = "Turn triangles of the result so that those of a body are wound alike, and outwards "
+              "if it is closed" },
+    JobOption{ .key = "hold",
+      .kind = WhereOption{ SmoothMember<std::vector<Where>, &Smoothing::hold> },
+      .help = "Parts of the mesh that do not move" },
+    JobOption{ .key = "boundary",
+      .kind = ChoiceOption{ SmoothMember<std::size_t, &Smoothing::boundary>, BoundaryNames },
+      .help = "Boundary of a surface: smooth, as curves (default of positions), fixed, or free "
+              "(default of a column)" },
+    JobOption{ .key = "column",
+      .kind = ColumnOption{ SmoothMember<std::string, &Smoothing::column> },
+      .help = "Smooth this column of the vertices instead of their positions" },
+    JobOption{ .key = "normals",
+      .kind = ChoiceOption{ memberOf<std::size_t, SmoothJob, &SmoothJob::normals>, NormalsNames },
+      .help = "Columns Normals of the mesh: recompute (tetrahedra: drop) or drop" },
+  },
+  ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
+
+} // namespace
+
+std::span<const JobOption> SmoothJob::table() const
+{
+  return SmoothTable;
+}
 
 std::string SmoothJob::resultColumns() const
 {

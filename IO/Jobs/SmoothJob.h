@@ -6,6 +6,7 @@
 #include "smg/MovedMesh.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ public:
 
   using SolvingJob::options;
   SolveOptions& options() override { return this->smoothing; }
+  std::span<const JobOption> table() const override;
   void check() const override { checkOptions(this->smoothing); }
   std::string resultColumns() const override;
   std::vector<std::string> changedColumns() const override;

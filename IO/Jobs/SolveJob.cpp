@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/SolveJob.h"
 
+#include "IO/Description/ParseDescriptions.h"
+#include "IO/Jobs/JobOption.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
@@ -11,6 +13,42 @@
 
 namespace smg
 {
+namespace
+{
+
+/** In the order of AccelerationKind. */
+constexpr const char* AccelerationNames[] = { "automatic", "none", "chebyshev", "cg" };
+
+constexpr auto SolveTable = joined(
+  std::array{
+    JobOption{ .key = "problem",
+      .kind = DescriptionOption{ [](const JsonNode& node, Job& job)
+        {
+          auto& solve = static_cast<SolveJob&>(job);
+          solve.description = parseProblem(node);
+          solve.text = node.value().dump();
+        } },
+      .help = "The problem, in a JSON file",
+      .isRequired = true },
+    JobOption{ .key = "tolerance",
+      .kind = NumberOption{ solverMember<double, &SolveOptions::tolerance>, { 0.0, 1.0, true }, "",
+        "auto" },
+      .help = "Relative residual to stop at; auto: until the algebraic error is below a tenth of "
+              "the estimated discretisation error" },
+    JobOption{ .key = "acceleration",
+      .kind =
+        ChoiceOption{ solverMember<std::size_t, &SolveOptions::acceleration>, AccelerationNames },
+      .help = "Acceleration of the V-cycles: automatic, none, chebyshev or cg",
+      .isAdvanced = true },
+  },
+  SolverOptions, LimitOptions, ScratchLimitOption, CheckpointOption);
+
+} // namespace
+
+std::span<const JobOption> SolveJob::table() const
+{
+  return SolveTable;
+}
 
 void SolveJob::check() const
 {

@@ -6,6 +6,7 @@
 #include "smg/ProblemDescription.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,14 @@ namespace smg
 class SMG_EXPORT SolveJob : public SolvingJob
 {
 public:
+  SolveJob() { this->name = "problem"; }
+
   ProblemDescription description;
   SolveOptions solving;
 
   using SolvingJob::options;
   SolveOptions& options() override { return this->solving; }
+  std::span<const JobOption> table() const override;
   void check() const override;
   std::string resultColumns() const override { return "a solution"; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;

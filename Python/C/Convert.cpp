@@ -52,7 +52,7 @@ smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* pat
       {
         smg::checkIsNotInput(given.shared->name(), out);
       }
-      smg::SimplifyCall call = smg::simplifyCallOf(description, limitsOf(given.shared->options()));
+      smg::SimplifyJob call = smg::simplifyJobOf(description, limitsOf(given.shared->options()));
       const smg::ProgressFunction told = smg::progressOf(progress, user);
       // "vertices" of the description itself is how many are wanted.
       if (const nlohmann::json text = smg::optionsText(description, "simplify");

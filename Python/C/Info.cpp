@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Formats/UsedFiles.h"
+#include "IO/Jobs/Jobs.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Python/C/Call.h"
 #include "Python/C/Field.h"
@@ -69,7 +70,7 @@ std::string estimateText(const EstimatedInput& in, const std::string& kind, cons
   const JobLimits limits = limitsOf(options);
   if (kind == "simplify")
   {
-    const SimplifyCall call = simplifyCallOf(description, limits);
+    const SimplifyJob call = simplifyJobOf(description, limits);
     return simplifyEstimate(in, call.target, path ? path : "", call.options, options).json();
   }
   const std::unique_ptr<MeshJob> job = jobOf(kind, description, limits);
@@ -154,6 +155,16 @@ smg_status smg_files(const char* path, const char** json)
       smg::required(json, "json") = nullptr;
       smg::FilesText = smg::filesText(&smg::required(path, "path"));
       *json = smg::FilesText.c_str();
+    });
+}
+
+smg_status smg_describe(const char** json)
+{
+  return smg::guarded(
+    [&]
+    {
+      static const std::string text = smg::describeAll().dump();
+      smg::required(json, "json") = text.c_str();
     });
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Jobs/MeshJob.h"
-#include "smg/Simplify.h"
+#include "IO/Jobs/SimplifyJob.h"
 
 #include <memory>
 #include <string>
@@ -16,14 +16,7 @@ namespace smg
 std::unique_ptr<MeshJob> jobOf(
   const std::string& kind, const char* description, const JobLimits& defaults);
 
-/** What simplify() is to do. */
-struct SimplifyCall
-{
-  SimplifyTarget target;
-  SimplifyOptions options;
-};
-
-/** The same for the simplification of a mesh, which is no MeshJob. */
-SimplifyCall simplifyCallOf(const char* description, const JobLimits& defaults);
+/** The same for the job "simplify", whose result is another mesh. */
+SimplifyJob simplifyJobOf(const char* description, const JobLimits& defaults);
 
 } // namespace smg

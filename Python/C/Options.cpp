@@ -1,94 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Python/C/Options.h"
 
-#include "IO/Description/Sizes.h"
 #include "Python/C/Call.h"
 #include "smg/Error.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace smg
 {
-namespace
-{
-
-constexpr std::int64_t MinBytes = std::int64_t(1) << 20, MaxBytes = std::int64_t(1) << 50;
-
-std::string folderIn(const JsonNode& node)
-{
-  const std::string folder = node.string();
-  if (folder.empty())
-  {
-    node.fail("must be the name of a folder");
-  }
-  return folder;
-}
-
-} // namespace
-
-std::int64_t bytesIn(const JsonNode& node)
-{
-  if (!node.isString())
-  {
-    return node.integer(MinBytes, MaxBytes);
-  }
-  std::optional<double> bytes;
-  try
-  {
-    bytes = bytesOf(node.string());
-  }
-  catch (const Error& error)
-  {
-    node.fail(error.what());
-  }
-  if (!bytes || *bytes > static_cast<double>(MaxBytes))
-  {
-    node.fail("must be a number of bytes, or a text with a unit, as 512M, 1.5GiB or 2GB");
-  }
-  return static_cast<std::int64_t>(*bytes);
-}
-
-std::size_t choiceIn(const JsonNode& node, std::initializer_list<const char*> choices)
-{
-  const std::string given = node.string();
-  const auto found = std::find(choices.begin(), choices.end(), given);
-  if (found == choices.end())
-  {
-    std::string names;
-    for (const char* choice : choices)
-    {
-      names += (names.empty() ? "" : ", ") + std::string(choice);
-    }
-    node.fail("must be one of " + names);
-  }
-  return static_cast<std::size_t>(found - choices.begin());
-}
-
-bool flagIn(const JsonNode& node)
-{
-  if (!node.value().is_boolean())
-  {
-    node.fail("must be true or false");
-  }
-  return node.isTrue();
-}
-
-double toleranceIn(const JsonNode& node)
-{
-  const double tolerance = node.number();
-  if (tolerance <= 0.0 || tolerance >= 1.0)
-  {
-    node.fail("must be between 0 and 1, both excluded");
-  }
-  return tolerance;
-}
-
-int countIn(const JsonNode& node)
-{
-  constexpr std::int64_t MaxCount = 1000000;
-  return static_cast<int>(node.integer(1, MaxCount));
-}
 
 JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults)
 {
@@ -128,12 +47,7 @@ WritingOptions writingOptions(const char* options, const JobLimits& defaults)
 
 double weldIn(const JsonNode& node)
 {
-  const double distance = node.number();
-  if (distance < 0.0)
-  {
-    node.fail("must be a distance from 0 on");
-  }
-  return distance;
+  return numberIn(node, { .least = 0.0 });
 }
 
 ConversionOptions conversionIn(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Description/JsonNode.h"
+#include "IO/Description/OptionValues.h"
 #include "IO/Jobs/MeshJob.h"
 #include "smg/Convert.h"
 
@@ -14,17 +15,6 @@ namespace smg
 {
 
 // Options in JSON. All functions throw Error with the place in it.
-
-/** The bytes of a number of at least 1 MiB, or of a text with a unit. */
-std::int64_t bytesIn(const JsonNode& node);
-/** The place of a text among some. */
-std::size_t choiceIn(const JsonNode& node, std::initializer_list<const char*> choices);
-/** true or false. */
-bool flagIn(const JsonNode& node);
-/** A relative residual at which to stop. */
-double toleranceIn(const JsonNode& node);
-/** A number of V-cycles or passes, at least 1. */
-int countIn(const JsonNode& node);
 
 /** The keys of limitsIn(). */
 inline constexpr std::initializer_list<const char*> LimitKeys{ "memory", "threads", "scratch",

@@ -102,11 +102,11 @@ Ending endingIn(const char* text)
       Ending ending;
       if (node.has("tolerance"))
       {
-        ending.tolerance = toleranceIn(node.member("tolerance"));
+        ending.tolerance = numberIn(node.member("tolerance"), { 0.0, 1.0, true });
       }
       if (node.has("max_cycles"))
       {
-        ending.maxCycles = countIn(node.member("max_cycles"));
+        ending.maxCycles = static_cast<int>(node.member("max_cycles").integer(1, 1000000));
       }
       return ending;
     });

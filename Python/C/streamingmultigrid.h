@@ -166,6 +166,12 @@ extern "C"
    * the given one first. The text is valid until the next call on this thread. */
   SMG_C_EXPORT smg_status smg_files(const char* path, const char** json);
 
+  /* What jobs may be asked: a JSON object with a list for each of them, "solve", "deform",
+   * "smooth", "blend", "distance" and "simplify", of its options in the order in which they are
+   * read: "key", "kind", "help", and as far as they have them "required", "default", "allowed",
+   * "unit", "choices". The text stays valid. */
+  SMG_C_EXPORT smg_status smg_describe(const char** json);
+
   /* What a job of smg_run(), or "simplify", is expected to cost, before it starts: the JSON of
    * `--dry-run --report`, without the conversion that smg_open() has made. `path`: where the result
    * is to be written; NULL: nowhere. The text as that of smg_info(). */

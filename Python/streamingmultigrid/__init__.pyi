@@ -75,57 +75,6 @@ class Mesh:
     def estimate(
         self, job: types.Job, *arguments: Any, path: Optional[types.Path] = None, **options: Any
     ) -> Estimate: ...
-    def solve(
-        self, *, dirichlet: Optional[types.Conditions] = None, source: Optional[types.Values] = None,
-        flux: Optional[types.Values] = None, robin: Optional[types.Pairs] = None,
-        soft: Optional[types.Pairs] = None, conductivity: Optional[types.Values] = None,
-        screening: Optional[types.Values] = None, field: Optional[types.Value] = None,
-        initial: Optional[types.Values] = None, weights: Optional[types.Weights] = None,
-        outputs: Union[types.Output, Sequence[types.Output], None] = None, columns: Optional[int] = None,
-        problem: Optional[types.Problem] = None, tolerance: Union[float, Literal["auto"], None] = None,
-        acceleration: Optional[types.Acceleration] = None, max_cycles: Optional[int] = None,
-        sweeps: Optional[int] = None, in_core: Optional[bool] = None, memory: Optional[types.Size] = None,
-        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-        scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
-    ) -> Field: ...
-    def deform(
-        self, handles: types.Handles, *, weights: Optional[types.Weights] = None,
-        tolerance: Optional[float] = None, cycles: Optional[int] = None,
-        normals: Optional[types.Normals] = None, max_cycles: Optional[int] = None,
-        sweeps: Optional[int] = None, in_core: Optional[bool] = None, memory: Optional[types.Size] = None,
-        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-        scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
-    ) -> Field: ...
-    def smooth(
-        self, *, size: Union[float, str, None] = None, steps: Optional[int] = None,
-        hold: Optional[types.Places] = None, boundary: Optional[types.SmoothedBoundary] = None,
-        keep_volume: Optional[bool] = None, keep_edges: Optional[float] = None, orient: Optional[bool] = None,
-        column: Optional[types.Columns] = None, normals: Optional[types.Normals] = None,
-        tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
-        in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
-    ) -> Field: ...
-    def blend(
-        self, columns: types.Columns, *, patch: Union[str, npt.ArrayLike],
-        hold: Optional[types.Places] = None, anchor: Optional[float] = None,
-        seam: Optional[types.Seam] = None, tolerance: Optional[float] = None,
-        max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
-        memory: Optional[types.Size] = None, threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
-    ) -> Field: ...
-    def distance(
-        self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
-        source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
-        to: Optional[types.Places] = None, accuracy: Optional[types.Accuracy] = None,
-        within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
-        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-        scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
-        strict: bool = False
-    ) -> Field: ...
     def simplify(
         self, vertices: Optional[int] = None, *, error: Optional[float] = None,
         hold: Optional[types.Places] = None, path: Optional[types.Path] = None,
@@ -143,6 +92,57 @@ class Mesh:
         progress: Optional[types.Progress] = None
     ) -> Solver: ...
     def to_pyvista(self) -> Any: ...
+    def solve(
+        self, *, dirichlet: Optional[types.Conditions] = None, source: Optional[types.Values] = None,
+        flux: Optional[types.Values] = None, robin: Optional[types.Pairs] = None,
+        soft: Optional[types.Pairs] = None, conductivity: Optional[types.Values] = None,
+        screening: Optional[types.Values] = None, field: Optional[types.Value] = None,
+        initial: Optional[types.Values] = None, weights: Optional[types.Weights] = None,
+        outputs: Optional[Union[types.Output, Sequence[types.Output]]] = None, columns: Optional[int] = None,
+        problem: Optional[types.Problem] = None, tolerance: Optional[Union[float, Literal["auto"]]] = None,
+        acceleration: Optional[Literal["automatic", "none", "chebyshev", "cg"]] = None,
+        max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+        checkpoint: Optional[types.Path] = None, progress: Optional[types.Progress] = None,
+        strict: bool = False
+    ) -> Field: ...
+    def deform(
+        self, handles: types.Handles, *, weights: Optional[Literal["uniform", "cotangent", "clamped"]] = None,
+        tolerance: Optional[float] = None, cycles: Optional[int] = None,
+        normals: Optional[Literal["recompute", "drop"]] = None, max_cycles: Optional[int] = None,
+        sweeps: Optional[int] = None, in_core: Optional[bool] = None, memory: Optional[types.Size] = None,
+        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+        scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
+        progress: Optional[types.Progress] = None, strict: bool = False
+    ) -> Field: ...
+    def smooth(
+        self, *, size: Optional[Union[float, str]] = None, steps: Optional[int] = None,
+        keep_edges: Optional[float] = None, keep_volume: Optional[bool] = None, orient: Optional[bool] = None,
+        hold: Optional[types.Places] = None, boundary: Optional[Literal["smooth", "fixed", "free"]] = None,
+        column: Optional[types.Columns] = None, normals: Optional[Literal["recompute", "drop"]] = None,
+        tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
+        in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+        progress: Optional[types.Progress] = None, strict: bool = False
+    ) -> Field: ...
+    def blend(
+        self, columns: types.Columns, *, patch: types.Columns, hold: Optional[types.Places] = None,
+        anchor: Optional[float] = None, seam: Optional[Literal["zero", "average"]] = None,
+        tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
+        in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+        progress: Optional[types.Progress] = None, strict: bool = False
+    ) -> Field: ...
+    def distance(
+        self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
+        source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
+        to: Optional[types.Places] = None, accuracy: Optional[Literal["auto", "exact", "approximate"]] = None,
+        within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
+        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+        scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
+        strict: bool = False
+    ) -> Field: ...
 
 class Placed: ...
 
@@ -235,46 +235,46 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         soft: Optional[types.Pairs] = None, conductivity: Optional[types.Values] = None,
         screening: Optional[types.Values] = None, field: Optional[types.Value] = None,
         initial: Optional[types.Values] = None, weights: Optional[types.Weights] = None,
-        outputs: Union[types.Output, Sequence[types.Output], None] = None, columns: Optional[int] = None,
-        problem: Optional[types.Problem] = None, tolerance: Union[float, Literal["auto"], None] = None,
-        acceleration: Optional[types.Acceleration] = None, max_cycles: Optional[int] = None,
-        sweeps: Optional[int] = None, in_core: Optional[bool] = None, memory: Optional[types.Size] = None,
-        threads: Optional[int] = None, scratch: Optional[types.Path] = None,
-        scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
-        progress: Optional[types.Progress] = None, strict: bool = False
+        outputs: Optional[Union[types.Output, Sequence[types.Output]]] = None, columns: Optional[int] = None,
+        problem: Optional[types.Problem] = None, tolerance: Optional[Union[float, Literal["auto"]]] = None,
+        acceleration: Optional[Literal["automatic", "none", "chebyshev", "cg"]] = None,
+        max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+        checkpoint: Optional[types.Path] = None, progress: Optional[types.Progress] = None,
+        strict: bool = False
     ) -> Field: ...
     def deform(
-        self, handles: types.Handles, *, weights: Optional[types.Weights] = None,
+        self, handles: types.Handles, *, weights: Optional[Literal["uniform", "cotangent", "clamped"]] = None,
         tolerance: Optional[float] = None, cycles: Optional[int] = None,
-        normals: Optional[types.Normals] = None, max_cycles: Optional[int] = None,
+        normals: Optional[Literal["recompute", "drop"]] = None, max_cycles: Optional[int] = None,
         sweeps: Optional[int] = None, in_core: Optional[bool] = None, memory: Optional[types.Size] = None,
         threads: Optional[int] = None, scratch: Optional[types.Path] = None,
         scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
     def smooth(
-        self, *, size: Union[float, str, None] = None, steps: Optional[int] = None,
-        hold: Optional[types.Places] = None, boundary: Optional[types.SmoothedBoundary] = None,
-        keep_volume: Optional[bool] = None, keep_edges: Optional[float] = None, orient: Optional[bool] = None,
-        column: Optional[types.Columns] = None, normals: Optional[types.Normals] = None,
+        self, *, size: Optional[Union[float, str]] = None, steps: Optional[int] = None,
+        keep_edges: Optional[float] = None, keep_volume: Optional[bool] = None, orient: Optional[bool] = None,
+        hold: Optional[types.Places] = None, boundary: Optional[Literal["smooth", "fixed", "free"]] = None,
+        column: Optional[types.Columns] = None, normals: Optional[Literal["recompute", "drop"]] = None,
         tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
         in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
     def blend(
-        self, columns: types.Columns, *, patch: Union[str, npt.ArrayLike],
-        hold: Optional[types.Places] = None, anchor: Optional[float] = None,
-        seam: Optional[types.Seam] = None, tolerance: Optional[float] = None,
-        max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
-        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        self, columns: types.Columns, *, patch: types.Columns, hold: Optional[types.Places] = None,
+        anchor: Optional[float] = None, seam: Optional[Literal["zero", "average"]] = None,
+        tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
+        in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
     def distance(
         self, sources: Optional[types.Places] = None, *, wall: Optional[bool] = None,
         source: Optional[bool] = None, group: Optional[bool] = None, direction: Optional[bool] = None,
-        to: Optional[types.Places] = None, accuracy: Optional[types.Accuracy] = None,
+        to: Optional[types.Places] = None, accuracy: Optional[Literal["auto", "exact", "approximate"]] = None,
         within: Optional[float] = None, max_passes: Optional[int] = None, memory: Optional[types.Size] = None,
         threads: Optional[int] = None, scratch: Optional[types.Path] = None,
         scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
@@ -390,12 +390,13 @@ def above(x: Optional[float] = None, y: Optional[float] = None, z: Optional[floa
 def below(x: Optional[float] = None, y: Optional[float] = None, z: Optional[float] = None) -> Region: ...
 
 def blend(
-    points: npt.ArrayLike, cells: npt.ArrayLike, columns: types.Columns, *, patch: Union[str, npt.ArrayLike],
-    hold: Optional[types.Places] = None, anchor: Optional[float] = None, seam: Optional[types.Seam] = None,
-    tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
-    in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-    progress: Optional[types.Progress] = None, strict: bool = False
+    points: npt.ArrayLike, cells: npt.ArrayLike, columns: types.Columns, *, patch: types.Columns,
+    hold: Optional[types.Places] = None, anchor: Optional[float] = None,
+    seam: Optional[Literal["zero", "average"]] = None, tolerance: Optional[float] = None,
+    max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+    memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
+    strict: bool = False
 ) -> Any: ...
 
 boundary: Region
@@ -404,12 +405,13 @@ def box(low: npt.ArrayLike, high: npt.ArrayLike) -> Region: ...
 
 def deform(
     points: npt.ArrayLike, cells: npt.ArrayLike, handles: types.Handles, *,
-    weights: Optional[types.Weights] = None, tolerance: Optional[float] = None, cycles: Optional[int] = None,
-    normals: Optional[types.Normals] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
-    in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
-    checkpoint: Optional[types.Path] = None, progress: Optional[types.Progress] = None, strict: bool = False
-) -> npt.NDArray[Any]: ...
+    weights: Optional[Literal["uniform", "cotangent", "clamped"]] = None, tolerance: Optional[float] = None,
+    cycles: Optional[int] = None, normals: Optional[Literal["recompute", "drop"]] = None,
+    max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+    memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+    scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
+    progress: Optional[types.Progress] = None, strict: bool = False
+) -> Any: ...
 
 def dirichlet(region: types.Where, value: types.Value) -> Placed: ...
 
@@ -417,7 +419,7 @@ def distance(
     points: npt.ArrayLike, cells: npt.ArrayLike, sources: Optional[types.Places] = None, *,
     wall: Optional[bool] = None, source: Optional[bool] = None, group: Optional[bool] = None,
     direction: Optional[bool] = None, to: Optional[types.Places] = None,
-    accuracy: Optional[types.Accuracy] = None, within: Optional[float] = None,
+    accuracy: Optional[Literal["auto", "exact", "approximate"]] = None, within: Optional[float] = None,
     max_passes: Optional[int] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
     scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
     progress: Optional[types.Progress] = None, strict: bool = False
@@ -478,16 +480,16 @@ def simplify(
 ) -> Tuple[npt.NDArray[Any], npt.NDArray[Any]]: ...
 
 def smooth(
-    points: npt.ArrayLike, cells: npt.ArrayLike, *, size: Union[float, str, None] = None,
-    steps: Optional[int] = None, hold: Optional[types.Places] = None,
-    boundary: Optional[types.SmoothedBoundary] = None, keep_volume: Optional[bool] = None,
-    keep_edges: Optional[float] = None, orient: Optional[bool] = None, column: Optional[types.Columns] = None,
-    normals: Optional[types.Normals] = None, tolerance: Optional[float] = None,
+    points: npt.ArrayLike, cells: npt.ArrayLike, *, size: Optional[Union[float, str]] = None,
+    steps: Optional[int] = None, keep_edges: Optional[float] = None, keep_volume: Optional[bool] = None,
+    orient: Optional[bool] = None, hold: Optional[types.Places] = None,
+    boundary: Optional[Literal["smooth", "fixed", "free"]] = None, column: Optional[types.Columns] = None,
+    normals: Optional[Literal["recompute", "drop"]] = None, tolerance: Optional[float] = None,
     max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
     memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,
     scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
     strict: bool = False
-) -> npt.NDArray[Any]: ...
+) -> Any: ...
 
 def soft(region: types.Where, weight: types.Value, value: types.Value) -> Placed: ...
 
@@ -498,11 +500,11 @@ def solve(
     conductivity: Optional[types.Values] = None, screening: Optional[types.Values] = None,
     field: Optional[types.Value] = None, initial: Optional[types.Values] = None,
     weights: Optional[types.Weights] = None,
-    outputs: Union[types.Output, Sequence[types.Output], None] = None, columns: Optional[int] = None,
-    problem: Optional[types.Problem] = None, tolerance: Union[float, Literal["auto"], None] = None,
-    acceleration: Optional[types.Acceleration] = None, max_cycles: Optional[int] = None,
-    sweeps: Optional[int] = None, in_core: Optional[bool] = None, memory: Optional[types.Size] = None,
-    threads: Optional[int] = None, scratch: Optional[types.Path] = None,
+    outputs: Optional[Union[types.Output, Sequence[types.Output]]] = None, columns: Optional[int] = None,
+    problem: Optional[types.Problem] = None, tolerance: Optional[Union[float, Literal["auto"]]] = None,
+    acceleration: Optional[Literal["automatic", "none", "chebyshev", "cg"]] = None,
+    max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+    memory: Optional[types.Size] = None, threads: Optional[int] = None, scratch: Optional[types.Path] = None,
     scratch_limit: Optional[types.Size] = None, checkpoint: Optional[types.Path] = None,
     progress: Optional[types.Progress] = None, strict: bool = False
 ) -> Any: ...

@@ -30,38 +30,32 @@ def _read(field: Any) -> Any:
     return {field.name: field.to_numpy(), **{name: field.read(name) for name in field.names[1:]}}
 
 
-@jobs.with_arguments_of("solve", ("points", "cells"))
-def solve(points: Any, cells: Any, **options: Any) -> Any:
-    with _opened(points, cells, options) as opened:
-        return _read(opened.solve(**options))
+def _on_arrays(job: str) -> Any:
+    """The function that does a job whose result is a field on the mesh of two arrays."""
+
+    @jobs.with_arguments_of(job, ("points", "cells"))
+    def function(points: Any, cells: Any, *arguments: Any, **options: Any) -> Any:
+        with _opened(points, cells, options) as opened:
+            field = getattr(opened, job)(*arguments, **options)
+            if options.get("to") is None:
+                return _read(field)
+            _ = field.report
+            return {**{name: field.read(name) for name in field.names}, "paths": field.paths}
+
+    first, rest = (function.__doc__ or "").split("\n", 1)
+    function.__doc__ = first + "\n" + _ARRAYS + rest
+    function.__name__ = function.__qualname__ = job
+    return function
 
 
-@jobs.with_arguments_of("deform", ("points", "cells"))
-def deform(points: Any, cells: Any, handles: Any, **options: Any) -> np.ndarray:
-    with _opened(points, cells, options) as opened:
-        return _read(opened.deform(handles, **options))
+_ARRAYS = """
+    The arrays `points`, (n, 3) numbers, or (n, 2) with z = 0, and `cells`, (m, 3) or (m, 4) integers,
+    are the mesh. The result is an array; of several columns a dict of arrays by their names. What the
+    report warns of is a ReportWarning; for the report itself, use ``smg.mesh(points, cells)`` and its
+    method of this name.
+"""
 
-
-@jobs.with_arguments_of("smooth", ("points", "cells"))
-def smooth(points: Any, cells: Any, **options: Any) -> np.ndarray:
-    with _opened(points, cells, options) as opened:
-        return _read(opened.smooth(**options))
-
-
-@jobs.with_arguments_of("blend", ("points", "cells"))
-def blend(points: Any, cells: Any, columns: Any, **options: Any) -> Any:
-    with _opened(points, cells, options) as opened:
-        return _read(opened.blend(columns, **options))
-
-
-@jobs.with_arguments_of("distance", ("points", "cells"))
-def distance(points: Any, cells: Any, sources: Any = None, **options: Any) -> Any:
-    with _opened(points, cells, options) as opened:
-        field = opened.distance(sources, **options)
-        if options.get("to") is None:
-            return _read(field)
-        _ = field.report
-        return {**{name: field.read(name) for name in field.names}, "paths": field.paths}
+solve, deform, smooth, blend, distance = map(_on_arrays, jobs.OF_FIELDS)
 
 
 def simplify(
@@ -119,18 +113,3 @@ def solver(
         return opened.solver(
             progress=progress, **{k: v for k, v in options.items() if k not in of_mesh}
         )
-
-
-def _complete_docstrings() -> None:
-    arrays = """
-    The arrays `points`, (n, 3) numbers, or (n, 2) with z = 0, and `cells`, (m, 3) or (m, 4) integers,
-    are the mesh. The result is an array; of several columns a dict of arrays by their names. What the
-    report warns of is a ReportWarning; for the report itself, use ``smg.mesh(points, cells)`` and its
-    method of this name.
-"""
-    for function in (solve, deform, smooth, blend, distance):
-        first, rest = (function.__doc__ or "").split("\n", 1)
-        function.__doc__ = first + "\n" + arrays + rest
-
-
-_complete_docstrings()

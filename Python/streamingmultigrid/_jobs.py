@@ -1,32 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The jobs: their arguments in Python, and what the library is told of them.
 
-The functions here describe; `Mesh` and the functions on arrays have their arguments and docstrings.
+What all jobs have alike is in _options.py; here is what a job does with its arguments, and returns.
 """
 
 from __future__ import annotations
 
-import functools
 import inspect
-from typing import Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
-import numpy.typing as npt
 
+from . import _options
 from . import _problem as problems
-from . import _types as types
 from ._columns import Columns
 from ._errors import InputError
 from ._regions import Region, as_regions
 from ._regions import vertices as vertices_of
 
 _Description = Tuple[Dict[str, Any], List[str]]  # for smg_run(), and the columns of the result
-
-
-def _where(added: Columns, regions: Any) -> Any:
-    if regions is None:
-        return None
-    return [each.where(added) or {"everywhere": True} for each in as_regions(regions)]
 
 
 def _where_of_file(added: Columns, region: Region) -> Any:
@@ -43,86 +35,160 @@ def _where_of_file(added: Columns, region: Region) -> Any:
         raise InputError("hold: %r selects no vertex of the mesh." % region)
     return vertices_of(rows).where(own)
 
-
-#: By the names that the library knows them by.
-DESCRIPTIONS: Dict[str, Callable[..., _Description]] = {}
-_BINDING: Dict[str, Callable[..., inspect.BoundArguments]] = {}
-#: Arguments with which results are written, which no job has but `path` of `simplify`.
+#: Arguments with which results are written.
 _OF_SAVING = ("path", "text")
 
 
-def require_arguments(job: str, arguments: Sequence[Any], options: Mapping[str, Any]) -> None:
-    """Raises TypeError for arguments that a job does not have, before a mesh is opened for it."""
-    _BINDING[job](None, *arguments, **options)
+class Job:
+    """A job: its signature and docstring, and the description of a call for the library.
 
+    `lead` is the argument that may be given by its position. `own` are arguments besides the options, with
+    their part `documentation` of the docstring.
+    """
 
-def _job(function: Callable[..., _Description]) -> Callable[..., _Description]:
-    """A job: the function gets its arguments by name as a dict `given`, too, which are the entries of the
-    description unless it says otherwise."""
-    signature = inspect.signature(function)
-    own = list(signature.parameters.values())[1:]  # without `given`
+    def __init__(
+        self,
+        name: str,
+        summary: str,
+        result: str,
+        lead: Optional[str] = None,
+        own: Sequence[inspect.Parameter] = (),
+        documentation: str = "",
+    ) -> None:
+        self.name = name
+        self._options = {_options.name_of(each): each for each in _options.described()[name]}
+        self._options.pop("text", None)  # of save()
+        if own:  # which state the problem as well
+            self._options["problem"] = {**self._options["problem"], "required": False}
+        leading = [lead] if lead else []
+        first = leading + [each for each in self._options if each != lead]
+        parameters = [_options.parameter(self._options[each], each == lead) for each in first]
+        count = len(leading)
+        self.signature = inspect.Signature([*parameters[:count], *own, *parameters[count:]])
+        lines = [_options.documentation(self._options[each]) for each in first]
+        self.documentation = "%s\n    Args:\n%s%s\n%s\n    Returns:\n        %s\n    " % (
+            summary.strip(" "), documentation, "\n".join(lines), _REPORTING, result
+        )  # fmt: skip
 
-    def bind(*arguments: Any, **options: Any) -> inspect.BoundArguments:
+    def bind(self, *arguments: Any, **options: Any) -> Dict[str, Any]:
+        """The arguments by their names. Raises TypeError for those that the job does not have."""
         try:
-            return signature.bind({}, *arguments, **options)
+            bound = self.signature.bind(*arguments, **options)
         except TypeError as error:
-            for_files = [name for name in options if name in _OF_SAVING and name not in signature.parameters]
+            for_files = [each for each in options if each in _OF_SAVING]
             hint = "; it is one of save()" if for_files else ""
-            raise TypeError("%s() %s%s" % (function.__name__, error, hint)) from None
-
-    @functools.wraps(function)
-    def describe(*arguments: Any, **options: Any) -> _Description:
-        bound = bind(*arguments, **options)
+            raise TypeError("%s() %s%s" % (self.name, error, hint)) from None
         bound.apply_defaults()
-        given = dict(bound.arguments)
-        del given["given"], given["added"]
-        bound.arguments["given"] = given
-        return function(*bound.args, **bound.kwargs)
+        return dict(bound.arguments)
 
-    _BINDING[function.__name__] = bind
-    describe.__signature__ = signature.replace(parameters=own)  # type: ignore[attr-defined]
-    DESCRIPTIONS[function.__name__] = describe
-    return describe
+    def __call__(self, added: Columns, *arguments: Any, **options: Any) -> _Description:
+        given = self.bind(*arguments, **options)
+        description = {
+            key: value if key not in self._options else self._value(self._options[key], value, added)
+            for key, value in given.items()
+        }
+        names = _RESULTS[self.name](added, given, description)
+        return {self._options.get(key, {}).get("key", key): value for key, value in description.items()}, names
+
+    def _value(self, option: Mapping[str, Any], value: Any, added: Columns) -> Any:
+        """An argument as the library takes its option."""
+        kind, name = option["kind"], _options.name_of(option)
+        if value is None:
+            return None
+        if kind == "where":
+            if self.name == "simplify":
+                return [_where_of_file(added, each) for each in as_regions(value)]
+            return [each.where(added) or {"everywhere": True} for each in as_regions(value)]
+        if kind == "columns":
+            return added.named(value, name, "Values")
+        return value
 
 
-@_job
-def solve(
-    given: Dict[str, Any],
-    added: Columns,
-    *,
-    dirichlet: Optional[types.Conditions] = None,
-    source: Optional[types.Values] = None,
-    flux: Optional[types.Values] = None,
-    robin: Optional[types.Pairs] = None,
-    soft: Optional[types.Pairs] = None,
-    conductivity: Optional[types.Values] = None,
-    screening: Optional[types.Values] = None,
-    field: Optional[types.Value] = None,
-    initial: Optional[types.Values] = None,
-    weights: Optional[types.Weights] = None,
-    outputs: Union[types.Output, Sequence[types.Output], None] = None,
-    columns: Optional[int] = None,
-    problem: Optional[types.Problem] = None,
-    tolerance: Union[float, Literal["auto"], None] = None,
-    acceleration: Optional[types.Acceleration] = None,
-    max_cycles: Optional[int] = None,
-    sweeps: Optional[int] = None,
-    in_core: Optional[bool] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None,
-    checkpoint: Optional[types.Path] = None,
-) -> _Description:
-    """Solves -div(K grad u - q) + s u = f by linear finite elements, as ``smg solve``.
+_REPORTING = """        progress: a function of the part that is done, a bar of tqdm or rich, or True.
+        strict: raise NotConverged instead of a warning NotConvergedWarning.
+"""
 
-    A value is a number (for all right-hand sides); a list of k numbers, one for each right-hand side (an array of these with `columns`);
-    an array with a row for each vertex, (n,) or (n, k); the name of a column of the mesh; or
-    "position". With a region it is written ``region >> value``; of several, in a list, later ones take
-    precedence. Without any flux or Robin condition, the boundary is insulated. Arrays of the cells may
-    have a row for each of the `Mesh.elements` instead, as of the hexahedra of a file.
 
-    Args:
+# What a job does with its arguments: each completes the description, and returns the columns of its result.
+
+
+def _solve(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    problem = problems.problem(added, {name: description.pop(name) for name in problems.DATA})
+    description["problem"] = problem
+    return ["Solution", *(name.capitalize() for name in problem.get("outputs", []))]
+
+
+def _deform(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    description["handles"] = problems.handles(added, given["handles"])
+    return ["Position"]
+
+
+def _smooth(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    if given["column"] is None:
+        return ["Position"]
+    names = added.named(given["column"], "column", "Values")
+    if len(names) != 1:
+        raise InputError("column: one column is smoothed at a time.")
+    description["column"] = names[0]
+    return names
+
+
+def _blend(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    if not isinstance(given["patch"], str):
+        description["patch"] = added.add(given["patch"], "patch", components=(1,)).name
+    return description["columns"]
+
+
+def _distance(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    wall, within = given["wall"], given["within"]
+    if given["sources"] is None and not wall:
+        raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
+    if within is not None and not within > 0:
+        raise InputError("distance: within: %r is no length: it must be positive." % (within,))
+    if wall and within is not None:
+        raise InputError("distance: within: the largest distance is one of paths: leave it out with wall=True.")
+    if given["to"] is not None and (wall or given["accuracy"] == "approximate"):
+        raise InputError(
+            "distance: to: shortest paths are those of exact distances on a surface: leave out %s."
+            % ("wall=True" if wall else "accuracy='approximate'")
+        )
+    if wall and added.mesh.n_corners == 3:
+        raise InputError("distance: wall: the distance to walls is that of tetrahedra; this mesh has triangles.")
+    return ["Distance", *("Distance" + name.capitalize() for name in ("source", "group", "direction") if given[name])]
+
+
+def _simplify(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    if given["vertices"] is None and given["error"] is None:
+        raise InputError("simplify: give the number of vertices, or the error, or both.")
+    return ["Position"]
+
+
+_RESULTS: Dict[str, Callable[[Columns, Dict[str, Any], Dict[str, Any]], List[str]]] = {
+    "solve": _solve, "deform": _deform, "smooth": _smooth, "blend": _blend, "distance": _distance,
+    "simplify": _simplify,
+}  # fmt: skip
+
+
+def _data() -> List[inspect.Parameter]:
+    """The arguments of `solve` that are data of a problem file."""
+    types = {
+        "dirichlet": "types.Conditions", "robin": "types.Pairs", "soft": "types.Pairs", "field": "types.Value",
+        "weights": "types.Weights", "columns": "int",
+        "outputs": "Union[types.Output, Sequence[types.Output]]",
+    }  # fmt: skip
+    return [
+        inspect.Parameter(
+            name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=None,
+            annotation="Optional[%s]" % types.get(name, "types.Values"),
+        )
+        for name in problems.DATA
+        if name != "problem"
+    ]
+
+
+_DATA = """\
         dirichlet: u at vertices: ``[smg.plane(z=0) >> 0, smg.tag("part", 3) >> 1]``, or a dict
             {vertex: value}. With ``smg.vertices(ids)`` a value may have a row for each of `ids`.
         source: f, a density: a value, or a list of values with regions; also an array with a row for
@@ -143,243 +209,55 @@ def solve(
             of the cells, beside the solution.
         columns: k, the number of right-hand sides, 1 to 64; default: what the values have.
         problem: a problem file (docs/problem.md), or its dict, which the other arguments complete.
-        tolerance: the relative residual to stop at, between 0 and 1, or "auto"; default 1e-8.
-        acceleration: "automatic" (default), "none", "chebyshev" or "cg".
-        max_cycles: the most V-cycles; default 50.
-        sweeps: Gauss-Seidel sweeps before and after a coarse-grid correction, 1 to 20; default 2.
-        in_core: keep everything in memory; the result is the same, bit for bit. Default False.
-        memory: limit of the accounted memory: bytes, or a text as "2GB"; default that of the mesh, or
-            1 GiB.
-        threads: 0 (default): one for each core; the result does not depend on it.
-        scratch: folder for scratch files; default that of the mesh, $TMPDIR, or /tmp.
-        scratch_limit: the most bytes of scratch files at once, or a text.
-        checkpoint: folder from which the same solve continues if it was killed.
-        progress: a function of the part that is done, a bar of tqdm or rich, or True.
-        strict: raise NotConverged instead of a warning NotConvergedWarning.
+"""
 
-    Returns:
-        The solution: (n,), or (n, k) of k right-hand sides, float64; NaN at vertices of no cell.
+#: By the names that the library knows them by.
+JOBS: Dict[str, Job] = {
+    job.name: job
+    for job in (
+        Job(
+            "solve",
+            """Solves -div(K grad u - q) + s u = f by linear finite elements, as ``smg solve``.
 
-    Raises:
-        InputError: an argument is wrong. MemoryLimitError: the mesh needs more; the sentence says how
-        much. Error: the problem has no solution, a region no vertex, the disk is full.
-    """
-    described = problems.problem(added, {name: given.pop(name) for name in problems.DATA})
-    names = ["Solution", *(name.capitalize() for name in described.get("outputs", []))]
-    return {"problem": described, **given}, names
-
-
-@_job
-def deform(
-    given: Dict[str, Any],
-    added: Columns,
-    handles: types.Handles,
-    *,
-    weights: Optional[types.Weights] = None,
-    tolerance: Optional[float] = None,
-    cycles: Optional[int] = None,
-    normals: Optional[types.Normals] = None,
-    max_cycles: Optional[int] = None,
-    sweeps: Optional[int] = None,
-    in_core: Optional[bool] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None,
-    checkpoint: Optional[types.Path] = None,
-) -> _Description:
-    """Deforms the mesh: handles hold or move parts, the rest follows and keeps its details.
-
-    Args:
-        handles: a list of `smg.handle(...)`; the last one counts where several hold a vertex. Also a
-            handle file (docs/deform.md) or its dict.
-        weights: "clamped" (default), "cotangent" or "uniform".
-        tolerance: the relative residual at which each of the two steps stops; default 1e-6.
-        cycles: V-cycles of each step, instead of `tolerance`.
-        normals: "recompute" (default) or "drop" a column Normals.
-        max_cycles, sweeps, in_core, memory, threads, scratch, scratch_limit, checkpoint, progress,
-        strict: as of `solve`; max_cycles of each step.
-
-    Returns:
-        The positions: (n, 3) float64. Components that no handle holds, and vertices of no cell, stay.
-    """
-    return {**given, "handles": problems.handles(added, handles)}, ["Position"]
-
-
-@_job
-def smooth(
-    given: Dict[str, Any],
-    added: Columns,
-    *,
-    size: Union[float, str, None] = None,
-    steps: Optional[int] = None,
-    hold: Optional[types.Places] = None,
-    boundary: Optional[types.SmoothedBoundary] = None,
-    keep_volume: Optional[bool] = None,
-    keep_edges: Optional[float] = None,
-    orient: Optional[bool] = None,
-    column: Optional[types.Columns] = None,
-    normals: Optional[types.Normals] = None,
-    tolerance: Optional[float] = None,
-    max_cycles: Optional[int] = None,
-    sweeps: Optional[int] = None,
-    in_core: Optional[bool] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None,
-) -> _Description:
-    """Smooths a surface, or a column of the vertices of any mesh, by implicit fairing.
-
-    Args:
-        size: waves of this length are halved: a number in the unit of the mesh, "6edges" (mean
-            edges), or "1%" (of the diagonal of the bounds); default "4edges".
-        steps: implicit steps, 1 to 1000; default 1.
-        hold: what does not move: a region, a mask (booleans, (n,)), numbers of vertices, or a list.
-        boundary: "smooth" (default of positions), "fixed", or "free" (default of a column).
-        keep_volume: each step moves the surface so that it sweeps no volume; default True.
-        keep_edges: degrees: edges at which the surface turns by more are kept.
-        orient: in the mesh with the result, triangles are turned so that those of a body are wound
-            alike, and outwards if it is closed. Some vertices may have other places in a file that
-            is in stream order.
-        column: smooths a column of the vertices instead of the positions: its name, an array (n,) or
-            (n, k), which becomes the column Values, or {name: array}.
-        normals: "recompute" (default) or "drop" a column Normals.
-        tolerance, max_cycles (of each step), sweeps, in_core, memory, threads, scratch, scratch_limit,
-        progress, strict: as of `solve`.
-
-    Returns:
-        The smoothed positions, (n, 3) float64, or the smoothed column, of its type.
-    """
-    names = ["Position"]
-    if column is not None:
-        names = added.named(column, "column", "Values")
-        if len(names) != 1:
-            raise InputError("column: one column is smoothed at a time.")
-        given["column"] = names[0]
-    return {**given, "hold": _where(added, hold)}, names
-
-
-@_job
-def blend(
-    given: Dict[str, Any],
-    added: Columns,
-    columns: types.Columns,
-    *,
-    patch: Union[str, npt.ArrayLike],
-    hold: Optional[types.Places] = None,
-    anchor: Optional[float] = None,
-    seam: Optional[types.Seam] = None,
-    tolerance: Optional[float] = None,
-    max_cycles: Optional[int] = None,
-    sweeps: Optional[int] = None,
-    in_core: Optional[bool] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None,
-) -> _Description:
-    """Removes the steps of columns between patches and keeps the gradients inside these.
-
-    Args:
-        columns: columns of the vertices: a name, a list of names, an array (n,) or (n, k), which
-            becomes the column Values, or {name: array}.
-        patch: the patch of each vertex or cell, any numbers: the name of a column, or an array (n,)
-            or (m,).
-        hold: what keeps its values: a region, a mask (booleans, (n,)), numbers of vertices, or a list.
-        anchor: how strongly values are pulled towards the original ones, at least 0; default 0.01.
-        seam: gradients between patches: "zero" (default), or "average" of those beside them.
-        tolerance, max_cycles, sweeps, in_core, memory, threads, scratch, scratch_limit, progress,
-        strict: as of `solve`.
-
-    Returns:
-        The blended column, of its type; of several the first one, the others by their names.
-    """
-    names = added.named(columns, "columns", "Values")
-    if not isinstance(patch, str):
-        given["patch"] = added.add(patch, "patch", components=(1,)).name
-    return {**given, "columns": names, "hold": _where(added, hold)}, names
-
-
-@_job
-def distance(
-    given: Dict[str, Any],
-    added: Columns,
-    sources: Optional[types.Places] = None,
-    *,
-    wall: Optional[bool] = None,
-    source: Optional[bool] = None,
-    group: Optional[bool] = None,
-    direction: Optional[bool] = None,
-    to: Optional[types.Places] = None,
-    accuracy: Optional[types.Accuracy] = None,
-    within: Optional[float] = None,
-    max_passes: Optional[int] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
-    scratch_limit: Optional[types.Size] = None,
-) -> _Description:
-    """The distance of all vertices from some of them, along a surface or through a solid.
-
-    Args:
-        sources: where it is 0: a region, a mask (booleans, (n,)), numbers of vertices, or a list;
-            needed without `wall`.
-        wall: of tetrahedra, the distance in a straight line to the boundary, or to the part of it in
-            `sources`. Default False.
-        source: adds the column DistanceSource (int64), the number of the nearest source, -1: none.
-        group: adds the column DistanceGroup (int32): in which of the listed `sources` the nearest one
-            is, from 0; -1: none.
-        direction: adds the column DistanceDirection (n, 3), the unit gradient.
-        to: vertices whose shortest paths are wanted, as `sources`, at most 1,000; `paths` of the result
-            has them. Of exact distances on a surface.
-        accuracy: of paths on a surface: "exact", "approximate" (ten times as fast, too long on long
-            thin triangles) or "auto", exact up to 1,000,000 vertices. Default "auto".
-        within: of paths, a length in the unit of the mesh: vertices that are farther are not reached.
-        max_passes: the most passes over the mesh; default 200.
-        memory, threads, scratch, scratch_limit, progress, strict: as of `solve`.
-
-    Returns:
-        The distances: (n,) float64, in the unit of the mesh; infinite where no path leads. With further
-        columns or `to` the function on arrays returns all of them by their names, and "paths".
-    """
-    del given["sources"]
-    if sources is None and not wall:
-        raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
-    if within is not None and not within > 0:
-        raise InputError("distance: within: %r is no length: it must be positive." % (within,))
-    if wall and within is not None:
-        raise InputError("distance: within: the largest distance is one of paths: leave it out with wall=True.")
-    if to is not None and (wall or accuracy == "approximate"):
-        raise InputError(
-            "distance: to: shortest paths are those of exact distances on a surface: leave out %s."
-            % ("wall=True" if wall else "accuracy='approximate'")
-        )
-    if wall and added.mesh.n_corners == 3:
-        raise InputError("distance: wall: the distance to walls is that of tetrahedra; this mesh has triangles.")
-    names = ["Distance"] + ["DistanceSource"] * bool(source) + ["DistanceGroup"] * bool(group)
-    names += ["DistanceDirection"] * bool(direction)
-    return {**given, "from": _where(added, sources), "to": _where(added, to)}, names
-
-
-@_job
-def simplify(
-    given: Dict[str, Any],
-    added: Columns,
-    vertices: Optional[int] = None,
-    *,
-    error: Optional[float] = None,
-    hold: Optional[types.Places] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
-    checkpoint: Optional[types.Path] = None,
-) -> _Description:
-    if vertices is None and error is None:
-        raise InputError("simplify: give the number of vertices, or the error, or both.")
-    held = None if hold is None else [_where_of_file(added, each) for each in as_regions(hold)]
-    return {**given, "hold": held}, ["Position"]
-
+    A value is a number (for all right-hand sides); a list of k numbers, one for each right-hand side (an array of these with `columns`);
+    an array with a row for each vertex, (n,) or (n, k); the name of a column of the mesh; or
+    "position". With a region it is written ``region >> value``; of several, in a list, later ones take
+    precedence. Without any flux or Robin condition, the boundary is insulated. Arrays of the cells may
+    have a row for each of the `Mesh.elements` instead, as of the hexahedra of a file.
+""",
+            "The solution: (n,), or (n, k) of k right-hand sides, float64; NaN at vertices of no cell.",
+            own=_data(),
+            documentation=_DATA,
+        ),
+        Job(
+            "deform",
+            "Deforms the mesh: handles hold or move parts, the rest follows and keeps its details.\n",
+            "The positions: (n, 3) float64. Components that no handle holds, and vertices of no cell, stay.",
+            "handles",
+        ),
+        Job(
+            "smooth",
+            "Smooths a surface, or a column of the vertices of any mesh, by implicit fairing.\n",
+            "The smoothed positions, (n, 3) float64, or the smoothed column, of its type.",
+        ),
+        Job(
+            "blend",
+            "Removes the steps of columns between patches and keeps the gradients inside these.\n",
+            "The blended column, of its type; of several the first one, the others by their names.",
+            "columns",
+        ),
+        Job(
+            "distance",
+            "The distance of all vertices from some of them, along a surface or through a solid.\n",
+            "The distances: (n,) float64, in the unit of the mesh; infinite where no path leads. With further\n"
+            "        columns or `to` the function on arrays returns all of them by their names, and \"paths\".",
+            "sources",
+        ),
+        Job("simplify", "", "", "vertices"),
+    )
+}
+#: Those whose result is a field.
+OF_FIELDS = tuple(name for name in JOBS if name != "simplify")
 
 #: The arguments of `solve` that say what the matrix is, and how it is treated.
 OF_MATRIX = (
@@ -396,7 +274,7 @@ def with_arguments_of(
     `before` are its own first arguments; `progress` and `strict` come last. With `names`, it takes these
     arguments and `progress` alone, and has its own docstring.
     """
-    described = inspect.signature(DESCRIPTIONS[job]).parameters
+    described = JOBS[job].signature.parameters
     parameter = inspect.Parameter
 
     def give(function: Callable) -> Callable:
@@ -405,9 +283,9 @@ def with_arguments_of(
             parameter("progress", parameter.KEYWORD_ONLY, default=None, annotation="Optional[types.Progress]"),
             parameter("strict", parameter.KEYWORD_ONLY, default=False, annotation="bool"),
         ]
-        between = list(described.values())[1:]
+        between = list(described.values())
         if names is None:
-            function.__doc__ = DESCRIPTIONS[job].__doc__
+            function.__doc__ = JOBS[job].documentation
         else:
             between, last = [described[name] for name in names], last[:1]
         own = inspect.signature(function)

@@ -38,6 +38,7 @@ _FUNCTIONS = {  # their arguments; they return a status
     "smg_conversion": [c_void_p, POINTER(c_char_p)],
     "smg_elements": [c_void_p, *_REPORTED, POINTER(c_int64)],
     "smg_merged": [c_void_p, *_REPORTED, POINTER(c_int64), c_void_p, c_void_p],
+    "smg_describe": [POINTER(c_char_p)],
     "smg_files": [c_char_p, POINTER(c_char_p)],
     "smg_estimate": [c_void_p, c_char_p, c_char_p, c_char_p, POINTER(c_char_p)],
     "smg_estimate_file": [c_char_p] * 5 + [POINTER(c_char_p)],

@@ -379,10 +379,10 @@ class Mesh:
         A file that has not been read yet is not read for it, unless arrays, names of columns or planes
         are arguments: then counts are estimated from its size where its header does not say them.
         """
-        if job not in jobs.DESCRIPTIONS:
-            raise InputError("There is no job %r; there are %s." % (job, ", ".join(jobs.DESCRIPTIONS)))
+        if job not in jobs.JOBS:
+            raise InputError("There is no job %r; there are %s." % (job, ", ".join(jobs.JOBS)))
         columns = Columns(self)
-        described = jobs.DESCRIPTIONS[job](columns, *arguments, **options)[0]
+        described = jobs.JOBS[job](columns, *arguments, **options)[0]
         description = json_text(self._with_defaults(job, described))
         result = c_char_p()
         if self._opened is None:  # what is said of the job did not need it
@@ -426,12 +426,12 @@ class Mesh:
         )
 
     def _run(self, job: str, progress: Any, strict: bool, arguments: tuple, options: dict) -> Field:
-        jobs.require_arguments(job, arguments, options)
+        jobs.JOBS[job].bind(*arguments, **options)  # before a mesh is opened for it
         columns = Columns(self)
         with reporting(progress, job) as report:
             opening = 0.0 if self._opened else 0.3
             self._handle(part(report, 0, opening))
-            described, names = jobs.DESCRIPTIONS[job](columns, *arguments, **options)
+            described, names = jobs.JOBS[job](columns, *arguments, **options)
             description = json_text(self._with_defaults(job, described))
             arrays = [*self._arrays(), *(column.values for column in columns.added)]
             handle = NativeHandle("field", *arrays)
@@ -448,30 +448,6 @@ class Mesh:
             raise NotConverged(not_converged(found), field)
         warn_of(found, field._said)
         return field
-
-    @jobs.with_arguments_of("solve", ("self",))
-    def solve(self, *, progress: Any = None, strict: bool = False, **options: Any) -> Field:
-        return self._run("solve", progress, strict, (), options)
-
-    @jobs.with_arguments_of("deform", ("self",))
-    def deform(self, handles: Any, *, progress: Any = None, strict: bool = False, **options: Any) -> Field:
-        return self._run("deform", progress, strict, (handles,), options)
-
-    @jobs.with_arguments_of("smooth", ("self",))
-    def smooth(self, *, progress: Any = None, strict: bool = False, **options: Any) -> Field:
-        return self._run("smooth", progress, strict, (), options)
-
-    @jobs.with_arguments_of("blend", ("self",))
-    def blend(
-        self, columns: Any, *, patch: Any, progress: Any = None, strict: bool = False, **options: Any
-    ) -> Field:
-        return self._run("blend", progress, strict, (columns,), {"patch": patch, **options})
-
-    @jobs.with_arguments_of("distance", ("self",))
-    def distance(
-        self, sources: Any = None, *, progress: Any = None, strict: bool = False, **options: Any
-    ) -> Field:
-        return self._run("distance", progress, strict, (sources,), options)
 
     def simplify(
         self,
@@ -510,7 +486,7 @@ class Mesh:
         return simplified
 
     def _simplified(self, vertices: Any, path: Any, progress: Any, options: Dict[str, Any]) -> "Mesh":
-        description = jobs.DESCRIPTIONS["simplify"](Columns(self), vertices, **options)[0]
+        description = jobs.JOBS["simplify"](Columns(self), vertices, **options)[0]
         description = self._with_defaults("simplify", description)
         folder = None
         if path is None:
@@ -605,6 +581,23 @@ class Mesh:
         return surface_svg(points, cells, values)
 
 
+def _job(job: str) -> Any:
+    """The method of a mesh that does a job whose result is a field."""
+
+    @jobs.with_arguments_of(job, ("self",))
+    def method(
+        self: Mesh, *arguments: Any, progress: Any = None, strict: bool = False, **options: Any
+    ) -> Field:
+        return self._run(job, progress, strict, arguments, options)
+
+    method.__name__, method.__qualname__ = job, "Mesh." + job
+    return method
+
+
+for _name in jobs.OF_FIELDS:
+    setattr(Mesh, _name, _job(_name))
+
+
 def _on_result(name: str) -> Any:
     """The method of this name of a mesh, for fields."""
 
@@ -615,5 +608,5 @@ def _on_result(name: str) -> Any:
     return method
 
 
-for _name in (*jobs.DESCRIPTIONS, "solver", "estimate", "select"):
+for _name in (*jobs.JOBS, "solver", "estimate", "select"):
     setattr(Field, _name, _on_result(_name))

@@ -48,5 +48,5 @@ def _method(job: str) -> Any:
     return method
 
 
-for _job in ("solve", "deform", "smooth", "blend", "distance"):
+for _job in jobs.OF_FIELDS:
     setattr(Accessor, _job, _method(_job))

@@ -63,7 +63,7 @@ class Solver:
                 ReportWarning,
             )
         columns = Columns(mesh)
-        problem, _ = jobs.solve(columns, **{k: v for k, v in options.items() if k not in own})
+        problem, _ = jobs.JOBS["solve"](columns, **{k: v for k, v in options.items() if k not in own})
         used = {key: value for key, value in problem.items() if value is not None}
         unknown = set(used) - {"problem"}
         if unknown:

@@ -155,7 +155,7 @@ def test_errors():
     assert "--hold: " in done.stderr, done.stderr
     for columns in ("", ",", "Colors,,height", "Colors,"):
         done = run("blend", "scan.ply", "bad.ply", "--patch", "scan", "--columns", columns, code=2)
-        assert "has an empty name" in done.stderr or not columns, done.stderr
+        assert "must be the name of a column" in done.stderr or not columns, done.stderr
     for anchor in ("-1", "inf", "nan", "1x", ""):
         done = blend("scan.ply", "bad.ply", "--anchor", anchor, code=2)
         assert "'%s' is not a finite number of at least 0" % anchor in done.stderr, done.stderr

@@ -121,7 +121,7 @@ TEST(CErrors, ADescriptionSaysWhereItIsWrong)
   const ErrorMesh given;
   smg_field* field = nullptr;
   const std::vector<std::array<const char*, 3>> wrong{
-    { "melt", "{}", "the jobs are solve, deform, smooth, blend and distance" },
+    { "melt", "{}", "the jobs are solve, deform, smooth, blend, distance and simplify" },
     { "solve", "{", "solve: this is not valid JSON" },
     { "solve", "[]", "solve: must be an object" }, { "solve", "{}", "solve: has no 'problem'" },
     { "solve", R"({"problem": {}})", "says nothing to solve for" },
@@ -141,7 +141,7 @@ TEST(CErrors, ADescriptionSaysWhereItIsWrong)
     { "smooth", R"({"size": -1})", "smooth: size: must be above 0" },
     { "smooth", R"({"steps": 0})", "smooth: steps: must be" },
     { "smooth", R"({"boundary": "wavy"})", "smooth: boundary: must be one of" },
-    { "smooth", R"({"keep_edges": 500})", "0 and 180 degrees" },
+    { "smooth", R"({"keep_edges": 500})", "keep_edges: must be between 0 and 180, both excluded" },
     { "smooth", R"({"hold": {"ball": 1}})", "smooth: hold.ball: is not known" },
     { "blend", R"({"patch": "p"})", "blend: has no 'columns'" },
     { "blend", R"({"patch": "p", "columns": ["a"], "anchor": -1})", "blend: anchor: must be" },

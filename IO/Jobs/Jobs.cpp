@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Jobs/Jobs.h"
+
+#include "IO/Jobs/BlendJob.h"
+#include "IO/Jobs/DeformJob.h"
+#include "IO/Jobs/DistanceJob.h"
+#include "IO/Jobs/ReadOptions.h"
+#include "IO/Jobs/SimplifyJob.h"
+#include "IO/Jobs/SmoothJob.h"
+#include "IO/Jobs/SolveJob.h"
+#include "smg/Error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+template <class Kind>
+std::unique_ptr<Job> make()
+{
+  return std::make_unique<Kind>();
+}
+
+constexpr JobKind Kinds[] = {
+  { "solve", "Solve a Poisson problem on a mesh", make<SolveJob> },
+  { "deform", "Deform a mesh by handles, keeping its details", make<DeformJob> },
+  { "smooth", "Smooth a surface, or a column of the vertices of any mesh", make<SmoothJob> },
+  { "blend", "Remove the steps of columns between patches of a mesh", make<BlendJob> },
+  { "distance", "Measure the distance of all vertices from some of them", make<DistanceJob> },
+  { "simplify", "Simplify a surface, or that of a solid, by collapsing edges", make<SimplifyJob> },
+};
+
+} // namespace
+
+std::span<const JobKind> jobKinds()
+{
+  return Kinds;
+}
+
+std::unique_ptr<Job> makeJob(std::string_view kind)
+{
+  const auto found = std::ranges::find(Kinds, kind, &JobKind::name);
+  if (found == std::end(Kinds))
+  {
+    std::string names;
+    for (std::size_t i = 0; i < std::size(Kinds); ++i)
+    {
+      names += (i == 0                       ? ""
+                 : i + 1 == std::size(Kinds) ? " and "
+                                             : ", ") +
+               std::string(Kinds[i].name);
+    }
+    throw Error('\'' + std::string(kind) + "': the jobs are " + names + '.');
+  }
+  return found->make();
+}
+
+nlohmann::ordered_json describeAll()
+{
+  nlohmann::ordered_json jobs;
+  for (const JobKind& kind : Kinds)
+  {
+    jobs[kind.name] = describe(*kind.make());
+  }
+  return jobs;
+}
+
+} // namespace smg

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Jobs/Job.h"
+#include "smg/Export.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace smg
+{
+
+/** A kind of job. */
+struct JobKind
+{
+  const char* name; ///< of its command, and of its functions
+  const char* help; ///< a sentence without its end
+  std::unique_ptr<Job> (*make)();
+};
+
+/** All kinds of jobs. */
+SMG_EXPORT std::span<const JobKind> jobKinds();
+
+/** A new job of a kind. Throws Error, which lists those that there are. */
+SMG_EXPORT std::unique_ptr<Job> makeJob(std::string_view kind);
+
+/** The options of all jobs: an object of what describe() says of each. */
+SMG_EXPORT nlohmann::ordered_json describeAll();
+
+} // namespace smg
