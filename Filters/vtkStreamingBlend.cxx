@@ -4,9 +4,8 @@
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
+#include "IO/Jobs/BlendJob.h"
 #include "IO/vtkPropertyRange.h"
-#include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "smg/Blend.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
@@ -23,7 +22,7 @@ namespace
 class BlendTask : public smg::JobTask
 {
 public:
-  smg::BlendDescription description; ///< without the parts to hold
+  smg::BlendJob asked;
 
   BlendTask()
     : JobTask("this is the blended preview", "blended")
@@ -32,37 +31,20 @@ public:
 
   void check() const override
   {
-    checkOptions(this->options);
-    refuseAutomaticTolerance(this->options, "a blend");
-    if (this->description.patch.empty())
+    this->JobTask::check();
+    if (this->asked.description.patch.empty())
     {
       throw smg::Error("Patch must name the array with the patch of each point or cell.");
     }
-    if (this->description.columns.empty())
+    if (this->asked.description.columns.empty())
     {
       throw smg::Error("Arrays must name at least one point array to blend.");
     }
   }
 
-  smg::Costs costs(const smg::StreamInfo& info) const override
-  {
-    constexpr int Usual = 3;
-    int components = 0;
-    for (const std::string& name : this->description.columns)
-    {
-      components += smg::expectedComponents(info, name, Usual);
-    }
-    return smg::blendCosts(info, components, this->description.seam, this->options);
-  }
-
 protected:
-  std::unique_ptr<smg::Solution> run(
-    const smg::StoredMesh& mesh, const smg::SolveOptions& given) const override
-  {
-    smg::BlendDescription asked = this->description;
-    asked.hold = this->places;
-    return smg::blend(mesh, asked, given);
-  }
+  smg::BlendJob& job() override { return this->asked; }
+  std::vector<smg::Where>& places() override { return this->asked.description.hold; }
 };
 
 } // namespace
@@ -158,17 +140,17 @@ void vtkStreamingBlend::CheckRanges() const
 std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<BlendTask>();
-  this->FillOptions(task->options);
+  this->FillOptions(task->asked.solving);
+  task->setLimits(task->asked.solving);
+  smg::BlendDescription& description = task->asked.description;
   // "None" is what ParaView offers for no array.
   const std::string patch = this->Patch ? this->Patch : "";
-  task->description.patch = patch == "None" ? "" : patch;
-  task->description.columns = this->Internal->chosen();
-  task->description.anchor = this->Anchor;
-  task->description.seam =
+  description.patch = patch == "None" ? "" : patch;
+  description.columns = this->Internal->chosen();
+  description.anchor = this->Anchor;
+  description.seam =
     this->SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
-  task->places = smg::placesOn(input, this->Hold, "Hold");
-  task->arrays = { task->description.columns.begin(), task->description.columns.end() };
-  task->arrays.insert(task->description.patch);
+  description.hold = smg::placesOn(input, this->Hold, "Hold");
   return task;
 }
 

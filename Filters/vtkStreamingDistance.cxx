@@ -4,14 +4,13 @@
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
+#include "IO/Jobs/DistanceJob.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
-#include "Solver/Problem/Selection.h"
 #include "smg/Deform.h"
 #include "smg/DescriptionFiles.h"
-#include "smg/Distance.h"
 #include "smg/Error.h"
 
 #include "vtkCellArray.h"
@@ -48,9 +47,8 @@ constexpr const char* HintOnPreview =
 class DistanceTask : public smg::JobTask
 {
 public:
-  smg::DistanceDescription description; ///< without the sources
-  int maxPasses = 0;
-  std::size_t regions = 0; ///< of `places`, on the mesh
+  smg::DistanceJob asked;
+  std::size_t regions = 0; ///< of places(), on the mesh
 
   DistanceTask()
     : JobTask("these are distances on the preview", "measured")
@@ -59,7 +57,7 @@ public:
 
   void check() const override
   {
-    if (this->places.empty() && !this->description.wall)
+    if (this->asked.description.from.empty() && !this->asked.description.wall)
     {
       throw smg::Error(
         "Nothing says where the distance is 0: put a Mesh Region before this filter, or set From "
@@ -67,32 +65,16 @@ public:
     }
   }
 
-  smg::Costs costs(const smg::StreamInfo& info) const override
-  {
-    return smg::distanceCosts(info, this->description);
-  }
-
-  smg::AddedValues added(const smg::StreamInfo& /*info*/) const override
-  {
-    return { smg::distanceColumns(this->description), {} };
-  }
-
 protected:
+  smg::DistanceJob& job() override { return this->asked; }
+  std::vector<smg::Where>& places() override { return this->asked.description.from; }
+
   std::unique_ptr<smg::Solution> run(
-    const smg::StoredMesh& mesh, const smg::SolveOptions& given) const override
+    const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override
   {
-    smg::DistanceDescription asked = this->description;
-    asked.from = this->places;
-    smg::DistanceOptions options;
-    options.memoryLimit = given.memoryLimit;
-    options.threads = given.threads;
-    options.scratch = given.scratch;
-    options.scratchLimit = given.scratchLimit;
-    options.maxPasses = this->maxPasses;
-    options.progress = given.progress;
     try
     {
-      return smg::distance(mesh, asked, options);
+      return this->JobTask::run(mesh, progress);
     }
     catch (const smg::Cancelled&)
     {
@@ -100,15 +82,17 @@ protected:
     }
     catch (const smg::Error& error)
     {
-      throw smg::Error(error.what() + std::string(given.inCore ? HintOnPreview : ""));
+      throw smg::Error(error.what() + std::string(this->IsOnPreview ? HintOnPreview : ""));
     }
   }
 
   void adaptTo(vtkPointSet& /*preview*/, const smg::StreamInfo& /*info*/) override
   {
+    this->IsOnPreview = true;
     // A region less would change the indices of those after it.
-    const bool misses = this->description.group && this->places.size() < this->regions;
-    if (misses || (this->places.empty() && !this->description.wall))
+    const smg::DistanceDescription& description = this->asked.description;
+    const bool misses = description.group && description.from.size() < this->regions;
+    if (misses || (description.from.empty() && !description.wall))
     {
       throw smg::Error(
         std::string("No point of the preview lies in the region from which to measure.") +
@@ -127,6 +111,9 @@ protected:
         ", of which Clip and Contour make points without a place: put a Threshold before them");
     }
   }
+
+private:
+  bool IsOnPreview = false;
 };
 
 } // namespace
@@ -237,8 +224,10 @@ void vtkStreamingDistance::CheckRanges() const
 std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<DistanceTask>();
-  this->FillOptions(task->options);
-  if (!task->options.checkpoint.folder.empty())
+  smg::SolveOptions options;
+  this->FillOptions(options);
+  task->setLimits(options);
+  if (!options.checkpoint.folder.empty())
   {
     throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
   }
@@ -248,24 +237,19 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& i
       "Within is the largest length of paths, which distances to a wall are not: set "
       "Within to 0, or turn Wall off.");
   }
-  task->maxPasses = this->MaximumPasses;
-  task->description = this->Description();
-  task->places = smg::placesOn(input, this->From, "From");
-  if (task->places.empty() && !this->Wall && input.GetPointData()->HasArray(smg::HandleMaskName))
+  task->asked.options.maxPasses = this->MaximumPasses;
+  smg::DistanceDescription& description = task->asked.description;
+  description = this->Description();
+  description.from = smg::placesOn(input, this->From, "From");
+  if (description.from.empty() && !this->Wall &&
+      input.GetPointData()->HasArray(smg::HandleMaskName))
   {
-    task->places.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
+    description.from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
   }
-  task->regions = task->places.size();
+  task->regions = description.from.size();
   if (this->To && *this->To)
   {
-    task->description.to = smg::readPlacesText(this->To, "To");
-    for (const smg::Where& place : task->description.to)
-    {
-      if (const std::string* column = smg::columnOf(place))
-      {
-        task->arrays.insert(*column);
-      }
-    }
+    description.to = smg::readPlacesText(this->To, "To");
   }
   return task;
 }

@@ -7,12 +7,11 @@
 #include "Filters/Tasks/vtkJobTask.h"
 #include "Filters/Tasks/vtkMovedPiece.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/SmoothJob.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkModeProperty.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPropertyRange.h"
-#include "Solver/Multigrid/Engine/CheckOptions.h"
-#include "smg/Smooth.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -35,46 +34,38 @@ constexpr double SmoothShare = 0.9;
 class SmoothingTask : public smg::JobTask
 {
 public:
-  smg::SmoothingDescription description; ///< without the parts to hold
-  bool needsNormals = false;             ///< of the vertices; tetrahedra have none
+  smg::SmoothJob asked;
+  bool needsNormals = false; ///< of the vertices; tetrahedra have none
 
   SmoothingTask()
     : JobTask("this is the smoothed preview", "smoothed")
   {
   }
 
-  void check() const override { checkOptions(this->given()); }
-
-  smg::Costs costs(const smg::StreamInfo& info) const override
-  {
-    constexpr int OfPoints = 3;
-    return smg::smoothCosts(
-      info, smg::expectedComponents(info, this->description.column, OfPoints), this->given());
-  }
-
 protected:
+  smg::SmoothJob& job() override { return this->asked; }
+  std::vector<smg::Where>& places() override { return this->asked.smoothing.hold; }
+
   std::unique_ptr<smg::Solution> run(
-    const smg::StoredMesh& mesh, const smg::SolveOptions& given) const override
+    const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override
   {
-    smg::SolveOptions smoothing = given;
-    smoothing.progress = smg::partOf(given.progress, 0.0, this->needsNormals ? SmoothShare : 1.0);
-    std::unique_ptr<smg::Solution> solution = smg::smooth(mesh, this->given(), smoothing);
     if (!this->needsNormals)
     {
-      return solution;
+      return this->JobTask::run(mesh, progress);
     }
+    auto moved = std::make_unique<smg::DeformedVertices>(
+      this->JobTask::run(mesh, smg::partOf(progress, 0.0, SmoothShare)));
     smg::NormalsOptions normals;
-    normals.scratch = given.scratch;
-    normals.memory = std::min(normals.memory, given.memoryLimit / 4);
-    normals.progress = smg::partOf(given.progress, SmoothShare, 1.0);
-    auto moved = std::make_unique<smg::DeformedVertices>(std::move(solution));
+    normals.scratch = this->asked.smoothing.scratch;
+    normals.memory = std::min(normals.memory, this->asked.memoryLimit() / 4);
+    normals.progress = smg::partOf(progress, SmoothShare, 1.0);
     moved->addNormals(mesh.source({}, {}), normals);
     return moved;
   }
 
   void adaptTo(vtkPointSet& preview, const smg::StreamInfo& info) override
   {
-    smg::SmoothingSize& size = this->description.size;
+    smg::SmoothingSize& size = this->asked.smoothing.size;
     if (size.unit == smg::SmoothingSize::MeanEdges && smg::cellsBehind(preview) > 0)
     {
       // Those of the mesh: an area, or a volume, of so many more cells has shorter edges.
@@ -82,14 +73,6 @@ protected:
                            static_cast<double>(smg::cellsBehind(preview));
       size.value *= info.cellType == smg::CellType::Triangle ? std::sqrt(share) : std::cbrt(share);
     }
-  }
-
-private:
-  smg::Smoothing given() const
-  {
-    smg::Smoothing given{ this->options, this->description };
-    given.hold = this->places;
-    return given;
   }
 };
 
@@ -139,8 +122,9 @@ std::string vtkStreamingMeshSmoothing::UnusedProperty()
 std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<SmoothingTask>();
-  this->FillOptions(task->options);
-  smg::SmoothingDescription& description = task->description;
+  smg::Smoothing& description = task->asked.smoothing;
+  this->FillOptions(description);
+  task->setLimits(description);
   // Both enumerations have the same order.
   description.size = { this->Size, static_cast<smg::SmoothingSize::Unit>(this->SizeUnit) };
   description.steps = this->Steps;
@@ -154,11 +138,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointS
   {
     description.boundary = static_cast<smg::SmoothedBoundary>(this->Boundary - SMOOTH);
   }
-  task->places = smg::placesOn(input, this->Hold, "Hold");
-  if (!description.column.empty())
-  {
-    task->arrays = { description.column };
-  }
+  description.hold = smg::placesOn(input, this->Hold, "Hold");
   const bool isSurface =
     vtkPolyData::SafeDownCast(&input) ||
     (smg::isOrdinaryMesh(input) && smg::countingCells(input) == smg::CellChoice::Triangles);

@@ -3,7 +3,6 @@
 
 #include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/BlendJob.h"
-#include "Solver/Multigrid/Engine/CheckOptions.h"
 
 namespace
 {
@@ -28,7 +27,7 @@ public:
                    "gradients are kept. docs/blend.md explains it");
   }
 
-  void checkUsage() const override { smg::checkOptions(this->Job.solving); }
+  void checkUsage() const override { this->Job.check(); }
 
 protected:
   smg::BlendJob& job() override { return this->Job; }

@@ -53,7 +53,7 @@ Costs DeformationTask::costs(const StreamInfo& info) const
 }
 
 std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
-  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report)
 {
   const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
   DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());

@@ -34,7 +34,7 @@ public:
   Costs costs(const StreamInfo& info) const override;
   bool isInMemory() const override { return this->options.inCore; }
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
-    const ProgressFunction& progress, Report& report) const override;
+    const ProgressFunction& progress, Report& report) override;
   SolveSummary solveInMemory(
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) override;
 

@@ -3,7 +3,7 @@
 
 #include "Filters/Pieces/vtkPieceBlock.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "Solver/Problem/ComposeDescriptions.h"
+#include "IO/Jobs/ReadOptions.h"
 
 namespace smg
 {
@@ -14,49 +14,47 @@ std::string noteOnPreview(std::int64_t vertices, const std::string& result, cons
          done + " when it is saved";
 }
 
-std::set<std::string> JobTask::names() const
+void JobTask::setLimits(const SolveOptions& options)
 {
-  std::set<std::string> names = namedColumns(this->places);
-  names.insert(this->arrays.begin(), this->arrays.end());
-  return names;
+  JobLimits& limits = this->job().limits;
+  limits = { options.memoryLimit, options.threads, options.scratch, options.scratchLimit };
+  this->job().setLimits(limits);
 }
 
 PieceColumns JobTask::columns() const
 {
   return { .all = false,
-    .required = this->names(),
+    .required = columnsOf(this->job()),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
-std::unique_ptr<Solution> JobTask::run(const StoredMesh& mesh, SolveOptions given,
-  const ProgressFunction& progress, Report& report) const
+std::unique_ptr<Solution> JobTask::run(
+  const StoredMesh& mesh, const ProgressFunction& progress, Report& report)
 {
-  given.progress = progress;
-  std::unique_ptr<Solution> solution = this->run(mesh, given);
+  std::unique_ptr<Solution> solution = this->run(mesh, progress);
   report = solution->report();
   this->complete(report);
   return solution;
 }
 
 std::unique_ptr<Solution> JobTask::solve(const VsmReader& mesh,
-  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report)
 {
-  SolveOptions given = this->options;
-  given.scratch = scratch;
-  return this->run(mesh, given, progress, report);
+  this->job().limits.scratch = scratch;
+  this->job().setLimits(this->job().limits);
+  return this->run(mesh, progress, report);
 }
 
 SolveSummary JobTask::solveInMemory(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values)
 {
   this->check();
-  dropEmptyRegions(mesh, this->places);
-  const StoredBlock stored(mesh, this->names());
+  dropEmptyRegions(mesh, this->places());
+  const StoredBlock stored(mesh, columnsOf(this->job()));
   this->adaptTo(mesh, stored.info());
-  SolveOptions given = this->options;
-  given.inCore = true;
+  this->job().keepInMemory();
   Report report;
-  const std::unique_ptr<Solution> solution = this->run(stored, given, progress, report);
+  const std::unique_ptr<Solution> solution = this->run(stored, progress, report);
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   report.notes.push_back(noteOnPreview(report.vertices, this->Result, this->Done));

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "Filters/Tasks/vtkStreamedTask.h"
+#include "IO/Jobs/MeshJob.h"
 #include "smg/Region.h"
 
-#include <set>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,18 +20,20 @@ namespace smg
 std::string noteOnPreview(
   std::int64_t vertices, const std::string& result, const std::string& done);
 
-/** A task of a job that works on any stored mesh (smg/Smooth.h, smg/Blend.h, smg/Distance.h): on
- * the whole mesh out of core, and on its preview in memory. */
+/** The task of a job that works on any stored mesh: on the whole mesh out of core, and on its
+ * preview in memory. */
 class JobTask : public StreamedTask
 {
 public:
-  SolveOptions options;         ///< except for the progress function
-  std::vector<Where> places;    ///< the parts of the mesh that its description names
-  std::set<std::string> arrays; ///< those that it names besides, by their names
+  /** Sets the limits of the job. */
+  void setLimits(const SolveOptions& options);
 
+  void check() const override { this->job().check(); }
   PieceColumns columns() const override;
+  Costs costs(const StreamInfo& info) const override { return this->job().costsOn(info); }
+  AddedValues added(const StreamInfo& info) const override { return this->job().addedTo(info); }
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
-    const ProgressFunction& progress, Report& report) const override;
+    const ProgressFunction& progress, Report& report) override;
   SolveSummary solveInMemory(
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) override;
 
@@ -42,18 +45,24 @@ protected:
   {
   }
 
-  /** Calls the function of the job. Throws Error and Cancelled. */
-  virtual std::unique_ptr<Solution> run(
-    const StoredMesh& mesh, const SolveOptions& options) const = 0;
-  /** Before a run on a preview, from whose `places` regions that it has no point of are gone. */
+  virtual MeshJob& job() = 0;
+  const MeshJob& job() const { return const_cast<JobTask*>(this)->job(); }
+  /** The parts of the mesh that the job names, of which a preview may lack some. */
+  virtual std::vector<Where>& places() = 0;
+
+  /** Does the job. Throws Error and Cancelled. */
+  virtual std::unique_ptr<Solution> run(const StoredMesh& mesh, const ProgressFunction& progress)
+  {
+    return this->job().solveOn(mesh, progress);
+  }
+  /** Before a run on a preview, from whose places() regions that it has no point of are gone. */
   virtual void adaptTo(vtkPointSet& /*preview*/, const StreamInfo& /*info*/) {}
   /** Adds notes to a report. */
   virtual void complete(Report& /*report*/) const {}
 
 private:
-  std::set<std::string> names() const;
-  std::unique_ptr<Solution> run(const StoredMesh& mesh, SolveOptions given,
-    const ProgressFunction& progress, Report& report) const;
+  std::unique_ptr<Solution> run(
+    const StoredMesh& mesh, const ProgressFunction& progress, Report& report);
 
   std::string Result, Done;
 };

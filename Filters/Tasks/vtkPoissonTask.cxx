@@ -4,8 +4,10 @@
 #include "Filters/Pieces/vtkPieceBlock.h"
 #include "Filters/Pieces/vtkReplacedArray.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/SolveJob.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 #include "smg/DescribedProblem.h"
@@ -97,33 +99,23 @@ AddedValues PoissonTask::added(const StreamInfo& info) const
 }
 
 std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
-  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report)
 {
-  const ProblemDescription description = this->description(mesh.info());
-  DescribedProblem problem(description, mesh.info());
-  const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
-  problem.prepare(*source(), scratch, this->options.memoryLimit);
-  SolveOptions options = this->options;
-  options.scratch = scratch;
-  options.progress = partOf(progress, 0.0, SolveShare);
-  options.again = source;
-  options.checkpoint.mesh = mesh.fingerprint();
-  options.checkpoint.problem = textOf(description);
-  std::unique_ptr<Solution> solution = smg::solve(*source(), problem, options);
-
+  SolveJob job;
+  job.description = this->description(mesh.info());
+  job.text = textOf(job.description);
+  job.solving = this->options;
+  job.solving.scratch = scratch;
+  job.prepareOn(mesh);
+  std::unique_ptr<Solution> solution = job.solveOn(mesh, partOf(progress, 0.0, SolveShare));
   report = solution->report();
-  const auto goOn = partOf(progress, SolveShare, 1.0);
-  SolvedMesh solved(
-    mesh, problem, *solution, { .memoryLimit = options.memoryLimit, .threads = options.threads });
-  MeshBlock block;
-  for (std::int64_t done = 0; solved.next(block); done += block.vertices())
-  {
-    if (!goOn(static_cast<double>(done) / static_cast<double>(mesh.info().vertices)))
-    {
-      throw Cancelled();
-    }
-  }
-  solved.finish(report);
+  // Pieces get their cell arrays when they are delivered.
+  job.description.gradientOutput = job.description.fluxOutput = false;
+  job.passResult(
+    mesh, *solution,
+    [](MeshSource& solved, const ProgressFunction& read)
+    { visitBlocks(solved, read, 0.0, 1.0, [](const MeshBlock&) {}); },
+    report, partOf(progress, SolveShare, 1.0));
   report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
   return solution;
 }

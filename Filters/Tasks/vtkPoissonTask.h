@@ -35,7 +35,7 @@ public:
   Costs costs(const StreamInfo& info) const override;
   AddedValues added(const StreamInfo& info) const override;
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
-    const ProgressFunction& progress, Report& report) const override;
+    const ProgressFunction& progress, Report& report) override;
   SolveSummary solveInMemory(
     vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values) override;
 

@@ -64,12 +64,12 @@ public:
    * error, and there is then no solution.
    */
   void solve(
-    PieceInput& input, const StreamedTask& task, const PieceReading& reading, Progress& progress);
+    PieceInput& input, StreamedTask& task, const PieceReading& reading, Progress& progress);
 
   /** The same on a .vsm file, which is only read. `fingerprint`: unless empty, that which it must
    * have. */
   void solveFile(const std::filesystem::path& file, const std::string& fingerprint,
-    const StreamedTask& task, const PieceReading& reading, Progress& progress);
+    StreamedTask& task, const PieceReading& reading, Progress& progress);
 
   /**
    * The same on a whole ordinary mesh (see isOrdinaryMesh()): it is converted as a file is, so that
@@ -77,7 +77,7 @@ public:
    * out.
    */
   void solveWhole(
-    vtkPointSet& mesh, const StreamedTask& task, const PieceReading& reading, Progress& progress);
+    vtkPointSet& mesh, StreamedTask& task, const PieceReading& reading, Progress& progress);
 
   /** Of a solution on an ordinary mesh: the values at all its points; not a number where no cell
    * is. */
@@ -99,9 +99,8 @@ private:
     std::function<void(const std::filesystem::path& container, Progress& progress, Report& notes)>;
   using MakeFolder = std::function<std::unique_ptr<ScratchFolder>()>;
   void solveOn(
-    const MakeFolder& folder, const MakeMesh& make, const StreamedTask& task, Progress& progress);
-  Report solveOnFile(
-    const VsmReader& mesh, const StreamedTask& task, const ProgressFunction& progress);
+    const MakeFolder& folder, const MakeMesh& make, StreamedTask& task, Progress& progress);
+  Report solveOnFile(const VsmReader& mesh, StreamedTask& task, const ProgressFunction& progress);
   ConversionReport writeWhole(vtkPointSet& mesh, const PieceReading& reading,
     const std::filesystem::path& container, Progress& progress);
 

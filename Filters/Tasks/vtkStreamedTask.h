@@ -42,8 +42,7 @@ public:
    * `scratch`; `mesh` is not needed afterwards. `report` receives the report of the solution with
    * additional notes. Throws Error and Cancelled. */
   virtual std::unique_ptr<Solution> solve(const VsmReader& mesh,
-    const std::filesystem::path& scratch, const ProgressFunction& progress,
-    Report& report) const = 0;
+    const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) = 0;
 
   /** Computes on a mesh in memory, which has cells, and sets the values at its points. Throws Error
    * and Cancelled. */

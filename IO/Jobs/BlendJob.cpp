@@ -3,6 +3,7 @@
 
 #include "IO/Jobs/JobOption.h"
 #include "Solver/Jobs/Estimate/Costs.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/SolvedMesh.h"
 
 namespace smg
@@ -48,6 +49,12 @@ constexpr auto BlendTable = joined(
 std::span<const JobOption> BlendJob::table() const
 {
   return BlendTable;
+}
+
+void BlendJob::check() const
+{
+  checkOptions(this->solving);
+  refuseAutomaticTolerance(this->solving, "a blend");
 }
 
 std::vector<ColumnSpec> BlendJob::solutionColumns(const StreamInfo& info) const

@@ -22,7 +22,7 @@ public:
   using SolvingJob::options;
   SolveOptions& options() override { return this->solving; }
   std::span<const JobOption> table() const override;
-  void check() const override {}
+  void check() const override;
   std::string resultColumns() const override { return "these columns of vertices"; }
   std::vector<std::string> changedColumns() const override { return this->description.columns; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;

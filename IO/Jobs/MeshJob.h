@@ -49,6 +49,8 @@ public:
 
   /** Prepares passResult(), for a solution that is computed elsewhere; solveOn() needs it, too. */
   virtual void prepareOn(const StoredMesh& /*mesh*/) {}
+  /** Computes in memory instead of with scratch files, if that is another way. */
+  virtual void keepInMemory() {}
   /** Computes the result; foreseeable failures are reported first. Throws Error; Cancelled. */
   virtual std::unique_ptr<Solution> solveOn(
     const StoredMesh& mesh, const ProgressFunction& progress) = 0;
@@ -93,6 +95,7 @@ public:
 
   void setLimits(const JobLimits& limits) override;
   std::int64_t memoryLimit() const override { return this->options().memoryLimit; }
+  void keepInMemory() override { this->options().inCore = true; }
 
 protected:
   /** Sets what depends on the mesh and on the caller. */

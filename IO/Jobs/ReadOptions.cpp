@@ -5,6 +5,7 @@
 #include "IO/Description/Sizes.h"
 #include "IO/Jobs/JobOption.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Problem/ComposeDescriptions.h"
 
 #include <nlohmann/json.hpp>
 
@@ -98,6 +99,29 @@ void readOptions(const JsonNode& object, Job& job)
     }
     readOption(value, option, job);
   }
+}
+
+std::set<std::string> columnsOf(const Job& job)
+{
+  std::set<std::string> names;
+  for (const JobOption& option : job.table())
+  {
+    if (const auto* column = std::get_if<ColumnOption>(&option.kind))
+    {
+      names.insert(column->member.get(job).value_or(""));
+    }
+    else if (const auto* columns = std::get_if<ColumnsOption>(&option.kind))
+    {
+      const std::vector<std::string> several = *columns->member.get(job);
+      names.insert(several.begin(), several.end());
+    }
+    else if (const auto* where = std::get_if<WhereOption>(&option.kind))
+    {
+      names.merge(namedColumns(*where->member.get(job)));
+    }
+  }
+  names.erase("");
+  return names;
 }
 
 std::string allowedValues(const JobOption& option)

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <set>
 #include <string>
 
 namespace smg
@@ -20,6 +21,9 @@ SMG_EXPORT void readOption(const JsonNode& value, const JobOption& option, Job& 
 /** Sets the options of a job that an object has, by their keys. Throws Error with
  * the place for a key that the job does not have, and for options that are missing or wrong. */
 SMG_EXPORT void readOptions(const JsonNode& object, Job& job);
+
+/** The names of the columns of the mesh that the options of a job name. */
+SMG_EXPORT std::set<std::string> columnsOf(const Job& job);
 
 /** What the value of an option may be, in words, as "from 1 to 20"; empty: anything of its kind. */
 SMG_EXPORT std::string allowedValues(const JobOption& option);
