@@ -139,17 +139,6 @@ int vtkStreamingDistance::FillOutputPortInformation(int port, vtkInformation* in
   return 1;
 }
 
-int vtkStreamingDistance::RequestDataObject(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  if (!vtkPolyData::GetData(outputVector, PATHS))
-  {
-    outputVector->GetInformationObject(PATHS)->Set(
-      vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
-  }
-  return this->Superclass::RequestDataObject(request, inputVector, outputVector);
-}
-
 void vtkStreamingDistance::FillFurtherOutputs(
   const smg::SolveSummary& summary, vtkInformationVector& outputVector)
 {

@@ -131,8 +131,6 @@ protected:
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int /*columns*/) override { return 1; } // the distance
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   void FillFurtherOutputs(
     const smg::SolveSummary& summary, vtkInformationVector& outputVector) override;
 

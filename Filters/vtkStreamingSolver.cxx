@@ -8,6 +8,7 @@
 #include "IO/vtkPropertyNames.h"
 #include "IO/vtkPropertyRange.h"
 
+#include "vtkDataObjectTypes.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
@@ -253,12 +254,14 @@ int vtkStreamingSolver::RequestDataObject(
     mesh->Set(
       vtkDataObject::DATA_OBJECT(), vtkSmartPointer<vtkDataObject>::Take(input->NewInstance()));
   }
-  for (const int port : { PASSES, TEXT })
+  for (int port = PASSES; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    if (!vtkTable::GetData(outputVector, port))
+    vtkInformation* further = outputVector->GetInformationObject(port);
+    if (!further->Has(vtkDataObject::DATA_OBJECT()))
     {
-      outputVector->GetInformationObject(port)->Set(
-        vtkDataObject::DATA_OBJECT(), vtkNew<vtkTable>());
+      const char* type = this->GetOutputPortInformation(port)->Get(vtkDataObject::DATA_TYPE_NAME());
+      further->Set(vtkDataObject::DATA_OBJECT(),
+        vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
     }
   }
   return 1;

@@ -10,6 +10,7 @@
 //   smg smooth scan.ply smooth.ply --size 4edges
 //   smg blend scan.ply blended.ply --patch scan --columns Colors
 //   smg distance bunny.vsm distance.vtp --from '{"vertices": [5]}'
+//   smg area body.msh areas.vtu --tag PhysicalTag
 //   smg simplify scan.ply small.ply --vertices 100000
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
@@ -37,6 +38,7 @@
 #include <vector>
 
 /** Each in its own file. */
+void addAreaCommand(CLI::App& program, Action& action);
 void addBlendCommand(CLI::App& program, Action& action);
 void addConvertCommand(CLI::App& program, Action& action);
 void addDeformCommand(CLI::App& program, Action& action);
@@ -53,7 +55,7 @@ namespace
 /** In the order of the help. */
 constexpr void (*Commands[])(CLI::App&, Action&) = { addInfoCommand, addConvertCommand,
   addSolveCommand, addDeformCommand, addSmoothCommand, addBlendCommand, addDistanceCommand,
-  addSimplifyCommand, addPreviewCommand };
+  addAreaCommand, addSimplifyCommand, addPreviewCommand };
 
 /** Prints an error in one line, without control characters. */
 int fail(const std::string& sentence)

@@ -24,6 +24,7 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   summary.warnings = report.warnings;
   summary.vertices = report.vertices;
   summary.byPass = report.by_pass;
+  summary.areas = report.areas.value_or(Report::Areas());
   summary.paths = report.distance ? report.distance->paths : std::vector<Report::Path>();
   summary.columns = columns;
   summary.residual = report.residual();

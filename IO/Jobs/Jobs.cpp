@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/Jobs.h"
 
+#include "IO/Jobs/AreaJob.h"
 #include "IO/Jobs/BlendJob.h"
 #include "IO/Jobs/DeformJob.h"
 #include "IO/Jobs/DistanceJob.h"
@@ -32,6 +33,7 @@ constexpr JobKind Kinds[] = {
   { "smooth", "Smooth a surface, or a column of the vertices of any mesh", make<SmoothJob> },
   { "blend", "Remove the steps of columns between patches of a mesh", make<BlendJob> },
   { "distance", "Measure the distance of all vertices from some of them", make<DistanceJob> },
+  { "area", "Sum up areas or volumes: of vertices, by tags, in all", make<AreaJob> },
   { "simplify", "Simplify a surface, or that of a solid, by collapsing edges", make<SimplifyJob> },
 };
 

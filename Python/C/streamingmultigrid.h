@@ -167,8 +167,8 @@ extern "C"
   SMG_C_EXPORT smg_status smg_files(const char* path, const char** json);
 
   /* What jobs may be asked: a JSON object with a list for each of them, "solve", "deform",
-   * "smooth", "blend", "distance" and "simplify", of its options in the order in which they are
-   * read: "key", "kind", "help", and as far as they have them "required", "default", "allowed",
+   * "smooth", "blend", "distance", "area" and "simplify", of its options in the order in which they
+   * are read: "key", "kind", "help", and as far as they have them "required", "default", "allowed",
    * "unit", "choices". The text stays valid. */
   SMG_C_EXPORT smg_status smg_describe(const char** json);
 
@@ -184,21 +184,13 @@ extern "C"
   SMG_C_EXPORT smg_status smg_estimate_file(const char* file, const char* options, const char* job,
     const char* description, const char* path, const char** json);
 
-  /* Does a job. description:
-   *   "solve"     "problem" (as a problem file: docs/problem.md), "tolerance" (a number or "auto"),
-   *               "acceleration" ("automatic", "none", "chebyshev", "cg")
-   *   "deform"    "handles" (as a handle file: docs/deform.md), "cycles", "weights", "tolerance",
-   *               "normals" ("recompute", "drop")
-   *   "smooth"    "size" (a number, in the unit of the mesh, or a text as "4edges", "1%"), "steps",
-   *               "hold" (WHERE or a list), "boundary" ("smooth", "fixed", "free"), "keep_volume",
-   *               "keep_edges" (degrees), "orient", "column", "tolerance", "normals"
-   *   "blend"     "patch", "columns", "hold", "anchor", "seam" ("zero", "average"), "tolerance"
-   *   "distance"  "from" (WHERE or a list), "wall", "source", "group", "direction",
-   *               "to" (WHERE or a list), "accuracy" ("auto", "exact", "approximate"), "within",
-   * "max_passes" and of all of them "memory", "threads", "scratch", "scratch_limit", by default
-   * those that the mesh was opened with; of all that solve "sweeps", "max_cycles", "in_core"; of
-   * solve and deform "checkpoint". They mean what the options of the command line of these names
-   * mean, and have their defaults. A checkpoint goes with the field that smg_save() has written. */
+  /* Does a job: "solve", "deform", "smooth", "blend", "distance" or "area". description: its
+   * options, which smg_describe() lists, as {"patch": "scan", "columns": ["Colors"]}. They mean
+   * what the options of the command line of these names mean ("keep_volume" is --keep-volume), and
+   * have their defaults; "memory", "threads", "scratch" and "scratch_limit" those that the mesh was
+   * opened with. A number of "memory" is in bytes. "problem" of solve is as a problem file
+   * (docs/problem.md), "handles" of deform as a handle file (docs/deform.md). A checkpoint goes
+   * with the field that smg_save() has written. */
   SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
     smg_progress progress, void* user, smg_field** field);
 
@@ -208,9 +200,8 @@ extern "C"
   SMG_C_EXPORT smg_status smg_open_field(
     smg_field* field, smg_progress progress, void* user, smg_mesh** mesh);
 
-  /* Writes the simplified surface. description: "vertices", "error", "hold" (WHERE or a
-   * list), "memory", "threads", "scratch", "checkpoint", "text". The report is that of `smg
-   * simplify --report`; its text as that of smg_info(). */
+  /* Writes the simplified surface. description: the options of "simplify". The report is that of
+   * `smg simplify --report`; its text as that of smg_info(). */
   SMG_C_EXPORT smg_status smg_simplify(smg_mesh* mesh, const char* description, const char* path,
     smg_progress progress, void* user, const char** report);
 

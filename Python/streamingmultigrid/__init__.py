@@ -35,7 +35,7 @@ from ._errors import (
     ReportWarning,
 )
 from ._field import Block, Field
-from ._functions import blend, deform, distance, simplify, smooth, solve, solver
+from ._functions import ON_ARRAYS, simplify, solver
 from ._interop import from_pyvista
 from ._mesh import Mesh
 from ._opening import mesh, open
@@ -62,7 +62,9 @@ from ._regions import (
 from ._report import Estimate, Report, ShortestPath
 from ._solver import Solver
 
+globals().update(ON_ARRAYS)
 __all__ = [  # not `open`: import * would replace that of Python
+    *ON_ARRAYS,
     "Block",
     "Error",
     "Estimate",
@@ -80,12 +82,9 @@ __all__ = [  # not `open`: import * would replace that of Python
     "Solver",
     "above",
     "below",
-    "blend",
     "boundary",
     "box",
-    "deform",
     "dirichlet",
-    "distance",
     "everywhere",
     "from_pyvista",
     "halfspace",
@@ -99,9 +98,7 @@ __all__ = [  # not `open`: import * would replace that of Python
     "plane",
     "robin",
     "simplify",
-    "smooth",
     "soft",
-    "solve",
     "solver",
     "sphere",
     "tag",

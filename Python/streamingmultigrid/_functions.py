@@ -55,7 +55,8 @@ _ARRAYS = """
     method of this name.
 """
 
-solve, deform, smooth, blend, distance = map(_on_arrays, jobs.OF_FIELDS)
+#: By the names of the jobs.
+ON_ARRAYS: Dict[str, Any] = {job: _on_arrays(job) for job in jobs.OF_FIELDS}
 
 
 def simplify(

@@ -157,6 +157,12 @@ def _distance(added: Columns, given: Dict[str, Any], description: Dict[str, Any]
     return ["Distance", *("Distance" + name.capitalize() for name in ("source", "group", "direction") if given[name])]
 
 
+def _area(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+    if given["tag"] is not None and not isinstance(given["tag"], str):
+        description["tag"] = added.add(given["tag"], "tag", True, (1,)).name
+    return ["Area" if added.mesh.n_corners == 3 else "Volume"]
+
+
 def _simplify(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
     if given["vertices"] is None and given["error"] is None:
         raise InputError("simplify: give the number of vertices, or the error, or both.")
@@ -165,6 +171,7 @@ def _simplify(added: Columns, given: Dict[str, Any], description: Dict[str, Any]
 
 _RESULTS: Dict[str, Callable[[Columns, Dict[str, Any], Dict[str, Any]], List[str]]] = {
     "solve": _solve, "deform": _deform, "smooth": _smooth, "blend": _blend, "distance": _distance,
+    "area": _area,
     "simplify": _simplify,
 }  # fmt: skip
 
@@ -252,6 +259,11 @@ JOBS: Dict[str, Job] = {
             "The distances: (n,) float64, in the unit of the mesh; infinite where no path leads. With further\n"
             "        columns or `to` the function on arrays returns all of them by their names, and \"paths\".",
             "sources",
+        ),
+        Job(
+            "area",
+            "The area of a surface, or the volume of a tetrahedral mesh: of vertices, by tags, and in all.\n",
+            "The share of each vertex: (n,) float64. `report.areas` has the total and the sums by tags.",
         ),
         Job("simplify", "", "", "vertices"),
     )

@@ -108,6 +108,7 @@ class Report(_Facts):
     seams: List[Dict[str, Any]]
     clipped: int
     distance: Dict[str, Any]
+    areas: Dict[str, Any]
     inverted: Dict[str, Any]
     vertices_before: int
     cells_before: int

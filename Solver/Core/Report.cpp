@@ -70,6 +70,17 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
   {
     out["clipped"] = report.clipped;
   }
+  if (report.areas)
+  {
+    const char* const measure = report.areas->isVolume ? "volume" : "area";
+    out["areas"] = { { "measure", measure }, { "cells", report.areas->cells },
+      { "total", report.areas->total } };
+    for (const Report::Area& part : report.areas->by_tag)
+    {
+      out["areas"]["by_tag"].push_back(
+        { { "tag", part.tag }, { "cells", part.cells }, { measure, part.area } });
+    }
+  }
   if (report.distance)
   {
     out["distance"] = { { "exact", report.distance->exact },

@@ -49,6 +49,7 @@ FILTERS = {
     "StreamingMeshDeformation": lambda source: StreamingMeshDeformation(Input=handles(source)),
     "StreamingMeshSmoothing": lambda source: StreamingMeshSmoothing(Input=source, Hold="{%s}" % LOW),
     "StreamingDistance": lambda source: StreamingDistance(Input=source, From="{%s}" % LOW),
+    "StreamingMeshArea": lambda source: StreamingMeshArea(Input=source, Of="{%s}" % LOW),
     "StreamingBlend": lambda source: StreamingBlend(Input=source, Patch="Scan", Arrays=["Light"]),
     "StreamingMeshSimplification": lambda source: StreamingMeshSimplification(Input=source),
     "StreamingMeshPreview": lambda source: StreamingMeshPreview(Input=source),

@@ -133,8 +133,8 @@ for before in (Clip(Input=reader), Decimate(Input=reader), Threshold(Input=reade
 
 # Every filter of the menu has an icon.
 for name in ("MeshRegion", "MeshCondition", "MeshHandle", "StreamingPoisson", "StreamingMeshDeformation",
-             "StreamingMeshSmoothing", "StreamingBlend", "StreamingDistance", "StreamingMeshSimplification",
-             "StreamingMeshPreview"):
+             "StreamingMeshSmoothing", "StreamingBlend", "StreamingDistance", "StreamingMeshArea",
+             "StreamingMeshSimplification", "StreamingMeshPreview"):
     menu = servermanager.ProxyManager().GetPrototypeProxy("filters", name).GetHints()
     icon = menu.FindNestedElementByName("ShowInMenu").GetAttribute("icon")
     assert icon and icon.startswith(":/pqWidgets/Icons/pq"), name

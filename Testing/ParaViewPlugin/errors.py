@@ -165,7 +165,7 @@ Delete(empty)
 # A data set of several blocks.
 blocks = GroupDatasets(Input=[Sphere(), Sphere()])
 for make in (MeshHandle, MeshRegion, StreamingMeshDeformation, StreamingMeshPreview, StreamingMeshSmoothing,
-             StreamingPoisson, StreamingBlend, StreamingDistance):
+             StreamingPoisson, StreamingBlend, StreamingDistance, StreamingMeshArea):
     refused = make(Input=blocks)
     refused.UpdatePipeline()
     text = said()

@@ -86,7 +86,7 @@ for proxy in (region, MeshHandle(Input=reader), MeshCondition(Input=reader)):
     assert list(proxy.GetProperty("Region").Available) == kinds, proxy.GetProperty("Region").Available
 
 # A label is the name with spaces, so that the Python name equals the name.
-for proxy in (reader, poisson, smoothing, blend, distance, region, MeshHandle(Input=reader)):
+for proxy in (reader, poisson, smoothing, blend, distance, StreamingMeshArea(Input=reader), region, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():
@@ -121,7 +121,8 @@ def definition(group, name):
 
 
 names = [("filters", name) for name in ("MeshRegion", "MeshHandle", "MeshCondition", "StreamingPoisson", "StreamingBlend",
-                                        "StreamingMeshDeformation", "StreamingMeshSmoothing", "StreamingDistance")]
+                                        "StreamingMeshDeformation", "StreamingMeshSmoothing", "StreamingDistance",
+                                        "StreamingMeshArea")]
 names += [("writers", name) for name in ("BigMeshWriter", "BigMeshPieces", "BigMeshFailure", "BigMeshRefusal",
                                      "WholeMeshRefusal")]
 for turn in range(2):

@@ -24,12 +24,13 @@ NEEDED = {
     "smooth": ([], {}),
     "blend": (["--patch", "p", "--columns", "c"], {"columns": "c", "patch": "p"}),
     "distance": (["--from", '{"boundary": true}'], {"sources": smg.boundary}),
+    "area": ([], {}),
     "simplify": (["--vertices", "10"], {"vertices": 10}),
 }
 #: The filters of ParaView, and the properties of options that are not called after their keys.
 FILTERS = {
     "solve": "StreamingPoisson", "deform": "StreamingMeshDeformation", "smooth": "StreamingMeshSmoothing",
-    "blend": "StreamingBlend", "distance": "StreamingDistance",
+    "blend": "StreamingBlend", "distance": "StreamingDistance", "area": "StreamingMeshArea",
 }  # fmt: skip
 PROPERTIES = {
     "max_cycles": "MaximumCycles", "max_passes": "MaximumPasses", "seam": "SeamGradient", "columns": "Arrays",

@@ -6,6 +6,7 @@
 #include "Testing/Solver/DistanceTesting.h"
 #include "Testing/Solver/Jobs.h"
 #include "Testing/Solver/SmoothTesting.h"
+#include "smg/Area.h"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +123,16 @@ inline JobRun blending(StreamMesh& mesh, SeamGradient seam)
   { return blend(stored, description, way.with(SolveOptions())); };
 }
 
+/** Shares of vertices in the cells of a part. */
+inline JobRun sharing(AreaShare share)
+{
+  AreaDescription description;
+  description.share = share;
+  description.of = { Region(Region::HalfSpace{ { 1, 0, 0 }, 0.5 }) };
+  return [description](const StoredMesh& mesh, const Way& way)
+  { return area(mesh, description, way.with(SolveOptions())); };
+}
+
 inline DistanceDescription distanceOf(const StreamMesh& mesh, bool wall)
 {
   DistanceDescription description;
@@ -224,6 +235,18 @@ inline const Job AllJobs[] = {
   { .name = "Blend", .on = [](StreamMesh& mesh) { return blending(mesh, SeamGradient::Zero); } },
   { .name = "BlendWithAverages",
     .on = [](StreamMesh& mesh) { return blending(mesh, SeamGradient::Average); },
+    .isVariant = true },
+  { .name = "Area",
+    .on = [](StreamMesh&) { return sharing(AreaShare::Equal); },
+    .hasWindow = true,
+    .refusesBeforeItReads = false,
+    .largestStep = 0.5 },
+  { .name = "VoronoiAreas",
+    .on = [](StreamMesh&) { return sharing(AreaShare::Voronoi); },
+    .ofSolids = false,
+    .hasWindow = true,
+    .refusesBeforeItReads = false,
+    .largestStep = 0.5,
     .isVariant = true },
   { .name = "Distance",
     .on = [](StreamMesh& mesh) { return measuring(mesh, false); },

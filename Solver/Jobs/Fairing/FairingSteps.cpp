@@ -270,15 +270,7 @@ std::unique_ptr<Solution> MeshFairing::finish()
     countClipped(*this->Result,
       { *std::ranges::find(specs, this->Options.column, &ColumnSpec::name) }, report);
   }
-  const IoStatistics& traffic = this->Result->traffic;
-  report.bytes_by_kind.push_back({ "smoothed", -1, traffic.bytesRead, traffic.bytesWritten });
-  report.bytes_read += traffic.bytesRead;
-  report.bytes_written += traffic.bytesWritten;
-  report.pool_bytes_peak = std::max(report.pool_bytes_peak, this->Result->memory.peak());
-  report.rss_bytes_peak = peakResidentBytes();
-  report.scratch_bytes_peak = this->Result->scratch ? this->Result->scratch->account().peak() : 0;
-  report.seconds.total = this->Wall.seconds();
-  report.cpu_seconds = processSeconds() - this->CpuAtStart;
+  this->Result->finishReport("smoothed");
   return std::move(this->Result);
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Timer.h"
-#include "Solver/Files/ScratchFolder.h"
 #include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Fairing/BoundaryCurves.h"
 #include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Jobs/Fairing/OrientedMesh.h"
+#include "Solver/Jobs/Results/VertexSolution.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/FixedVertices.h"
@@ -25,41 +24,20 @@
 namespace smg
 {
 
-/** The result of smoothing: values at the vertices, the memory or files that contain them, and the
- * report. */
-class FairedValues final : public Solution
+/** The result of smoothing. */
+class FairedValues final : public VertexSolution
 {
 public:
   FairedValues(const Smoothing& options, int columns)
-    : orient(options.orient)
-    , memory(options.memoryLimit)
-    , scratch(options.inCore ? std::nullopt
-                             : std::optional<ScratchFolder>(
-                                 std::in_place, options.scratch, options.scratchLimit))
-    , storage{ this->memory, this->scratch ? &*this->scratch : nullptr, this->traffic }
-    , values(this->storage, columns)
+    : VertexSolution(options, columns)
+    , orient(options.orient)
   {
   }
 
-  std::int64_t vertices() const override { return this->values.vertices(); }
-  int columns() const override { return this->values.lanes(); }
-  void read(std::int64_t first, std::int64_t count, std::span<double> to) override
-  {
-    checkVertexRange(
-      first, count, to.size() / static_cast<std::size_t>(this->columns()), this->vertices());
-    this->values.read(first, count, to.data());
-  }
   Orientation* winding() override { return this->orient && this->found ? &*this->found : nullptr; }
-  const Report& report() const override { return this->total; }
 
-  bool orient; ///< whether triangles of the result are turned
-  Pool memory;
-  std::optional<ScratchFolder> scratch;
-  IoStatistics traffic;
-  VertexStorage storage; ///< for further values
-  VertexFile values;
+  bool orient;                      ///< whether triangles of the result are turned
   std::optional<Orientation> found; ///< how a surface that is wound badly is to be wound
-  Report total;
 };
 
 /** Smooths a mesh, see smooth(): surveys it, then takes step after step. */
@@ -112,8 +90,6 @@ private:
   const StoredMesh& Mesh;
   std::optional<OrientedMesh> Oriented; ///< of a surface that is wound badly
   Smoothing Options;
-  Timer Wall;
-  double CpuAtStart = processSeconds();
   MeshColumns Columns;
   std::optional<NamedColumn> Column; ///< none: the positions
   FixedVertices Held;

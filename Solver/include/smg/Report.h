@@ -119,6 +119,23 @@ struct SMG_EXPORT Report
     std::vector<Path> paths;
   };
 
+  /** The cells with a tag, and their areas or volumes together. */
+  struct Area
+  {
+    double tag;
+    std::int64_t cells;
+    double area;
+  };
+
+  /** Areas of a surface, or volumes. */
+  struct Areas
+  {
+    bool isVolume = false;
+    std::int64_t cells = 0;   ///< that count
+    double total = 0;         ///< of these
+    std::vector<Area> by_tag; ///< by ascending tags; empty: they were not asked for
+  };
+
   /** The cells that a deformation inverts, in the precision of the deformed mesh: tetrahedra whose
    * volume changes its sign or vanishes. A triangle in space has no sign: of a surface those that
    * collapse, whose smallest stretch is at most 1e-3 of their largest (as singular values of the
@@ -273,6 +290,7 @@ struct SMG_EXPORT Report
    * nothing flows; NaN if a flux is. */
   std::vector<double> balance;
   std::optional<Distance> distance; ///< of a distance; else none
+  std::optional<Areas> areas;       ///< of area(); else none
   std::optional<Inverted> inverted; ///< set when a deformed mesh is read: MovedMesh::source()
   /** Of a solve on several processes; else none. Then the other figures are of all processes, the
    * memory is that of the process that took most, and `cycles` counts iterations. */

@@ -121,7 +121,7 @@ TEST(CErrors, ADescriptionSaysWhereItIsWrong)
   const ErrorMesh given;
   smg_field* field = nullptr;
   const std::vector<std::array<const char*, 3>> wrong{
-    { "melt", "{}", "the jobs are solve, deform, smooth, blend, distance and simplify" },
+    { "melt", "{}", "the jobs are solve, deform, smooth, blend, distance, area and simplify" },
     { "solve", "{", "solve: this is not valid JSON" },
     { "solve", "[]", "solve: must be an object" }, { "solve", "{}", "solve: has no 'problem'" },
     { "solve", R"({"problem": {}})", "says nothing to solve for" },

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingMeshArea.h"
+
+#include "Filters/Pieces/vtkReplacedArray.h"
+#include "Filters/Regions/vtkRegionArrays.h"
+#include "Filters/Tasks/vtkJobTask.h"
+#include "IO/Jobs/AreaJob.h"
+#include "IO/vtkPropertyRange.h"
+#include "Solver/Core/Text.h"
+#include "smg/Error.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkTable.h"
+
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkStreamingMeshArea);
+
+namespace
+{
+
+class AreaTask : public smg::JobTask
+{
+public:
+  smg::AreaJob asked;
+  bool hadPlaces = false; ///< on the mesh
+
+  AreaTask()
+    : JobTask("these are areas of the preview", "measured")
+  {
+  }
+
+protected:
+  smg::AreaJob& job() override { return this->asked; }
+  std::vector<smg::Where>& places() override { return this->asked.description.of; }
+
+  void adaptTo(vtkPointSet& /*preview*/, const smg::StreamInfo& /*info*/) override
+  {
+    if (this->hadPlaces && this->places().empty())
+    {
+      throw smg::Error("No point of the preview lies in the region: Solve On Full Mesh.");
+    }
+  }
+
+  void complete(smg::Report& report) const override
+  {
+    const smg::Report::Areas& areas = *report.areas;
+    report.notes.push_back((areas.isVolume ? "volume " : "area ") + smg::shortest(areas.total) +
+                           " of " + smg::counted(areas.cells, "cell", "cells"));
+  }
+};
+
+} // namespace
+
+vtkStreamingMeshArea::vtkStreamingMeshArea()
+{
+  this->SetNumberOfOutputPorts(AREAS + 1);
+}
+
+vtkStreamingMeshArea::~vtkStreamingMeshArea()
+{
+  this->SetTag(nullptr);
+  this->SetOf(nullptr);
+}
+
+void vtkStreamingMeshArea::CheckRanges() const
+{
+  this->Superclass::CheckRanges();
+  smg::requireInRange({ { "Share", this->Share, EQUAL, VORONOI } });
+  smg::requireInRealRange({ { "Scale", this->Scale, 0.0, smg::RealPropertyRange::NoLimit, true } });
+}
+
+std::unique_ptr<smg::StreamedTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& input)
+{
+  auto task = std::make_unique<AreaTask>();
+  smg::SolveOptions& options = task->asked.running;
+  this->FillOptions(options);
+  task->setLimits(options);
+  if (!options.checkpoint.folder.empty())
+  {
+    throw smg::Error("areas have no checkpoints: leave CheckpointDirectory empty");
+  }
+  // "None" is what ParaView offers for no array.
+  const std::string tag = this->Tag ? this->Tag : "";
+  smg::AreaDescription& description = task->asked.description;
+  description.tag = tag == "None" ? "" : tag;
+  description.share = static_cast<smg::AreaShare>(this->Share);
+  description.scale = this->Scale;
+  description.of = smg::placesOn(input, this->Of, "Of");
+  task->hadPlaces = !description.of.empty();
+  return task;
+}
+
+void vtkStreamingMeshArea::Deliver(
+  vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
+{
+  output.ShallowCopy(&piece);
+  const vtkNew<vtkDoubleArray> shares;
+  shares->SetName(this->GetSummary().areas.isVolume ? smg::VolumeName : smg::AreaName);
+  shares->SetNumberOfTuples(this->GetSummary().columns == 0 ? 0 : piece.GetNumberOfPoints());
+  for (vtkIdType i = 0; i < shares->GetNumberOfTuples(); ++i)
+  {
+    // Points of no cell have none.
+    const double share = values[static_cast<std::size_t>(i)];
+    shares->SetValue(i, share == share ? share : 0.0);
+  }
+  smg::addResult(*output.GetPointData(), *shares);
+  output.GetPointData()->SetActiveScalars(shares->GetName());
+}
+
+void vtkStreamingMeshArea::FillFurtherOutputs(
+  const smg::SolveSummary& summary, vtkInformationVector& outputVector)
+{
+  this->Superclass::FillFurtherOutputs(summary, outputVector);
+  const vtkNew<vtkDoubleArray> tags, areas;
+  const vtkNew<vtkIdTypeArray> cells;
+  for (const smg::Report::Area& part : summary.areas.by_tag)
+  {
+    tags->InsertNextValue(part.tag);
+    cells->InsertNextValue(static_cast<vtkIdType>(part.cells));
+    areas->InsertNextValue(part.area);
+  }
+  tags->SetName("Tag");
+  cells->SetName("Cells");
+  areas->SetName(summary.areas.isVolume ? smg::VolumeName : smg::AreaName);
+  vtkTable& table = *vtkTable::GetData(&outputVector, AREAS);
+  table.Initialize();
+  table.AddColumn(tags);
+  table.AddColumn(cells);
+  table.AddColumn(areas);
+}
+
+void vtkStreamingMeshArea::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  constexpr const char* shares[] = { "equal", "voronoi" };
+  os << indent << "Tag: " << (this->Tag ? this->Tag : "(none)") << "\n";
+  os << indent << "Of: " << (this->Of ? this->Of : "(none)") << "\n";
+  os << indent << "Share: " << smg::printedChoice(shares, this->Share) << "\n";
+  os << indent << "Scale: " << this->Scale << "\n";
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkStreamingMeshArea
+ * @brief   Sums up areas or volumes of a very large mesh: of points, by tags, in all
+ *
+ * The output is the input with the point array Area, of a tetrahedral mesh Volume: the share of
+ * each point in its cells. The total and the sums by the values of an array of the cells are in the
+ * output AREAS and in the report.
+ *
+ * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
+ *   the whole mesh is measured once, out of core, as described at vtkStreamingSolver.
+ * - For other requests, if the input is a preview and Solve says so, the preview itself is measured
+ *   in memory: its areas are near those of the mesh, its tags may be others.
+ *
+ * Regions that vtkMeshRegion has marked, and Of, say which part of the mesh counts.
+ *
+ * Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
+ *
+ * @sa vtkStreamingSolver vtkMeshRegion vtkStreamingMeshReader
+ */
+#ifndef vtkStreamingMeshArea_h
+#define vtkStreamingMeshArea_h
+
+#include "vtkStreamingMultigridFiltersModule.h" // For export macro
+#include "vtkStreamingSolver.h"
+
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingMeshArea : public vtkStreamingSolver
+{
+public:
+  static vtkStreamingMeshArea* New();
+  vtkTypeMacro(vtkStreamingMeshArea, vtkStreamingSolver);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The outputs besides those of vtkStreamingSolver. */
+  enum FurtherOutputPorts
+  {
+    AREAS =
+      NUMBER_OF_OUTPUT_PORTS ///< a vtkTable with a row for each tag: Tag, Cells, Area or Volume
+  };
+
+  ///@{
+  /** Name of the cell array of one component by whose values areas are summed, at most 65,536 of
+   * them. Empty (default) or "None": only the total. */
+  vtkSetStringMacro(Tag);
+  vtkGetStringMacro(Tag);
+  ///@}
+
+  ///@{
+  /** The parts of the mesh that count, besides the regions of vtkMeshRegion before this filter: a
+   * cell counts if all of its corners lie in them. WHERE of a problem file in JSON, or a list of
+   * these, for example {"sphere": [0, 0, 0, 1]}. Columns are arrays of the input. Default: none;
+   * without any region all cells count. */
+  vtkSetStringMacro(Of);
+  vtkGetStringMacro(Of);
+  ///@}
+
+  /** What a point has of its cells. */
+  enum ShareTypes
+  {
+    EQUAL,  ///< as much as the other corners: the lumped mass of linear finite elements
+    VORONOI ///< of triangles, what is nearest to it
+  };
+  ///@{
+  /** What a point has of its cells. Default: EQUAL. */
+  vtkSetMacro(Share, int);
+  vtkGetMacro(Share, int);
+  ///@}
+
+  ///@{
+  /** By which lengths are multiplied, above 0: 0.001 for a mesh in millimetres and areas in square
+   * metres. Default: 1. */
+  vtkSetMacro(Scale, double);
+  vtkGetMacro(Scale, double);
+  ///@}
+
+protected:
+  vtkStreamingMeshArea();
+  ~vtkStreamingMeshArea() override;
+
+  void CheckRanges() const override;
+  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
+  void FillFurtherOutputs(
+    const smg::SolveSummary& summary, vtkInformationVector& outputVector) override;
+
+private:
+  vtkStreamingMeshArea(const vtkStreamingMeshArea&) = delete;
+  void operator=(const vtkStreamingMeshArea&) = delete;
+
+  char* Tag = nullptr;
+  char* Of = nullptr;
+  int Share = EQUAL;
+  double Scale = 1.0;
+};
+
+#endif

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/Area.h"
+
+#include "Solver/Core/Vector.h"
+#include "Solver/Jobs/Fairing/MeshMeasures.h"
+#include "Solver/Jobs/Results/VertexSolution.h"
+#include "Solver/Memory/Ring.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Problem/FixedVertices.h"
+#include "Solver/Problem/MeshColumns.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+// Areas and volumes from one reading of the stream, in windows of open vertices: the share of a
+// vertex is written when no later cell uses it. Sums run over the cells in the order of the stream,
+// so that blocks do not change a bit. A few nanoseconds a cell; the memory is that of the windows.
+
+namespace smg
+{
+namespace
+{
+
+/** What the corners of a triangle have of its area. */
+std::array<double, 3> voronoiShares(const double* const* corner, double area)
+{
+  std::array<double, 3> shares{};
+  std::array<double, 3> dots{}; // of the two edges at each corner
+  for (int k = 0; k < 3; ++k)
+  {
+    dots[k] =
+      dot(difference(corner[(k + 1) % 3], corner[k]), difference(corner[(k + 2) % 3], corner[k]));
+  }
+  const auto obtuse = std::ranges::find_if(dots, [](double product) { return product < 0.0; });
+  if (obtuse != dots.end() || area == 0.0)
+  {
+    shares.fill(area / 4.0);
+    shares[static_cast<std::size_t>(obtuse == dots.end() ? 0 : obtuse - dots.begin())] = area / 2.0;
+    return shares;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    // The cotangent at corner k weighs the squared length of the edge opposite, for both its ends.
+    const Vector edge = difference(corner[(k + 1) % 3], corner[(k + 2) % 3]);
+    const double part = dots[k] / (2.0 * area) * dot(edge, edge) / 8.0;
+    shares[(k + 1) % 3] += part;
+    shares[(k + 2) % 3] += part;
+  }
+  return shares;
+}
+
+double areaOf(const double* const* corner)
+{
+  const Vector normal = cross(difference(corner[1], corner[0]), difference(corner[2], corner[0]));
+  return std::sqrt(dot(normal, normal)) / 2.0;
+}
+
+double volumeOf(const double* const* corner)
+{
+  return std::fabs(dot(difference(corner[1], corner[0]),
+           cross(difference(corner[2], corner[0]), difference(corner[3], corner[0])))) /
+         6.0;
+}
+
+/** One computation of areas. */
+class AreaPass
+{
+public:
+  AreaPass(const StoredMesh& mesh, const AreaDescription& description, const SolveOptions& options,
+    const std::string& name);
+  std::unique_ptr<Solution> run();
+
+private:
+  struct Sum
+  {
+    std::int64_t cells = 0;
+    double area = 0.0;
+  };
+
+  void requireTag();
+  void prepare(double end);
+  void add(const MeshBlock& block);
+  void addCell(const MeshBlock& block, const std::int64_t* corners);
+  double tagOf(const MeshBlock& block, std::size_t cell) const;
+  void write(std::int64_t finalized);
+  void finishReport();
+
+  bool isSurface() const { return this->Mesh.info().cellType == CellType::Triangle; }
+
+  const StoredMesh& Mesh;
+  const AreaDescription& Asked;
+  SolveOptions Options;
+  std::unique_ptr<VertexSolution> Result;
+  MeshColumns Columns;
+  FixedVertices Parts;
+  std::optional<NamedColumn> Tag;
+  Ring<double> Points, Shares;
+  Ring<std::uint8_t> IsIn;    ///< whether vertices lie in the parts, if there are any
+  double Unit;                ///< of areas or volumes
+  std::int64_t Finalized = 0; ///< after the previous block
+  Sum Total;
+  std::map<double, Sum> ByTag;
+};
+
+AreaPass::AreaPass(const StoredMesh& mesh, const AreaDescription& description,
+  const SolveOptions& options, const std::string& name)
+  : Mesh(mesh)
+  , Asked(description)
+  , Options(options)
+  , Result(std::make_unique<VertexSolution>(options, 1))
+  , Columns(mesh.info(), name, &this->Result->memory)
+  , Parts(description.of, false, this->Columns)
+  , Points(this->Result->memory, 3)
+  , Shares(this->Result->memory)
+  , IsIn(this->Result->memory)
+  , Unit(std::pow(description.scale, this->isSurface() ? 2.0 : 3.0))
+{
+  if (!description.tag.empty())
+  {
+    this->requireTag();
+  }
+}
+
+void AreaPass::requireTag()
+{
+  this->Tag = this->Columns.require(this->Asked.tag, ColumnOwner::Cells, "tag");
+  const std::string column = "the column '" + this->Asked.tag + "' ";
+  if (this->Tag->owner != ColumnOwner::Cells)
+  {
+    this->Columns.fail("tag", column + "is one of the vertices: areas are those of cells");
+  }
+  if (this->Tag->components != 1)
+  {
+    this->Columns.fail("tag",
+      column + "has " + std::to_string(this->Tag->components) + " components, but must have one");
+  }
+  this->Columns.requireCellIds();
+}
+
+/** Finds the parts, by a reading of the stream up to this share of the progress. */
+void AreaPass::prepare(double end)
+{
+  const std::filesystem::path folder =
+    this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch;
+  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  visitBlocks(*source, this->Options.progress, 0.0, end,
+    [&](const MeshBlock& block) { this->Parts.prepare(block, folder); });
+  this->Parts.endPreparing(false);
+  ++this->Result->total.passes;
+}
+
+void AreaPass::add(const MeshBlock& block)
+{
+  const std::int64_t end = block.firstVertex + block.vertices();
+  this->write(this->Finalized);
+  this->Points.release(this->Finalized);
+  this->IsIn.release(this->Finalized);
+  this->Finalized = block.finalized;
+  this->Points.extendRaw(end);
+  this->Shares.extend(end);
+  if (block.vertices() > 0)
+  {
+    std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
+  }
+  if (!this->Asked.of.empty())
+  {
+    this->IsIn.extendRaw(end);
+    std::ranges::copy(this->Parts.at(block), this->IsIn.range(block.firstVertex, end).begin());
+  }
+  forCells(this->Mesh.info().cellType, block,
+    [&](const std::int64_t* corners) { this->addCell(block, corners); });
+}
+
+void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners)
+{
+  const int count = cornersOf(this->Mesh.info().cellType);
+  std::array<const double*, 4> at{};
+  for (int k = 0; k < count; ++k)
+  {
+    if (!this->Asked.of.empty() && this->IsIn[corners[k]] == 0)
+    {
+      return;
+    }
+    at[static_cast<std::size_t>(k)] = this->Points.at(corners[k]);
+  }
+  const double size = this->Unit * (count == 3 ? areaOf(at.data()) : volumeOf(at.data()));
+  std::array<double, 4> shares{};
+  shares.fill(size / count);
+  if (this->Asked.share == AreaShare::Voronoi)
+  {
+    std::ranges::transform(voronoiShares(at.data(), size / this->Unit), shares.begin(),
+      [this](double share) { return this->Unit * share; });
+  }
+  for (int k = 0; k < count; ++k)
+  {
+    this->Shares[corners[k]] += shares[static_cast<std::size_t>(k)];
+  }
+  ++this->Total.cells;
+  this->Total.area += size;
+  if (this->Tag)
+  {
+    const auto cell =
+      static_cast<std::size_t>(corners - block.corners.data()) / static_cast<std::size_t>(count);
+    Sum& sum = this->ByTag[this->tagOf(block, cell)];
+    ++sum.cells;
+    sum.area += size;
+  }
+}
+
+double AreaPass::tagOf(const MeshBlock& block, std::size_t cell) const
+{
+  const double tag = this->Tag->in(block).value(cell);
+  if (const char* flaw = flawOf(this->Tag->in(block).spec.type, tag))
+  {
+    this->Columns.fail("tag", "the column '" + this->Asked.tag + "' " + flaw + " in " +
+                                this->Columns.cellName(block, cell));
+  }
+  if (this->ByTag.size() == AreaDescription::MaxTags && !this->ByTag.contains(tag))
+  {
+    this->Columns.fail("tag", "the column '" + this->Asked.tag + "' has more than " +
+                                std::to_string(AreaDescription::MaxTags) +
+                                " values: name one that says to which part a cell belongs");
+  }
+  return tag;
+}
+
+/** Writes the shares of the vertices that no later cell uses. */
+void AreaPass::write(std::int64_t finalized)
+{
+  this->Result->values.append(this->Shares.range(this->Shares.first(), finalized));
+  this->Shares.release(finalized);
+}
+
+void AreaPass::finishReport()
+{
+  Report& report = this->Result->total;
+  report.vertices = this->Result->vertices();
+  report.cells = this->Mesh.info().cells;
+  report.converged = true;
+  Report::Areas& areas = report.areas.emplace();
+  areas.isVolume = !this->isSurface();
+  areas.cells = this->Total.cells;
+  areas.total = this->Total.area;
+  for (const auto& [tag, sum] : this->ByTag)
+  {
+    areas.by_tag.push_back({ tag, sum.cells, sum.area });
+  }
+  this->Result->finishReport("areas");
+}
+
+std::unique_ptr<Solution> AreaPass::run()
+{
+  constexpr double PrepareShare = 0.4;
+  const bool hasParts = !this->Asked.of.empty();
+  if (hasParts)
+  {
+    this->prepare(PrepareShare);
+  }
+  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  visitBlocks(*source, this->Options.progress, hasParts ? PrepareShare : 0.0, 1.0,
+    [this](const MeshBlock& block) { this->add(block); });
+  this->write(this->Shares.end());
+  ++this->Result->total.passes;
+  this->finishReport();
+  return std::move(this->Result);
+}
+
+} // namespace
+
+ColumnSpec areaColumn(const StreamInfo& mesh)
+{
+  return { mesh.cellType == CellType::Triangle ? AreaName : VolumeName, ScalarType::Float64, 1,
+    0.0 };
+}
+
+std::unique_ptr<Solution> area(const StoredMesh& mesh, const AreaDescription& description,
+  const SolveOptions& options, const std::string& name)
+{
+  checkOptions(options);
+  if (!(description.scale > 0.0 && std::isfinite(description.scale)))
+  {
+    throw Error(name + ": scale: must be above 0.");
+  }
+  if (description.share == AreaShare::Voronoi && mesh.info().cellType != CellType::Triangle)
+  {
+    throw Error(name + ": share: voronoi is for triangles: share tetrahedra equally.");
+  }
+  return AreaPass(mesh, description, options, name).run();
+}
+
+} // namespace smg
