@@ -4,6 +4,8 @@
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/External/Workspace.h"
+#include "IO/Files/FileNames.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkModeProperty.h"
@@ -13,10 +15,7 @@
 #include "smg/VsmReader.h"
 
 #include "vtkObjectFactory.h"
-#include "vtksys/SystemTools.hxx"
 
-#include <algorithm>
-#include <array>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -57,9 +56,8 @@ std::optional<smg::ConversionEstimate> estimateOf(const char* name)
 /** Whether VTK has a reader for files with this suffix. */
 bool isReadByVtk(const std::filesystem::path& name)
 {
-  constexpr std::array endings{ ".ply", ".obj", ".stl", ".vtk", ".vtp", ".vtu", ".pvtp", ".pvtu" };
-  const std::string ending = vtksys::SystemTools::LowerCase(name.extension().string());
-  return std::ranges::find(endings, ending) != endings.end();
+  const smg::Format* const format = smg::formatOfSuffix(smg::lowerSuffix(name));
+  return format && format->isReadByVtk;
 }
 
 /** As "34,834" or "5.30 million". */

@@ -3,11 +3,10 @@
  * @class   vtkStreamingMeshConverter
  * @brief   Converts a mesh file to a stream, keeps it, and delivers its pieces
  *
- * Converts a mesh file of any readable format (PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen, legacy VTK,
- * .vtp, .vtu, .pvtp, .pvtu, VTKHDF, SMA, SMB, SVA, SVB, .vsm, also .gz) to a stream order and
- * writes it to the container OutputFileName, which is kept. FileName is the mesh file; apart from
- * that, this is a vtkStreamingMeshReader of the container: see there for pieces, arrays, and the
- * preview of large meshes. ScratchDirectory is the folder for the scratch files of the conversion.
+ * Converts a mesh file of any format that docs/formats.md says is read to a stream order and writes
+ * it to the container OutputFileName, which is kept. FileName is the mesh file; apart from that,
+ * this is a vtkStreamingMeshReader of the container: see there for pieces, arrays, and the preview
+ * of large meshes. ScratchDirectory is the folder for the scratch files of the conversion.
  *
  * vtkStreamingMeshReader also reads such files, but each reader converts them to a temporary
  * container. Use this class if a mesh is opened more than once.

@@ -3,25 +3,20 @@
  * @class   vtkStreamingMeshWriter
  * @brief   Writes a very large mesh piece by piece
  *
- * Requests the pieces of its input one after the other, each once, and writes them to one of
- * - .vsm: all point and cell arrays become columns; the points that no cell uses, which no piece
- *   has, are copied from the .vsm file of the pieces;
- * - .ply, .vtp (triangles), .vtu, .vtkhdf: one file with all point and cell arrays; in PLY those of
- *   several components have a property NAME_0, NAME_1 ... for each;
- * - .sma, .smb (triangles), .sva, .svb (tetrahedra): positions in single precision and cells;
- * - .vtk, .obj, .off, .stl (triangles), .mesh, .msh, .node with .ele: the arrays that they can
- * hold;
- * - .pvtp, .pvtu: an index and a folder of that name with one file per piece, with the GlobalIds
- *   and ghost arrays that make them valid input of all streaming filters.
+ * Requests the pieces of its input one after the other, each once, and writes them to one file of
+ * any format that docs/formats.md says is written, with the arrays that it can hold. In a .vsm file
+ * the points that no cell uses, which no piece has, are copied from the .vsm file of the pieces; a
+ * .pvtp or .pvtu file is an index of a folder of that name with one file per piece, with the
+ * GlobalIds and ghost arrays that make them valid input of all streaming filters.
  *
  * Data that the format cannot hold are omitted or rounded with a warning. At most one piece is in
  * memory (with RestoreOrder at most 256 MiB). The input must fulfil the piece contract described at
  * vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not numbered
  * by first use, are rejected. A mesh of any other source, whose points have no GlobalIds, is taken
- * from memory as a whole and sorted as by smg::convert(); as .obj, .off, .stl, .mesh, .msh, and
- * .node with .ele, which have no place for the array OriginalId, in its own order. The writer
- * always requests real pieces, not previews. The file is renamed when it is complete; after an
- * error or an abort no new file is left.
+ * from memory as a whole and sorted as by smg::convert(); in formats that are restored and have no
+ * place for the array OriginalId, in its own order. The writer always requests real pieces, not
+ * previews. The file is renamed when it is complete; after an error or an abort no new file is
+ * left.
  *
  * The shortest paths of vtkStreamingDistance are written as .vtp, .vtk or .obj, those of the whole
  * mesh. What is made of a preview and is no piece of a mesh, as a table, is an error.
@@ -62,9 +57,8 @@ public:
   /**
    * Whether to restore the order of vertices and cells of the original mesh file, according to the
    * arrays OriginalId and OriginalCellId: a PLY file is written as the same PLY file with moved
-   * points. A mesh of any other source is written in its own order, without these arrays. For .ply,
-   * .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh, .node and .ele files; see smg::writeRestored.
-   * Takes at most 256 MiB of memory. Default: off.
+   * points. A mesh of any other source is written in its own order, without these arrays. For
+   * formats that docs/formats.md says are restored. Takes at most 256 MiB of memory. Default: off.
    */
   vtkSetMacro(RestoreOrder, bool);
   vtkGetMacro(RestoreOrder, bool);
@@ -72,8 +66,8 @@ public:
   ///@}
 
   ///@{
-  /** Whether to write text where the format has a binary and a text form: .ply, .stl, .vtk. Numbers
-   * read back exactly. Formats of binary files are an error. Default: off. */
+  /** Whether to write text where the format has a binary and a text form. Numbers read back
+   * exactly. Formats of binary files are an error. Default: off. */
   vtkSetMacro(WriteText, bool);
   vtkGetMacro(WriteText, bool);
   vtkBooleanMacro(WriteText, bool);

@@ -22,7 +22,7 @@ public:
         " in stream order; of a mesh file IN, " +
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
         " in the order of IN, unless that has a column OriginalId or points are welded; "
-        "and .obj and .off, for Colors alone");
+        "and of other formats, if they have places for the columns");
     command.footer("Steps of the columns between patches are removed; inside the patches their "
                    "gradients are kept. docs/blend.md explains it");
   }

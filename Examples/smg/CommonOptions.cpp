@@ -5,6 +5,7 @@
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Description/Sizes.h"
 #include "IO/Files/FileNames.h"
+#include "IO/Formats/FormatTable.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
@@ -142,8 +143,9 @@ void CommonOptions::addInputTo(CLI::App& command)
 void CommonOptions::addTextTo(CLI::App& command)
 {
   command.add_flag("--text", this->writesText,
-    "Write text where OUT may be binary or text (.ply, .stl, .vtk), for programs that read no "
-    "binary files; numbers read back exactly");
+    "Write text where OUT may be binary or text (" +
+      smg::suffixList(smg::FormatUse::WriteEither, "or") +
+      "), for programs that read no binary files; numbers read back exactly");
 }
 
 smg::ConversionOptions CommonOptions::inputOptions() const

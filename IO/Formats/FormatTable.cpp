@@ -104,11 +104,13 @@ bool canBeUsed(const Format& format, FormatUse use)
     case FormatUse::Write:
       return writes;
     case FormatUse::WriteColumns:
-      return writes && format.holdsColumns();
+      return writes && format.holdsColumns;
+    case FormatUse::WriteEither:
+      return writes && format.suffixes.front().form == FileForm::Either;
     case FormatUse::Restore:
       return format.writer != nullptr;
     case FormatUse::RestoreColumns:
-      return format.writer && format.holdsColumns();
+      return format.writer && format.holdsColumns;
   }
   return false;
 }
@@ -213,7 +215,7 @@ bool restoresColumns(const std::filesystem::path& path, std::span<const std::str
   const auto hasPlace = [format](const std::string& column)
   { return std::ranges::find(format->vertexColumns, column) != format->vertexColumns.end(); };
   return format && format->writer &&
-         (format->holdsColumns() || std::ranges::all_of(columns, hasPlace));
+         (format->holdsColumns || std::ranges::all_of(columns, hasPlace));
 }
 
 std::string suffixList(const Format& format, std::string_view conjunction)

@@ -15,7 +15,7 @@ namespace smg
 {
 
 /** All formats. */
-std::span<const Format* const> formats();
+SMG_EXPORT std::span<const Format* const> formats();
 
 /** The format of a lower-case suffix; null if there is none. */
 SMG_EXPORT const Format* formatOfSuffix(std::string_view suffix);
@@ -43,6 +43,7 @@ enum class FormatUse
   Read,
   Write,         ///< in stream order
   WriteColumns,  ///< in stream order with all columns
+  WriteEither,   ///< binary, or as text on request
   Restore,       ///< in the order of the original file
   RestoreColumns ///< the same with all columns
 };

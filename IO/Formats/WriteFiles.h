@@ -22,10 +22,8 @@ inline constexpr std::int64_t StreamOrderMemory = std::int64_t(64) << 20;
  * polygons, in the same order (see RestoredMesh.h). Works out of core, with the memory and folder
  * of the workspace, and reports its progress.
  *
- * The suffix selects the format: .ply, .vtp, .vtu and .vtk with all columns; .obj, .off, .mesh,
- * .msh and .node with .ele with the columns that they support (see IO/Mesh/Columns.h); .stl
- * without. Tetrahedra require .vtu, .vtk, .mesh, .msh or .node with .ele. Numbers in text read back
- * exactly. `text`: as WriteMeshOptions::text.
+ * The suffix selects the format, which takes the columns that it supports (see IO/Mesh/Columns.h).
+ * Numbers in text read back exactly. `text`: as WriteMeshOptions::text.
  * @return a note for each part of the mesh that the file cannot represent exactly
  * @throws Error if checkRestoredPath() does, the original order is unknown (see RestoredMesh), or a
  * file cannot be read or written; Cancelled. No part of the output is left then.

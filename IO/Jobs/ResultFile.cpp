@@ -263,7 +263,7 @@ std::vector<std::string> ResultFile::notesOn(
   if (!ordered && this->kindOfMesh() == MeshFileKind::Indexed)
   {
     const Format& format = *formatOfSuffix(lowerSuffix(this->Files.out));
-    const bool hasIds = format.holdsColumns() && format.isStreamed() && !conversion.keeps_numbers;
+    const bool hasIds = format.holdsColumns && format.isStreamed() && !conversion.keeps_numbers;
     notes.push_back(hasIds
                       ? std::string("The vertices are in stream order; ") + OriginalIdName +
                           " names their places in " +

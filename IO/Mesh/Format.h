@@ -108,9 +108,6 @@ enum class PartTurn
 using MeshFileFunction = std::unique_ptr<MeshFileWriter>(
   const std::filesystem::path& path, const MeshFileInfo& info, Workspace* space);
 
-/** Format::attributes of a format that has every column of a mesh. */
-inline constexpr std::string_view AllColumns = "all columns";
-
 /** The number of bytes at the beginning of a file that identify its format. */
 inline constexpr std::size_t FormatBytes = 4096;
 
@@ -123,17 +120,18 @@ struct Format
 {
   std::string_view name;
   std::span<const FileSuffix> suffixes;
-  /** The data besides positions and cells, for tables and help. */
-  std::string_view attributes;
+  /** Versions and forms, and the cells of its files, for the table of docs/formats.md. */
+  std::string_view description, cells;
   MeshFileKind kind = MeshFileKind::Indexed;
 
   /** Whether its files have vertices of their own, and so a place for those of no cell. Otherwise
    * they have only the corners of cells. */
   bool holdsVertices = true;
+  bool holdsColumns = false; ///< every column of a mesh
   /** Columns of vertices that its files have places for, of a format without all columns. */
   std::span<const std::string_view> vertexColumns = {};
-
-  bool holdsColumns() const { return this->attributes == AllColumns; }
+  /** Whether VTK reads its files, too: ParaView opens those itself that fit into memory. */
+  bool isReadByVtk = false;
 
   /** Whether the first bytes of a file have the signature of this format. */
   bool (*hasSign)(std::string_view start) = nullptr;

@@ -390,13 +390,12 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
     ) -> Report:
         """Writes the mesh with the result to a file, in the format of its suffix.
 
-        The order and everything else is as of the command line: from a mesh file to .ply, .vtk, .vtp
-        or .vtu that of the file. Arrays that were arguments of the job are not part of it.
+        The order and everything else is as of the command line: from a mesh file to a format that is
+        restored that of the file. Arrays that were arguments of the job are not part of it.
 
         Args:
-            path: .vsm, .ply, .vtk, .vtp, .vtu, .vtkhdf ...
-            text: True: text where the format has a binary and a text form (.ply, .stl, .vtk); numbers
-                read back exactly.
+            path: of a format that is written and has all columns (docs/formats.md).
+            text: True: text where the format has a binary and a text form; numbers read back exactly.
             memory, threads, scratch: as of `Mesh.solve`.
 
         Returns:

@@ -346,9 +346,8 @@ class Mesh:
         """Writes the mesh with its columns to a file, in the format of its suffix.
 
         Args:
-            path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh ...
-            text: True: text where the format has a binary and a text form (.ply, .stl, .vtk); numbers
-                read back exactly.
+            path: of a format that is written (docs/formats.md).
+            text: True: text where the format has a binary and a text form; numbers read back exactly.
             memory, threads, scratch: as of `smg.open`; default: those of the mesh.
 
         What the format cannot hold is left out, with a ReportWarning.

@@ -68,7 +68,7 @@ def open(  # noqa: A001, the word of the trade
     removed with the mesh, or with `cache` to a file that is found again.
 
     Args:
-        path: .vsm, .ply, .obj, .off, .stl, .vtk, .vtp, .vtu, .vtkhdf, .mesh, .msh, .node, .sma ...
+        path: of a format that is read (docs/formats.md).
         memory: the memory limit of the conversion and of jobs: bytes, or a text as "1GB" or "512MiB".
             Default: 256 MiB for conversions, 1 GiB for jobs.
         threads: 0 (default): one for each core. Results do not depend on it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/FormatTable.h"
 #include "IO/Files/Decompressor.h"
+#include "Testing/Support/FormatSuffixes.h"
 #include "Testing/Support/TestFolders.h"
 
 #include <gtest/gtest.h>
@@ -44,21 +45,44 @@ std::set<std::string> suffixesOfProxy(
   return suffixes;
 }
 
-template <class Test>
-std::set<std::string> suffixesWhere(Test&& test)
+/** In what form files are written, if it is one. */
+std::string formOf(const Format& format)
 {
-  std::set<std::string> suffixes;
+  const auto isAs = [&](FileForm form)
+  {
+    return std::ranges::all_of(
+      format.suffixes, [form](const FileSuffix& suffix) { return suffix.form == form; });
+  };
+  return isAs(FileForm::Either) ? "binary, or text with `--text`"
+         : isAs(FileForm::Text) ? "text"
+                                : "yes";
+}
+
+/** The table of docs/formats.md. */
+std::string documentedTable()
+{
+  std::string table = "| format | suffixes | cells | all columns | written | restored |\n"
+                      "|---|---|---|---|---|---|\n";
   for (const Format* format : formats())
   {
+    std::string suffixes;
     for (const FileSuffix& suffix : format->suffixes)
     {
-      if (test(*format))
-      {
-        suffixes.emplace(suffix.text);
-      }
+      suffixes += (suffixes.empty() ? "`" : ", `") + std::string(suffix.text) + '`';
     }
+    table += "| " + std::string(format->name) + ": " + std::string(format->description) + " | " +
+             suffixes + " | " + std::string(format->cells) +
+             (!format->holdsColumns   ? " | |"
+               : format->isStreamed() ? " | with `OriginalId` |"
+                                      : " | yes |");
+    for (const FormatUse use : { FormatUse::Write, FormatUse::Restore })
+    {
+      const bool can = suffixFor(use, "mesh" + std::string(format->suffixes[0].text));
+      table += (can ? ' ' + formOf(*format) : "") + " |";
+    }
+    table += '\n';
   }
-  return suffixes;
+  return table;
 }
 
 } // namespace
@@ -68,7 +92,7 @@ TEST(FormatTable, SuffixesAreOfOneFormatEach)
   std::set<std::string_view> seen;
   for (const Format* format : formats())
   {
-    EXPECT_FALSE(format->name.empty() || format->attributes.empty());
+    EXPECT_FALSE(format->name.empty() || format->description.empty() || format->cells.empty());
     for (const FileSuffix& suffix : format->suffixes)
     {
       EXPECT_TRUE(seen.insert(suffix.text).second) << suffix.text;
@@ -106,53 +130,59 @@ TEST(FormatTable, ListsFollowFromIt)
 
 TEST(FormatTable, ParaViewOffersItsFormats)
 {
-  const auto isOwn = [](const Format& format) { return format.kind != MeshFileKind::Indexed; };
-  EXPECT_EQ(suffixesOfProxy("StreamingMeshReader.xml", "ReaderFactory"), suffixesWhere(isOwn));
-  std::set<std::string> alone = suffixesWhere(isOwn);
-  alone.insert({ ".off", ".mesh", ".msh", ".node", ".ele" }); // of which ParaView has no writer
-  EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), alone);
-  // Only one file of TetGen is opened; .hdf may be anything; ParaView reads the pieces.
-  std::set<std::string> parsed = suffixesWhere([](const Format& format) { return format.parse; });
-  std::set<std::string> offered = suffixesOfProxy("StreamingMeshConverter.xml", "ReaderFactory");
-  for (const char* suffix : { ".ele", ".hdf", ".pvtp", ".pvtu" })
-  {
-    EXPECT_EQ(parsed.erase(suffix), 1u);
-  }
-  // Files that may be text are compressed; others are so by themselves.
-  for (const std::string& suffix : std::set<std::string>(parsed))
-  {
-    const Format& format = *formatOfSuffix(suffix);
-    if (std::ranges::find(format.suffixes, std::string_view(suffix), &FileSuffix::text)->form !=
-        FileForm::Binary)
-    {
-      for (const std::string_view compressed : CompressedSuffixes)
-      {
-        parsed.insert(suffix + std::string(compressed));
-      }
-    }
-  }
-  EXPECT_EQ(offered, parsed);
-  std::set<std::string> written = suffixesWhere(
-    [&](const Format& format) { return !isOwn(format) && format.isStreamed() && format.bytes; });
-  EXPECT_EQ(written.erase(".hdf"), 1u);
-  written.insert({ ".pvtp", ".pvtu" });
-  written.insert(
-    { ".obj", ".stl", ".vtk" }); // which ParaView writes, too, and would of the preview
+  const auto isStream = [](auto& format, auto&) { return format.kind != MeshFileKind::Indexed; };
+  EXPECT_EQ(suffixesOfProxy("StreamingMeshReader.xml", "ReaderFactory"), suffixesWhere(isStream));
+  // What ParaView writes, too, is ours where a preview is shown; later versions write VTKHDF.
+  const auto isOfVtk = [](const Format& format, const FileSuffix& suffix)
+  { return format.isReadByVtk || suffix.text == ".vtkhdf"; };
   std::set<std::string> saved = suffixesOfProxy("BigMeshWriter.xml", "WriterFactory");
   saved.merge(suffixesOfProxy("BigMeshWriter.xml", "WriterFactory", "BigMeshPieces"));
-  EXPECT_EQ(saved, written);
+  EXPECT_EQ(saved, suffixesWhere(isOfVtk));
+  // A file .hdf may be anything.
+  const auto isWritten = [&](auto& format, auto& suffix)
+  { return format.bytes && !isOfVtk(format, suffix) && suffix.text != ".hdf"; };
+  EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), suffixesWhere(isWritten));
+  // Only one file of TetGen is opened; ParaView reads the pieces.
+  const auto isOpened = [](const Format& format, const FileSuffix& suffix)
+  {
+    return format.parse && &format != formatOfSuffix(".pvtu") && suffix.text != ".ele" &&
+           suffix.text != ".hdf";
+  };
+  // Files that may be text are compressed; others are so by themselves.
+  const auto isText = [&](auto& format, auto& suffix)
+  { return isOpened(format, suffix) && suffix.form != FileForm::Binary; };
+  std::set<std::string> opened = suffixesWhere(isOpened);
+  for (const std::string& suffix : suffixesWhere(isText))
+  {
+    for (const std::string_view compressed : CompressedSuffixes)
+    {
+      opened.insert(suffix + std::string(compressed));
+    }
+  }
+  EXPECT_EQ(suffixesOfProxy("StreamingMeshConverter.xml", "ReaderFactory"), opened);
 }
 
-TEST(FormatTable, DocumentsNameItsFormats)
+TEST(FormatTable, ItsDocumentIsUpToDate)
 {
-  const std::string text = textOf("docs/formats.md");
+  const std::string table = "<!-- formats -->\n" + documentedTable() + "<!-- end -->\n";
+  EXPECT_TRUE(textOf("docs/formats.md").find(table) != std::string::npos)
+    << "docs/formats.md should have:\n"
+    << table;
+}
+
+// Scripts that say that they try every format.
+TEST(FormatTable, ListsInTestsAreComplete)
+{
+  const std::string estimates = textOf("Testing/Examples/smg_estimates.py"),
+                    readers = textOf("Testing/Examples/mesh_files.py");
   for (const Format* format : formats())
   {
-    const bool named =
-      text.find(format->name) != std::string::npos ||
-      std::ranges::all_of(format->suffixes, [&](const FileSuffix& suffix)
-        { return text.find('`' + std::string(suffix.text) + '`') != std::string::npos; });
-    EXPECT_TRUE(named) << format->name;
+    const std::string suffix(format->suffixes[0].text.substr(1));
+    EXPECT_TRUE(!format->bytes || estimates.find('"' + suffix + '"') != std::string::npos)
+      << "smg_estimates.py: " << suffix;
+    EXPECT_TRUE(!format->writer || format->furtherOutputs ||
+                readers.find("\"." + suffix + '"') != std::string::npos)
+      << "mesh_files.py: " << suffix;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/FormatSuffixes.h"
 #include "smg/Convert.h"
 
 #include <lzma.h>
@@ -251,22 +252,16 @@ TEST_F(ImportFormat, OtherFilesAreRefusedByName)
     { "PK\x03\x04\x14 and more", "as a ZIP archive does: unpack it first" },
     { std::string("\xff\xfeO\0F\0F\0\n\0"sv), "as text in UTF-16 does: save it as UTF-8" }
   };
+  const auto isParsed = [](auto& format, auto&) { return format.parse; };
   for (const auto& [bytes, part] : others)
   {
-    for (const Format* format : formats())
+    for (const std::string& suffix : suffixesWhere(isParsed))
     {
-      for (const FileSuffix& suffix : format->suffixes)
-      {
-        if (format->parse)
-        {
-          const std::string name = "a" + std::string(suffix.text);
-          this->expectError(name, bytes, "is not a");
-          this->expectError(name, bytes, part);
-          // Counts of a header, which an estimate needs, come after that.
-          smg::testing::expectError(
-            [&] { estimateConversion(this->Folder / name, ConversionOptions()); }, part);
-        }
-      }
+      this->expectError("a" + suffix, bytes, "is not a");
+      this->expectError("a" + suffix, bytes, part);
+      // Counts of a header, which an estimate needs, come after that.
+      smg::testing::expectError(
+        [&] { estimateConversion(this->Folder / ("a" + suffix), ConversionOptions()); }, part);
     }
     this->expectError("a.xyz", bytes, "is not a mesh that is read: it begins with");
   }

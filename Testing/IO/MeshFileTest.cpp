@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/MeshFile.h"
 
-#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/Combinations.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/FormatSuffixes.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestFolders.h"
 #include "smg/Convert.h"
@@ -72,14 +72,8 @@ std::string sizeOf(const std::filesystem::path& path)
 /** The suffixes of all formats, those that streaming formats alone have, and others. */
 std::set<std::string> allSuffixes()
 {
-  std::set<std::string> suffixes{ "", ".xyz", ".smc", ".svc", ".SMA" };
-  for (const Format* format : formats())
-  {
-    for (const FileSuffix& suffix : format->suffixes)
-    {
-      suffixes.emplace(suffix.text);
-    }
-  }
+  std::set<std::string> suffixes = suffixesWhere([](auto&, auto&) { return true; });
+  suffixes.insert({ "", ".xyz", ".smc", ".svc", ".SMA" });
   return suffixes;
 }
 

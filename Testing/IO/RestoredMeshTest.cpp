@@ -5,6 +5,7 @@
 #include "Testing/IO/RestoredMeshFixture.h"
 #include "Testing/Support/ColumnValues.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/FormatSuffixes.h"
 #include "Testing/Support/ProgressRecord.h"
 #include "smg/Convert.h"
 #include "smg/WriteMesh.h"
@@ -44,11 +45,13 @@ std::vector<Corners> cutAbove(const std::vector<Corners>& cells, std::size_t mos
 
 TEST_F(RestoredMeshTest, PolygonsAreTheSameInFormatsThatHaveThem)
 {
-  for (const char* suffix : { ".ply", ".obj", ".off", ".vtk", ".vtp", ".vtu" })
+  const auto hasPolygons = [](auto& format, auto&)
+  { return format.writer && format.maxCorners > 4; };
+  for (const std::string& suffix : suffixesWhere(hasPolygons))
   {
     for (const bool isDouble : { true, false })
     {
-      SCOPED_TRACE(suffix + std::string(isDouble ? " double" : " single"));
+      SCOPED_TRACE(suffix + (isDouble ? " double" : " single"));
       const MeshOfFile mesh = randomMeshOfFile(CellType::Triangle, 9, isDouble, isDouble ? 1 : 2);
       const FileMesh back = this->restored(mesh, suffix);
       EXPECT_EQ(back.points.size(), mesh.points.size());
@@ -321,12 +324,15 @@ TEST_F(RestoredMeshTest, StreamsAreWrittenInTheirOrderToo)
     stream.vertexColumns = { randomColumn(
       { "OriginalId", ScalarType::Int64, 1 }, stream.vertices(), 3) };
     testing::write(this->Folder / "mesh.vsm", stream);
-    const auto surfaces = { ".ply", ".vtp", ".obj", ".off", ".vtk", ".vtu", ".mesh", ".msh" };
-    const auto solids = { ".vtk", ".vtu", ".mesh", ".msh" };
-    for (const char* suffix : isSurface ? std::vector<const char*>(surfaces) : solids)
+    const auto isOneFile = [&](auto& format, auto& suffix)
+    {
+      return format.writer && format.holdsVertices && !format.furtherOutputs &&
+             suffix.holds(stream.cellType);
+    };
+    for (const std::string& suffix : suffixesWhere(isOneFile))
     {
       SCOPED_TRACE(suffix);
-      const std::filesystem::path out = this->Folder / (std::string("out") + suffix);
+      const std::filesystem::path out = this->Folder / ("out" + suffix);
       EXPECT_TRUE(writeFromVsm(this->Folder / "mesh.vsm", out, {}, this->Folder.path()).empty());
       const FileMesh back = readFileMesh(out);
       EXPECT_EQ(back.points, stream.positions);
@@ -355,13 +361,17 @@ TEST_F(RestoredMeshTest, RefusesFormatsThatCannotHaveIt)
 {
   const MeshOfFile surface = randomMeshOfFile(CellType::Triangle, 3, true);
   const MeshOfFile volume = randomMeshOfFile(CellType::Tetrahedron, 4, true);
-  for (const char* name : { "out.vsm", "out.sma", "out.svb", "out" })
+  expectError([&] { this->write(surface, "out"); }, "an order of its own");
+  const auto isStream = [](auto& format, auto&) { return !format.writer; };
+  for (const std::string& suffix : suffixesWhere(isStream))
   {
-    expectError([&] { this->write(surface, name); }, "an order of its own");
+    expectError([&] { this->write(surface, "out" + suffix); }, "an order of its own");
   }
-  for (const char* name : { "out.ply", "out.vtp", "out.obj", "out.off", "out.stl" })
+  const auto isSurface = [](auto& format, auto& suffix)
+  { return format.writer && !suffix.tetrahedra; };
+  for (const std::string& suffix : suffixesWhere(isSurface))
   {
-    expectError([&] { this->write(volume, name); }, "holds no tetrahedra");
+    expectError([&] { this->write(volume, "out" + suffix); }, "holds no tetrahedra");
   }
   EXPECT_EQ(this->Folder.entries(), 1);
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/FormatTable.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkStreamingMeshConverter.h"
 #include "IO/vtkStreamingMeshKeys.h"
@@ -7,6 +6,7 @@
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/FormatSuffixes.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
@@ -23,7 +23,6 @@
 #include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,18 +57,8 @@ std::uintmax_t bytesIn(const std::filesystem::path& folder)
  */
 std::set<std::string> suffixesOf(CellType cells)
 {
-  const FormatUse written = FormatUse::Write;
-  std::istringstream words(suffixList(written, cells, "or"));
-  std::set<std::string> suffixes;
-  for (std::string word; words >> word;)
-  {
-    word = word.substr(0, word.find(','));
-    if (word.starts_with('.') && word != ".vsm" && suffixFor(FormatUse::Read, word = "mesh" + word))
-    {
-      suffixes.insert(word.substr(4));
-    }
-  }
-  return suffixes;
+  return suffixesWhere([cells](auto& format, auto& suffix)
+    { return format.bytes && format.kind != MeshFileKind::Vsm && suffix.holds(cells); });
 }
 
 /** Appends a number as it is in memory, or in the other byte order. */

@@ -489,7 +489,8 @@ constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, FileForm::Text } }
 const Format GmshFormat{
   .name = "Gmsh",
   .suffixes = GmshSuffixes,
-  .attributes = "tags of cells",
+  .description = "versions 1.0, 2.x, 4.0 and 4.1, text and binary; written as 2.2",
+  .cells = "all of Gmsh; the corners of higher-order cells",
   .hasSign = isGmsh,
   .parse = parseWith<importGmsh>,
   .share = { 250, 4 },

@@ -231,7 +231,8 @@ void importBinaryMedit(InputFile& file, RawMeshBuilder& builder)
 const Format BinaryMeditFormat{
   .name = "binary Medit",
   .suffixes = BinaryMeditSuffixes,
-  .attributes = "references of vertices and cells",
+  .description = "versions 1 to 4",
+  .cells = "as Medit",
   .hasSign = isBinaryMedit,
   .alwaysSigned = true,
   .parse = parseWith<importBinaryMedit>,

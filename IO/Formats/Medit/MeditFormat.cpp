@@ -322,7 +322,8 @@ constexpr FileSuffix MeditSuffixes[] = { { ".mesh", true, true, FileForm::Text }
 const Format MeditFormat{
   .name = "Medit",
   .suffixes = MeditSuffixes,
-  .attributes = "references of vertices and cells",
+  .description = "text",
+  .cells = "triangles, quadrilaterals, tetrahedra, hexahedra, prisms, pyramids",
   .hasSign = isMedit,
   .parse = parseWith<importMedit>,
   .share = { 200, 4 },

@@ -351,8 +351,10 @@ constexpr std::string_view ObjColumns[] = { NormalsName, ColorsName, TextureCoor
 const Format ObjFormat{
   .name = "OBJ",
   .suffixes = ObjSuffixes,
-  .attributes = "normals, colours and texture coordinates of vertices",
+  .description = "text",
+  .cells = "polygons",
   .vertexColumns = ObjColumns,
+  .isReadByVtk = true,
   .looksRight = looksLikeObj,
   .parse = parseWith<importObj>,
   .bytes = bytesOfObj,

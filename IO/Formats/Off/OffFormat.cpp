@@ -261,7 +261,8 @@ constexpr std::string_view OffColumns[] = { NormalsName, ColorsName, TextureCoor
 const Format OffFormat{
   .name = "OFF",
   .suffixes = OffSuffixes,
-  .attributes = "normals, colours and texture coordinates of vertices, colours of faces",
+  .description = "text and binary",
+  .cells = "polygons",
   .vertexColumns = OffColumns,
   .hasSign = isOff,
   .parse = parseWith<importOff>,

@@ -66,7 +66,10 @@ constexpr FileSuffix PlySuffixes[] = { { ".ply", true, false, FileForm::Either }
 const Format PlyFormat{
   .name = "PLY",
   .suffixes = PlySuffixes,
-  .attributes = AllColumns,
+  .description = "text and binary of both byte orders",
+  .cells = "triangles, polygons, strips",
+  .holdsColumns = true,
+  .isReadByVtk = true,
   .hasSign = isPly,
   .alwaysSigned = true,
   .parse = parseWith<importPly>,

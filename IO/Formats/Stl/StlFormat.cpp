@@ -214,8 +214,10 @@ constexpr FileSuffix StlSuffixes[] = { { ".stl", true, false, FileForm::Either }
 const Format StlFormat{
   .name = "STL",
   .suffixes = StlSuffixes,
-  .attributes = "none",
+  .description = "text and binary; written as text also where coordinates are double precision",
+  .cells = "triangles",
   .holdsVertices = false,
+  .isReadByVtk = true,
   .looksRight = looksLikeStl,
   .parse = parseWith<importStl>,
   .share = { 100, 3 },

@@ -56,7 +56,8 @@ constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false, FileForm::Text 
 const Format StreamsFormat{
   .name = "mesh stream",
   .suffixes = StreamSuffixes,
-  .attributes = "a scalar of the vertices of tetrahedra",
+  .description = "SMA and SVA are text, SMB and SVB binary",
+  .cells = "triangles (SMA, SMB), tetrahedra (SVA, SVB)",
   .kind = MeshFileKind::Stream,
   .counts = countsOfStream,
   .bytes = bytesOfStream,

@@ -380,7 +380,8 @@ constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, FileForm::Text 
 const Format TetGenFormat{
   .name = "TetGen",
   .suffixes = TetGenSuffixes,
-  .attributes = "attributes and markers of vertices, attributes of cells",
+  .description = "two files in a folder, either of which may be named",
+  .cells = "triangles, tetrahedra",
   .parse = parseWith<importTetGen>,
   .share = { 200, 4 },
   .bytes = bytesOfTetGen,

@@ -131,8 +131,10 @@ constexpr FileSuffix VsmSuffixes[] = { { ".vsm" } };
 const Format VsmFileFormat{
   .name = "VSM",
   .suffixes = VsmSuffixes,
-  .attributes = AllColumns,
+  .description = "the container of this project",
+  .cells = "triangles, tetrahedra",
   .kind = MeshFileKind::Vsm,
+  .holdsColumns = true,
   .bytes = [](const MeshToWrite& written) { return written.vsmBytes; },
 };
 

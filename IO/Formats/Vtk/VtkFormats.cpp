@@ -89,7 +89,10 @@ void importVtkXml(InputFile& file, RawMeshBuilder& builder)
 const Format LegacyVtkFormat{
   .name = "legacy VTK",
   .suffixes = LegacySuffixes,
-  .attributes = AllColumns,
+  .description = "versions 2.0 to 5.1, text and binary; written as 3.0",
+  .cells = "polygonal data, unstructured grids",
+  .holdsColumns = true,
+  .isReadByVtk = true,
   .hasSign = isLegacyVtk,
   .alwaysSigned = true,
   .parse = parseWith<importLegacyVtk>,
@@ -102,7 +105,10 @@ const Format LegacyVtkFormat{
 const Format VtkXmlFormat{
   .name = "VTK XML",
   .suffixes = XmlSuffixes,
-  .attributes = AllColumns,
+  .description = "text, base64, raw; plain or compressed by zlib, LZ4 or LZMA",
+  .cells = "polygonal data (the only cells of `.vtp`), unstructured grids",
+  .holdsColumns = true,
+  .isReadByVtk = true,
   .hasSign = isVtkXml,
   .firstCharacter = '<',
   .parse = parseWith<importVtkXml>,
@@ -119,7 +125,11 @@ std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path
 const Format ParallelVtkXmlFormat{
   .name = "VTK XML in pieces",
   .suffixes = ParallelSuffixes,
-  .attributes = AllColumns,
+  .description = "pieces in the folder of the file or below, each compressed or not; written by "
+                 "`vtkStreamingMeshWriter`",
+  .cells = "as VTK XML",
+  .holdsColumns = true,
+  .isReadByVtk = true,
   .hasSign = isParallelVtkXml,
   .firstCharacter = '<',
   .parse = parseParallel,

@@ -89,7 +89,10 @@ constexpr FileSuffix VtkHdfSuffixes[] = { { ".vtkhdf" }, { ".hdf" } };
 const Format VtkHdfFormat{
   .name = "VTKHDF",
   .suffixes = VtkHdfSuffixes,
-  .attributes = AllColumns,
+  .description = "versions 1 and 2 (HDF5); one of any number of time steps; all partitions or one; "
+                 "written as unstructured grid",
+  .cells = "polygonal data, unstructured grids",
+  .holdsColumns = true,
   .hasSign = isHdf5,
   .parse = parse,
   .counts = counts,

@@ -166,9 +166,8 @@ struct SMG_EXPORT ConversionReport
  * @param in a mesh file of any format in docs/formats.md, recognised by its content, or by its
  * suffix where that leaves it open; perhaps compressed by gzip. At most 4,294,967,294 vertices and
  * as many cells.
- * @param out the result, in the format of its suffix: .vsm; .sma, .smb (triangles); .sva, .svb
- * (tetrahedra); .ply, .vtp (triangles); .vtu; .vtkhdf. With `restoreOrder`: .ply, .vtp, .vtu, .vtk,
- * .obj, .off, .stl, .mesh, .msh, or .node with .ele.
+ * @param out the result, in the format of its suffix, one that is written according to
+ * docs/formats.md; with `restoreOrder`, one that is restored
  * @param options how to convert
  * @throws Error if the input is not valid, the output cannot be written or its format does not hold
  * such cells, the memory limit is below 16 MiB, the disk has too little room for the scratch files

@@ -26,8 +26,8 @@ struct WriteMeshOptions
 {
   /** Compression of a .vsm file. */
   Codec codec = Codec::Zstd;
-  /** Write text where the format has a binary and a text form: .ply, .stl, .vtk. Numbers read back
-   * exactly. With a format of binary files it is an error. */
+  /** Write text where the format has a binary and a text form. Numbers read back exactly. With a
+   * format of binary files it is an error. */
   bool text = false;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch{};
@@ -51,10 +51,8 @@ struct WriteMeshOptions
  * Writes a mesh stream.
  * @param source the stream, read to its end; its StreamInfo must have the numbers of vertices and
  * cells
- * @param path the file, in the format of its suffix: .vsm, .ply (triangles), .vtp (triangles), .vtu
- * or .vtkhdf with all columns; .sma or .smb (triangles), .sva or .svb (tetrahedra); .vtk, .obj,
- * .off and .stl (triangles), .mesh, .msh, and .node with .ele, without the columns OriginalId,
- * OriginalCellId and CellFlags of a conversion
+ * @param path the file, in the format of its suffix, one that is written according to
+ * docs/formats.md, which says what columns it holds
  * @param options how to write
  * @return a sentence for each thing that the format cannot hold as the mesh has it
  * @throws Error if meshes or such cells are not written with this suffix, the stream is not valid,
