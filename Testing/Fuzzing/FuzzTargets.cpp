@@ -2,13 +2,8 @@
 #include "Testing/Fuzzing/FuzzTargets.h"
 
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Gmsh/GmshFormat.h"
-#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/Formats/Obj/ObjFormat.h"
-#include "IO/Formats/Off/OffFormat.h"
-#include "IO/Formats/Ply/PlyFormat.h"
-#include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
@@ -22,10 +17,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace smg::testing
 {
@@ -45,15 +43,38 @@ std::string_view takeFile(std::string_view& bytes)
   return file;
 }
 
+/** Writes the files of a seed. Returns the one that is read. */
+std::filesystem::path writeFiles(const Format& format, std::string_view bytes)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  if (&format == &TetGenFormat)
+  {
+    const std::filesystem::path nodes = place.write("tetgen/mesh.node", takeFile(bytes));
+    const std::filesystem::path elements = place.write("tetgen/mesh.ele", bytes);
+    return bytes.size() % 2 ? nodes : elements;
+  }
+  if (&format == &ParallelVtkXmlFormat)
+  {
+    // The file, then its pieces.
+    const std::filesystem::path path = place.write("pieces/mesh.pvtu", takeFile(bytes));
+    for (const char* piece : { "pieces/0.vtu", "pieces/1.vtu", "pieces/2.vtu" })
+    {
+      place.write(piece, takeFile(bytes));
+    }
+    return path;
+  }
+  return place.write("mesh" + std::string(format.suffixes.back().text), bytes);
+}
+
 /** The type of cells that a parser finds which only looks at the file; none if that fails. */
-template <class Parser>
-std::optional<CellType> lookAt(const std::filesystem::path& path, CellChoice cells, Parser parser)
+std::optional<CellType> lookAt(
+  const std::filesystem::path& path, CellChoice cells, const Format& format)
 {
   RawMeshBuilder builder(FuzzPlace::instance().workspace(), cells, RawMeshBuilder::Look);
   InputFile file(path);
   try
   {
-    parser(file, builder);
+    format.parse(file, builder, {}, {});
   }
   catch (const CellTypeFound& found)
   {
@@ -66,19 +87,19 @@ std::optional<CellType> lookAt(const std::filesystem::path& path, CellChoice cel
   return {};
 }
 
-/** Parses the file in the folder with the parser of one format, of which a look at it must have
- * told the type of the cells. */
-template <class Parser>
-bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
+/** Parses the files with the parser of one format, of which a look at them must have told the type
+ * of the cells. */
+bool parse(const Format& format, std::string_view bytes, CellChoice cells)
 {
   FuzzPlace& place = FuzzPlace::instance();
+  const std::filesystem::path path = writeFiles(format, bytes);
   return place.run(
     [&]
     {
-      const std::optional<CellType> looked = lookAt(path, cells, parser);
+      const std::optional<CellType> looked = lookAt(path, cells, format);
       RawMeshBuilder builder(place.workspace(), cells);
       InputFile file(path);
-      parser(file, builder);
+      format.parse(file, builder, {}, {});
       try
       {
         const RawMesh mesh = builder.finish();
@@ -93,36 +114,14 @@ bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
     });
 }
 
-template <void (*Parser)(InputFile&, RawMeshBuilder&)>
-bool runParser(std::string_view bytes, CellChoice cells)
+/** The folder of the corpus of a format: its name or, of several words, its last suffix. */
+std::string folderOf(const Format& format)
 {
-  return parse(FuzzPlace::instance().write("mesh", bytes), cells, Parser);
-}
-
-bool runTetGen(std::string_view bytes, CellChoice cells)
-{
-  FuzzPlace& place = FuzzPlace::instance();
-  const std::filesystem::path nodes = place.write("tetgen/mesh.node", takeFile(bytes));
-  const std::filesystem::path elements = place.write("tetgen/mesh.ele", bytes);
-  return parse(bytes.size() % 2 ? nodes : elements, cells, importTetGen);
-}
-
-bool runVtkXml(std::string_view bytes, CellChoice cells)
-{
-  return parse(FuzzPlace::instance().write("mesh.vtu", bytes), cells, importVtkXml);
-}
-
-/** The file, then its pieces, which are called 0.vtu, 1.vtu and 2.vtu. */
-bool runParallelVtkXml(std::string_view bytes, CellChoice cells)
-{
-  FuzzPlace& place = FuzzPlace::instance();
-  const std::filesystem::path path = place.write("pieces/mesh.pvtu", takeFile(bytes));
-  for (const char* piece : { "pieces/0.vtu", "pieces/1.vtu", "pieces/2.vtu" })
-  {
-    place.write(piece, takeFile(bytes));
-  }
-  return parse(path, cells,
-    [](InputFile& file, RawMeshBuilder& builder) { importParallelVtkXml(file, builder, {}); });
+  std::string name(format.name);
+  std::ranges::transform(
+    name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name.find(' ') == std::string::npos ? name
+                                             : std::string(format.suffixes.back().text.substr(1));
 }
 
 bool runImportMesh(const std::string& name, std::string_view bytes, CellChoice cells)
@@ -175,29 +174,34 @@ bool runVsm(std::string_view bytes, CellChoice)
     });
 }
 
-constexpr std::array Targets{ FuzzTarget{ "ply", runParser<importPly> },
-  FuzzTarget{ "obj", runParser<importObj> }, FuzzTarget{ "off", runParser<importOff> },
-  FuzzTarget{ "stl", runParser<importStl> }, FuzzTarget{ "medit", runParser<importMedit> },
-  FuzzTarget{ "meshb", runParser<importBinaryMedit> }, FuzzTarget{ "gmsh", runParser<importGmsh> },
-  FuzzTarget{ "tetgen", runTetGen }, FuzzTarget{ "vtk", runParser<importLegacyVtk> },
-  FuzzTarget{ "vtu", runVtkXml }, FuzzTarget{ "pvtu", runParallelVtkXml },
-  FuzzTarget{ "gzip", runGzip }, FuzzTarget{ "import", runImport },
-  FuzzTarget{ "stream", runStream }, FuzzTarget{ "vsm", runVsm },
-  FuzzTarget{ "problem", runProblem, true }, FuzzTarget{ "handles", runHandles, true },
-  FuzzTarget{ "places", runPlaces, true }, FuzzTarget{ "solve", runSolve, true },
-  FuzzTarget{ "checkpoint", runCheckpoint, true } };
+std::vector<FuzzTarget> makeTargets()
+{
+  std::vector<FuzzTarget> targets{ { "gzip", runGzip }, { "import", runImport },
+    { "stream", runStream }, { "vsm", runVsm }, { "problem", runProblem, true },
+    { "handles", runHandles, true }, { "places", runPlaces, true }, { "solve", runSolve, true },
+    { "checkpoint", runCheckpoint, true } };
+  for (const Format* format : formats())
+  {
+    if (format->parse && !format->hasParts) // HDF5 itself is not fuzzed
+    {
+      targets.push_back({ folderOf(*format), std::bind_front(parse, std::cref(*format)) });
+    }
+  }
+  return targets;
+}
 
 } // namespace
 
 std::span<const FuzzTarget> fuzzTargets()
 {
-  return Targets;
+  static const std::vector<FuzzTarget> targets = makeTargets();
+  return targets;
 }
 
 const FuzzTarget& fuzzTarget(std::string_view name)
 {
-  const auto found = std::ranges::find(Targets, name, &FuzzTarget::name);
-  if (found == Targets.end())
+  const auto found = std::ranges::find(fuzzTargets(), name, &FuzzTarget::name);
+  if (found == fuzzTargets().end())
   {
     throw std::invalid_argument("there is no fuzz target " + std::string(name));
   }

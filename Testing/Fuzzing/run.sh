@@ -12,8 +12,8 @@
 #
 # To reproduce a finding: build-fuzzers/bin/fuzz_TARGET FILE. When the reader is fixed, the input
 # goes to Testing/Fuzzing/corpus/TARGET as refused-WHAT, which the test FuzzCorpus then runs
-# (without "refused" if it is a mesh that is now read). A new target needs a line in FuzzTargets.cpp
-# and a folder with a corpus.
+# (without "refused" if it is a mesh that is now read). A new target needs a line in FuzzTargets.cpp,
+# unless it is a format, and a folder with a corpus.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export seconds=${1:-600}
