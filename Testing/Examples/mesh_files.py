@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads mesh files of every format that smg writes in a restored order, without smg."""
+"""Reads mesh files of every format that smg writes in a restored order, but of two files (TetGen), without smg."""
 
 import array
 import base64
@@ -245,9 +245,11 @@ def read_vtk_xml(data):
     return mesh(triples(xml_values(place)), cells, place.get("type") == "Float32")
 
 
-READERS = {".ply": read_ply, ".obj": read_obj, ".off": read_off, ".stl": read_stl,
-           ".mesh": read_medit, ".msh": read_gmsh, ".vtk": read_legacy_vtk,
-           ".vtp": read_vtk_xml, ".vtu": read_vtk_xml}
+# Those with polygons of any number of corners come first.
+READERS = {".ply": read_ply, ".vtp": read_vtk_xml, ".vtu": read_vtk_xml, ".vtk": read_legacy_vtk, ".obj": read_obj,
+           ".off": read_off, ".stl": read_stl, ".mesh": read_medit, ".msh": read_gmsh}
+SURFACES = tuple(READERS)
+SOLIDS = (".vtu", ".vtk", ".mesh", ".msh")
 
 
 def read_mesh(name):

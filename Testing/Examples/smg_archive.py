@@ -9,7 +9,7 @@ import sys
 from typing import NamedTuple
 
 from archive_meshes import CHOSEN, in_archive
-from mesh_files import read_mesh, same_points
+from mesh_files import SOLIDS, SURFACES, read_mesh, same_points
 from odd_mesh import are_triangles_of
 from program import load, run
 
@@ -82,11 +82,9 @@ def test_every_order(meshes):
 
 
 def test_restored_order(meshes):
-    formats = {3: (".ply", ".vtp", ".vtu", ".vtk", ".obj", ".off", ".stl", ".mesh", ".msh"),
-               4: (".vtu", ".vtk", ".mesh", ".msh")}
     for i, name in enumerate(meshes):
         convert(in_archive(name), "mesh.vsm", "--order", ORDERS[i % 4], *CHOSEN.get(name, ()))
-        suffixes = formats[4 if "tet" in name else 3]
+        suffixes = SOLIDS if "tet" in name else SURFACES
         for k in range(i, i + 2):
             check_restored("mesh.vsm", suffixes[k % len(suffixes)], name)
             if suffixes[k % len(suffixes)] != ".stl":

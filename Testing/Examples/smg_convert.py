@@ -7,14 +7,12 @@ import json
 import os
 import sys
 
-from mesh_files import ply_vertices, read_mesh, same_points
+from mesh_files import SOLIDS, SURFACES, ply_vertices, read_mesh, same_points
 from odd_mesh import are_triangles_of, fans, odd_solid, odd_surface
 from program import load, run, write_medit, write_ply, write_torus
 from tetrahedra import tetrahedra
 
 ORDERS = ("bfs", "spectral", "axis", "keep")
-SURFACES = (".ply", ".vtp", ".vtu", ".vtk", ".obj", ".off", ".stl", ".mesh", ".msh")
-SOLIDS = (".vtu", ".vtk", ".mesh", ".msh")
 
 
 def write_tagged_ply(name, points, cells, kind="double"):

@@ -8,7 +8,7 @@ import os
 import re
 import sys
 
-from mesh_files import read_mesh
+from mesh_files import SOLIDS, SURFACES, read_mesh
 from odd_mesh import odd_solid, odd_surface
 from program import load, read_vtk_xml, run, write_medit, write_torus
 from tetrahedra import tetrahedra
@@ -194,7 +194,7 @@ def test_every_format_keeps_its_order():
         file.writelines(" ".join(map(str, (len(cell), *cell))) + "\n" for cell in cells)
     run("convert", "odd.off", "odd.vsm", "--quiet")
     handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True}, cycles=2)
-    check_orders("odd.vsm", (".ply", ".obj", ".off", ".stl", ".mesh", ".msh", ".vtk", ".vtp", ".vtu"))
+    check_orders("odd.vsm", SURFACES)
     done = deform("odd.off", "moved.obj")
     assert "9 vertices belong to no cell: they stay where they are." in done.stdout, done.stdout
     moved, used = read_mesh("moved.obj"), {corner for cell in cells for corner in cell}
@@ -205,7 +205,7 @@ def test_every_format_keeps_its_order():
     run("convert", "odd.mesh", "odd.vsm", "--quiet")
     handles({"region": {"halfspace": [0, 0, -1, -1]}, "fixed": True},
             {"region": {"halfspace": [0, 0, 1, 4]}, "translate": [0, 0, 1]}, cycles=2)
-    check_orders("odd.vsm", (".mesh", ".msh", ".node", ".vtk", ".vtu"))
+    check_orders("odd.vsm", SOLIDS + (".node",))
     assert "tetrahedra" in deform("odd.mesh", "bad.obj", code=1).stderr
 
 

@@ -26,8 +26,6 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 TREE = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(TREE, "Testing", "Examples"))
-SURFACES = ".ply .stl .obj .off .mesh .msh .vtk .vtp .vtu".split()
-SOLIDS = ".mesh .msh .node .vtk .vtu".split()
 SURFACE_STREAMS = ".sma .smb .ply .vtp .vtkhdf".split()
 SOLID_STREAMS = ".sva .svb .vtu .vtkhdf".split()
 CORPUS = {"gmsh": ".msh", "medit": ".mesh", "obj": ".obj", "off": ".off", "ply": ".ply", "stl": ".stl", "vtk": ".vtk",
@@ -102,6 +100,7 @@ class Golden:
 
 def make_meshes(golden):
     """Writes the meshes of the jobs; returns the formats in which each can be restored."""
+    from mesh_files import SOLIDS, SURFACES
     from odd_mesh import odd_solid, odd_surface
     from program import write_medit, write_ply, write_torus
     from tetrahedra import tetrahedra
@@ -117,8 +116,8 @@ def make_meshes(golden):
     write_medit(golden.path("cube.mesh"), [tuple(x / 5 - 1 for x in point) for point in points], cells)
     write_medit(golden.path("oddcube.mesh"), *odd_solid(7))
     shutil.copy(os.path.join(TREE, "Examples", "Data", "bunny.smb"), golden.path("bunny.smb"))
-    return {"scan.ply": SURFACES, "torus.obj": SURFACES, "odd.ply": SURFACES, "cube.mesh": SOLIDS,
-            "oddcube.mesh": SOLIDS, "bunny.smb": []}
+    return {"scan.ply": SURFACES, "torus.obj": SURFACES, "odd.ply": SURFACES, "cube.mesh": SOLIDS + (".node",),
+            "oddcube.mesh": SOLIDS + (".node",), "bunny.smb": []}
 
 
 def convert_all(golden, meshes):
