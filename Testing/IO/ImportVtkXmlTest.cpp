@@ -69,7 +69,7 @@ protected:
     Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     RawMeshBuilder builder(workspace, CellChoice::Only);
     InputFile file(this->Folder / "all.pvtu");
-    importParallelVtkXml(file, builder, {});
+    ParallelVtkXmlFormat.parse(file, builder, {}, {});
     return readRaw(builder.finish());
   }
 

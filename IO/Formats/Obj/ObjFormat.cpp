@@ -180,15 +180,10 @@ private:
   bool Continues = false;      ///< whether the next line continues this one
 };
 
-} // namespace
-
 void importObj(InputFile& file, RawMeshBuilder& builder)
 {
   ObjReader(file, builder).read();
 }
-
-namespace
-{
 
 /** Red, green and blue: other programs refuse a vertex with seven numbers. */
 constexpr int ObjColorComponents = 3;

@@ -9,6 +9,4 @@ namespace smg
 /** OBJ: `v` and `f` lines; references to textures and normals, and everything else, are ignored. */
 extern const Format ObjFormat;
 
-void importObj(InputFile& file, RawMeshBuilder& builder);
-
 } // namespace smg

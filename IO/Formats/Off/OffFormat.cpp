@@ -119,6 +119,9 @@ OffHeader readOffHeader(InputFile& file, TextScanner& scanner)
   return header;
 }
 
+namespace
+{
+
 void importOff(InputFile& file, RawMeshBuilder& builder)
 {
   TextScanner scanner(file, '#', &builder.workspace());
@@ -140,9 +143,6 @@ void importOff(InputFile& file, RawMeshBuilder& builder)
       }
     });
 }
-
-namespace
-{
 
 /** Writes a colour; numbers from 0 to 1 with a decimal point, since those without are bytes. */
 void writeColor(TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column,

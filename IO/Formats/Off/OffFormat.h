@@ -9,6 +9,4 @@ namespace smg
 /** OFF, text or binary, with or without colours, normals and texture coordinates. */
 extern const Format OffFormat;
 
-void importOff(InputFile& file, RawMeshBuilder& builder);
-
 } // namespace smg

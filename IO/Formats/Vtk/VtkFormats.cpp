@@ -62,12 +62,6 @@ bool isVtkXml(std::string_view start)
   return typeOfXml(start) && !isParallelVtkXml(start);
 }
 
-void parseParallel(
-  InputFile& file, RawMeshBuilder& builder, const MeshPart&, const ProgressFunction& progress)
-{
-  importParallelVtkXml(file, builder, progress);
-}
-
 constexpr FileSuffix LegacySuffixes[] = { { ".vtk", true, true, FileForm::Either } };
 constexpr FileSuffix XmlSuffixes[] = { { ".vtp", true, false }, { ".vtu" } };
 constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" } };
@@ -119,6 +113,8 @@ const Format VtkXmlFormat{
 
 namespace
 {
+void parseParallel(
+  InputFile& file, RawMeshBuilder& builder, const MeshPart& part, const ProgressFunction& progress);
 std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path);
 } // namespace
 
@@ -208,10 +204,8 @@ std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path
   }
 }
 
-} // namespace
-
-void importParallelVtkXml(
-  InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress)
+void parseParallel(InputFile& file, RawMeshBuilder& builder, const MeshPart& /*part*/,
+  const ProgressFunction& progress)
 {
   const std::int64_t maxBytes = builder.workspace().available() / 2;
   VtkLayout layout;
@@ -237,5 +231,7 @@ void importParallelVtkXml(
   }
   readVtkMesh(file, layout, builder, progress);
 }
+
+} // namespace
 
 } // namespace smg

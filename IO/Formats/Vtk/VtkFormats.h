@@ -20,8 +20,6 @@ SMG_EXPORT extern const Format ParallelVtkXmlFormat;
 
 void importLegacyVtk(InputFile& file, RawMeshBuilder& builder);
 void importVtkXml(InputFile& file, RawMeshBuilder& builder);
-void importParallelVtkXml(
-  InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 
 MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
 /** A name as one word of a legacy file, in VTK's encoding. */
