@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/ConversionEstimate.h"
-#include "IO/Formats/FormatTable.h"
 #include "Testing/IO/GmshWriter.h"
 #include "Testing/IO/HdfFile.h"
 #include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/FormatSuffixes.h"
 #include "Testing/Support/TestFolders.h"
 #include "smg/Convert.h"
 
@@ -43,34 +43,28 @@ TEST_F(LookAtMesh, TellsWhatTheConversionMakesOfEveryFormat)
   writeBytes(this->Folder / "surface.off", meshText(torus(9, 8, 0.2)));
   writeBytes(this->Folder / "solid.mesh", meshText(tetBox(3, 4, 3, 0.1)));
   int looked = 0;
-  for (const Format* format : formats())
+  for (const CellType cells : { CellType::Triangle, CellType::Tetrahedron })
   {
-    for (const FileSuffix& suffix : format->suffixes)
+    const auto isIndexed = [cells](auto& format, auto& suffix)
+    { return format.bytes && format.kind == MeshFileKind::Indexed && suffix.holds(cells); };
+    const char* const source = cells == CellType::Triangle ? "surface.off" : "solid.mesh";
+    for (const std::string& suffix : suffixesWhere(isIndexed))
     {
-      for (const CellType cells : { CellType::Triangle, CellType::Tetrahedron })
+      const std::filesystem::path path = this->Folder / ("copy" + suffix);
+      SCOPED_TRACE(path.string());
+      convert(this->Folder / source, path);
+      const std::optional<StreamInfo> stated = statedMesh(path);
+      ASSERT_TRUE(stated);
+      EXPECT_EQ(stated->cellType, cells);
+      convert(path, this->Folder / "mesh.vsm");
+      const StreamInfo mesh = VsmReader(this->Folder / "mesh.vsm").info();
+      EXPECT_EQ(mesh.cellType, cells);
+      for (const ColumnSpec& column : stated->vertexColumns)
       {
-        const bool isSurface = cells == CellType::Triangle;
-        const auto path = this->Folder / ("copy" + std::string(suffix.text));
-        if (!suffix.holds(cells) || !suffixFor(FormatUse::Write, path) ||
-            format->kind != MeshFileKind::Indexed)
-        {
-          continue;
-        }
-        SCOPED_TRACE(path.string());
-        convert(this->Folder / (isSurface ? "surface.off" : "solid.mesh"), path);
-        const std::optional<StreamInfo> stated = statedMesh(path);
-        ASSERT_TRUE(stated);
-        EXPECT_EQ(stated->cellType, cells);
-        convert(path, this->Folder / "mesh.vsm");
-        const StreamInfo mesh = VsmReader(this->Folder / "mesh.vsm").info();
-        EXPECT_EQ(mesh.cellType, cells);
-        for (const ColumnSpec& column : stated->vertexColumns)
-        {
-          EXPECT_TRUE(std::ranges::count(mesh.vertexColumns, column.name, &ColumnSpec::name))
-            << column.name;
-        }
-        ++looked;
+        EXPECT_TRUE(std::ranges::count(mesh.vertexColumns, column.name, &ColumnSpec::name))
+          << column.name;
       }
+      ++looked;
     }
   }
   EXPECT_GT(looked, 18);

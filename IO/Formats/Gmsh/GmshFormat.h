@@ -6,7 +6,6 @@
 namespace smg
 {
 
-/** Gmsh .msh 2.2 and 4.1, text and binary, elements of any order. */
 extern const Format GmshFormat;
 
 void importGmsh(InputFile& file, RawMeshBuilder& builder);

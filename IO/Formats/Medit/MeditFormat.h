@@ -6,9 +6,7 @@
 namespace smg
 {
 
-/** Medit .mesh as text. */
 extern const Format MeditFormat;
-/** Medit .meshb, binary, which is only read. */
 extern const Format BinaryMeditFormat;
 
 void importMedit(InputFile& file, RawMeshBuilder& builder);

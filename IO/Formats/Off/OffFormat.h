@@ -6,7 +6,6 @@
 namespace smg
 {
 
-/** OFF, text or binary, with or without colours, normals and texture coordinates. */
 extern const Format OffFormat;
 
 } // namespace smg

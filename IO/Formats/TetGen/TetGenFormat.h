@@ -6,7 +6,6 @@
 namespace smg
 {
 
-/** TetGen: the .node or the .ele file; the other one is in the same folder. */
 extern const Format TetGenFormat;
 
 void importTetGen(InputFile& file, RawMeshBuilder& builder);

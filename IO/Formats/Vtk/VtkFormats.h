@@ -8,12 +8,7 @@
 namespace smg
 {
 
-/** Legacy VTK, text and binary, polygonal data and unstructured grids, layouts 2.0 to 5.1. */
 extern const Format LegacyVtkFormat;
-/**
- * VTK XML (.vtp, .vtu): appended and inline data, as text, base64 or raw, plain or compressed by
- * zlib, LZ4 or LZMA.
- */
 extern const Format VtkXmlFormat;
 /** The pieces of a .pvtp or .pvtu file, one after the other. */
 SMG_EXPORT extern const Format ParallelVtkXmlFormat;
