@@ -285,6 +285,18 @@ std::string_view TextScanner::peekSlowly()
   return this->tokenHere();
 }
 
+std::optional<std::string_view> TextScanner::restOfLine()
+{
+  if (this->At > this->FarEnough)
+  {
+    this->refill();
+  }
+  const std::string_view text(this->At, static_cast<std::size_t>(this->End - this->At));
+  const std::string_view line = text.substr(0, MaxTokenBytes + 1);
+  const std::size_t length = std::min(line.find(this->Kinds.lineEnd()), line.size());
+  return length > MaxTokenBytes ? std::nullopt : std::optional(line.substr(0, length));
+}
+
 void TextScanner::skipLine()
 {
   this->skipToLineEnd();

@@ -178,6 +178,9 @@ public:
     }
     return this->peekSlowly();
   }
+  /** The rest of the line without its end and without consuming it, valid until the next reading
+   * call; none if it has more than MaxTokenBytes bytes. */
+  std::optional<std::string_view> restOfLine();
   /** Skips the rest of the line and its end. */
   void skipLine();
   /** Whether only blanks, comments and line ends remain. */
@@ -279,14 +282,21 @@ inline const char* afterPlus(std::string_view word)
   return word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
 }
 
-/** A whole word as an integer, if it is one of 64 bits. */
-inline std::optional<std::int64_t> parseInteger(std::string_view word)
+/** A whole word as a number that the type represents, if it is one. */
+template <class T>
+std::optional<T> parseWhole(std::string_view word)
 {
   const char* end = word.data() + word.size();
-  std::int64_t value = 0;
+  T value{};
   const auto result = std::from_chars(afterPlus(word), end, value);
   return !word.empty() && result.ec == std::errc() && result.ptr == end ? std::optional(value)
                                                                         : std::nullopt;
+}
+
+/** A whole word as an integer, if it is one of 64 bits. */
+inline std::optional<std::int64_t> parseInteger(std::string_view word)
+{
+  return parseWhole<std::int64_t>(word);
 }
 
 /** A whole word as a finite number, if it is one. */

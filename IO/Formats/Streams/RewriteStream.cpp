@@ -5,7 +5,6 @@
 #include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Results/MovedVertices.h"
-#include "Solver/Core/Progress.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,19 +19,15 @@ namespace smg
 namespace
 {
 
-/** Elements between two reports of progress. */
-constexpr std::int64_t ElementsBetweenTells = std::int64_t(1) << 16;
-
 /** The elements of a streaming mesh file with the vertices moved. */
 class MovedElements
 {
 public:
   MovedElements(const std::filesystem::path& in, const std::filesystem::path& out,
     MovedVertices& moved, const ProgressFunction& progress)
-    : Reader(openStreamFile(in))
+    : Reader(openStreamFile(in, progress))
     , Out(out)
     , Moved(moved)
-    , Reported(progress)
   {
   }
 
@@ -51,18 +46,13 @@ public:
     {
       this->Moved.check(this->Vertices, this->Reader->name());
     }
-    if (++this->Elements % ElementsBetweenTells == 0)
-    {
-      this->Reported.update(this->Reader->fraction());
-    }
   }
 
 private:
   std::unique_ptr<StreamFileReader> Reader;
   const std::filesystem::path& Out;
   MovedVertices& Moved;
-  Progress Reported;
-  std::int64_t Vertices = 0, Elements = 0;
+  std::int64_t Vertices = 0;
 };
 
 /** Finds the bounds of the vertices, and of their further values, for the header. */

@@ -3,7 +3,6 @@
 
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Mesh/Columns.h"
-#include "smg/Error.h"
 
 #include <algorithm>
 #include <bit>
@@ -66,11 +65,6 @@ StreamInfo StreamAssembler::infoOf(const StreamFileHeader& header)
   return info;
 }
 
-void StreamAssembler::fail(const std::string& what) const
-{
-  throw Error(this->Reader.name() + ": " + this->Reader.place() + ": " + what);
-}
-
 void StreamAssembler::take(const StreamEvent& event)
 {
   switch (event.kind)
@@ -113,8 +107,8 @@ void StreamAssembler::takeCell(const StreamEvent& event)
                          (vertex < this->Vertices && this->FileVertices.get(vertex).until != Never);
     if (isFinal)
     {
-      this->fail("the cell uses vertex " + std::to_string(vertex + 1) +
-                 " of the file, which was final before.");
+      this->Reader.fail("the cell uses vertex " + std::to_string(vertex + 1) +
+                        " of the file, which was final before.");
     }
   }
   const std::int64_t cell = this->Cells++;
@@ -277,8 +271,9 @@ void StreamAssembler::finish()
 {
   if (this->Delivered < this->Cells)
   {
-    this->fail("the file ends with " + std::to_string(this->Vertices) + " vertices, but cell " +
-               std::to_string(this->Delivered + 1) + " uses others: it is truncated or damaged.");
+    this->Reader.fail("the file ends with " + std::to_string(this->Vertices) +
+                      " vertices, but cell " + std::to_string(this->Delivered + 1) +
+                      " uses others: it is truncated or damaged.");
   }
   if (this->Delivered > this->Block.firstCell)
   {

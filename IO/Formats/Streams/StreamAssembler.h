@@ -55,7 +55,6 @@ private:
   };
   static_assert(sizeof(Vertex) == 32);
 
-  [[noreturn]] void fail(const std::string& what) const;
   void takeVertex(const StreamEvent& event);
   void takeCell(const StreamEvent& event);
   void finalize(std::int64_t vertex);

@@ -4,6 +4,7 @@
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Export/RestoredMesh.h"
 #include "IO/External/PagedArray.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamAssembler.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
@@ -27,9 +28,6 @@ namespace
 {
 
 constexpr std::int64_t MinMemory = std::int64_t(8) << 20;
-
-/** Elements between two reports of progress. */
-constexpr std::int64_t ProgressElements = std::int64_t(1) << 16;
 
 /** Reads the further value of the vertices that SVA and SVB can hold, if any. */
 void describeScalar(VsmReader& reader, StreamFileHeader& header)
@@ -165,26 +163,21 @@ std::vector<std::string> notesOnOmitted(
 StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesystem::path& out,
   const StreamToVsmOptions& options)
 {
-  Progress progress(options.progress);
-  const std::unique_ptr<StreamFileReader> reader = openStreamFile(in);
+  const std::unique_ptr<StreamFileReader> reader =
+    openStreamFile(in, partOf(options.progress, 0.0, 0.99));
   VsmWriter writer(out, StreamAssembler::infoOf(reader->header()),
     { .codec = options.codec, .scratch = options.scratch });
   StreamAssembler assembler(*reader, writer, options.scratch, std::max(options.memory, MinMemory));
   StreamEvent event;
-  std::int64_t elements = 0;
   for (reader->next(event); event.kind != StreamEvent::End; reader->next(event))
   {
     assembler.take(event);
-    if (++elements % ProgressElements == 0)
-    {
-      progress.update(0.99 * reader->fraction());
-    }
   }
   assembler.finish();
   StreamToVsmResult result;
   result.info = writer.finish();
   result.isolatedVertices = assembler.isolatedVertices();
-  progress.update(1.0);
+  Progress(options.progress).update(1.0);
   return result;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Files/SequentialInput.h"
+#include "IO/Files/InputFile.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
@@ -118,25 +118,31 @@ class StreamFileReader
 public:
   virtual ~StreamFileReader() = default;
   const StreamFileHeader& header() const { return this->Header; }
-  std::string name() const { return this->Input.name(); }
+  const std::string& name() const { return this->Input.name(); }
   /** The next element; `End` at the end and after it. */
   void next(StreamEvent& event);
-  /** The position of the last element: "line 12", or "element 7 at byte 112". */
-  virtual std::string place() const = 0;
-  /** The fraction of the file that has been read, 0 to 1. */
-  double fraction() const;
+  /** Throws Error: the name of the file, the place of the last element, and `what`. */
+  [[noreturn]] void fail(const std::string& what) const;
 
 protected:
-  explicit StreamFileReader(const std::filesystem::path& path)
-    : Input(path)
+  StreamFileReader(
+    const std::filesystem::path& path, StreamFormat format, const ProgressFunction& progress)
+    : Input(path, progress)
+    , Corners(cornersOf(cellTypeOf(format)))
   {
+    this->Header.format = format;
   }
 
   /** Fills in an element that has no further values yet; false at the end of the file. */
   virtual bool read(StreamEvent& event) = 0;
-  [[noreturn]] void fail(const std::string& what) const;
+  /** The position of the last element: "line 12", or "element 7 at byte 112". */
+  virtual std::string place() const = 0;
+  /** The vertex of an index in the file, which is relative if it is negative; none if that is not
+   * a vertex. `most`: the vertices for which the file has room. */
+  std::optional<std::int64_t> vertexOf(std::int64_t index, std::int64_t most) const;
 
-  SequentialInput Input;
+  InputFile Input;
+  int Corners; ///< of a cell
   StreamFileHeader Header;
   std::int64_t Vertices = 0, Cells = 0; ///< so far
 
@@ -144,7 +150,8 @@ private:
   void checkEnd() const;
 };
 
-/** Opens a streaming mesh file of any of the four formats. */
-std::unique_ptr<StreamFileReader> openStreamFile(const std::filesystem::path& path);
+/** Opens a streaming mesh file of any of the four formats. Reading reports progress. */
+std::unique_ptr<StreamFileReader> openStreamFile(
+  const std::filesystem::path& path, const ProgressFunction& progress = {});
 
 } // namespace smg

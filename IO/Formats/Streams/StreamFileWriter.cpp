@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/StreamFileWriter.h"
 
+#include "IO/Files/ByteOrder.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/Files/SequentialOutput.h"
-#include "IO/Formats/Streams/BinaryStreamReader.h"
 #include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Streams/StreamReaders.h"
 
 #include <array>
 #include <cstddef>
