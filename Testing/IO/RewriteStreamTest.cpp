@@ -114,9 +114,10 @@ TEST_F(RewriteStream, KeepsTheOrderOfEveryVariant)
                                 : (tets ? StreamFormat::Svb : StreamFormat::Smb);
       file.header.postOrder = variant / 2 % 2 != 0;
       file.counts = file.bounds = variant / 4 % 2 != 0;
-      file.style.finalization = static_cast<StreamFileStyle::Finalization>(variant / 8 % 3);
-      file.style.bigEndian = variant / 24 % 2 != 0;
-      if (!text && file.style.finalization == StreamFileStyle::Explicit)
+      file.finalization = static_cast<StreamStyle::Finalization>(variant / 8 % 3);
+      file.bigEndian = variant / 24 % 2 != 0;
+      file.endianFlag = file.bigEndian ? 1 : 0;
+      if (!text && file.finalization == StreamStyle::Explicit)
       {
         continue;
       }

@@ -79,11 +79,11 @@ TEST_F(StreamFormats, EveryVariantIsTheSameMesh)
       file.header.postOrder = (variant & 2) != 0;
       file.counts = (variant & 4) != 0;
       file.bounds = (variant & 8) != 0;
-      file.style.bigEndian = (variant & 16) != 0;
-      file.style.endianFlag = (variant & 32) != 0 ? 1 : 0;
-      file.style.finalization = (variant & 64) == 0           ? StreamFileStyle::InCell
-                                : text && (variant & 16) != 0 ? StreamFileStyle::Explicit
-                                                              : StreamFileStyle::None;
+      file.bigEndian = (variant & 16) != 0;
+      file.endianFlag = (variant & 32) != 0 ? 1 : 0;
+      file.finalization = (variant & 64) == 0           ? StreamStyle::InCell
+                          : text && (variant & 16) != 0 ? StreamStyle::Explicit
+                                                        : StreamStyle::None;
       if ((variant & 128) != 0)
       {
         file.header.comments = { "made by a test", "" };

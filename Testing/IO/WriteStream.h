@@ -2,26 +2,68 @@
 #pragma once
 
 #include "IO/Formats/Streams/StreamFileWriter.h"
+#include "Testing/IO/MeshText.h"
 #include "Testing/Support/StreamMesh.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace smg::testing
 {
 
-/** A mesh in the order of the written file. */
+/** A mesh in the order of the written file; some variants only other programs write. */
 struct StreamStyle
 {
+  enum Finalization
+  {
+    None,    ///< not at all
+    InCell,  ///< by a negative, relative index in the last cell
+    Explicit ///< by a separate line (text formats only)
+  };
   StreamFileHeader header;
-  StreamFileStyle style;
+  Finalization finalization = InCell;
+  bool bigEndian = false; ///< byte order of the data of the binary formats
+  char endianFlag = 0;    ///< the byte for the order: 0 little, 1 big; some write a wrong one
   bool counts = true;
   bool bounds = true;
 };
+
+/** Gives a binary file without further values the byte order and the flag. */
+inline void changeByteOrder(const std::filesystem::path& path, const StreamStyle& file)
+{
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  bytes[1] = file.endianFlag;
+  auto at = bytes.begin() + 4;
+  const auto swapWords = [&](std::ptrdiff_t count)
+  {
+    for (const auto end = at + 4 * count; at != end; at += 4)
+    {
+      std::reverse(at, at + 4);
+    }
+  };
+  if (file.bigEndian)
+  {
+    swapWords(1);
+    for (const std::string& comment : file.header.comments)
+    {
+      swapWords(1);
+      at += std::ssize(comment);
+    }
+    swapWords(file.header.format == StreamFormat::Svb ? 4 : 2);
+    ++at; // whether there are bounds
+    swapWords((bytes.end() - at) / 4);
+  }
+  writeBytes(path, bytes);
+}
 
 /** Writes a stream: in post-order each vertex after its last cell, otherwise before its first;
  * vertices are numbered in the order of the file. */
@@ -56,7 +98,7 @@ inline void writeStream(const std::filesystem::path& path, const StreamMesh& mes
     vertexOf[number[v]] = v;
   }
 
-  const auto writer = createStreamFile(path, file.header, file.style);
+  const auto writer = createStreamFile(path, file.header);
   std::int64_t written = 0;
   const auto writeVertex = [&]
   {
@@ -78,13 +120,24 @@ inline void writeStream(const std::filesystem::path& path, const StreamMesh& mes
       cell.push_back(number[v]);
       finalMask |= unsigned(last[v] == c) << k;
     }
-    writer->cell(cell, finalMask);
+    writer->cell(cell, file.finalization == StreamStyle::InCell ? finalMask : 0);
+    for (std::size_t k = 0; file.finalization == StreamStyle::Explicit && k < corners; k++)
+    {
+      if ((finalMask >> k & 1U) != 0)
+      {
+        writer->finalization(cell[k]);
+      }
+    }
     while (file.header.postOrder && written < mesh.vertices() && last[vertexOf[written]] == c)
     {
       writeVertex();
     }
   }
   writer->finish();
+  if (!isText(file.header.format))
+  {
+    changeByteOrder(path, file);
+  }
 }
 
 inline StreamMesh singlePrecision(StreamMesh mesh)

@@ -2,11 +2,14 @@
 #include "IO/Formats/Streams/StreamFileWriter.h"
 
 #include "IO/Files/ByteOrder.h"
+#include "IO/Formats/Streams/StreamReaders.h"
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
+#include <string_view>
 #include <utility>
 
 namespace smg
@@ -19,11 +22,9 @@ constexpr std::int64_t MaxCount = INT32_MAX;
 
 } // namespace
 
-StreamFileWriter::StreamFileWriter(
-  std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style)
+StreamFileWriter::StreamFileWriter(std::filesystem::path path, const StreamFileHeader& header)
   : Output(std::move(path))
   , Header(header)
-  , Style(style)
 {
   if (header.vertices > MaxCount || header.cells > MaxCount)
   {
@@ -51,41 +52,49 @@ float StreamFileWriter::bound(int k, bool upper) const
                : this->Header.floatRanges[k - 3][upper ? 1 : 0];
 }
 
-void StreamFileWriter::countVertex(std::size_t floats, std::size_t ints)
+void StreamFileWriter::checkElement(const char* what, std::int64_t count, bool hasAllNumbers) const
 {
-  if (floats != std::size_t(this->Header.vertexFloats) ||
-      ints != std::size_t(this->Header.vertexInts) || this->Vertices == MaxCount)
+  if (!hasAllNumbers || count == MaxCount)
   {
-    this->fail("vertex " + std::to_string(this->Vertices) +
+    this->fail(std::string(what) + ' ' + std::to_string(count) +
                " does not have the values of the header, or exceeds its count.");
   }
-  this->Vertices++;
 }
 
-void StreamFileWriter::countCell(
-  std::span<const std::int64_t> corners, unsigned finalMask, std::size_t ints)
+void StreamFileWriter::vertex(std::span<const float, 3> position, std::span<const float> floats,
+  std::span<const std::int32_t> ints)
 {
-  const bool relative =
-    !this->Header.postOrder && this->Style.finalization == StreamFileStyle::InCell;
-  const std::int64_t most = this->Header.postOrder ? MaxCount : this->Vertices;
-  if (corners.size() != std::size_t(cornersOf(cellTypeOf(this->Header.format))) ||
-      ints != std::size_t(this->Header.cellInts) || this->Cells == MaxCount)
+  const StreamFileHeader& header = this->Header;
+  this->checkElement("vertex", this->Vertices,
+    std::ssize(floats) == header.vertexFloats && std::ssize(ints) == header.vertexInts);
+  this->Vertices++;
+  this->Floats.assign(position.begin(), position.end());
+  this->Floats.insert(this->Floats.end(), floats.begin(), floats.end());
+  this->put(StreamEvent::Vertex, this->Floats, ints);
+}
+
+void StreamFileWriter::cell(
+  std::span<const std::int64_t> corners, unsigned finalMask, std::span<const std::int32_t> ints)
+{
+  const StreamFileHeader& header = this->Header;
+  this->checkElement("cell", this->Cells,
+    std::ssize(corners) == cornersOf(cellTypeOf(header.format)) &&
+      std::ssize(ints) == header.cellInts);
+  const std::int64_t most = header.postOrder ? MaxCount : this->Vertices;
+  this->Ints.clear();
+  for (const std::int64_t corner : corners)
   {
-    this->fail("cell " + std::to_string(this->Cells) +
-               " does not have the values of the header, or exceeds its count.");
-  }
-  for (std::size_t k = 0; k < corners.size(); k++)
-  {
-    if (corners[k] < 0 || corners[k] >= most)
+    if (corner < 0 || corner >= most)
     {
-      this->fail("cell " + std::to_string(this->Cells) + " uses vertex " +
-                 std::to_string(corners[k]) + ", which is not defined yet.");
+      this->fail("cell " + std::to_string(this->Cells) + " uses vertex " + std::to_string(corner) +
+                 ", which is not defined yet.");
     }
-    const bool final = relative && (finalMask >> k & 1U) != 0;
-    this->Indices[k] =
-      static_cast<std::int32_t>(final ? corners[k] - this->Vertices : corners[k] + 1);
+    const bool final = !header.postOrder && (finalMask >> this->Ints.size() & 1U) != 0;
+    this->Ints.push_back(static_cast<std::int32_t>(final ? corner - this->Vertices : corner + 1));
   }
+  this->Ints.insert(this->Ints.end(), ints.begin(), ints.end());
   this->Cells++;
+  this->put(StreamEvent::Cell, {}, this->Ints);
 }
 
 void StreamFileWriter::finish()
@@ -101,295 +110,221 @@ void StreamFileWriter::finish()
   this->Output.finish();
 }
 
-std::unique_ptr<StreamFileWriter> createStreamFile(
-  std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style)
+namespace
 {
-  if (isText(header.format))
-  {
-    return std::make_unique<TextStreamWriter>(std::move(path), header, style);
-  }
-  return std::make_unique<BinaryStreamWriter>(std::move(path), header, style);
-}
 
-BinaryStreamWriter::BinaryStreamWriter(
-  std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style)
-  : StreamFileWriter(std::move(path), header, style)
-  , Swapped(style.bigEndian != (std::endian::native == std::endian::big))
-  , ElementWords(cornersOf(cellTypeOf(header.format)))
+/** Writes SMB and SVB. */
+class BinaryStreamWriter : public StreamFileWriter
 {
-  const std::size_t values = 3 + header.vertexFloats + header.vertexInts;
-  if (values > this->ElementWords || header.cellInts > 0)
+public:
+  BinaryStreamWriter(std::filesystem::path path, const StreamFileHeader& header)
+    : StreamFileWriter(std::move(path), header)
+    , ElementWords(cornersOf(cellTypeOf(header.format)))
   {
-    this->fail("the format " + std::string(nameOf(header.format)) +
-               " has no room for so many values of a vertex or a cell.");
+    const std::size_t values = 3 + header.vertexFloats + header.vertexInts;
+    if (values > this->ElementWords || header.cellInts > 0)
+    {
+      this->fail("the format " + std::string(nameOf(header.format)) +
+                 " has no room for so many values of a vertex or a cell.");
+    }
+    this->writeHeader();
   }
-  this->writeHeader();
-}
 
-template <class T>
-void BinaryStreamWriter::write(T value)
-{
-  static_assert(sizeof(T) == 4);
-  const T stored = this->Swapped ? byteSwapped(value) : value;
-  this->Output.put(std::as_bytes(std::span(&stored, 1)));
-}
-
-void BinaryStreamWriter::writeFlag(bool flag)
-{
-  const std::byte byte{ flag };
-  this->Output.put(std::span(&byte, 1));
-}
-
-void BinaryStreamWriter::writeHeader()
-{
-  const StreamFileHeader& header = this->Header;
-  const int flag = this->Style.endianFlag >= 0 ? this->Style.endianFlag : this->Style.bigEndian;
-  const bool tets = cellTypeOf(header.format) == CellType::Tetrahedron;
-  const std::byte first[] = { std::byte{ tets ? SvbVersion : SmbVersion },
-    static_cast<std::byte>(flag), {}, {} };
-  this->Output.put(first);
-  this->write(static_cast<std::int32_t>(header.comments.size()));
-  for (const std::string& comment : header.comments)
+private:
+  template <class T>
+  static std::uint32_t wordOf(T value)
   {
-    this->write(static_cast<std::int32_t>(comment.size()));
-    this->Output.put(comment);
+    return numberAt<std::uint32_t>(&value, std::endian::little);
   }
-  this->write(static_cast<std::int32_t>(header.vertices));
-  this->write(static_cast<std::int32_t>(header.cells));
-  const int floats = 3 + header.vertexFloats;
-  if (tets)
+  template <class T>
+  void write(T value)
   {
-    this->write(floats);
-    this->write(header.vertexInts);
+    const std::uint32_t word = wordOf(value);
+    this->Output.put(std::as_bytes(std::span(&word, 1)));
   }
-  this->writeFlag(this->hasBounds());
-  if (this->hasBounds())
+  void writeFlag(bool flag) { this->Output.put(std::string_view(flag ? "\1" : "\0", 1)); }
+
+  void writeHeader()
   {
-    for (int k = 0; k < 2 * floats; k++)
+    const StreamFileHeader& header = this->Header;
+    const bool tets = cellTypeOf(header.format) == CellType::Tetrahedron;
+    // With the mark of little-endian data.
+    const std::byte first[] = { std::byte{ tets ? SvbVersion : SmbVersion }, {}, {}, {} };
+    this->Output.put(first);
+    this->write(static_cast<std::int32_t>(header.comments.size()));
+    for (const std::string& comment : header.comments)
+    {
+      this->write(static_cast<std::int32_t>(comment.size()));
+      this->Output.put(comment);
+    }
+    this->write(static_cast<std::int32_t>(header.vertices));
+    this->write(static_cast<std::int32_t>(header.cells));
+    const int floats = 3 + header.vertexFloats;
+    if (tets)
+    {
+      this->write(floats);
+      this->write(header.vertexInts);
+    }
+    this->writeFlag(this->hasBounds());
+    for (int k = 0; this->hasBounds() && k < 2 * floats; k++)
     {
       this->write(this->bound(k % floats, k >= floats));
     }
-  }
-  if (header.vertexInts > 0)
-  {
-    this->writeFlag(false);
-  }
-}
-
-template <class T>
-void BinaryStreamWriter::addWord(T value)
-{
-  static_assert(sizeof(T) == 4);
-  this->Block[this->Words++] =
-    std::bit_cast<std::uint32_t>(this->Swapped ? byteSwapped(value) : value);
-}
-
-void BinaryStreamWriter::endElement(bool isVertex)
-{
-  this->Kinds |= std::uint32_t(isVertex) << this->Elements;
-  this->Elements++;
-  while (this->Words < this->Elements * this->ElementWords)
-  {
-    this->Block[this->Words++] = 0;
-  }
-  if (this->Elements == BinaryBlockElements)
-  {
-    this->flushBlock();
-  }
-}
-
-void BinaryStreamWriter::flushBlock()
-{
-  this->write(this->Kinds);
-  this->Output.put(std::as_bytes(std::span(this->Block).first(this->Words)));
-  this->Kinds = 0;
-  this->Elements = 0;
-  this->Words = 0;
-}
-
-void BinaryStreamWriter::complete()
-{
-  // The last block is written even if it is empty, like the original programs of the format.
-  this->flushBlock();
-}
-
-void BinaryStreamWriter::vertex(std::span<const float, 3> position, std::span<const float> floats,
-  std::span<const std::int32_t> ints)
-{
-  this->countVertex(floats.size(), ints.size());
-  for (const float x : position)
-  {
-    this->addWord(x);
-  }
-  for (const float value : floats)
-  {
-    this->addWord(value);
-  }
-  for (const std::int32_t value : ints)
-  {
-    this->addWord(value);
-  }
-  this->endElement(true);
-}
-
-void BinaryStreamWriter::cell(
-  std::span<const std::int64_t> corners, unsigned finalMask, std::span<const std::int32_t> ints)
-{
-  this->countCell(corners, finalMask, ints.size());
-  for (std::size_t k = 0; k < corners.size(); k++)
-  {
-    this->addWord(this->Indices[k]);
-  }
-  this->endElement(false);
-}
-
-TextStreamWriter::TextStreamWriter(
-  std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style)
-  : StreamFileWriter(std::move(path), header, style)
-{
-  this->writeHeader();
-}
-
-void TextStreamWriter::writeHeader()
-{
-  const StreamFileHeader& header = this->Header;
-  const bool tets = cellTypeOf(header.format) == CellType::Tetrahedron;
-  const auto count = [this](const char* key, std::int64_t value)
-  {
-    this->Line = key;
-    this->add(value);
-    this->endLine();
-  };
-  for (const std::string& comment : header.comments)
-  {
-    this->Line = "# " + comment;
-    this->endLine();
-  }
-  if (tets)
-  {
-    this->Line = "# svtype tet";
-    this->endLine();
-  }
-  if (header.vertices >= 0)
-  {
-    count("# nverts", header.vertices);
-  }
-  if (header.cells >= 0)
-  {
-    count(tets ? "# ncells" : "# nfaces", header.cells);
-  }
-  if (tets)
-  {
-    count("# v_pnum_f", 3 + header.vertexFloats);
     if (header.vertexInts > 0)
     {
-      count("# v_pnum_i", header.vertexInts);
+      this->writeFlag(false);
     }
-    if (header.cellInts > 0)
+  }
+
+  void put(StreamEvent::Kind kind, std::span<const float> floats,
+    std::span<const std::int32_t> ints) override
+  {
+    const auto words = std::span(this->Block).subspan(this->Elements * this->ElementWords);
+    std::ranges::transform(floats, words.begin(), wordOf<float>);
+    std::ranges::transform(ints, words.subspan(floats.size()).begin(), wordOf<std::int32_t>);
+    std::ranges::fill(words.first(this->ElementWords).subspan(floats.size() + ints.size()), 0);
+    this->Kinds |= std::uint32_t(kind == StreamEvent::Vertex) << this->Elements;
+    if (++this->Elements == BinaryBlockElements)
     {
-      count("# c_pnum_i", header.cellInts);
+      this->flushBlock();
     }
   }
-  if (this->hasBounds())
-  {
-    this->writeBounds(tets ? "# v_pmin_f" : "# bb_min", false);
-    this->writeBounds(tets ? "# v_pmax_f" : "# bb_max", true);
-  }
-}
 
-void TextStreamWriter::writeBounds(const char* key, bool upper)
-{
-  this->Line = key;
-  for (int k = 0; k < 3 + this->Header.vertexFloats; k++)
+  void flushBlock()
   {
-    this->add(this->bound(k, upper));
+    this->write(this->Kinds);
+    this->Output.put(
+      std::as_bytes(std::span(this->Block).first(this->Elements * this->ElementWords)));
+    this->Kinds = 0;
+    this->Elements = 0;
   }
-  this->endLine();
-}
 
-void TextStreamWriter::add(float value)
-{
-  char text[32];
-  // Nine digits are sufficient to restore every single precision number.
-  const auto end = std::to_chars(text, text + sizeof(text), value, std::chars_format::general, 9);
-  this->Line += ' ';
-  this->Line.append(text, end.ptr);
-}
+  void complete() override
+  {
+    // The last block is written even if it is empty, like the original programs of the format.
+    this->flushBlock();
+  }
 
-void TextStreamWriter::add(std::int64_t value)
-{
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof(text), value);
-  this->Line += ' ';
-  this->Line.append(text, end.ptr);
-}
+  const std::size_t ElementWords;
+  std::uint32_t Kinds = 0;  ///< of the elements of the block
+  std::size_t Elements = 0; ///< of the block
+  std::array<std::uint32_t, 4 * BinaryBlockElements> Block{};
+};
 
-void TextStreamWriter::endLine()
+/** Writes SMA and SVA. */
+class TextStreamWriter : public StreamFileWriter
 {
-  this->Line += '\n';
-  this->Output.put(this->Line);
-}
+public:
+  TextStreamWriter(std::filesystem::path path, const StreamFileHeader& header)
+    : StreamFileWriter(std::move(path), header)
+  {
+    this->writeHeader();
+  }
 
-void TextStreamWriter::vertex(std::span<const float, 3> position, std::span<const float> floats,
-  std::span<const std::int32_t> ints)
-{
-  this->countVertex(floats.size(), ints.size());
-  this->Line.assign(1, 'v');
-  for (const float x : position)
+private:
+  void writeHeader()
   {
-    this->add(x);
-  }
-  for (const float value : floats)
-  {
-    this->add(value);
-  }
-  for (const std::int32_t value : ints)
-  {
-    this->add(std::int64_t(value));
-  }
-  this->endLine();
-}
-
-void TextStreamWriter::cell(
-  std::span<const std::int64_t> corners, unsigned finalMask, std::span<const std::int32_t> ints)
-{
-  this->countCell(corners, finalMask, ints.size());
-  this->Line.assign(1, corners.size() == 3 ? 'f' : 'c');
-  for (std::size_t k = 0; k < corners.size(); k++)
-  {
-    this->add(std::int64_t(this->Indices[k]));
-  }
-  for (const std::int32_t value : ints)
-  {
-    this->add(std::int64_t(value));
-  }
-  this->endLine();
-  if (this->Style.finalization == StreamFileStyle::Explicit)
-  {
-    for (std::size_t k = 0; k < corners.size(); k++)
+    const StreamFileHeader& header = this->Header;
+    const bool tets = cellTypeOf(header.format) == CellType::Tetrahedron;
+    for (const std::string& comment : header.comments)
     {
-      if ((finalMask >> k & 1U) != 0)
-      {
-        this->finalization(corners[k]);
-      }
+      this->writeLine("# " + comment);
+    }
+    if (tets)
+    {
+      this->writeLine("# svtype tet");
+    }
+    this->writeCount("# nverts", header.vertices, header.vertices >= 0);
+    this->writeCount(tets ? "# ncells" : "# nfaces", header.cells, header.cells >= 0);
+    this->writeCount("# v_pnum_f", 3 + header.vertexFloats, tets);
+    this->writeCount("# v_pnum_i", header.vertexInts, tets && header.vertexInts > 0);
+    this->writeCount("# c_pnum_i", header.cellInts, tets && header.cellInts > 0);
+    if (this->hasBounds())
+    {
+      this->writeBounds(tets ? "# v_pmin_f" : "# bb_min", false);
+      this->writeBounds(tets ? "# v_pmax_f" : "# bb_max", true);
     }
   }
-}
 
-void TextStreamWriter::finalization(std::int64_t vertex)
+  void writeCount(const char* key, std::int64_t value, bool isGiven)
+  {
+    if (isGiven)
+    {
+      const auto number = static_cast<std::int32_t>(value);
+      this->writeLine(key, {}, { &number, 1 });
+    }
+  }
+
+  void writeBounds(const char* key, bool upper)
+  {
+    std::vector<float> bounds;
+    for (int k = 0; k < 3 + this->Header.vertexFloats; k++)
+    {
+      bounds.push_back(this->bound(k, upper));
+    }
+    this->writeLine(key, bounds);
+  }
+
+  void put(StreamEvent::Kind kind, std::span<const float> floats,
+    std::span<const std::int32_t> ints) override
+  {
+    const bool tets = cellTypeOf(this->Header.format) == CellType::Tetrahedron;
+    this->writeLine(kind == StreamEvent::Vertex ? "v" : tets ? "c" : "f", floats, ints);
+  }
+
+  void finalization(std::int64_t vertex) override
+  {
+    if (this->Header.postOrder)
+    {
+      return;
+    }
+    if (vertex < 0 || vertex >= this->Vertices)
+    {
+      this->fail(
+        "vertex " + std::to_string(vertex) + " cannot be final, since it is not defined yet.");
+    }
+    const auto index = static_cast<std::int32_t>(vertex - this->Vertices);
+    this->writeLine("x", {}, { &index, 1 });
+  }
+
+  /** Writes a line that begins with `text`. */
+  void writeLine(std::string_view text, std::span<const float> floats = {},
+    std::span<const std::int32_t> ints = {})
+  {
+    this->Line = text;
+    const auto add = [this](auto... number)
+    {
+      char digits[32];
+      const auto end = std::to_chars(digits, digits + sizeof(digits), number...);
+      this->Line += ' ';
+      this->Line.append(digits, end.ptr);
+    };
+    for (const float value : floats)
+    {
+      // Nine digits are sufficient to restore every single precision number.
+      add(value, std::chars_format::general, 9);
+    }
+    for (const std::int32_t value : ints)
+    {
+      add(value);
+    }
+    this->Line += '\n';
+    this->Output.put(this->Line);
+  }
+
+  std::string Line;
+};
+
+} // namespace
+
+std::unique_ptr<StreamFileWriter> createStreamFile(
+  std::filesystem::path path, const StreamFileHeader& header)
 {
-  if (this->Header.postOrder)
+  if (isText(header.format))
   {
-    return;
+    return std::make_unique<TextStreamWriter>(std::move(path), header);
   }
-  if (vertex < 0 || vertex >= this->Vertices)
-  {
-    this->fail(
-      "vertex " + std::to_string(vertex) + " cannot be final, since it is not defined yet.");
-  }
-  this->Line.assign(1, 'x');
-  this->add(vertex - this->Vertices);
-  this->endLine();
+  return std::make_unique<BinaryStreamWriter>(std::move(path), header);
 }
 
 } // namespace smg
