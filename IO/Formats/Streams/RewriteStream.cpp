@@ -60,22 +60,14 @@ void findBounds(MovedElements& elements, StreamFileHeader& header)
 {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   std::vector<std::array<float, 2>> ranges(3 + header.vertexFloats, { infinity, -infinity });
-  const auto extend = [](std::array<float, 2>& range, float value) {
-    range = { std::min(range[0], value), std::max(range[1], value) };
-  };
   StreamEvent event;
   for (elements.next(event); event.kind != StreamEvent::End; elements.next(event))
   {
-    if (event.kind == StreamEvent::Vertex)
+    const bool isVertex = event.kind == StreamEvent::Vertex;
+    for (std::size_t k = 0; isVertex && k < ranges.size(); ++k)
     {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        extend(ranges[axis], event.position[axis]);
-      }
-      for (std::size_t k = 0; k < event.floats.size(); ++k)
-      {
-        extend(ranges[3 + k], event.floats[k]);
-      }
+      const float value = k < 3 ? event.position[k] : event.floats[k - 3];
+      ranges[k] = { std::min(ranges[k][0], value), std::max(ranges[k][1], value) };
     }
   }
   header.bounds = { ranges[0][0], ranges[0][1], ranges[1][0], ranges[1][1], ranges[2][0],
@@ -84,69 +76,44 @@ void findBounds(MovedElements& elements, StreamFileHeader& header)
 }
 
 /** Writes elements as they are read. */
-class ElementCopier
+void copyElements(MovedElements& elements, StreamFileWriter& writer, std::size_t corners)
 {
-public:
-  ElementCopier(StreamFileWriter& writer, std::size_t corners)
-    : Writer(writer)
-    , Corners(corners)
+  // The last cell, until it is known which of its vertices it finalises.
+  std::optional<StreamEvent> cell;
+  StreamEvent event;
+  do
   {
-  }
-
-  void take(const StreamEvent& event)
-  {
-    if (event.kind == StreamEvent::Finalization && this->finalizeInCell(event.corners[0]))
+    elements.next(event);
+    if (cell && event.kind == StreamEvent::Finalization)
     {
-      return;
+      // In the last cell, which all formats support, if the vertex is a corner of it.
+      const auto all = std::span(cell->corners).first(corners);
+      const auto corner = std::ranges::find(all, event.corners[0]);
+      if (corner != all.end())
+      {
+        cell->finalMask |= 1U << (corner - all.begin());
+        continue;
+      }
     }
-    this->writeCell();
+    if (cell)
+    {
+      writer.cell(std::span(cell->corners).first(corners), cell->finalMask, cell->ints);
+      cell.reset();
+    }
     if (event.kind == StreamEvent::Vertex)
     {
-      this->Writer.vertex(event.position, event.floats, event.ints);
+      writer.vertex(event.position, event.floats, event.ints);
     }
     else if (event.kind == StreamEvent::Cell)
     {
-      this->Cell = event;
+      cell = event;
     }
     else if (event.kind == StreamEvent::Finalization)
     {
-      this->Writer.finalization(event.corners[0]);
+      writer.finalization(event.corners[0]);
     }
-  }
-
-private:
-  /** Declares a vertex final in the last cell, which all formats support, if it is a corner. */
-  bool finalizeInCell(std::int64_t vertex)
-  {
-    if (!this->Cell)
-    {
-      return false;
-    }
-    const auto end = this->Cell->corners.begin() + static_cast<std::ptrdiff_t>(this->Corners);
-    const auto corner = std::find(this->Cell->corners.begin(), end, vertex);
-    if (corner == end)
-    {
-      return false;
-    }
-    this->Cell->finalMask |= 1U << (corner - this->Cell->corners.begin());
-    return true;
-  }
-
-  void writeCell()
-  {
-    if (this->Cell)
-    {
-      this->Writer.cell(std::span(this->Cell->corners).first(this->Corners), this->Cell->finalMask,
-        this->Cell->ints);
-      this->Cell.reset();
-    }
-  }
-
-  StreamFileWriter& Writer;
-  std::size_t Corners;
-  /** The last cell, until it is known which of its vertices it finalises. */
-  std::optional<StreamEvent> Cell;
-};
+  } while (event.kind != StreamEvent::End);
+}
 
 } // namespace
 
@@ -170,13 +137,7 @@ void rewriteStream(const std::filesystem::path& in, const std::filesystem::path&
   }
   MovedElements elements(in, out, moved, partOf(progress, begin, 1.0));
   const std::unique_ptr<StreamFileWriter> writer = createStreamFile(out, header);
-  ElementCopier copier(*writer, static_cast<std::size_t>(cornersOf(cellType)));
-  StreamEvent event;
-  do
-  {
-    elements.next(event);
-    copier.take(event);
-  } while (event.kind != StreamEvent::End);
+  copyElements(elements, *writer, static_cast<std::size_t>(cornersOf(cellType)));
   if (beforeEnd)
   {
     beforeEnd();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/External/BlockFile.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/MeshSource.h"
@@ -29,6 +30,9 @@ struct StreamToVsmResult
   StreamInfo info;
   std::int64_t isolatedVertices = 0; ///< vertices of no cell, in addition to the stream
 };
+
+/** The cells and the columns of the stream of a file. */
+StreamInfo streamInfoOf(const StreamFileHeader& header);
 
 /**
  * Converts a streaming mesh file (SMA, SMB, SVA, SVB; see StreamFile.h) to a .vsm file with the

@@ -3,7 +3,6 @@
 
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
-#include "IO/Formats/Streams/StreamAssembler.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
 
@@ -27,7 +26,7 @@ std::optional<FileCounts> countsOfStream(InputFile& file, const MeshPart&)
   {
     return {};
   }
-  FileCounts counts{ StreamAssembler::infoOf(header), true };
+  FileCounts counts{ streamInfoOf(header), true };
   counts.mesh.vertices = header.vertices;
   counts.mesh.cells = header.cells;
   return counts;

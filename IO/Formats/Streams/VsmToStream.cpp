@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Streams/StreamConversion.h"
-
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Export/RestoredMesh.h"
 #include "IO/External/PagedArray.h"
-#include "IO/Files/PartialProgress.h"
-#include "IO/Formats/Streams/StreamAssembler.h"
+#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Text.h"
-#include "smg/Error.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,43 +24,43 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t MinMemory = std::int64_t(8) << 20;
+/** Memory for the last cells of vertices that are in use. */
+constexpr std::int64_t LastCellBytes = std::int64_t(8) << 20;
 
-/** Reads the further value of the vertices that SVA and SVB can hold, if any. */
-void describeScalar(VsmReader& reader, StreamFileHeader& header)
+/** The further value of the vertices that SVA and SVB have room for: the first that the mesh has.
+ */
+std::optional<std::string> scalarOf(const StreamInfo& info)
 {
-  for (const ColumnSpec& column : reader.info().vertexColumns)
+  for (const auto& [name, type] : { std::pair(StreamScalarName, ScalarType::Float32),
+         std::pair(StreamIntegerName, ScalarType::Int32) })
   {
-    if (column.name == StreamScalarName && column.type == ScalarType::Float32 &&
-        column.components == 1)
+    const auto isIt = [name, type](const ColumnSpec& column)
+    { return column.name == name && column.type == type && column.components == 1; };
+    if (info.cellType == CellType::Tetrahedron && std::ranges::any_of(info.vertexColumns, isIt))
     {
-      header.vertexFloats = 1;
-    }
-    if (column.name == StreamIntegerName && column.type == ScalarType::Int32 &&
-        column.components == 1)
-    {
-      header.vertexInts = 1;
+      return name;
     }
   }
-  // There is room for one value.
-  header.vertexInts = header.vertexFloats > 0 ? 0 : header.vertexInts;
-  if (header.vertexFloats > 0)
+  return {};
+}
+
+/** The least and largest value of the further float. */
+std::array<float, 2> rangeOfScalar(VsmReader& reader)
+{
+  std::array<float, 2> range{ std::numeric_limits<float>::infinity(),
+    -std::numeric_limits<float>::infinity() };
+  Column values;
+  constexpr std::int64_t step = 8192;
+  for (std::int64_t first = 0; first < reader.info().vertices; first += step)
   {
-    std::array<float, 2> range{ std::numeric_limits<float>::infinity(),
-      -std::numeric_limits<float>::infinity() };
-    Column values;
-    constexpr std::int64_t step = 8192;
-    for (std::int64_t first = 0; first < reader.info().vertices; first += step)
+    reader.readVertexColumn(
+      StreamScalarName, first, std::min(step, reader.info().vertices - first), values);
+    for (const float value : values.as<float>())
     {
-      reader.readVertexColumn(
-        StreamScalarName, first, std::min(step, reader.info().vertices - first), values);
-      for (const float value : values.as<float>())
-      {
-        range = { std::min(range[0], value), std::max(range[1], value) };
-      }
+      range = { std::min(range[0], value), std::max(range[1], value) };
     }
-    header.floatRanges.push_back(range);
   }
+  return range;
 }
 
 /** Writes the blocks of a mesh stream as the elements of a file. */
@@ -77,7 +74,7 @@ public:
     , Writer(writer)
     , Header(header)
     , Corners(cornersOf(reader.info().cellType))
-    , LastCell(scratch, MinMemory)
+    , LastCell(scratch, LastCellBytes)
   {
   }
 
@@ -130,7 +127,7 @@ private:
     {
       floats = block.vertexColumns[0].as<float>().subspan(v, 1);
     }
-    if (this->Header.vertexInts > 0)
+    else if (this->Header.vertexInts > 0)
     {
       ints = block.vertexColumns[0].as<std::int32_t>().subspan(v, 1);
     }
@@ -146,40 +143,7 @@ private:
   PagedArray<std::int64_t> LastCell;
 };
 
-/** On the columns of a mesh that were not added by a conversion, except for these. */
-std::vector<std::string> notesOnOmitted(
-  const StreamInfo& info, const std::vector<std::string>& kept, const std::string& suffix)
-{
-  PlacedColumns columns(ownColumns(info.vertexColumns), ownColumns(info.cellColumns));
-  for (const std::string& name : kept)
-  {
-    columns.ofVertices(name, 1, 1);
-  }
-  return columns.leftOut(suffix);
-}
-
 } // namespace
-
-StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesystem::path& out,
-  const StreamToVsmOptions& options)
-{
-  const std::unique_ptr<StreamFileReader> reader =
-    openStreamFile(in, partOf(options.progress, 0.0, 0.99));
-  VsmWriter writer(out, StreamAssembler::infoOf(reader->header()),
-    { .codec = options.codec, .scratch = options.scratch });
-  StreamAssembler assembler(*reader, writer, options.scratch, std::max(options.memory, MinMemory));
-  StreamEvent event;
-  for (reader->next(event); event.kind != StreamEvent::End; reader->next(event))
-  {
-    assembler.take(event);
-  }
-  assembler.finish();
-  StreamToVsmResult result;
-  result.info = writer.finish();
-  result.isolatedVertices = assembler.isolatedVertices();
-  Progress(options.progress).update(1.0);
-  return result;
-}
 
 std::vector<std::string> vsmToStream(const std::filesystem::path& in,
   const std::filesystem::path& out, const std::filesystem::path& scratch,
@@ -193,16 +157,21 @@ std::vector<std::string> vsmToStream(const std::filesystem::path& in,
   header.vertices = info.vertices;
   header.cells = info.cells;
   header.bounds = info.bounds;
-  if (info.cellType == CellType::Tetrahedron)
+  // On the columns that were not added by a conversion.
+  PlacedColumns placed(ownColumns(info.vertexColumns), ownColumns(info.cellColumns));
+  std::vector<std::string> columns;
+  if (const std::optional<std::string> scalar = scalarOf(info))
   {
-    describeScalar(reader, header);
+    placed.ofVertices(*scalar, 1, 1);
+    columns.push_back(*scalar);
+    header.vertexFloats = *scalar == StreamScalarName ? 1 : 0;
+    header.vertexInts = 1 - header.vertexFloats;
+  }
+  if (header.vertexFloats > 0)
+  {
+    header.floatRanges.push_back(rangeOfScalar(reader));
   }
   const std::unique_ptr<StreamFileWriter> writer = createStreamFile(out, header);
-  std::vector<std::string> columns;
-  if (header.vertexFloats + header.vertexInts > 0)
-  {
-    columns.emplace_back(header.vertexFloats > 0 ? StreamScalarName : StreamIntegerName);
-  }
   const std::unique_ptr<MeshSource> source = reader.source(columns, {});
   ElementWriter elements(reader, out, *writer, header, scratch);
   MeshBlock block;
@@ -213,7 +182,7 @@ std::vector<std::string> vsmToStream(const std::filesystem::path& in,
   }
   writer->finish();
   progress.update(1.0);
-  std::vector<std::string> notes = notesOnOmitted(info, columns, out.extension().string());
+  std::vector<std::string> notes = placed.leftOut(out.extension().string());
   if (elements.roundedVertices() > 0)
   {
     notes.push_back("The positions of " +
