@@ -142,7 +142,6 @@ const VsmReader& Conversion::openStream()
 std::filesystem::path Conversion::importStream()
 {
   StreamToVsmOptions options;
-  options.codec = Codec::Lz4;
   options.scratch = this->workspace().folder();
   options.memory = std::min<std::int64_t>(this->Memory / 4, MaxStreamMemory);
   options.progress = this->progress();

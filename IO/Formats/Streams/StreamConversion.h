@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/BlockFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Mesh/AddedColumn.h"
@@ -17,7 +16,6 @@ namespace smg
 
 struct StreamToVsmOptions
 {
-  Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
   /** Bytes of memory for waiting vertices and cells; at least 8 MiB are used. */
@@ -36,10 +34,11 @@ StreamInfo streamInfoOf(const StreamFileHeader& header);
 
 /**
  * Converts a streaming mesh file (SMA, SMB, SVA, SVB; see StreamFile.h) to a .vsm file with the
- * same order of cells. Vertices are renumbered by first use; the columns OriginalId and
- * OriginalCellId store their indices in the file. The memory depends neither on the mesh nor on the
- * quality of its order: waiting data that exceed it are written to a scratch file. Throws Error;
- * Cancelled if the progress callback requests it. Then no output and no scratch file is left.
+ * same order of cells, in the codec of temporary files. Vertices are renumbered by first use; the
+ * columns OriginalId and OriginalCellId store their indices in the file. The memory depends neither
+ * on the mesh nor on the quality of its order: waiting data that exceed it are written to a scratch
+ * file. Throws Error; Cancelled if the progress callback requests it. Then no output and no scratch
+ * file is left.
  */
 StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesystem::path& out,
   const StreamToVsmOptions& options = {});

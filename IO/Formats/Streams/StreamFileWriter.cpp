@@ -40,16 +40,22 @@ void StreamFileWriter::fail(const std::string& what) const
   throw Error(this->Output.path().string() + ": " + what);
 }
 
-bool StreamFileWriter::hasBounds() const
+std::vector<float> StreamFileWriter::bounds(bool upper) const
 {
-  return this->Header.bounds &&
-         static_cast<int>(this->Header.floatRanges.size()) == this->Header.vertexFloats;
-}
-
-float StreamFileWriter::bound(int k, bool upper) const
-{
-  return k < 3 ? static_cast<float>((*this->Header.bounds)[2 * k + (upper ? 1 : 0)])
-               : this->Header.floatRanges[k - 3][upper ? 1 : 0];
+  const StreamFileHeader& header = this->Header;
+  std::vector<float> bounds;
+  if (header.bounds && std::ssize(header.floatRanges) == header.vertexFloats)
+  {
+    for (std::size_t axis = 0; axis < 3; axis++)
+    {
+      bounds.push_back(static_cast<float>((*header.bounds)[2 * axis + (upper ? 1 : 0)]));
+    }
+    for (const std::array<float, 2>& range : header.floatRanges)
+    {
+      bounds.push_back(range[upper ? 1 : 0]);
+    }
+  }
+  return bounds;
 }
 
 void StreamFileWriter::checkElement(const char* what, std::int64_t count, bool hasAllNumbers) const
@@ -159,16 +165,18 @@ private:
     }
     this->write(static_cast<std::int32_t>(header.vertices));
     this->write(static_cast<std::int32_t>(header.cells));
-    const int floats = 3 + header.vertexFloats;
     if (tets)
     {
-      this->write(floats);
+      this->write(3 + header.vertexFloats);
       this->write(header.vertexInts);
     }
-    this->writeFlag(this->hasBounds());
-    for (int k = 0; this->hasBounds() && k < 2 * floats; k++)
+    this->writeFlag(!this->bounds(false).empty());
+    for (const bool upper : { false, true })
     {
-      this->write(this->bound(k % floats, k >= floats));
+      for (const float bound : this->bounds(upper))
+      {
+        this->write(bound);
+      }
     }
     if (header.vertexInts > 0)
     {
@@ -239,10 +247,10 @@ private:
     this->writeCount("# v_pnum_f", 3 + header.vertexFloats, tets);
     this->writeCount("# v_pnum_i", header.vertexInts, tets && header.vertexInts > 0);
     this->writeCount("# c_pnum_i", header.cellInts, tets && header.cellInts > 0);
-    if (this->hasBounds())
+    if (const std::vector<float> least = this->bounds(false); !least.empty())
     {
-      this->writeBounds(tets ? "# v_pmin_f" : "# bb_min", false);
-      this->writeBounds(tets ? "# v_pmax_f" : "# bb_max", true);
+      this->writeLine(tets ? "# v_pmin_f" : "# bb_min", least);
+      this->writeLine(tets ? "# v_pmax_f" : "# bb_max", this->bounds(true));
     }
   }
 
@@ -253,16 +261,6 @@ private:
       const auto number = static_cast<std::int32_t>(value);
       this->writeLine(key, {}, { &number, 1 });
     }
-  }
-
-  void writeBounds(const char* key, bool upper)
-  {
-    std::vector<float> bounds;
-    for (int k = 0; k < 3 + this->Header.vertexFloats; k++)
-    {
-      bounds.push_back(this->bound(k, upper));
-    }
-    this->writeLine(key, bounds);
   }
 
   void put(StreamEvent::Kind kind, std::span<const float> floats,

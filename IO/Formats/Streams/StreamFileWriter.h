@@ -43,10 +43,8 @@ protected:
   StreamFileWriter(std::filesystem::path path, const StreamFileHeader& header);
 
   [[noreturn]] void fail(const std::string& what) const;
-  /** Whether the bounds of all values of a vertex are known, so that they can be written. */
-  bool hasBounds() const;
-  /** Least (upper false) or largest value `k` of the vertices. */
-  float bound(int k, bool upper) const;
+  /** Least (upper false) or largest values of the vertices; none unless all of them are known. */
+  std::vector<float> bounds(bool upper) const;
   /** Writes an element with its numbers, floats first. */
   virtual void put(
     StreamEvent::Kind kind, std::span<const float> floats, std::span<const std::int32_t> ints) = 0;

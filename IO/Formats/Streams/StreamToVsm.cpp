@@ -349,7 +349,7 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
   const std::unique_ptr<StreamFileReader> reader =
     openStreamFile(in, partOf(options.progress, 0.0, 0.99));
   VsmWriter writer(
-    out, streamInfoOf(reader->header()), { .codec = options.codec, .scratch = options.scratch });
+    out, streamInfoOf(reader->header()), { .codec = Codec::Lz4, .scratch = options.scratch });
   StreamAssembler assembler(*reader, writer, options.scratch, std::max(options.memory, minMemory));
   StreamEvent event;
   for (reader->next(event); event.kind != StreamEvent::End; reader->next(event))
