@@ -161,6 +161,9 @@ TEST_F(StreamFormatsErrors, RefusesWrongElements)
   std::string tets = twoTetsBinary();
   tets[16] = 2;
   this->expectRefusal("a.svb", tets, "byte 4: the header makes no sense");
+  // As many integers of a vertex as do not fit beside its coordinates, in 32 bits either.
+  this->expectRefusal("a.svb", twoTetsBinary().replace(20, 4, words({ 0x7fffffff })),
+    "byte 4: the header makes no sense");
 }
 
 TEST_F(StreamFormatsErrors, SurvivesEveryTruncationAndEveryChangedByte)
