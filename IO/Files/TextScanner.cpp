@@ -267,6 +267,22 @@ std::string_view TextScanner::tokenInLine()
     this->At = this->Text + word->begin + word->length;
     return { this->Text + word->begin, word->length };
   }
+  // Nearly always in what is in memory.
+  const char* begin = this->At;
+  while (begin < this->FarEnough && this->Kinds(*begin) == CharacterKinds::Blank)
+  {
+    ++begin;
+  }
+  const char* end = begin;
+  while (end < this->FarEnough && this->Kinds(*end) == CharacterKinds::Letter)
+  {
+    ++end;
+  }
+  if (begin < end && end < this->FarEnough && end - begin <= std::ptrdiff_t(MaxTokenBytes))
+  {
+    this->At = end;
+    return { begin, static_cast<std::size_t>(end - begin) };
+  }
   this->skipBlanks();
   const std::string_view token = this->tokenHere();
   this->At += token.size();
