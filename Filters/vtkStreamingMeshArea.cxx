@@ -5,6 +5,7 @@
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
 #include "IO/Jobs/AreaJob.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
@@ -135,6 +136,11 @@ void vtkStreamingMeshArea::FillFurtherOutputs(
   table.AddColumn(tags);
   table.AddColumn(cells);
   table.AddColumn(areas);
+  if (summary.previewPoints > 0)
+  {
+    // Save Data then asks for those of the mesh.
+    smg::copyPreviewMarks(*vtkDataObject::GetData(&outputVector, MESH), table);
+  }
 }
 
 void vtkStreamingMeshArea::PrintSelf(ostream& os, vtkIndent indent)

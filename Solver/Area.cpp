@@ -3,8 +3,9 @@
 
 #include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
-#include "Solver/Jobs/Results/VertexSolution.h"
+#include "Solver/Jobs/Values/VertexSolution.h"
 #include "Solver/Memory/Ring.h"
+#include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Problem/FixedVertices.h"
 #include "Solver/Problem/MeshColumns.h"
@@ -66,6 +67,12 @@ double volumeOf(const double* const* corner)
          6.0;
 }
 
+/** Of areas or volumes. */
+double unitOf(const AreaDescription& description, const StreamInfo& mesh)
+{
+  return std::pow(description.scale, mesh.cellType == CellType::Triangle ? 2.0 : 3.0);
+}
+
 /** One computation of areas. */
 class AreaPass
 {
@@ -86,8 +93,9 @@ private:
   void add(const MeshBlock& block);
   void addCell(const MeshBlock& block, const std::int64_t* corners);
   double tagOf(const MeshBlock& block, std::size_t cell) const;
+  Sum& sumOf(double tag);
   void write(std::int64_t finalized);
-  void finishReport();
+  void finishReport(const StreamCheck& check);
 
   bool isSurface() const { return this->Mesh.info().cellType == CellType::Triangle; }
 
@@ -104,6 +112,8 @@ private:
   std::int64_t Finalized = 0; ///< after the previous block
   Sum Total;
   std::map<double, Sum> ByTag;
+  std::map<double, Sum>::iterator Last = this->ByTag.end();
+  Reservation Tags; ///< the memory of these
 };
 
 AreaPass::AreaPass(const StoredMesh& mesh, const AreaDescription& description,
@@ -113,11 +123,12 @@ AreaPass::AreaPass(const StoredMesh& mesh, const AreaDescription& description,
   , Options(options)
   , Result(std::make_unique<VertexSolution>(options, 1))
   , Columns(mesh.info(), name, &this->Result->memory)
-  , Parts(description.of, false, this->Columns)
+  , Parts(description.of, false, this->Columns, "of")
   , Points(this->Result->memory, 3)
   , Shares(this->Result->memory)
   , IsIn(this->Result->memory)
-  , Unit(std::pow(description.scale, this->isSurface() ? 2.0 : 3.0))
+  , Unit(unitOf(description, mesh.info()))
+  , Tags(this->Result->memory)
 {
   if (!description.tag.empty())
   {
@@ -147,8 +158,14 @@ void AreaPass::prepare(double end)
   const std::filesystem::path folder =
     this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch;
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  StreamCheck check(this->Mesh.info().cellType);
   visitBlocks(*source, this->Options.progress, 0.0, end,
-    [&](const MeshBlock& block) { this->Parts.prepare(block, folder); });
+    [&](const MeshBlock& block)
+    {
+      check.add(block);
+      this->Parts.prepare(block, folder);
+    });
+  check.finish(this->Mesh.info());
   this->Parts.endPreparing(false);
   ++this->Result->total.passes;
 }
@@ -187,12 +204,13 @@ void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners)
     }
     at[static_cast<std::size_t>(k)] = this->Points.at(corners[k]);
   }
-  const double size = this->Unit * (count == 3 ? areaOf(at.data()) : volumeOf(at.data()));
+  const double extent = count == 3 ? areaOf(at.data()) : volumeOf(at.data());
+  const double size = this->Unit * extent;
   std::array<double, 4> shares{};
   shares.fill(size / count);
   if (this->Asked.share == AreaShare::Voronoi)
   {
-    std::ranges::transform(voronoiShares(at.data(), size / this->Unit), shares.begin(),
+    std::ranges::transform(voronoiShares(at.data(), extent), shares.begin(),
       [this](double share) { return this->Unit * share; });
   }
   for (int k = 0; k < count; ++k)
@@ -205,7 +223,7 @@ void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners)
   {
     const auto cell =
       static_cast<std::size_t>(corners - block.corners.data()) / static_cast<std::size_t>(count);
-    Sum& sum = this->ByTag[this->tagOf(block, cell)];
+    Sum& sum = this->sumOf(this->tagOf(block, cell));
     ++sum.cells;
     sum.area += size;
   }
@@ -219,13 +237,31 @@ double AreaPass::tagOf(const MeshBlock& block, std::size_t cell) const
     this->Columns.fail("tag", "the column '" + this->Asked.tag + "' " + flaw + " in " +
                                 this->Columns.cellName(block, cell));
   }
-  if (this->ByTag.size() == AreaDescription::MaxTags && !this->ByTag.contains(tag))
-  {
-    this->Columns.fail("tag", "the column '" + this->Asked.tag + "' has more than " +
-                                std::to_string(AreaDescription::MaxTags) +
-                                " values: name one that says to which part a cell belongs");
-  }
   return tag;
+}
+
+/** Neighbouring cells mostly have one tag. */
+AreaPass::Sum& AreaPass::sumOf(double tag)
+{
+  if (this->Last != this->ByTag.end() && this->Last->first == tag)
+  {
+    return this->Last->second;
+  }
+  this->Last = this->ByTag.find(tag);
+  if (this->Last == this->ByTag.end())
+  {
+    if (this->ByTag.size() == AreaDescription::MaxTags)
+    {
+      this->Columns.fail("tag", "the column '" + this->Asked.tag + "' has more than " +
+                                  std::to_string(AreaDescription::MaxTags) +
+                                  " values: name one that says to which part a cell belongs");
+    }
+    // A node of the map takes about so much.
+    constexpr std::size_t NodeBytes = 80;
+    this->Tags.resize(static_cast<std::int64_t>((this->ByTag.size() + 1) * NodeBytes));
+    this->Last = this->ByTag.try_emplace(tag).first;
+  }
+  return this->Last->second;
 }
 
 /** Writes the shares of the vertices that no later cell uses. */
@@ -235,16 +271,17 @@ void AreaPass::write(std::int64_t finalized)
   this->Shares.release(finalized);
 }
 
-void AreaPass::finishReport()
+void AreaPass::finishReport(const StreamCheck& check)
 {
   Report& report = this->Result->total;
   report.vertices = this->Result->vertices();
-  report.cells = this->Mesh.info().cells;
+  report.cells = check.cells();
   report.converged = true;
   Report::Areas& areas = report.areas.emplace();
   areas.isVolume = !this->isSurface();
   areas.cells = this->Total.cells;
   areas.total = this->Total.area;
+  areas.hasTags = this->Tag.has_value();
   for (const auto& [tag, sum] : this->ByTag)
   {
     areas.by_tag.push_back({ tag, sum.cells, sum.area });
@@ -261,11 +298,21 @@ std::unique_ptr<Solution> AreaPass::run()
     this->prepare(PrepareShare);
   }
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  StreamCheck check(this->Mesh.info().cellType);
   visitBlocks(*source, this->Options.progress, hasParts ? PrepareShare : 0.0, 1.0,
-    [this](const MeshBlock& block) { this->add(block); });
+    [&](const MeshBlock& block)
+    {
+      check.add(block);
+      this->add(block);
+    });
+  check.finish(this->Mesh.info());
   this->write(this->Shares.end());
+  if (this->Options.progress && !this->Options.progress(1.0))
+  {
+    throw Cancelled();
+  }
   ++this->Result->total.passes;
-  this->finishReport();
+  this->finishReport(check);
   return std::move(this->Result);
 }
 
@@ -281,9 +328,15 @@ std::unique_ptr<Solution> area(const StoredMesh& mesh, const AreaDescription& de
   const SolveOptions& options, const std::string& name)
 {
   checkOptions(options);
-  if (!(description.scale > 0.0 && std::isfinite(description.scale)))
+  if (!options.checkpoint.folder.empty())
   {
-    throw Error(name + ": scale: must be above 0.");
+    throw Error("areas have no checkpoints: leave the folder out");
+  }
+  const double unit = unitOf(description, mesh.info());
+  if (!(description.scale > 0.0 && std::isnormal(unit)))
+  {
+    throw Error(name + ": scale: must be above 0, and such that areas are numbers in double "
+                       "precision.");
   }
   if (description.share == AreaShare::Voronoi && mesh.info().cellType != CellType::Triangle)
   {

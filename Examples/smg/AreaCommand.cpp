@@ -43,7 +43,7 @@ protected:
     constexpr std::size_t Shown = 20;
     for (const smg::Report::Area& part : areas.by_tag | std::views::take(Shown))
     {
-      std::printf("  tag %g: %s, %s %.9g\n", part.tag,
+      std::printf("  tag %s: %s, %s %.9g\n", smg::shortest(part.tag).c_str(),
         smg::counted(part.cells, "cell", "cells").c_str(), measure, part.area);
     }
     if (areas.by_tag.size() > Shown)

@@ -122,9 +122,11 @@ void CommonOptions::addInputTo(CLI::App& command)
     ->check(
       [](const std::string& value)
       {
-        return numberFromZero(value).empty()
-                 ? std::string()
-                 : '\'' + value + "' is not a finite distance from 0 on";
+        char* end = nullptr;
+        const double distance = std::strtod(value.c_str(), &end);
+        const bool isDistance =
+          end != value.c_str() && *end == '\0' && std::isfinite(distance) && distance >= 0.0;
+        return isDistance ? std::string() : '\'' + value + "' is not a finite distance from 0 on";
       })
     ->type_name("DISTANCE");
   command
@@ -359,33 +361,6 @@ std::string wholeNumber(const std::string& value)
   const auto [rest, error] = std::from_chars(value.data(), end, number);
   const bool isValid = error == std::errc() && rest == end && number >= 0;
   return isValid ? std::string() : '\'' + value + "' is not a whole number from 0 on";
-}
-
-std::optional<double> numberOf(const std::string& text)
-{
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0' ? std::optional(number) : std::nullopt;
-}
-
-std::string numberFromZero(const std::string& value)
-{
-  const std::optional<double> number = numberOf(value);
-  return number && std::isfinite(*number) && *number >= 0.0
-           ? std::string()
-           : '\'' + value + "' is not a finite number of at least 0";
-}
-
-std::vector<std::string> splitAtCommas(const std::string& list)
-{
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= list.size();)
-  {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    parts.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
 }
 
 void requireOneProcess()

@@ -111,13 +111,6 @@ struct CommonOptions
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
 /** Checks that the value of an option is a whole number from 0 on. */
 std::string wholeNumber(const std::string& value);
-/** The number that the whole text is; none if it is none. */
-std::optional<double> numberOf(const std::string& text);
-/** Checks that the value of an option is a finite number of at least 0. */
-std::string numberFromZero(const std::string& value);
-
-/** The parts of a list "a,b", which may be empty: as many as commas, and one. */
-std::vector<std::string> splitAtCommas(const std::string& list);
 
 /** Bytes as MiB. */
 inline double inMebibytes(std::int64_t bytes)

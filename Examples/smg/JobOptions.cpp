@@ -32,8 +32,22 @@ nlohmann::json numberOrText(const std::string& text)
 {
   Number number = {};
   const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [rest, error] = std::from_chars(begin, end, number);
   return error == std::errc() && rest == end ? nlohmann::json(number) : nlohmann::json(text);
+}
+
+/** The parts of a list "a,b", which may be empty: as many as commas, and one. */
+std::vector<std::string> splitAtCommas(const std::string& list)
+{
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= list.size();)
+  {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 /** The value of an option as a description has it. */
@@ -78,7 +92,7 @@ std::string wrongWith(
     {
       smg::readPlacesText(text, name);
     }
-    return text.empty() ? "an empty text is none" : "";
+    return text.empty() ? "an empty text is not one" : "";
   }
   catch (const smg::Error& error)
   {

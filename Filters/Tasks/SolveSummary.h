@@ -28,7 +28,7 @@ struct SolveSummary
   std::string doubt; ///< of a solve on the preview: how far off it may be; "": unknown
   std::vector<Report::Pass> byPass; ///< known to the process that solved
   std::vector<Report::Path> paths;  ///< of a distance; known to the process that solved
-  Report::Areas areas;              ///< of areas; known to the process that solved
+  Report::Areas areas;              ///< of areas; all but isVolume known to the process that solved
   int columns = 0;
   double residual = 0.0;
   std::string residualText; ///< see Report::residualText()

@@ -124,8 +124,8 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
     double(summary.passes), double(summary.converged), double(summary.peakMemory),
     double(summary.isCancelled), double(summary.processes), double(summary.previewPoints),
-    double(summary.fullPoints) };
-  this->Controller->Broadcast(numbers, 10, from);
+    double(summary.fullPoints), double(summary.areas.isVolume) };
+  this->Controller->Broadcast(numbers, 11, from);
   summary.columns = static_cast<int>(numbers[0]);
   summary.residual = numbers[1];
   summary.cycles = static_cast<int>(numbers[2]);
@@ -136,6 +136,7 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   summary.processes = static_cast<int>(numbers[7]);
   summary.previewPoints = static_cast<std::int64_t>(numbers[8]);
   summary.fullPoints = static_cast<std::int64_t>(numbers[9]);
+  summary.areas.isVolume = numbers[10] != 0.0;
 }
 
 std::vector<double> SolutionExchange::values(

@@ -55,7 +55,8 @@ constexpr auto DeformTable = joined(
               "(finite elements) or uniform" },
     JobOption{ .key = "tolerance",
       .kind = NumberOption{ DeformTolerance, { 0.0, 1.0, true } },
-      .help = "Relative residual at which each of the two steps stops" },
+      .help = "Relative residual at which each of the two steps stops, instead of that which the "
+              "handle file may name" },
     JobOption{ .key = "cycles",
       .kind = CountOption{ DeformCycles, 1, 1000000 },
       .help = "V-cycles of each of the two steps, instead of a tolerance",

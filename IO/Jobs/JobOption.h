@@ -8,7 +8,6 @@
 #include "smg/Region.h"
 #include "smg/Smooth.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <type_traits>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -211,8 +210,7 @@ constexpr auto joined(const std::array<JobOption, Sizes>&... tables)
 inline constexpr std::array LimitOptions{
   JobOption{ .key = "memory",
     .kind = BytesOption{ memberOf<std::int64_t, Job, &Job::limits, &JobLimits::memory> },
-    .help = "Limit of the accounted memory, in bytes or with a unit, as 2GB; without it 1 GiB, of "
-            "simplify 256 MiB",
+    .help = "Limit of the accounted memory, in bytes or with a unit, as 2GB",
     .isCommon = true },
   JobOption{ .key = "threads",
     .kind = CountOption{ memberOf<std::int64_t, Job, &Job::limits, &JobLimits::threads>, 0, 1024 },
@@ -220,7 +218,7 @@ inline constexpr std::array LimitOptions{
     .isCommon = true },
   JobOption{ .key = "scratch",
     .kind = FolderOption{ memberOf<std::filesystem::path, Job, &Job::limits, &JobLimits::scratch> },
-    .help = "Folder for scratch files; without it $TMPDIR, or /tmp",
+    .help = "Folder for scratch files",
     .isCommon = true },
 };
 

@@ -44,6 +44,10 @@ struct OptionReader
   void operator()(const NumberOption& option) const
   {
     const bool isZero = option.zero && node.isString() && node.string() == option.zero;
+    if (option.zero && !isZero && !node.value().is_number())
+    {
+      node.fail(std::string("must be a number, or ") + option.zero);
+    }
     option.member.set(job, isZero ? 0.0 : numberIn(node, option.range));
   }
   void operator()(const CountOption& option) const

@@ -10,9 +10,9 @@
 namespace smg
 {
 
-/** The job "solve", "deform", "smooth", "blend" or "distance" of a description in JSON, checked as
- * far as that is possible without the mesh. Limits that it does not have are `defaults`. Throws
- * ArgumentError with the place in the description. */
+/** The job "solve", "deform", "smooth", "blend", "distance" or "area" of a description in JSON,
+ * checked as far as that is possible without the mesh. Limits that it does not have are `defaults`.
+ * Throws ArgumentError with the place in the description. */
 std::unique_ptr<MeshJob> jobOf(
   const std::string& kind, const char* description, const JobLimits& defaults);
 

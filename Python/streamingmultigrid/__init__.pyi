@@ -127,10 +127,11 @@ class Mesh:
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
     def blend(
-        self, columns: types.Columns, *, patch: types.Columns, hold: Optional[types.Places] = None,
-        anchor: Optional[float] = None, seam: Optional[Literal["zero", "average"]] = None,
-        tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
-        in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        self, columns: types.Columns, *, patch: Union[str, npt.ArrayLike],
+        hold: Optional[types.Places] = None, anchor: Optional[float] = None,
+        seam: Optional[Literal["zero", "average"]] = None, tolerance: Optional[float] = None,
+        max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
@@ -142,6 +143,13 @@ class Mesh:
         threads: Optional[int] = None, scratch: Optional[types.Path] = None,
         scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
         strict: bool = False
+    ) -> Field: ...
+    def area(
+        self, *, tag: Optional[Union[str, npt.ArrayLike]] = None, of: Optional[types.Places] = None,
+        share: Optional[Literal["equal", "voronoi"]] = None, scale: Optional[float] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+        progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
 
 class Placed: ...
@@ -264,10 +272,11 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
     def blend(
-        self, columns: types.Columns, *, patch: types.Columns, hold: Optional[types.Places] = None,
-        anchor: Optional[float] = None, seam: Optional[Literal["zero", "average"]] = None,
-        tolerance: Optional[float] = None, max_cycles: Optional[int] = None, sweeps: Optional[int] = None,
-        in_core: Optional[bool] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        self, columns: types.Columns, *, patch: Union[str, npt.ArrayLike],
+        hold: Optional[types.Places] = None, anchor: Optional[float] = None,
+        seam: Optional[Literal["zero", "average"]] = None, tolerance: Optional[float] = None,
+        max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
         scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
         progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
@@ -279,6 +288,13 @@ class Field(np.lib.mixins.NDArrayOperatorsMixin):
         threads: Optional[int] = None, scratch: Optional[types.Path] = None,
         scratch_limit: Optional[types.Size] = None, progress: Optional[types.Progress] = None,
         strict: bool = False
+    ) -> Field: ...
+    def area(
+        self, *, tag: Optional[Union[str, npt.ArrayLike]] = None, of: Optional[types.Places] = None,
+        share: Optional[Literal["equal", "voronoi"]] = None, scale: Optional[float] = None,
+        memory: Optional[types.Size] = None, threads: Optional[int] = None,
+        scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+        progress: Optional[types.Progress] = None, strict: bool = False
     ) -> Field: ...
     def simplify(
         self, vertices: Optional[int] = None, *, error: Optional[float] = None,
@@ -361,6 +377,7 @@ class Report(Dict[str, Any]):
     seams: List[Dict[str, Any]]
     clipped: int
     distance: Dict[str, Any]
+    areas: Dict[str, Any]
     inverted: Dict[str, Any]
     vertices_before: int
     cells_before: int
@@ -387,10 +404,18 @@ class MemoryLimitError(Error, MemoryError): ...
 
 def above(x: Optional[float] = None, y: Optional[float] = None, z: Optional[float] = None) -> Region: ...
 
+def area(
+    points: npt.ArrayLike, cells: npt.ArrayLike, *, tag: Optional[Union[str, npt.ArrayLike]] = None,
+    of: Optional[types.Places] = None, share: Optional[Literal["equal", "voronoi"]] = None,
+    scale: Optional[float] = None, memory: Optional[types.Size] = None, threads: Optional[int] = None,
+    scratch: Optional[types.Path] = None, scratch_limit: Optional[types.Size] = None,
+    progress: Optional[types.Progress] = None, strict: bool = False
+) -> Any: ...
+
 def below(x: Optional[float] = None, y: Optional[float] = None, z: Optional[float] = None) -> Region: ...
 
 def blend(
-    points: npt.ArrayLike, cells: npt.ArrayLike, columns: types.Columns, *, patch: types.Columns,
+    points: npt.ArrayLike, cells: npt.ArrayLike, columns: types.Columns, *, patch: Union[str, npt.ArrayLike],
     hold: Optional[types.Places] = None, anchor: Optional[float] = None,
     seam: Optional[Literal["zero", "average"]] = None, tolerance: Optional[float] = None,
     max_cycles: Optional[int] = None, sweeps: Optional[int] = None, in_core: Optional[bool] = None,
@@ -526,6 +551,12 @@ def tag(column: str, value: Union[float, npt.ArrayLike]) -> Region: ...
 def vertices(numbers_: Union[int, Iterable[int], npt.ArrayLike]) -> Region: ...
 
 __all__ = [
+    "solve",
+    "deform",
+    "smooth",
+    "blend",
+    "distance",
+    "area",
     "Block",
     "Error",
     "Estimate",
@@ -543,12 +574,9 @@ __all__ = [
     "Solver",
     "above",
     "below",
-    "blend",
     "boundary",
     "box",
-    "deform",
     "dirichlet",
-    "distance",
     "everywhere",
     "from_pyvista",
     "halfspace",
@@ -562,9 +590,7 @@ __all__ = [
     "plane",
     "robin",
     "simplify",
-    "smooth",
     "soft",
-    "solve",
     "solver",
     "sphere",
     "tag",

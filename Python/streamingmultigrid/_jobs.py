@@ -18,7 +18,8 @@ from ._errors import InputError
 from ._regions import Region, as_regions
 from ._regions import vertices as vertices_of
 
-_Description = Tuple[Dict[str, Any], List[str]]  # for smg_run(), and the columns of the result
+#: For smg_run(), and what finds the columns of the result, once the mesh is open.
+_Description = Tuple[Dict[str, Any], Callable[[], List[str]]]
 
 
 def _where_of_file(added: Columns, region: Region) -> Any:
@@ -35,6 +36,7 @@ def _where_of_file(added: Columns, region: Region) -> Any:
         raise InputError("hold: %r selects no vertex of the mesh." % region)
     return vertices_of(rows).where(own)
 
+
 #: Arguments with which results are written.
 _OF_SAVING = ("path", "text")
 
@@ -43,7 +45,7 @@ class Job:
     """A job: its signature and docstring, and the description of a call for the library.
 
     `lead` is the argument that may be given by its position. `own` are arguments besides the options, with
-    their part `documentation` of the docstring.
+    their part `documentation` of the docstring, which ends with what it `raises`.
     """
 
     def __init__(
@@ -54,6 +56,7 @@ class Job:
         lead: Optional[str] = None,
         own: Sequence[inspect.Parameter] = (),
         documentation: str = "",
+        raises: str = "",
     ) -> None:
         self.name = name
         self._options = {_options.name_of(each): each for each in _options.described()[name]}
@@ -66,8 +69,8 @@ class Job:
         count = len(leading)
         self.signature = inspect.Signature([*parameters[:count], *own, *parameters[count:]])
         lines = [_options.documentation(self._options[each]) for each in first]
-        self.documentation = "%s\n    Args:\n%s%s\n%s\n    Returns:\n        %s\n    " % (
-            summary.strip(" "), documentation, "\n".join(lines), _REPORTING, result
+        self.documentation = "%s\n    Args:\n%s%s\n%s\n    Returns:\n        %s\n    %s" % (
+            summary.strip(" "), documentation, "\n".join(lines), _REPORTING, result, raises
         )  # fmt: skip
 
     def bind(self, *arguments: Any, **options: Any) -> Dict[str, Any]:
@@ -88,7 +91,8 @@ class Job:
             for key, value in given.items()
         }
         names = _RESULTS[self.name](added, given, description)
-        return {self._options.get(key, {}).get("key", key): value for key, value in description.items()}, names
+        keys = {key: self._options.get(key, {}).get("key", key) for key in description}
+        return {keys[key]: value for key, value in description.items()}, names if callable(names) else lambda: names
 
     def _value(self, option: Mapping[str, Any], value: Any, added: Columns) -> Any:
         """An argument as the library takes its option."""
@@ -157,10 +161,10 @@ def _distance(added: Columns, given: Dict[str, Any], description: Dict[str, Any]
     return ["Distance", *("Distance" + name.capitalize() for name in ("source", "group", "direction") if given[name])]
 
 
-def _area(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
+def _area(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> Callable[[], List[str]]:
     if given["tag"] is not None and not isinstance(given["tag"], str):
         description["tag"] = added.add(given["tag"], "tag", True, (1,)).name
-    return ["Area" if added.mesh.n_corners == 3 else "Volume"]
+    return lambda: ["Area" if added.mesh.n_corners == 3 else "Volume"]
 
 
 def _simplify(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
@@ -169,7 +173,7 @@ def _simplify(added: Columns, given: Dict[str, Any], description: Dict[str, Any]
     return ["Position"]
 
 
-_RESULTS: Dict[str, Callable[[Columns, Dict[str, Any], Dict[str, Any]], List[str]]] = {
+_RESULTS: Dict[str, Callable[[Columns, Dict[str, Any], Dict[str, Any]], Any]] = {
     "solve": _solve, "deform": _deform, "smooth": _smooth, "blend": _blend, "distance": _distance,
     "area": _area,
     "simplify": _simplify,
@@ -215,8 +219,13 @@ _DATA = """\
         outputs: "gradient", "flux", or both in a list: columns Gradient (grad u) and Flux (-K grad u)
             of the cells, beside the solution.
         columns: k, the number of right-hand sides, 1 to 64; default: what the values have.
-        problem: a problem file (docs/problem.md), or its dict, which the other arguments complete.
 """
+
+_RAISES = """
+    Raises:
+        InputError: an argument is wrong. MemoryLimitError: the mesh needs more; the sentence says how
+        much. Error: the problem has no solution, a region no vertex, the disk is full.
+    """
 
 #: By the names that the library knows them by.
 JOBS: Dict[str, Job] = {
@@ -235,6 +244,7 @@ JOBS: Dict[str, Job] = {
             "The solution: (n,), or (n, k) of k right-hand sides, float64; NaN at vertices of no cell.",
             own=_data(),
             documentation=_DATA,
+            raises=_RAISES,
         ),
         Job(
             "deform",

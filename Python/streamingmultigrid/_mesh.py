@@ -371,7 +371,7 @@ class Mesh:
         """What a job is expected to cost, before it starts: memory, scratch, passes and seconds.
 
         Args:
-            job: "solve", "deform", "smooth", "blend", "distance", "simplify".
+            job: "solve", "deform", "smooth", "blend", "distance", "area", "simplify".
             arguments, options: as of the method of this name.
             path: where the result is to be written; default: nowhere.
 
@@ -441,7 +441,7 @@ class Mesh:
                     part(report, opening, 1),
                     byref(handle.pointer),
                 )
-        field = Field(self, handle, job, names, self._counts(), self.n_corners, columns.is_matrix)
+        field = Field(self, handle, job, names(), self._counts(), self.n_corners, columns.is_matrix)
         found = field._read_report(False)
         if strict and not found.get("converged", True):
             raise NotConverged(not_converged(found), field)

@@ -21,7 +21,7 @@ _NAMES = {"from": "sources"}
 
 #: The types of arguments by the kinds of options.
 _TYPES = {
-    "number": "float", "count": "int", "bytes": "types.Size", "flag": "bool", "column": "types.Columns",
+    "number": "float", "count": "int", "bytes": "types.Size", "flag": "bool", "column": "Union[str, npt.ArrayLike]",
     "columns": "types.Columns", "where": "types.Places", "size": "Union[float, str]", "folder": "types.Path",
 }  # fmt: skip
 
@@ -32,6 +32,13 @@ _FORMS = {
     "columns": "a name, a list of names, an array (n,) or (n, k), which becomes the column Values, or {name: array}",
     "size": 'a number, or a text as "1%" or "6edges"',
 }
+#: What descriptions are, of which the command line has files.
+_DESCRIPTIONS = {
+    "handles": "`smg.handle(...)` or a list of these, of which the last one counts where several hold a vertex; or a "
+    "handle file (docs/deform.md), or its dict",
+    "problem": "A problem file (docs/problem.md), or its dict, which the other arguments complete",
+}
+_OF_MESH = ("memory", "threads", "scratch", "scratch_limit")  # by default
 
 
 @functools.lru_cache(maxsize=None)
@@ -55,7 +62,8 @@ def parameter(option: Mapping[str, Any], positional: bool = False) -> inspect.Pa
     elif option["kind"] == "description":
         types = "types." + option["key"].capitalize()
     else:
-        types = _TYPES[option["kind"]]
+        # Smoothing takes an array by its name as well.
+        types = "types.Columns" if option["key"] == "column" else _TYPES[option["kind"]]
         types = "Union[%s, %s]" % (types, choices) if "choices" in option else types
     required = option.get("required", False)
     kind = inspect.Parameter.POSITIONAL_OR_KEYWORD if positional else inspect.Parameter.KEYWORD_ONLY
@@ -69,7 +77,7 @@ def parameter(option: Mapping[str, Any], positional: bool = False) -> inspect.Pa
 
 def documentation(option: Mapping[str, Any]) -> str:
     """What a docstring says of the argument."""
-    text = option["help"]
+    text = _DESCRIPTIONS.get(option["key"], option["help"])
     if option["kind"] in _FORMS:
         text += ": " + _FORMS[option["kind"]]
     notes = []
@@ -77,7 +85,9 @@ def documentation(option: Mapping[str, Any]) -> str:
         notes.append("in " + option["unit"])
     if option["kind"] != "choice" and "allowed" in option:
         notes.append(option["allowed"])
-    if "default" in option:
+    if option["key"] in _OF_MESH:
+        notes.append("default that of the mesh")
+    elif "default" in option:
         notes.append("default %s" % (option["default"],))
     line = "%s: %s%s." % (name_of(option), text, " (%s)" % "; ".join(notes) if notes else "")
     return textwrap.fill(line, 108, initial_indent=" " * 8, subsequent_indent=" " * 12)

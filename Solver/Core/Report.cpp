@@ -75,6 +75,10 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
     const char* const measure = report.areas->isVolume ? "volume" : "area";
     out["areas"] = { { "measure", measure }, { "cells", report.areas->cells },
       { "total", report.areas->total } };
+    if (report.areas->hasTags)
+    {
+      out["areas"]["by_tag"] = nlohmann::ordered_json::array();
+    }
     for (const Report::Area& part : report.areas->by_tag)
     {
       out["areas"]["by_tag"].push_back(

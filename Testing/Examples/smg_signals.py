@@ -98,6 +98,7 @@ def commands():
         yield "distance", stream, "out/o.vsm", "--from", '{"halfspace": [1, 0, 0, 0.3]}'
         if mesh == "solid":
             yield "distance", stream, "out/o.vsm", "--wall"
+        yield "area", stream, "out/o.vsm", "--of", '{"halfspace": [1, 0, 0, 0.3]}'
         yield "simplify", file, "out/o.ply", "--vertices", "100"
         yield "preview", file, "out/o.vtp", "--points", "1000"
 

@@ -18,12 +18,12 @@ namespace smg::testing
 namespace
 {
 
-StreamMesh surface()
+StreamMesh shuffledTorus()
 {
   return toStream(shuffled(torus(40, 20, 0.3)));
 }
 
-StreamMesh solid()
+StreamMesh shuffledBox()
 {
   return toStream(shuffled(tetBox(7, 6, 5, 0.2)));
 }
@@ -44,7 +44,7 @@ double sizeOf(const StreamMesh& mesh, std::int64_t cell)
 }
 
 /** Tags 0 to 2 of the cells. */
-StreamMesh tagged(StreamMesh mesh)
+StreamMesh withTags(StreamMesh mesh)
 {
   std::vector<std::int32_t> tags;
   for (std::int64_t c = 0; c < mesh.cells(); ++c)
@@ -58,7 +58,7 @@ StreamMesh tagged(StreamMesh mesh)
 
 TEST(Area, SumsAreThoseOfTheCells)
 {
-  for (const StreamMesh& mesh : { tagged(surface()), tagged(solid()) })
+  for (const StreamMesh& mesh : { withTags(shuffledTorus()), withTags(shuffledBox()) })
   {
     AreaDescription description;
     description.tag = "tag";
@@ -137,7 +137,7 @@ TEST(Area, VoronoiSharesAreWhatIsNearest)
 
 TEST(Area, OfPartsAreCellsWithAllCornersInThem)
 {
-  for (const StreamMesh& mesh : { surface(), solid() })
+  for (const StreamMesh& mesh : { shuffledTorus(), shuffledBox() })
   {
     AreaDescription description;
     description.of = { Region(Region::HalfSpace{ { 1, 0, 0 }, 1.0 }) };
@@ -163,30 +163,41 @@ TEST(Area, OfPartsAreCellsWithAllCornersInThem)
 
 TEST(Area, FlaggedCellsHaveNone)
 {
-  StreamMesh mesh = surface();
+  StreamMesh mesh = shuffledTorus();
   std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()));
   flags[3] = 1;
   mesh.cellColumns.push_back(makeColumn<std::uint8_t>(CellFlagsName, flags));
   EXPECT_EQ(area(MemoryMesh(mesh))->report().areas->cells, mesh.cells() - 1);
 }
 
+/** A mesh that ends before its counts, or has what is not a position. */
+TEST(Area, StreamsAreChecked)
+{
+  StreamMesh mesh = shuffledTorus();
+  mesh.positions[17] = std::nan("");
+  EXPECT_NE(messageOf([&] { area(MemoryMesh(mesh)); }), "");
+}
+
 TEST(Area, ErrorsNameWhatIsWrong)
 {
-  const StreamMesh mesh = tagged(surface());
+  const StreamMesh mesh = withTags(shuffledTorus());
   const auto expect = [&mesh](const AreaDescription& description, const std::string& part)
   { expectError([&] { area(MemoryMesh(mesh), description); }, part); };
   AreaDescription description;
   description.tag = "nothing";
   expect(description, "nothing");
   description = {};
-  description.scale = 0.0;
-  expect(description, "scale: must be above 0");
+  for (const double scale : { 0.0, -1.0, 1e-170, 1e200 })
+  {
+    description.scale = scale;
+    expect(description, "scale: must be above 0");
+  }
   description = {};
   description.of = { Region(Region::Sphere{ { 99, 0, 0 }, 1.0 }) };
-  expect(description, "no vertex");
+  expect(description, "of[0]: no vertex");
   description = {};
   description.share = AreaShare::Voronoi;
-  expectError([&] { area(MemoryMesh(solid()), description); }, "for triangles");
+  expectError([&] { area(MemoryMesh(shuffledBox()), description); }, "for triangles");
 }
 
 } // namespace

@@ -27,7 +27,7 @@ std::string deedOf(const std::string& command, bool isEstimate)
 {
   static const std::map<std::string, std::string> deeds{ { "solve", "Solution on" },
     { "deform", "Deformation of" }, { "smooth", "Smoothing of" }, { "blend", "Blend on" },
-    { "distance", "Distances on" }, { "convert", "Conversion of" },
+    { "distance", "Distances on" }, { "area", "Areas of" }, { "convert", "Conversion of" },
     { "simplify", "Simplification of" }, { "preview", "Preview of" }, { "info", "Properties of" } };
   const auto found = deeds.find(command);
   return isEstimate ? "Expected costs: " + command : found == deeds.end() ? command : found->second;

@@ -72,9 +72,9 @@ std::string convergenceSection(Entries& report, double tolerance)
   const std::string acceleration = report.has("acceleration")
                                      ? report.take("acceleration").get<std::string>()
                                      : std::string("none");
-  if (report.has("distance"))
+  if (report.has("distance") || report.has("areas"))
   {
-    return {}; // it marches
+    return {}; // nothing is solved
   }
   std::string content;
   if (residuals.empty())

@@ -6,7 +6,7 @@
 #include "Solver/Jobs/Fairing/FairingProblem.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Jobs/Fairing/OrientedMesh.h"
-#include "Solver/Jobs/Results/VertexSolution.h"
+#include "Solver/Jobs/Values/VertexSolution.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/FixedVertices.h"

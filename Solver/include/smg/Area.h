@@ -36,11 +36,12 @@ struct AreaDescription
   /** Parts of the mesh, by their vertices: a cell counts if all of its corners lie in them. Empty:
    * all cells count. */
   std::vector<Where> of;
-  AreaShare share = AreaShare::Equal;
+  AreaShare share = AreaShare::Equal; ///< what vertices have of their cells
   /** By which lengths are multiplied, above 0: 0.001 for a mesh in millimetres and areas in square
    * metres. */
   double scale = 1.0;
 
+  /** The largest number of tags. */
   static constexpr std::size_t MaxTags = 65536;
 };
 

@@ -122,18 +122,19 @@ struct SMG_EXPORT Report
   /** The cells with a tag, and their areas or volumes together. */
   struct Area
   {
-    double tag;
-    std::int64_t cells;
-    double area;
+    double tag;         ///< of the cells
+    std::int64_t cells; ///< that count
+    double area;        ///< or volume
   };
 
   /** Areas of a surface, or volumes. */
   struct Areas
   {
-    bool isVolume = false;
+    bool isVolume = false;    ///< of tetrahedra
     std::int64_t cells = 0;   ///< that count
     double total = 0;         ///< of these
-    std::vector<Area> by_tag; ///< by ascending tags; empty: they were not asked for
+    bool hasTags = false;     ///< whether sums by tags were asked for
+    std::vector<Area> by_tag; ///< by ascending tags
   };
 
   /** The cells that a deformation inverts, in the precision of the deformed mesh: tetrahedra whose
