@@ -28,8 +28,9 @@ protected:
       tags.push_back(static_cast<std::int32_t>(c % 3));
     }
     this->Mesh.cellColumns.push_back(makeColumn<std::int32_t>("tag", tags));
-    writeMesh(this->Folder / "mesh.vsm", this->Mesh);
-    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    const std::string name = "mesh" + std::to_string(this->Folder.entries()) + ".vsm";
+    writeMesh(this->Folder / name, this->Mesh);
+    this->Reader->SetFileName((this->Folder / name).c_str());
     this->Area->SetInputConnection(this->Reader->GetOutputPort());
     this->Area->SetNumberOfPieces(5);
     this->Area->SetScratchDirectory(this->Folder.path().c_str());
