@@ -4,8 +4,8 @@
 
 Runs small jobs of every kind, and compares the checksums of what they write with those in hashes.txt,
 which --write writes: conversions in all orders, files of every format in both orders, solutions,
-deformations, smoothings, distances, blends, simplifications and previews, and what is said of each
-damaged file of the fuzzers. --meshes: converts and solves on each mesh of this folder, too (long; in
+deformations, smoothings, distances, areas, blends, simplifications and previews, and what is said of
+each damaged file of the fuzzers. --meshes: converts and solves on each mesh of this folder, too (long; in
 hashes-FOLDER.txt). For changes of structure: they keep all bits. A change of results writes the table anew
 and says so in the CHANGELOG.
 
@@ -164,6 +164,7 @@ def solve_all(golden, meshes):
         golden.make("deform", mesh, f"{stem}-cycles{suffix}", "--handles", "handles.json", "--cycles", 3, "--in-core")
         golden.make("distance", stream, f"{stem}-away.vsm", "--from", json.dumps(low), "--source", "--direction")
         golden.make("smooth", f"{stem}-away.vsm", f"{stem}-column.vsm", "--column", "Distance")
+        golden.make("area", stream, f"{stem}-area.vsm", "--of", json.dumps(low), "--scale", 0.1)
         if suffix == ".ply":
             golden.make("smooth", stream, f"{stem}-smooth.vsm", "--size", "3edges", "--steps", 2)
             golden.make("smooth", mesh, f"{stem}-edges.ply", "--keep-edges", 40, "--hold", json.dumps(low))
