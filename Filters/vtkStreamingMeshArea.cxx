@@ -5,7 +5,6 @@
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Tasks/vtkJobTask.h"
 #include "IO/Jobs/AreaJob.h"
-#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
@@ -31,24 +30,15 @@ class AreaTask : public smg::JobTask
 {
 public:
   smg::AreaJob asked;
-  bool hadPlaces = false; ///< on the mesh
 
   AreaTask()
-    : JobTask("these are areas of the preview", "measured")
+    : JobTask("these are areas of the mesh in memory", "measured")
   {
   }
 
 protected:
   smg::AreaJob& job() override { return this->asked; }
   std::vector<smg::Where>& places() override { return this->asked.description.of; }
-
-  void adaptTo(vtkPointSet& /*preview*/, const smg::StreamInfo& /*info*/) override
-  {
-    if (this->hadPlaces && this->places().empty())
-    {
-      throw smg::Error("No point of the preview lies in the region: Solve On Full Mesh.");
-    }
-  }
 
   void complete(smg::Report& report) const override
   {
@@ -95,7 +85,6 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& i
   description.share = static_cast<smg::AreaShare>(this->Share);
   description.scale = this->Scale;
   description.of = smg::placesOn(input, this->Of, "Of");
-  task->hadPlaces = !description.of.empty();
   return task;
 }
 
@@ -136,11 +125,6 @@ void vtkStreamingMeshArea::FillFurtherOutputs(
   table.AddColumn(tags);
   table.AddColumn(cells);
   table.AddColumn(areas);
-  if (summary.previewPoints > 0)
-  {
-    // Save Data then asks for those of the mesh.
-    smg::copyPreviewMarks(*vtkDataObject::GetData(&outputVector, MESH), table);
-  }
 }
 
 void vtkStreamingMeshArea::PrintSelf(ostream& os, vtkIndent indent)

@@ -7,14 +7,13 @@
  * each point in its cells. The total and the sums by the values of an array of the cells are in the
  * output AREAS and in the report.
  *
- * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
- *   the whole mesh is measured once, out of core, as described at vtkStreamingSolver.
- * - For other requests, if the input is a preview and Solve says so, the preview itself is measured
- *   in memory: its areas are near those of the mesh, its tags may be others.
+ * The whole mesh is measured, out of core, as described at vtkStreamingSolver, also where its
+ * preview is shown, whose points then have their shares in the mesh: a reading of the file takes
+ * less than a microsecond a point, and a preview has no arrays of the cells.
  *
  * Regions that vtkMeshRegion has marked, and Of, say which part of the mesh counts.
  *
- * Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
+ * Solve, Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
  *
  * @sa vtkStreamingSolver vtkMeshRegion vtkStreamingMeshReader
  */
@@ -47,9 +46,9 @@ public:
 
   ///@{
   /** The parts of the mesh that count, besides the regions of vtkMeshRegion before this filter: a
-   * cell counts if all of its corners lie in them. WHERE of a problem file in JSON, or a list of
-   * these, for example {"sphere": [0, 0, 0, 1]}. Columns are arrays of the input. Default: none;
-   * without any region all cells count. */
+   * cell counts if all of its corners lie in one of them; an array of the cells selects cells.
+   * WHERE of a problem file in JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}.
+   * Columns are arrays of the input. Default: none; without any region all cells count. */
   vtkSetStringMacro(Of);
   vtkGetStringMacro(Of);
   ///@}
@@ -78,6 +77,7 @@ protected:
   ~vtkStreamingMeshArea() override;
 
   void CheckRanges() const override;
+  bool IsForMemory(vtkPointSet& /*input*/, bool /*isWhole*/) override { return false; }
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   void FillFurtherOutputs(

@@ -7,13 +7,14 @@
 #include "Solver/Memory/Ring.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
-#include "Solver/Problem/FixedVertices.h"
 #include "Solver/Problem/MeshColumns.h"
+#include "Solver/Problem/Selection.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -67,6 +68,11 @@ double volumeOf(const double* const* corner)
          6.0;
 }
 
+constexpr PoolUse AreaMemory{ "the sum of areas",
+  "raise the memory limit, name a tag of fewer values, or convert the mesh with the order bfs if "
+  "it "
+  "has another" };
+
 /** Of areas or volumes. */
 double unitOf(const AreaDescription& description, const StreamInfo& mesh)
 {
@@ -91,6 +97,7 @@ private:
   void requireTag();
   void prepare(double end);
   void add(const MeshBlock& block);
+  void select(const MeshBlock& block);
   void addCell(const MeshBlock& block, const std::int64_t* corners);
   double tagOf(const MeshBlock& block, std::size_t cell) const;
   Sum& sumOf(double tag);
@@ -104,10 +111,12 @@ private:
   SolveOptions Options;
   std::unique_ptr<VertexSolution> Result;
   MeshColumns Columns;
-  FixedVertices Parts;
+  Selections All;
+  std::vector<const Selection*> Parts; ///< null: everywhere
   std::optional<NamedColumn> Tag;
   Ring<double> Points, Shares;
-  Ring<std::uint8_t> IsIn;    ///< whether vertices lie in the parts, if there are any
+  /** Of the cells of the block: whether they count, and whether they lie in a part. */
+  std::vector<std::uint8_t> Counts, IsIn;
   double Unit;                ///< of areas or volumes
   std::int64_t Finalized = 0; ///< after the previous block
   Sum Total;
@@ -121,15 +130,19 @@ AreaPass::AreaPass(const StoredMesh& mesh, const AreaDescription& description,
   : Mesh(mesh)
   , Asked(description)
   , Options(options)
-  , Result(std::make_unique<VertexSolution>(options, 1))
+  , Result(std::make_unique<VertexSolution>(options, 1, AreaMemory))
   , Columns(mesh.info(), name, &this->Result->memory)
-  , Parts(description.of, false, this->Columns, "of")
+  , All(this->Columns)
   , Points(this->Result->memory, 3)
   , Shares(this->Result->memory)
-  , IsIn(this->Result->memory)
   , Unit(unitOf(description, mesh.info()))
   , Tags(this->Result->memory)
 {
+  for (std::size_t k = 0; k < description.of.size(); ++k)
+  {
+    this->Parts.push_back(this->All.add(
+      description.of[k], DataPlace::Cells, ColumnOwner::Cells, "of[" + std::to_string(k) + ']'));
+  }
   if (!description.tag.empty())
   {
     this->requireTag();
@@ -163,10 +176,10 @@ void AreaPass::prepare(double end)
     [&](const MeshBlock& block)
     {
       check.add(block);
-      this->Parts.prepare(block, folder);
+      this->All.prepare(block, folder);
     });
   check.finish(this->Mesh.info());
-  this->Parts.endPreparing(false);
+  this->All.endPreparing(nullptr);
   ++this->Result->total.passes;
 }
 
@@ -175,7 +188,6 @@ void AreaPass::add(const MeshBlock& block)
   const std::int64_t end = block.firstVertex + block.vertices();
   this->write(this->Finalized);
   this->Points.release(this->Finalized);
-  this->IsIn.release(this->Finalized);
   this->Finalized = block.finalized;
   this->Points.extendRaw(end);
   this->Shares.extend(end);
@@ -183,25 +195,46 @@ void AreaPass::add(const MeshBlock& block)
   {
     std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
   }
-  if (!this->Asked.of.empty())
-  {
-    this->IsIn.extendRaw(end);
-    std::ranges::copy(this->Parts.at(block), this->IsIn.range(block.firstVertex, end).begin());
-  }
+  this->select(block);
   forCells(this->Mesh.info().cellType, block,
     [&](const std::int64_t* corners) { this->addCell(block, corners); });
+}
+
+/** Finds the cells that lie in one of the parts. */
+void AreaPass::select(const MeshBlock& block)
+{
+  if (this->Parts.empty())
+  {
+    return;
+  }
+  this->All.startBlock(block);
+  const std::size_t cells =
+    block.corners.size() / static_cast<std::size_t>(cornersOf(this->Mesh.info().cellType));
+  this->Counts.assign(cells, 0);
+  this->IsIn.resize(cells);
+  for (const Selection* part : this->Parts)
+  {
+    std::ranges::fill(this->IsIn, static_cast<std::uint8_t>(part == nullptr));
+    if (part)
+    {
+      part->atCells({ block, 0, block.corners }, this->IsIn);
+    }
+    std::ranges::transform(this->Counts, this->IsIn, this->Counts.begin(), std::bit_or());
+  }
 }
 
 void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners)
 {
   const int count = cornersOf(this->Mesh.info().cellType);
+  const auto cell =
+    static_cast<std::size_t>(corners - block.corners.data()) / static_cast<std::size_t>(count);
+  if (!this->Parts.empty() && this->Counts[cell] == 0)
+  {
+    return;
+  }
   std::array<const double*, 4> at{};
   for (int k = 0; k < count; ++k)
   {
-    if (!this->Asked.of.empty() && this->IsIn[corners[k]] == 0)
-    {
-      return;
-    }
     at[static_cast<std::size_t>(k)] = this->Points.at(corners[k]);
   }
   const double extent = count == 3 ? areaOf(at.data()) : volumeOf(at.data());

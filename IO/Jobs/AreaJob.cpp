@@ -24,8 +24,9 @@ constexpr auto AreaTable = joined(
               "65,536" },
     JobOption{ .key = "of",
       .kind = WhereOption{ AreaMember<std::vector<Where>, &AreaDescription::of> },
-      .help = "Parts of the mesh: a cell counts if all of its corners lie in them; without it all "
-              "cells count" },
+      .help =
+        "Parts of the mesh: a cell counts if all of its corners lie in one of them; a column of "
+        "the cells selects cells; without it all cells count" },
     JobOption{ .key = "share",
       .kind = ChoiceOption{ AreaMember<std::size_t, &AreaDescription::share>, ShareNames },
       .help = "What a vertex has of its cells: equal shares, or of triangles voronoi, what is "

@@ -16,7 +16,7 @@ namespace smg
 
 /** Makes a selection of each part; its key in messages is its place in the list of held parts. */
 FixedVertices::FixedVertices(
-  const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns, const std::string& key)
+  const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns)
   : Memory(columns.memory())
   , All(columns)
 {
@@ -28,7 +28,7 @@ FixedVertices::FixedVertices(
   {
     // A column of the vertices is meant if both have one, as in problem files.
     this->Parts.push_back(this->All.add(
-      parts[k], DataPlace::Vertices, ColumnOwner::Vertices, key + '[' + std::to_string(k) + ']'));
+      parts[k], DataPlace::Vertices, ColumnOwner::Vertices, "hold[" + std::to_string(k) + "]"));
   }
 }
 

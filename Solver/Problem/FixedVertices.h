@@ -24,9 +24,8 @@ class SMG_EXPORT FixedVertices
 {
 public:
   /** Throws Error if a part is not valid. `columns` must outlive this. `findsBoundary`: whether the
-   * boundary is looked for. `key`: what error messages call the list of the parts. */
-  FixedVertices(const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns,
-    const std::string& key = "hold");
+   * boundary is looked for. */
+  FixedVertices(const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns);
 
   /** The bytes that are kept of open vertices, accounted for in MeshColumns::memory(). */
   std::int64_t bytes() const { return this->Memory.used(); }

@@ -161,6 +161,25 @@ TEST(Area, OfPartsAreCellsWithAllCornersInThem)
   }
 }
 
+TEST(Area, ATagOfCellsSelectsThese)
+{
+  for (const StreamMesh& mesh : { withTags(shuffledTorus()), withTags(shuffledBox()) })
+  {
+    AreaDescription description;
+    description.tag = "tag";
+    description.of = { ColumnTag{ "tag", 1 } };
+    const auto shares = area(MemoryMesh(mesh), description);
+    const Report::Areas& found = *shares->report().areas;
+    ASSERT_EQ(found.by_tag.size(), 1U);
+    EXPECT_EQ(found.by_tag[0].tag, 1.0);
+    // Of two parts, one after the other, the sum.
+    description.of.emplace_back(ColumnTag{ "tag", 2 });
+    const auto both = area(MemoryMesh(mesh), description);
+    EXPECT_EQ(both->report().areas->by_tag.size(), 2U);
+    EXPECT_EQ(both->report().areas->by_tag[0].area, found.total);
+  }
+}
+
 TEST(Area, FlaggedCellsHaveNone)
 {
   StreamMesh mesh = shuffledTorus();
@@ -194,7 +213,7 @@ TEST(Area, ErrorsNameWhatIsWrong)
   }
   description = {};
   description.of = { Region(Region::Sphere{ { 99, 0, 0 }, 1.0 }) };
-  expect(description, "of[0]: no vertex");
+  expect(description, "of[0]: no cell");
   description = {};
   description.share = AreaShare::Voronoi;
   expectError([&] { area(MemoryMesh(shuffledBox()), description); }, "for triangles");

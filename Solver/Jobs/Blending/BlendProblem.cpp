@@ -299,6 +299,10 @@ BlendProblem::BlendProblem(const BlendDescription& description, const StreamInfo
   {
     this->OfMesh.fail("anchor", "must be a finite number of at least 0");
   }
+  // Below, the rounding of the sum of a body's right-hand side, over the anchor, would move the
+  // body farther than the anchor does.
+  constexpr double Least = 1e-8;
+  this->Anchor = this->Anchor < Least ? 0.0 : this->Anchor;
 }
 
 void BlendProblem::prepare(const MeshBlock& block, const std::filesystem::path& scratch)

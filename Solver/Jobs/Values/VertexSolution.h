@@ -25,8 +25,8 @@ namespace smg
 class VertexSolution : public Solution
 {
 public:
-  VertexSolution(const SolveOptions& options, int columns)
-    : memory(options.memoryLimit)
+  VertexSolution(const SolveOptions& options, int columns, const PoolUse& use = SolveMemory)
+    : memory(options.memoryLimit, use)
     , scratch(options.inCore ? std::nullopt
                              : std::optional<ScratchFolder>(
                                  std::in_place, options.scratch, options.scratchLimit))

@@ -192,7 +192,7 @@ void Convergence::watch()
   else
   {
     this->Note = "not converged: " + residual + "is " + reached + " after " + std::to_string(n) +
-                 " V-cycles, the most allowed";
+                 (n == 1 ? " V-cycle" : " V-cycles") + ", the most allowed";
   }
 }
 

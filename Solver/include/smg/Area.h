@@ -33,8 +33,8 @@ struct AreaDescription
   /** Column of the cells of one component by whose values areas are summed; empty: only the total.
    * It may have MaxTags values. */
   std::string tag;
-  /** Parts of the mesh, by their vertices: a cell counts if all of its corners lie in them. Empty:
-   * all cells count. */
+  /** Parts of the mesh: a cell counts if all of its corners lie in one of them; a column of the
+   * cells selects cells. Empty: all cells count. */
   std::vector<Where> of;
   AreaShare share = AreaShare::Equal; ///< what vertices have of their cells
   /** By which lengths are multiplied, above 0: 0.001 for a mesh in millimetres and areas in square
@@ -57,7 +57,7 @@ SMG_EXPORT ColumnSpec areaColumn(const StreamInfo& mesh);
  * @param options the memory limit, scratch files, whether to use none (`inCore`), progress
  * @param name what error messages call the description
  * @return areaColumn() at the vertices; Report::areas has the sums
- * @throws Error if the mesh lacks the column, a tag is not a number, a part has no vertex, an
+ * @throws Error if the mesh lacks the column, a tag is not a number, a part has no cell, an
  * option is out of range, and if memory or scratch files do not suffice
  * @throws Cancelled if the progress callback returns false
  */

@@ -52,7 +52,8 @@ struct BlendDescription
    * squared differences over that of the squared gradients, in units of 1 / diagonal^2, with the
    * diagonal of the mesh's bounding box. Corrections that vary over less than 1 / sqrt(anchor)
    * diagonals are hardly pulled: with the default, ten diagonals, the anchor determines little but
-   * the mean. 0: only the mean of each component without held vertices is that of the original.
+   * the mean. 0, and less than 1e-8: only the mean of each component without held vertices is that
+   * of the original.
    */
   double anchor = 0.01;
   SeamGradient seam = SeamGradient::Zero; ///< the gradients between patches
