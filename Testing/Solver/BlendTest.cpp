@@ -263,4 +263,22 @@ TEST(Blend, LabelsOfCellsLeaveTheVerticesBetweenThemWithoutPatch)
   EXPECT_GT(blended->report().seams.at(0).before, 1.0);
 }
 
+/** Rounding over so small an anchor would move the values. */
+TEST(Blend, AnAnchorBelowRoundingIsNone)
+{
+  const StreamMesh mesh = patched(bumpySurface());
+  BlendDescription description = blendOf({ "c" });
+  description.anchor = 0.0;
+  const Eigen::MatrixXd expected = valuesOf(*blend(MemoryMesh(mesh), description, tight()));
+  for (const double anchor : { 9e-9, 1e-12, 1e-300 })
+  {
+    description.anchor = anchor;
+    EXPECT_EQ(valuesOf(*blend(MemoryMesh(mesh), description, tight())), expected);
+  }
+  // The next larger one changes it by a little.
+  description.anchor = 1e-8;
+  const Eigen::MatrixXd near = valuesOf(*blend(MemoryMesh(mesh), description, tight()));
+  EXPECT_LT((near - expected).cwiseAbs().maxCoeff(), 1e-3 * expected.cwiseAbs().maxCoeff());
+}
+
 } // namespace smg::testing
