@@ -18,6 +18,7 @@
 #include "vtkPointSet.h"
 #include "vtkTable.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -99,7 +100,7 @@ void vtkStreamingMeshArea::Deliver(
   {
     // Points of no cell have none.
     const double share = values[static_cast<std::size_t>(i)];
-    shares->SetValue(i, share == share ? share : 0.0);
+    shares->SetValue(i, std::isnan(share) ? 0.0 : share);
   }
   smg::addResult(*output.GetPointData(), *shares);
   output.GetPointData()->SetActiveScalars(shares->GetName());

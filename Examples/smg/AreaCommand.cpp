@@ -60,6 +60,5 @@ private:
 
 void addAreaCommand(CLI::App& program, Action& action)
 {
-  addCommand<AreaCommand>(
-    program, action, "area", "Sum up areas or volumes: of vertices, by tags, in all");
+  addJobCommand<AreaCommand>(program, action, "area");
 }

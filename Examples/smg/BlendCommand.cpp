@@ -40,6 +40,5 @@ private:
 
 void addBlendCommand(CLI::App& program, Action& action)
 {
-  addCommand<BlendCommand>(
-    program, action, "blend", "Remove the steps of columns between patches of a mesh");
+  addJobCommand<BlendCommand>(program, action, "blend");
 }

@@ -96,6 +96,5 @@ private:
 
 void addDeformCommand(CLI::App& program, Action& action)
 {
-  addCommand<DeformCommand>(
-    program, action, "deform", "Deform a mesh by handles, keeping its details");
+  addJobCommand<DeformCommand>(program, action, "deform");
 }

@@ -128,6 +128,5 @@ private:
 
 void addDistanceCommand(CLI::App& program, Action& action)
 {
-  addCommand<DistanceCommand>(
-    program, action, "distance", "Measure the distance of all vertices from some of them");
+  addJobCommand<DistanceCommand>(program, action, "distance");
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "JobOptions.h"
 
-#include "CommonOptions.h"
-
 #include "IO/Jobs/ReadOptions.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"

@@ -162,6 +162,5 @@ void SimplifyCommand::checkUsage() const
 
 void addSimplifyCommand(CLI::App& program, Action& action)
 {
-  addCommand<SimplifyCommand>(
-    program, action, "simplify", "Simplify a surface, or that of a solid, by collapsing edges");
+  addJobCommand<SimplifyCommand>(program, action, "simplify");
 }

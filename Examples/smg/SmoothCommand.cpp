@@ -36,6 +36,5 @@ private:
 
 void addSmoothCommand(CLI::App& program, Action& action)
 {
-  addCommand<SmoothCommand>(
-    program, action, "smooth", "Smooth a surface, or a column of the vertices of any mesh");
+  addJobCommand<SmoothCommand>(program, action, "smooth");
 }

@@ -87,5 +87,5 @@ private:
 
 void addSolveCommand(CLI::App& program, Action& action)
 {
-  addCommand<SolveCommand>(program, action, "solve", "Solve a Poisson problem on a mesh");
+  addJobCommand<SolveCommand>(program, action, "solve");
 }

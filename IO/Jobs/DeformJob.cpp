@@ -62,11 +62,8 @@ constexpr auto DeformTable = joined(
       .help = "V-cycles of each of the two steps, instead of a tolerance",
       .isAdvanced = true,
       .excludes = "tolerance" },
-    JobOption{ .key = "normals",
-      .kind = ChoiceOption{ memberOf<std::size_t, DeformJob, &DeformJob::normals>, NormalsNames },
-      .help = "Columns Normals of the mesh: recompute (tetrahedra: drop) or drop" },
   },
-  SolverOptions, LimitOptions, ScratchLimitOption, CheckpointOption);
+  NormalsOption<DeformJob>, SolverOptions, LimitOptions, ScratchLimitOption, CheckpointOption);
 
 } // namespace
 

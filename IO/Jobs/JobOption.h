@@ -264,7 +264,15 @@ inline constexpr std::array CheckpointOption{
     .isCommon = true },
 };
 
-/** Of jobs that move vertices, in the order of MovedNormals. */
+/** In the order of MovedNormals. */
 inline constexpr const char* NormalsNames[] = { "recompute", "drop" };
+
+/** Of jobs that move vertices. */
+template <class Owner>
+inline constexpr std::array NormalsOption{
+  JobOption{ .key = "normals",
+    .kind = ChoiceOption{ memberOf<std::size_t, Owner, &Owner::normals>, NormalsNames },
+    .help = "Columns Normals of the mesh: recompute (tetrahedra: drop) or drop" },
+};
 
 } // namespace smg

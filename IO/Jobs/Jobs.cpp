@@ -44,9 +44,9 @@ std::span<const JobKind> jobKinds()
   return Kinds;
 }
 
-std::unique_ptr<Job> makeJob(std::string_view kind)
+const JobKind& jobKind(std::string_view name)
 {
-  const auto found = std::ranges::find(Kinds, kind, &JobKind::name);
+  const auto found = std::ranges::find(Kinds, name, &JobKind::name);
   if (found == std::end(Kinds))
   {
     std::string names;
@@ -57,9 +57,14 @@ std::unique_ptr<Job> makeJob(std::string_view kind)
                                              : ", ") +
                std::string(Kinds[i].name);
     }
-    throw Error('\'' + std::string(kind) + "': the jobs are " + names + '.');
+    throw Error('\'' + std::string(name) + "': the jobs are " + names + '.');
   }
-  return found->make();
+  return *found;
+}
+
+std::unique_ptr<Job> makeJob(std::string_view kind)
+{
+  return jobKind(kind).make();
 }
 
 nlohmann::ordered_json describeAll()

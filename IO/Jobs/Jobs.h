@@ -24,6 +24,8 @@ struct JobKind
 /** All kinds of jobs. */
 SMG_EXPORT std::span<const JobKind> jobKinds();
 
+/** The kind of this name. Throws Error, which lists those that there are. */
+SMG_EXPORT const JobKind& jobKind(std::string_view name);
 /** A new job of a kind. Throws Error, which lists those that there are. */
 SMG_EXPORT std::unique_ptr<Job> makeJob(std::string_view kind);
 

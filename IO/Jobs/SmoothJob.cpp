@@ -53,11 +53,8 @@ constexpr auto SmoothTable = joined(
     JobOption{ .key = "column",
       .kind = ColumnOption{ SmoothMember<std::string, &Smoothing::column> },
       .help = "Smooth this column of the vertices instead of their positions" },
-    JobOption{ .key = "normals",
-      .kind = ChoiceOption{ memberOf<std::size_t, SmoothJob, &SmoothJob::normals>, NormalsNames },
-      .help = "Columns Normals of the mesh: recompute (tetrahedra: drop) or drop" },
   },
-  ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
+  NormalsOption<SmoothJob>, ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
 
 } // namespace
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Python/C/Options.h"
 
+#include "IO/Jobs/JobOption.h"
+#include "IO/Jobs/ReadOptions.h"
 #include "Python/C/Call.h"
 #include "smg/Error.h"
 
@@ -9,27 +11,36 @@
 namespace smg
 {
 
+namespace
+{
+
+/** No more than what a job may take, whose options it has. */
+class LimitsAlone final : public Job
+{
+public:
+  std::span<const JobOption> table() const override
+  {
+    static constexpr auto Limits = joined(LimitOptions, ScratchLimitOption);
+    return Limits;
+  }
+  void setLimits(const JobLimits& given) override { this->limits = given; }
+  void check() const override {}
+};
+
+} // namespace
+
 JobLimits limitsIn(const JsonNode& object, const JobLimits& defaults)
 {
-  constexpr std::int64_t MaxThreads = 1024;
-  JobLimits limits = defaults;
-  if (object.has("memory"))
+  LimitsAlone job;
+  job.setLimits(defaults);
+  for (const JobOption& option : job.table())
   {
-    limits.memory = bytesIn(object.member("memory"));
+    if (object.has(option.key))
+    {
+      readOption(object.member(option.key), option, job);
+    }
   }
-  if (object.has("threads"))
-  {
-    limits.threads = static_cast<int>(object.member("threads").integer(0, MaxThreads));
-  }
-  if (object.has("scratch"))
-  {
-    limits.scratch = folderIn(object.member("scratch"));
-  }
-  if (object.has("scratch_limit"))
-  {
-    limits.scratchLimit = bytesIn(object.member("scratch_limit"));
-  }
-  return limits;
+  return job.limits;
 }
 
 WritingOptions writingOptions(const char* options, const JobLimits& defaults)

@@ -26,7 +26,7 @@ struct BinaryBegin
 /** Why a header is not one in the byte order in which it is read. */
 struct BadHeader
 {
-  /** Which error of a header that makes sense in neither order is told, from the last choice on. */
+  /** In ascending priority: of a header that is valid in neither order, the highest is reported. */
   enum Kind
   {
     Nonsense,
