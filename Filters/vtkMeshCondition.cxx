@@ -2,10 +2,10 @@
 #include "Filters/vtkMeshCondition.h"
 
 #include "Filters/Regions/ConditionText.h"
-#include "Filters/Regions/vtkHeldPoints.h"
-#include "Filters/Regions/vtkRegionArrays.h"
-#include "IO/vtkModeProperty.h"
-#include "IO/vtkPropertyRange.h"
+#include "Filters/Regions/HeldPoints.h"
+#include "Filters/Regions/RegionArrays.h"
+#include "IO/Vtk/ModeProperty.h"
+#include "IO/Vtk/PropertyRange.h"
 
 #include "vtkDataArray.h"
 #include "vtkObjectFactory.h"
@@ -76,7 +76,7 @@ int vtkMeshCondition::GetNumberOfValues()
   return static_cast<int>(this->Internal->Values.size());
 }
 
-bool vtkMeshCondition::IsElsewhere()
+bool vtkMeshCondition::IsEvaluatedBySolver()
 {
   return this->Region == BOUNDARY || this->Region == MASK || this->Region == TAG ||
          (this->Region == EVERYWHERE && this->Internal->condition().mayHoldEverywhere());
@@ -137,7 +137,7 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   {
     condition.isOnBoundary = true;
   }
-  else if (!this->IsElsewhere())
+  else if (!this->IsEvaluatedBySolver())
   {
     condition.mask = smg::addMask(output);
     vtkDataArray& mask = *output.GetPointData()->GetArray(condition.mask.c_str());

@@ -88,7 +88,7 @@ protected:
 
   void Check() override;
   std::string UnusedProperty() override;
-  bool IsElsewhere() override;
+  bool IsEvaluatedBySolver() override;
   void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) override;
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshHandle.h"
 
-#include "Filters/Regions/vtkHandleArrays.h"
-#include "IO/vtkModeProperty.h"
-#include "IO/vtkPropertyRange.h"
+#include "Filters/Regions/HandleArrays.h"
+#include "IO/Vtk/ModeProperty.h"
+#include "IO/Vtk/PropertyRange.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshRegion.h"
 
-#include "Filters/Regions/vtkHeldPoints.h"
-#include "Filters/Regions/vtkRegionArrays.h"
+#include "Filters/Regions/HeldPoints.h"
+#include "Filters/Regions/RegionArrays.h"
 #include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMultiEngineSolver.h"
 
-#include "Filters/Processes/vtkMemoryFit.h"
-#include "IO/vtkPropertyRange.h"
+#include "Filters/Processes/MemoryFit.h"
+#include "IO/Vtk/PropertyRange.h"
 
 #include "vtkMultiProcessController.h"
 

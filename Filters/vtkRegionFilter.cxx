@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkRegionFilter.h"
 
-#include "Filters/Pieces/vtkPieceRequest.h"
-#include "Filters/Regions/vtkHeldPoints.h"
-#include "Filters/Regions/vtkMarkedRegion.h"
-#include "Filters/Regions/vtkPointRegion.h"
-#include "Filters/Regions/vtkRegionPoints.h"
-#include "Filters/Tasks/vtkWarnOnce.h"
-#include "Filters/vtkRegionChain.h"
-#include "IO/vtkFailures.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkModeProperty.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkPieceInput.h"
-#include "IO/vtkPieceStream.h"
-#include "IO/vtkPropertyRange.h"
+#include "Filters/Pieces/PieceRequest.h"
+#include "Filters/RegionChain.h"
+#include "Filters/Regions/HeldPoints.h"
+#include "Filters/Regions/MarkedRegion.h"
+#include "Filters/Regions/PointRegion.h"
+#include "Filters/Regions/RegionPoints.h"
+#include "Filters/Tasks/WarnOnce.h"
+#include "IO/Vtk/Failures.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "IO/Vtk/ModeProperty.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PieceInput.h"
+#include "IO/Vtk/PieceStream.h"
+#include "IO/Vtk/PropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Projection/PointProjection.h"
 #include "smg/Error.h"
@@ -123,13 +123,13 @@ struct vtkRegionFilter::Internals
   vtkPointSet& fetchPiece(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformationVector** inputVector, smg::HeldPoints& held)
   {
-    const bool isElsewhere = this->Self.IsElsewhere();
-    if (!isElsewhere && this->Self.Region != FUNCTION && this->Self.Region != EVERYWHERE)
+    const bool isEvaluatedBySolver = this->Self.IsEvaluatedBySolver();
+    if (!isEvaluatedBySolver && this->Self.Region != FUNCTION && this->Self.Region != EVERYWHERE)
     {
       return this->search(input, request, inputVector, held);
     }
     auto* piece = vtkPointSet::SafeDownCast(request.update(input));
-    if (!isElsewhere)
+    if (!isEvaluatedBySolver)
     {
       held = this->Self.Region == EVERYWHERE
                ? smg::heldEverywhere(*piece)
@@ -347,10 +347,10 @@ const char* vtkRegionFilter::GetOutcome()
   const std::string& error = this->Internal->Failures.error();
   std::string& text = this->Internal->Outcome;
   const bool isLast = this->Internal->Failures.isLast(*this);
-  text = !isLast               ? "Not applied yet, or a filter before this one failed."
-         : !error.empty()      ? "Failed: " + error
-         : this->IsElsewhere() ? "The region is sought when the mesh is solved on."
-                               : this->Internal->countText(this->NumberOfHeldPoints);
+  text = !isLast                       ? "Not applied yet, or a filter before this one failed."
+         : !error.empty()              ? "Failed: " + error
+         : this->IsEvaluatedBySolver() ? "The region is sought when the mesh is solved on."
+                                       : this->Internal->countText(this->NumberOfHeldPoints);
   return text.c_str();
 }
 
@@ -406,7 +406,7 @@ int vtkRegionFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->NumberOfHeldPoints = 0;
-  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
+  return smg::runRequestData(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
       const smg::PieceRequest request(outputVector->GetInformationObject(0));
@@ -420,7 +420,7 @@ int vtkRegionFilter::RequestData(
       smg::PieceInput input(*this, 0);
       smg::HeldPoints held;
       vtkPointSet& piece = this->Internal->fetchPiece(input, request, inputVector, held);
-      const bool holds = !this->IsElsewhere();
+      const bool holds = !this->IsEvaluatedBySolver();
       if (holds)
       {
         this->Internal->count(piece, held, request);

@@ -208,7 +208,7 @@ protected:
   virtual std::string UnusedProperty();
 
   /** Whether the data are assigned without held points; `held` is then empty. Default: false. */
-  virtual bool IsElsewhere() { return false; }
+  virtual bool IsEvaluatedBySolver() { return false; }
 
   /** Fills the output with the piece and the data of its held points. Throws smg::Error. */
   virtual void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) = 0;

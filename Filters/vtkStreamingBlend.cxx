@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingBlend.h"
 
-#include "Filters/Pieces/vtkReplacedArray.h"
-#include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Tasks/vtkJobTask.h"
+#include "Filters/Pieces/ReplacedArray.h"
+#include "Filters/Regions/RegionArrays.h"
+#include "Filters/Tasks/JobTask.h"
 #include "IO/Jobs/BlendJob.h"
-#include "IO/vtkPropertyRange.h"
+#include "IO/Vtk/PropertyRange.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"

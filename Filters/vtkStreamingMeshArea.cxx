@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshArea.h"
 
-#include "Filters/Pieces/vtkReplacedArray.h"
-#include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Tasks/vtkJobTask.h"
+#include "Filters/Pieces/ReplacedArray.h"
+#include "Filters/Regions/RegionArrays.h"
+#include "Filters/Tasks/JobTask.h"
 #include "IO/Jobs/AreaJob.h"
-#include "IO/vtkPropertyRange.h"
+#include "IO/Vtk/PropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshDeformation.h"
 
-#include "Filters/Pieces/vtkCoarserPreview.h"
-#include "Filters/Processes/vtkDistributedTasks.h"
-#include "Filters/Regions/vtkHandleArrays.h"
+#include "Filters/Pieces/CoarserPreview.h"
+#include "Filters/Processes/DistributedTasks.h"
+#include "Filters/Regions/HandleArrays.h"
+#include "Filters/Tasks/DeformationTask.h"
+#include "Filters/Tasks/InteractiveMesh.h"
+#include "Filters/Tasks/MovedPiece.h"
 #include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/vtkDeformationTask.h"
-#include "Filters/Tasks/vtkInteractiveMesh.h"
-#include "Filters/Tasks/vtkMovedPiece.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkPropertyRange.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PropertyRange.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -43,7 +43,7 @@ struct vtkStreamingMeshDeformation::Internals
   }
 
   vtkStreamingMeshDeformation& Self;
-  smg::InteractiveMesh Interactive, ForDoubt; ///< on the mesh, and on a coarser preview of it
+  smg::InteractiveMesh Interactive, OfCoarser; ///< on the mesh, and on a coarser preview of it
   smg::KeptCoarserPreview Dragged;
 };
 
@@ -91,7 +91,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeEstimatedTas
   vtkPointSet& input)
 {
   std::unique_ptr<smg::StreamedTask> task = this->MakeTask(input);
-  const bool isWhole = smg::isOrdinaryMesh(input) && !smg::isPreview(input);
+  const bool isWhole = smg::lacksStreamNumbering(input) && !smg::isPreview(input);
   static_cast<smg::DeformationTask&>(*task).options.inCore =
     isWhole && this->Internal->isInteractive(input);
   return task;
@@ -104,7 +104,7 @@ bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
   if (!isForMemory)
   {
     this->Internal->Interactive.forget();
-    this->Internal->ForDoubt.forget();
+    this->Internal->OfCoarser.forget();
   }
   return isForMemory;
 }
@@ -129,9 +129,9 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeCoarserTask(
 {
   std::unique_ptr<smg::StreamedTask> task = this->MakeTask(coarser);
   auto& deformation = static_cast<smg::DeformationTask&>(*task);
-  deformation.interactive = &this->Internal->ForDoubt;
+  deformation.interactive = &this->Internal->OfCoarser;
   deformation.needsNormals = false;
-  deformation.needsHandles = true; // otherwise nothing is in doubt
+  deformation.needsHandles = true; // otherwise there is no error to estimate
   return task;
 }
 

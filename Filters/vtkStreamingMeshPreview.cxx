@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshPreview.h"
 
-#include "Filters/Pieces/vtkActiveAttributes.h"
-#include "Filters/Pieces/vtkPieceRequest.h"
+#include "Filters/Pieces/ActiveAttributes.h"
+#include "Filters/Pieces/PieceRequest.h"
 #include "IO/Preview/StreamPreview.h"
-#include "IO/vtkFailures.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkPieceColumns.h"
-#include "IO/vtkPieceInput.h"
-#include "IO/vtkPieceStream.h"
-#include "IO/vtkPropertyNames.h"
-#include "IO/vtkPropertyRange.h"
-#include "IO/vtkSingleBlock.h"
-#include "IO/vtkStreamingMeshKeys.h"
+#include "IO/Vtk/Failures.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PieceColumns.h"
+#include "IO/Vtk/PieceInput.h"
+#include "IO/Vtk/PieceStream.h"
+#include "IO/Vtk/PropertyNames.h"
+#include "IO/Vtk/PropertyRange.h"
+#include "IO/Vtk/SingleBlock.h"
+#include "IO/Vtk/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
@@ -230,7 +230,7 @@ int vtkStreamingMeshPreview::RequestUpdateExtent(
 int vtkStreamingMeshPreview::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
+  return smg::runRequestData(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
       vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
@@ -240,7 +240,7 @@ int vtkStreamingMeshPreview::RequestData(
           { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
       smg::PieceInput input(*this, 0);
       const vtkSmartPointer<vtkPointSet> shown = smg::meshOf(vtkDataObject::GetData(inputInfo));
-      if (shown && smg::isOrdinaryMesh(*shown) && !smg::isPreview(*shown))
+      if (shown && smg::lacksStreamNumbering(*shown) && !smg::isPreview(*shown))
       {
         throw smg::Error("Streaming Mesh Preview shows a mesh of the Streaming Mesh Reader: use "
                          "Streaming Mesh Simplification for one that ParaView has in memory.");

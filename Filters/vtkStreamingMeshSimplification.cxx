@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSimplification.h"
 
-#include "Filters/Pieces/vtkActiveAttributes.h"
-#include "Filters/Pieces/vtkPieceRequest.h"
-#include "Filters/Regions/vtkRegionArrays.h"
-#include "Filters/Regions/vtkRegionPoints.h"
-#include "Filters/Tasks/vtkSolveEstimate.h"
-#include "Filters/vtkRegionChain.h"
+#include "Filters/Pieces/ActiveAttributes.h"
+#include "Filters/Pieces/PieceRequest.h"
+#include "Filters/RegionChain.h"
+#include "Filters/Regions/RegionArrays.h"
+#include "Filters/Regions/RegionPoints.h"
+#include "Filters/Tasks/SolveEstimate.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Simplification/SimplifiedMesh.h"
-#include "IO/vtkFailures.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkPieceInput.h"
-#include "IO/vtkPieceStream.h"
-#include "IO/vtkPropertyNames.h"
-#include "IO/vtkPropertyRange.h"
+#include "IO/Vtk/Failures.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PieceInput.h"
+#include "IO/Vtk/PieceStream.h"
+#include "IO/Vtk/PropertyNames.h"
+#include "IO/Vtk/PropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "Solver/Files/ScratchFolder.h"
@@ -206,7 +206,8 @@ struct vtkStreamingMeshSimplification::Internals
     }
     const std::filesystem::path copy = *this->Scratch / Copy;
     const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, ReadShare);
-    if (!smg::hasSeveralProcesses() && smg::isOrdinaryMesh(present) && !smg::isPreview(present))
+    if (!smg::hasSeveralProcesses() && smg::lacksStreamNumbering(present) &&
+        !smg::isPreview(present))
     {
       input.requireWhole();
       vtkDataObject* mesh = request.Pieces > 1 ? input.update(0, 1, false) : &present;
@@ -335,7 +336,7 @@ int vtkStreamingMeshSimplification::RequestUpdateExtent(
 int vtkStreamingMeshSimplification::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
+  return smg::runRequestData(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
       smg::PieceRequest request(outputVector->GetInformationObject(0));

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSmoothing.h"
 
-#include "Filters/Pieces/vtkReplacedArray.h"
-#include "Filters/Regions/vtkRegionArrays.h"
+#include "Filters/Pieces/ReplacedArray.h"
+#include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/DeformedVertices.h"
-#include "Filters/Tasks/vtkJobTask.h"
-#include "Filters/Tasks/vtkMovedPiece.h"
+#include "Filters/Tasks/JobTask.h"
+#include "Filters/Tasks/MovedPiece.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Jobs/SmoothJob.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkModeProperty.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkPropertyRange.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "IO/Vtk/ModeProperty.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PropertyRange.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -141,7 +141,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointS
   description.hold = smg::placesOn(input, this->Hold, "Hold");
   const bool isSurface =
     vtkPolyData::SafeDownCast(&input) ||
-    (smg::isOrdinaryMesh(input) && smg::countingCells(input) == smg::CellChoice::Triangles);
+    (smg::lacksStreamNumbering(input) && smg::countingCells(input) == smg::CellChoice::Triangles);
   task->needsNormals = description.column.empty() && this->Normals == RECOMPUTE && isSurface &&
                        smg::findNormals(*input.GetPointData());
   return task;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingPoisson.h"
 
-#include "Filters/Pieces/vtkCellParts.h"
-#include "Filters/Pieces/vtkReplacedArray.h"
-#include "Filters/Processes/vtkDistributedTasks.h"
+#include "Filters/Pieces/CellParts.h"
+#include "Filters/Pieces/ReplacedArray.h"
+#include "Filters/Processes/DistributedTasks.h"
+#include "Filters/RegionChain.h"
 #include "Filters/Regions/ConditionNames.h"
-#include "Filters/Regions/vtkRegionArrays.h"
+#include "Filters/Regions/RegionArrays.h"
+#include "Filters/Tasks/PoissonTask.h"
 #include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/vtkPoissonTask.h"
-#include "Filters/Tasks/vtkWarnOnce.h"
-#include "Filters/vtkRegionChain.h"
+#include "Filters/Tasks/WarnOnce.h"
 #include "IO/Mesh/Columns.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkPieceCells.h"
-#include "IO/vtkPropertyRange.h"
-#include "IO/vtkStreamingMeshKeys.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PieceCells.h"
+#include "IO/Vtk/PropertyRange.h"
+#include "IO/Vtk/vtkStreamingMeshKeys.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 #include "smg/DescriptionFiles.h"
@@ -153,7 +153,7 @@ struct vtkStreamingPoisson::Internals
     }
     if (!smg::isPreview(piece))
     {
-      if (smg::isOrdinaryMesh(piece) && !smg::hasSimplices(piece))
+      if (smg::lacksStreamNumbering(piece) && !smg::hasSimplices(piece))
       {
         const char* scratch = this->Self.GetScratchDirectory();
         const smg::CellParts parts(piece, scratch ? scratch : "");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingSolver.h"
 
-#include "Filters/Tasks/vtkSolveEstimate.h"
-#include "Filters/vtkSolverRequests.h"
-#include "IO/vtkPieceInput.h"
-#include "IO/vtkPieceStream.h"
-#include "IO/vtkPropertyNames.h"
-#include "IO/vtkPropertyRange.h"
+#include "Filters/SolverRequests.h"
+#include "Filters/Tasks/SolveEstimate.h"
+#include "IO/Vtk/PieceInput.h"
+#include "IO/Vtk/PieceStream.h"
+#include "IO/Vtk/PropertyNames.h"
+#include "IO/Vtk/PropertyRange.h"
 
 #include "vtkDataObjectTypes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -305,14 +305,15 @@ int vtkStreamingSolver::RequestData(
 {
   bool isSolved = false;
   this->Internal->forgetFailure();
-  const int answered = smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
-    [&]
-    {
-      vtkInformation* info = outputVector->GetInformationObject(MESH);
-      this->Internal->answer(
-        smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
-      isSolved = true;
-    });
+  const int answered =
+    smg::runRequestData(*this, this->Internal->Failures, inputVector, *outputVector,
+      [&]
+      {
+        vtkInformation* info = outputVector->GetInformationObject(MESH);
+        this->Internal->answer(
+          smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
+        isSolved = true;
+      });
   this->FillFurtherOutputs(isSolved ? this->GetSummary() : smg::SolveSummary(), *outputVector);
   smg::fillText(
     isSolved ? this->Internal->Shown : smg::SolveSummary(), *vtkTable::GetData(outputVector, TEXT));

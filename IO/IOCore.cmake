@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# IO without VTK: formats, conversion. The vtk* files of this folder belong to the VTK module
-# StreamingMultigrid::IO.
+# IO without VTK: formats, conversion. The folder Vtk is the VTK module StreamingMultigrid::IO.
 file(GLOB_RECURSE smg_iocore_sources CONFIGURE_DEPENDS IO/*.cpp)
 set(smg_hdf5_sources ${smg_iocore_sources})
 list(FILTER smg_hdf5_sources INCLUDE REGEX "/VtkHdf/Hdf5/")

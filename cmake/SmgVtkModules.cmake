@@ -4,7 +4,7 @@
 
 vtk_module_scan(
   MODULE_FILES
-    "${CMAKE_CURRENT_SOURCE_DIR}/IO/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/IO/Vtk/vtk.module"
     "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"
   REQUEST_MODULES StreamingMultigrid::IO StreamingMultigrid::Filters
   PROVIDES_MODULES smg_vtk_modules

@@ -95,7 +95,7 @@ std::string SolveSummary::where() const
   }
   return "On the preview only: " + groupedDigits(this->previewPoints) + " of " +
          groupedDigits(this->fullPoints) + " points" +
-         (this->doubt.empty() ? "." : ", " + this->doubt);
+         (this->previewError.empty() ? "." : ", " + this->previewError);
 }
 
 std::string noteOnLoose(std::int64_t points, bool isSurface)

@@ -25,7 +25,7 @@ struct SolveSummary
   std::int64_t fullPoints = 0;
   /** Of a solve on the preview: its points; 0 of others. */
   std::int64_t previewPoints = 0;
-  std::string doubt; ///< of a solve on the preview: how far off it may be; "": unknown
+  std::string previewError; ///< of a solve on the preview: how far off it may be; "": unknown
   std::vector<Report::Pass> byPass; ///< known to the process that solved
   std::vector<Report::Path> paths;  ///< of a distance; known to the process that solved
   Report::Areas areas;              ///< of areas; all but isVolume known to the process that solved

@@ -3,7 +3,7 @@
 // degrees and scaled by 1.3, an arm turned by 90 degrees.
 
 #include "Solver/Jobs/Deformation/InteractiveDeformation.h"
-#include "Testing/Archive/vtkArchiveMeshes.h"
+#include "Testing/Archive/ArchiveMeshes.h"
 #include "Testing/Support/ArrayHandles.h"
 #include "Testing/Support/Bumps.h"
 #include "Testing/Support/DeformMesh.h"

@@ -2,7 +2,7 @@
 // The solver on real meshes: the same bits in core and out of core, the rate of convergence, and
 // the solution of a direct solver.
 
-#include "Testing/Archive/vtkArchiveMeshes.h"
+#include "Testing/Archive/ArchiveMeshes.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/DirectSolve.h"
 #include "Testing/Support/SolveMesh.h"

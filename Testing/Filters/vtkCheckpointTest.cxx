@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "Testing/Filters/PoissonFixture.h"
 
 #include "vtkCallbackCommand.h"
 

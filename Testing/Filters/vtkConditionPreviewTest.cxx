@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Testing/Filters/vtkMeshConditionFixture.h"
+#include "Testing/Filters/MeshConditionFixture.h"
 
 #include "vtkSphere.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/IO/PieceTesting.h"
 #include "smg/Deform.h"
 #include "smg/DeformationDescription.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshDeformation.h"
-#include "Testing/Filters/vtkMeshHandleFixture.h"
+#include "Testing/Filters/MeshHandleFixture.h"
 
 #include "vtkCylinder.h"
 #include "vtkPlane.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkMeshPieceData.h"
-#include "Testing/Filters/vtkMeshHandleFixture.h"
+#include "IO/Vtk/MeshPieceData.h"
+#include "Testing/Filters/MeshHandleFixture.h"
 
 #include "vtkPlane.h"
 #include "vtkPolyData.h"

@@ -4,7 +4,7 @@
 #include "Filters/vtkStreamingMeshPreview.h"
 #include "Filters/vtkStreamingMeshSimplification.h"
 #include "Filters/vtkStreamingPoisson.h"
-#include "Testing/Filters/vtkDeformationFixture.h"
+#include "Testing/Filters/DeformationFixture.h"
 
 #include "vtkFieldData.h"
 #include "vtkIntArray.h"

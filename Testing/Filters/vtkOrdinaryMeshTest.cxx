@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkOrdinaryMesh.h"
 #include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingPoisson.h"
-#include "Testing/Filters/vtkLinearSolution.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "Testing/Filters/LinearSolution.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkAppendPolyData.h"
@@ -173,7 +173,7 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
   }
   mesh->GetPointData()->SetGlobalIds(ids);
   mesh->GetPointData()->AddArray(original);
-  ASSERT_TRUE(isOrdinaryMesh(*mesh));
+  ASSERT_TRUE(lacksStreamNumbering(*mesh));
   Errors errors(this->Poisson);
   vtkPointSet* output = this->solve(mesh);
   ASSERT_TRUE(errors.text().empty()) << errors.text();
@@ -213,7 +213,7 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
   {
     ids->SetValue(i, i % (points / 2));
   }
-  EXPECT_TRUE(isOrdinaryMesh(*mesh));
+  EXPECT_TRUE(lacksStreamNumbering(*mesh));
   // Numbers in the order in which cells use the points, from any on.
   vtkIdType next = 1000;
   ids->FillComponent(0, -1);
@@ -225,9 +225,9 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
       ids->SetValue(point, ids->GetValue(point) < 0 ? next++ : ids->GetValue(point));
     }
   }
-  EXPECT_FALSE(isOrdinaryMesh(*mesh));
+  EXPECT_FALSE(lacksStreamNumbering(*mesh));
   std::swap(*ids->GetPointer(0), *ids->GetPointer(points - 1));
-  EXPECT_TRUE(isOrdinaryMesh(*mesh));
+  EXPECT_TRUE(lacksStreamNumbering(*mesh));
 }
 
 TEST_F(VtkOrdinaryMesh, AGridOfTetrahedraHasGradients)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSmoothing.h"
-#include "Testing/Filters/vtkLinearSolution.h"
+#include "Testing/Filters/LinearSolution.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

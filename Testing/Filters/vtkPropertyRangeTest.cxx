@@ -8,9 +8,9 @@
 #include "Filters/vtkStreamingMeshSimplification.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
 #include "Filters/vtkStreamingPoisson.h"
-#include "IO/vtkStreamingMeshConverter.h"
-#include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/Filters/vtkMeshHandleFixture.h"
+#include "IO/Vtk/vtkStreamingMeshConverter.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/MeshHandleFixture.h"
 
 #include <limits>
 #include <sstream>

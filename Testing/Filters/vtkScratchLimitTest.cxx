@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "Testing/Filters/PoissonFixture.h"
 #include "Testing/Support/ScratchLimits.h"
 
 #include "vtkCallbackCommand.h"

@@ -6,10 +6,10 @@
 #include "Filters/vtkStreamingMeshSmoothing.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Simplification/SimplifiedMesh.h"
-#include "IO/vtkStreamingMeshConverter.h"
+#include "IO/Vtk/vtkStreamingMeshConverter.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Estimate/Costs.h"
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "Testing/Filters/PoissonFixture.h"
 #include "smg/VsmReader.h"
 
 #include "vtkCellType.h"

@@ -2,8 +2,8 @@
 #include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
-#include "Testing/Filters/vtkHandleTesting.h"
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "Testing/Filters/HandleTesting.h"
+#include "Testing/Filters/PoissonFixture.h"
 
 #include "vtkBox.h"
 #include "vtkDataArraySelection.h"

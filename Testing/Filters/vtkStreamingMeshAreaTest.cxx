@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshArea.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/SolveMesh.h"
 #include "Testing/Support/TemporaryFolder.h"

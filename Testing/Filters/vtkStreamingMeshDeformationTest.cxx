@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/Filters/vtkAbortTesting.h"
-#include "Testing/Filters/vtkDeformationFixture.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/AbortTesting.h"
+#include "Testing/Filters/DeformationFixture.h"
 #include "smg/VsmReader.h"
 
 #include "vtkCellArray.h"

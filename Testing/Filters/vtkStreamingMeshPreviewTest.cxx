@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshPreview.h"
 #include "Filters/vtkStreamingMeshDeformation.h"
-#include "IO/vtkStreamingMeshReader.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "Testing/Filters/HandleTesting.h"
 #include "Testing/Filters/vtkEndHandles.h"
-#include "Testing/Filters/vtkHandleTesting.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/WriteMesh.h"

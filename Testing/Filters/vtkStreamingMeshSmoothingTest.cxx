@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshSmoothing.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/Filters/vtkAbortTesting.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/AbortTesting.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Smooth.h"

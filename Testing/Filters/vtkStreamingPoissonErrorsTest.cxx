@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/PoissonFixture.h"
 
 #include "vtkFieldData.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/Filters/vtkHandleTesting.h"
-#include "Testing/Filters/vtkLooseMesh.h"
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/HandleTesting.h"
+#include "Testing/Filters/LooseMesh.h"
+#include "Testing/Filters/PoissonFixture.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/SolveMesh.h"
 #include "smg/VsmReader.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
-#include "IO/vtkStreamingMeshConverter.h"
-#include "Testing/Filters/vtkMeshHandleFixture.h"
+#include "IO/Vtk/vtkStreamingMeshConverter.h"
+#include "Testing/Filters/MeshHandleFixture.h"
 
 #include "vtkSelection.h"
 #include "vtkTrivialProducer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkOrdinaryMesh.h"
+#include "IO/Vtk/OrdinaryMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkPieceStream.h"
-#include "IO/vtkStreamingMeshKeys.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/PieceStream.h"
+#include "IO/Vtk/vtkStreamingMeshKeys.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/VsmReader.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkPieceStream.h"
-#include "IO/vtkOrdinaryMesh.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/OrdinaryMesh.h"
+#include "IO/Vtk/PieceStream.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -370,7 +370,7 @@ TEST(VtkGlobalIds, AreNeverDoubles)
     EXPECT_EQ(
       globalIdsOf(*mesh, "The input"), (std::vector<std::int64_t>{ first, first + 1, first + 2 }))
       << ids->GetClassName();
-    EXPECT_FALSE(isOrdinaryMesh(*mesh)) << ids->GetClassName();
+    EXPECT_FALSE(lacksStreamNumbering(*mesh)) << ids->GetClassName();
   }
   // Ids that are no integers at all are those of no point.
   vtkNew<vtkDoubleArray> real;
@@ -381,7 +381,7 @@ TEST(VtkGlobalIds, AreNeverDoubles)
   mesh->GetPointData()->SetGlobalIds(real);
   constexpr std::int64_t None = std::numeric_limits<std::int64_t>::min();
   EXPECT_EQ(globalIdsOf(*mesh, "The input"), (std::vector<std::int64_t>{ 0, None, None }));
-  EXPECT_TRUE(isOrdinaryMesh(*mesh));
+  EXPECT_TRUE(lacksStreamNumbering(*mesh));
 }
 
 TEST_F(VtkPieceStream, ArraysOfFiltersBetweenBecomeColumns)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkPropertyNames.h"
-#include "IO/vtkStreamingMeshConverter.h"
-#include "IO/vtkStreamingMeshReader.h"
+#include "IO/Vtk/PropertyNames.h"
+#include "IO/Vtk/vtkStreamingMeshConverter.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Testing/Support/TestFolders.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkStreamingMeshConverter.h"
-#include "IO/vtkStreamingMeshKeys.h"
-#include "IO/vtkStreamingMeshReader.h"
+#include "IO/Vtk/vtkStreamingMeshConverter.h"
+#include "IO/Vtk/vtkStreamingMeshKeys.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
 #include "Testing/IO/MeshText.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkDataArraySelection.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/vtkStreamingMeshReader.h"
-#include "IO/vtkStreamingMeshKeys.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "IO/Vtk/vtkStreamingMeshKeys.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkDataArraySelection.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Mesh/Columns.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "IO/vtkStreamingMeshWriter.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "IO/Vtk/vtkStreamingMeshWriter.h"
 #include "Testing/IO/MeshText.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Convert.h"

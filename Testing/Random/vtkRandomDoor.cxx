@@ -4,8 +4,8 @@
 #include "Testing/Random/FilterDoor.h"
 
 #include "Filters/vtkStreamingPoisson.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "Testing/IO/vtkPieceRequest.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "Testing/IO/PieceRequest.h"
 #include "smg/Error.h"
 
 #include "vtkDataArray.h"

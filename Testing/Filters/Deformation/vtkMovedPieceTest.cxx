@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Testing/Filters/vtkDeformationFixture.h"
+#include "Testing/Filters/DeformationFixture.h"
 
 #include "vtkFloatArray.h"
 #include "vtkPolyData.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshHandle.h"
 #include "Filters/vtkStreamingMeshDeformation.h"
-#include "IO/vtkStreamingMeshReader.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "IO/Vtk/vtkStreamingMeshReader.h"
+#include "Testing/IO/PieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkPlane.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/SolveSummary.h"
-#include "Testing/Filters/vtkPoissonFixture.h"
+#include "Testing/Filters/PoissonFixture.h"
 
 #include "smg/Error.h"
 

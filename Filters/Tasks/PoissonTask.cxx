@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Tasks/PoissonTask.h"
+
+#include "Filters/Pieces/PieceBlock.h"
+#include "Filters/Pieces/ReplacedArray.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/SolveJob.h"
+#include "Solver/Jobs/Results/ProblemResults.h"
+#include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "Solver/Problem/ComposeDescriptions.h"
+#include "smg/DescribedProblem.h"
+#include "smg/Error.h"
+#include "smg/SolvedMesh.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The share of the solve in the progress; the evaluation of the solution takes the rest. */
+constexpr double SolveShare = 0.9;
+
+} // namespace
+
+void PoissonTask::check() const
+{
+  if (!isPosed(this->problem))
+  {
+    throw Error(
+      "Nothing says what to solve: choose a Dirichlet mask with values or a source, put a "
+      "Mesh Condition before this filter, or name a problem file.");
+  }
+  checkCellResults(this->problem);
+  checkOptions(this->options);
+  checkAutomaticTolerance(this->options, this->problem.weights);
+  checkOperators(this->options);
+}
+
+PieceColumns PoissonTask::columns() const
+{
+  // The original ids are for error messages and for vertices that the problem refers to.
+  return { .all = false,
+    .required = namedColumns(this->problem),
+    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
+}
+
+int PoissonTask::columnsOn(const StreamInfo& info) const
+{
+  int columns = this->problem.columns;
+  for (const DataValue& value : this->values)
+  {
+    // The last one that has the column counts.
+    const bool ofCells = value.owner() == DataValue::Owner::Cells;
+    int components = 0;
+    for (const auto* specs : { ofCells ? &info.vertexColumns : &info.cellColumns,
+           ofCells ? &info.cellColumns : &info.vertexColumns })
+    {
+      const auto found = std::ranges::find(*specs, *value.column(), &ColumnSpec::name);
+      components = found == specs->end() ? components : found->components;
+    }
+    columns = std::max(columns, components);
+  }
+  return columns;
+}
+
+ProblemDescription PoissonTask::description(const StreamInfo& info) const
+{
+  ProblemDescription description = this->problem;
+  description.columns = this->columnsOn(info);
+  return description;
+}
+
+Costs PoissonTask::costs(const StreamInfo& info) const
+{
+  return solveCosts(
+    info, this->columnsOn(info), this->problem.weights, this->options, contrastOf(this->problem));
+}
+
+AddedValues PoissonTask::added(const StreamInfo& info) const
+{
+  return solvedValues(
+    this->columnsOn(info), this->problem.gradientOutput, this->problem.fluxOutput);
+}
+
+std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report)
+{
+  SolveJob job;
+  job.description = this->description(mesh.info());
+  job.text = textOf(job.description);
+  job.solving = this->options;
+  job.solving.scratch = scratch;
+  job.prepareOn(mesh);
+  std::unique_ptr<Solution> solution = job.solveOn(mesh, partOf(progress, 0.0, SolveShare));
+  report = solution->report();
+  // Pieces get their cell arrays when they are delivered.
+  job.description.gradientOutput = job.description.fluxOutput = false;
+  job.passResult(
+    mesh, *solution,
+    [](MeshSource& solved, const ProgressFunction& read)
+    { visitBlocks(solved, read, 0.0, 1.0, [](const MeshBlock&) {}); },
+    report, partOf(progress, SolveShare, 1.0));
+  report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
+  return solution;
+}
+
+SolveSummary PoissonTask::solveInMemory(
+  vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values)
+{
+  this->check();
+  values.clear();
+  const PieceBlock mesh(preview, namedColumns(this->problem));
+  DescribedProblem problem(this->problem, mesh.info());
+  problem.prepare(*mesh.source(), this->options.scratch, this->options.memoryLimit);
+  SolveOptions given = this->options;
+  given.progress = progress;
+  given.inCore = true;
+  given.checkpoint = {};
+  given.again = [&mesh] { return mesh.source(); };
+  const std::unique_ptr<Solution> solution = smg::solve(*mesh.source(), problem, given);
+  values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
+  solution->read(0, mesh.info().vertices, values);
+
+  Report report = solution->report();
+  ProblemResults results(mesh.info(), problem, *solution);
+  results.add(mesh.block());
+  results.finish(report);
+  const std::vector<Column>& columns = mesh.block().vertexColumns;
+  if (const std::ptrdiff_t ids = findColumn(columns, OriginalIdSpec); ids >= 0)
+  {
+    const auto numbers = columns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+    renumberExtremes(
+      report, [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+  }
+  report.notes.push_back(
+    "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
+    " vertices: it approximates that on the full mesh, which is solved on when "
+    "it is saved, or with Solve: Full Mesh");
+  return SolveSummary::of(report, problem.columns());
+}
+
+namespace
+{
+
+/** Whether ParaView, between a filter and this one, has made the point array of that of the cells.
+ */
+bool isMadeByParaView(vtkAlgorithm& filter, const std::string& name)
+{
+  vtkAlgorithm* before =
+    filter.GetNumberOfInputConnections(0) > 0 ? filter.GetInputAlgorithm(0, 0) : nullptr;
+  if (!before || !before->IsA("vtkPVPostFilter") || before->GetNumberOfInputConnections(0) == 0)
+  {
+    return false;
+  }
+  auto* mesh = vtkPointSet::SafeDownCast(before->GetInputDataObject(0, 0));
+  return mesh && mesh->GetCellData()->HasArray(name.c_str()) &&
+         !mesh->GetPointData()->HasArray(name.c_str());
+}
+
+} // namespace
+
+std::string ChosenArrays::named(int index) const
+{
+  vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
+  const char* chosen =
+    info.Has(vtkDataObject::FIELD_NAME()) ? info.Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  const std::string name = chosen ? chosen : "";
+  return name == "None" ? "" : name;
+}
+
+/** In pvpython a name alone means the points, for which ParaView makes an array out of that of the
+ * cells: this is not what was chosen. */
+DataValue ChosenArrays::any(int index) const
+{
+  using Owner = DataValue::Owner;
+  vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
+  const std::string name = this->named(index);
+  const int of = info.Has(vtkDataObject::FIELD_ASSOCIATION())
+                   ? info.Get(vtkDataObject::FIELD_ASSOCIATION())
+                   : vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+  const bool isOfPoints =
+    of == vtkDataObject::FIELD_ASSOCIATION_POINTS && !isMadeByParaView(this->Filter, name);
+  const bool isOfCells =
+    of == vtkDataObject::FIELD_ASSOCIATION_CELLS || of == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  return { name, isOfPoints ? Owner::Vertices : isOfCells ? Owner::Cells : Owner::Usual };
+}
+
+std::string ChosenArrays::ofPoints(int index) const
+{
+  vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
+  const std::string name = this->named(index);
+  if (!name.empty() && info.Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+      info.Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+  {
+    throw Error("The array " + name +
+                " is chosen from the cells: a point array is needed; use a filter that turns cell "
+                "data into point data.");
+  }
+  return name;
+}
+
+namespace
+{
+
+/** The data of a problem that the results of the cells depend on. */
+ProblemDescription ofCells(const ProblemDescription& problem)
+{
+  ProblemDescription part;
+  part.weights = problem.weights;
+  part.columns = problem.columns;
+  if (problem.fluxOutput)
+  {
+    part.conductivity = problem.conductivity;
+  }
+  return part;
+}
+
+void addArray(vtkPointSet& piece, const char* name, int columns, std::span<const double> numbers)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3 * columns);
+  array->SetNumberOfTuples(piece.GetNumberOfCells());
+  std::ranges::copy(numbers, array->GetPointer(0));
+  addResult(*piece.GetCellData(), *array);
+}
+
+} // namespace
+
+void checkCellResults(const ProblemDescription& problem)
+{
+  for (const PlacedValue& entry : problem.conductivity.entries)
+  {
+    if (problem.fluxOutput && (std::holds_alternative<NearestVertices>(entry.where) ||
+                                std::holds_alternative<OnBoundary>(entry.where)))
+    {
+      throw Error(
+        "The cell array Flux needs a conductivity that a cell knows by itself: choose its "
+        "cells by a region, a tag or a mask instead of the nearest points or the boundary.");
+    }
+  }
+}
+
+void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
+  std::span<const double> values, vtkPointSet& output)
+{
+  if (piece.GetNumberOfCells() == 0 || !(problem.gradientOutput || problem.fluxOutput))
+  {
+    return;
+  }
+  const ProblemDescription part = ofCells(problem);
+  const PieceBlock mesh(piece, namedColumns(part));
+  DescribedProblem described(part, mesh.info());
+  InMemorySolution solution(values, problem.columns);
+  ProblemResults results(mesh.info(), described, solution,
+    { .gradient = problem.gradientOutput, .flux = problem.fluxOutput });
+  results.add(mesh.block());
+  if (problem.gradientOutput)
+  {
+    addArray(output, GradientName, problem.columns, results.gradient());
+  }
+  if (problem.fluxOutput)
+  {
+    addArray(output, FluxName, problem.columns, results.flux());
+  }
+}
+
+std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
+{
+  if (!vtkPolyData::SafeDownCast(&preview))
+  {
+    return "the boundary of a solid's preview is not that of the mesh";
+  }
+  if (!task.problem.flux.empty() || !task.problem.robin.empty())
+  {
+    return "the preview has open edges that the mesh has not, where flux and exchange would act";
+  }
+  try
+  {
+    if (preview.GetNumberOfCells() > 0)
+    {
+      const PieceBlock mesh(preview, namedColumns(task.problem));
+      DescribedProblem(task.problem, mesh.info())
+        .prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
+    }
+    return {};
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+}
+
+} // namespace smg
