@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingSolver.h"
 
-#include "Filters/SolverRequests.h"
+#include "Filters/SolverInternals.h"
 #include "Filters/Tasks/SolveEstimate.h"
 #include "IO/Vtk/PieceInput.h"
 #include "IO/Vtk/PieceStream.h"

@@ -74,8 +74,7 @@ TEST(VtkPropertyNames, NoSentenceOfTheLibrariesIsForOthers)
     for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder() / folder))
     {
       const std::string suffix = entry.path().extension();
-      if ((suffix != ".cpp" && suffix != ".cxx") ||
-          entry.path().filename() == "vtkPropertyNames.cxx")
+      if ((suffix != ".cpp" && suffix != ".cxx") || entry.path().filename() == "PropertyNames.cxx")
       {
         continue;
       }
