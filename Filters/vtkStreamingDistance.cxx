@@ -100,8 +100,10 @@ protected:
     }
   }
 
-  void complete(smg::Report& report) const override
+  void complete(
+    Result& result, const smg::StoredMesh& /*mesh*/, const smg::ProgressFunction&) override
   {
+    smg::Report& report = result.report;
     if (report.distance && report.distance->unreached > 0)
     {
       report.notes.push_back(

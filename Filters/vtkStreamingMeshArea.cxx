@@ -41,11 +41,13 @@ protected:
   smg::AreaJob& job() override { return this->asked; }
   std::vector<smg::Where>& places() override { return this->asked.description.of; }
 
-  void complete(smg::Report& report) const override
+  void complete(
+    Result& result, const smg::StoredMesh& /*mesh*/, const smg::ProgressFunction&) override
   {
-    const smg::Report::Areas& areas = *report.areas;
-    report.notes.push_back((areas.isVolume ? "volume " : "area ") + smg::shortest(areas.total) +
-                           " of " + smg::counted(areas.cells, "cell", "cells"));
+    const smg::Report::Areas& areas = *result.report.areas;
+    result.report.notes.push_back((areas.isVolume ? "volume " : "area ") +
+                                  smg::shortest(areas.total) + " of " +
+                                  smg::counted(areas.cells, "cell", "cells"));
   }
 };
 

@@ -77,7 +77,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
     smg::HandleArrays::require(input);
   }
   auto task = std::make_unique<smg::DeformationTask>();
-  task->options = this->Internal->options();
+  task->asked.deforming = this->Internal->options();
   task->needsNormals = this->Normals == RECOMPUTE && smg::findNormals(*input.GetPointData());
   task->interactive = &this->Internal->Interactive;
   if (!this->GetEngineNote().empty())
@@ -92,7 +92,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeEstimatedTas
 {
   std::unique_ptr<smg::StreamedTask> task = this->MakeTask(input);
   const bool isWhole = smg::lacksStreamNumbering(input) && !smg::isPreview(input);
-  static_cast<smg::DeformationTask&>(*task).options.inCore =
+  static_cast<smg::DeformationTask&>(*task).asked.deforming.inCore =
     isWhole && this->Internal->isInteractive(input);
   return task;
 }
@@ -138,8 +138,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeCoarserTask(
 smg::SolveSummary vtkStreamingMeshDeformation::SolveInProcesses(
   vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
-  const auto taskOf = [this](vtkPointSet& sample)
-  { return static_cast<const smg::DeformationTask&>(*this->MakeTask(sample)); };
+  const auto taskOf = [this](vtkPointSet& sample) { return this->MakeTask(sample); };
   return smg::deformInProcesses(piece, this->GetController(), taskOf, progress, values);
 }
 

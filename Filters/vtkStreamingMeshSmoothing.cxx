@@ -6,7 +6,7 @@
 #include "Filters/Tasks/DeformedVertices.h"
 #include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/MovedPiece.h"
-#include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/MovedResult.h"
 #include "IO/Jobs/SmoothJob.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/ModeProperty.h"
@@ -18,17 +18,14 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkStreamingMeshSmoothing);
 
 namespace
 {
-
-/** The share of the smoothing in the progress; normals take the rest. */
-constexpr double SmoothShare = 0.9;
 
 /** Of the positions, with normals as DeformedVertices if they are needed, or of a point array. */
 class SmoothingTask : public smg::JobTask
@@ -46,21 +43,14 @@ protected:
   smg::SmoothJob& job() override { return this->asked; }
   std::vector<smg::Where>& places() override { return this->asked.smoothing.hold; }
 
-  std::unique_ptr<smg::Solution> run(
-    const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override
+  void complete(
+    Result& result, const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override
   {
-    if (!this->needsNormals)
+    if (this->needsNormals)
     {
-      return this->JobTask::run(mesh, progress);
+      result.solution = std::make_unique<smg::DeformedVertices>(std::move(result.solution),
+        mesh.source({}, {}), smg::normalsOptions(this->asked, progress));
     }
-    auto moved = std::make_unique<smg::DeformedVertices>(
-      this->JobTask::run(mesh, smg::partOf(progress, 0.0, SmoothShare)));
-    smg::NormalsOptions normals;
-    normals.scratch = this->asked.smoothing.scratch;
-    normals.memory = std::min(normals.memory, this->asked.memoryLimit() / 4);
-    normals.progress = smg::partOf(progress, SmoothShare, 1.0);
-    moved->addNormals(mesh.source({}, {}), normals);
-    return moved;
   }
 
   void adaptTo(vtkPointSet& preview, const smg::StreamInfo& info) override

@@ -129,16 +129,17 @@ struct vtkStreamingPoisson::Internals
     problem.field = arrays.named(FIELD_ARRAY); // of the cells
   }
 
-  smg::PoissonTask task(vtkPointSet& input) const
+  std::unique_ptr<smg::PoissonTask> task(vtkPointSet& input) const
   {
-    smg::PoissonTask task;
-    task.problem = this->describe(input);
+    auto task = std::make_unique<smg::PoissonTask>();
+    task->asked.description = this->describe(input);
     const smg::ChosenArrays arrays(this->Self, input);
-    task.values = { arrays.named(INITIAL_GUESS), arrays.any(SOURCE),
+    task->values = { arrays.named(INITIAL_GUESS), arrays.any(SOURCE),
       arrays.named(DIRICHLET_VALUES) };
-    this->Self.FillOptions(task.options);
-    task.options.inCore = this->Self.InCore;
-    task.options.acceleration = static_cast<smg::AccelerationKind>(this->Self.Acceleration);
+    smg::SolveOptions& options = task->asked.solving;
+    this->Self.FillOptions(options);
+    options.inCore = this->Self.InCore;
+    options.acceleration = static_cast<smg::AccelerationKind>(this->Self.Acceleration);
     return task;
   }
 
@@ -274,7 +275,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
     throw smg::Error("The name " + name +
                      " is that of an array that every piece has: choose another ResultArrayName.");
   }
-  auto task = std::make_unique<smg::PoissonTask>(this->Internal->task(input));
+  std::unique_ptr<smg::PoissonTask> task = this->Internal->task(input);
   if (!this->Internal->WhyNotOnPreview.empty())
   {
     task->notes.push_back("the full mesh was solved on, since the preview does not do: " +
@@ -286,8 +287,9 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
                           " of the input is replaced by the solution: choose another "
                           "ResultArrayName to keep both");
   }
-  for (const auto& [isWanted, array] : { std::pair(task->problem.gradientOutput, smg::GradientName),
-         std::pair(task->problem.fluxOutput, smg::FluxName) })
+  for (const auto& [isWanted, array] :
+    { std::pair(task->asked.description.gradientOutput, smg::GradientName),
+      std::pair(task->asked.description.fluxOutput, smg::FluxName) })
   {
     if (isWanted && input.GetCellData()->HasArray(array))
     {
@@ -299,13 +301,13 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
   {
     task->notes.push_back(this->GetEngineNote());
   }
-  this->Internal->Solved = task->problem;
+  this->Internal->Solved = task->asked.description;
   return task;
 }
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeEstimatedTask(vtkPointSet& input)
 {
-  return std::make_unique<smg::PoissonTask>(this->Internal->task(input));
+  return this->Internal->task(input);
 }
 
 bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool isWhole)
@@ -317,7 +319,7 @@ bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool isWhole)
   }
   try
   {
-    this->Internal->WhyNotOnPreview = smg::whyNotOn(input, this->Internal->task(input));
+    this->Internal->WhyNotOnPreview = smg::whyNotOn(input, *this->Internal->task(input));
     return this->Internal->WhyNotOnPreview.empty();
   }
   catch (const smg::Error&)
@@ -329,8 +331,7 @@ bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool isWhole)
 smg::SolveSummary vtkStreamingPoisson::SolveInProcesses(
   vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
-  const auto taskOf = [this](vtkPointSet& sample)
-  { return static_cast<const smg::PoissonTask&>(*this->MakeTask(sample)); };
+  const auto taskOf = [this](vtkPointSet& sample) { return this->MakeTask(sample); };
   return smg::solveInProcesses(piece, this->GetController(), taskOf, progress, values);
 }
 

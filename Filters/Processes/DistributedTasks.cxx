@@ -3,7 +3,9 @@
 
 #include "Filters/Processes/ProcessParts.h"
 #include "Filters/Regions/HandleArrays.h"
+#include "Filters/Tasks/DeformationTask.h"
 #include "Filters/Tasks/DeformedVertices.h"
+#include "Filters/Tasks/PoissonTask.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Results/VertexNormals.h"
 #include "Solver/Mesh/AddedColumn.h"
@@ -23,18 +25,28 @@
 
 namespace smg
 {
+namespace
+{
+
+template <class Task>
+std::unique_ptr<Task> taskOfType(const TaskOf& taskOf, vtkPointSet& sample)
+{
+  return std::unique_ptr<Task>(static_cast<Task*>(taskOf(sample).release()));
+}
+
+} // namespace
 
 SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* controller,
-  const MakePoissonTask& taskOf, const ProgressFunction& progress, std::vector<double>& values)
+  const TaskOf& taskOf, const ProgressFunction& progress, std::vector<double>& values)
 {
-  PoissonTask task;
+  std::unique_ptr<PoissonTask> task;
   ProcessParts parts(piece, controller,
     [&](vtkPointSet& sample)
     {
-      task = taskOf(sample);
-      task.check();
-      checkForProcesses(task.options);
-      std::set<std::string> names = namedColumns(task.problem);
+      task = taskOfType<PoissonTask>(taskOf, sample);
+      task->check();
+      checkForProcesses(task->asked.solving);
+      std::set<std::string> names = namedColumns(task->asked.description);
       names.insert({ CellFlagsName, OriginalIdName, OriginalCellIdName });
       return names;
     });
@@ -45,15 +57,16 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
   solver.together(
     [&]
     {
-      const ProblemDescription description = task.description(info);
+      const ProblemDescription description = task->description(info);
       text = textOf(description);
       problem.emplace(description, info);
     });
   parts.requireSame("problem", text);
-  solver.prepare(*problem, task.options.scratch, task.options.memoryLimit);
-  DistributedSolution solution = solver.solve(*problem, distributedOptions(task.options, progress));
+  const SolveOptions& options = task->asked.solving;
+  solver.prepare(*problem, options.scratch, options.memoryLimit);
+  DistributedSolution solution = solver.solve(*problem, distributedOptions(options, progress));
   solver.evaluate(*problem, solution, { .memoryLimit = INT64_MAX });
-  return parts.summarize(solution.report, task.notes, solution.values, solution.columns, values);
+  return parts.summarize(solution.report, task->notes, solution.values, solution.columns, values);
 }
 
 namespace
@@ -62,8 +75,8 @@ namespace
 void checkDeformation(const DeformationTask& task)
 {
   task.check();
-  checkForProcesses(task.options);
-  if (task.options.cycles > 0)
+  checkForProcesses(task.asked.deforming);
+  if (task.asked.deforming.cycles > 0)
   {
     throw Error("The distributed engine has no V-cycles to count: set Cycles to 0, so that "
                 "Tolerance ends each step, or choose the Engine Streaming.");
@@ -125,14 +138,14 @@ std::vector<double> withNormals(
 } // namespace
 
 SolveSummary deformInProcesses(vtkPointSet& piece, vtkMultiProcessController* controller,
-  const MakeDeformationTask& taskOf, const ProgressFunction& progress, std::vector<double>& values)
+  const TaskOf& taskOf, const ProgressFunction& progress, std::vector<double>& values)
 {
-  DeformationTask task;
+  std::unique_ptr<DeformationTask> task;
   ProcessParts parts(piece, controller,
     [&](vtkPointSet& sample)
     {
-      task = taskOf(sample);
-      checkDeformation(task);
+      task = taskOfType<DeformationTask>(taskOf, sample);
+      checkDeformation(*task);
       const auto& arrays = HandleArrays::names();
       std::set<std::string> names(arrays.begin(), arrays.end());
       names.insert({ CellFlagsName, OriginalIdName });
@@ -142,16 +155,17 @@ SolveSummary deformInProcesses(vtkPointSet& piece, vtkMultiProcessController* co
   const StreamInfo& info = parts.part().info;
   std::optional<DescribedHandles> handles;
   solver.together([&] { handles.emplace(DeformationDescription::byColumns(), info); });
-  parts.requireSame("treatment of normals", task.needsNormals ? "recompute" : "drop");
+  parts.requireSame("treatment of normals", task->needsNormals ? "recompute" : "drop");
+  const DeformOptions& options = task->asked.deforming;
   DistributedSolution solution =
-    solver.deform(*handles, task.options.weights, distributedOptions(task.options, progress));
+    solver.deform(*handles, options.weights, distributedOptions(options, progress));
   int columns = solution.columns;
-  if (task.needsNormals && info.cellType == CellType::Triangle)
+  if (task->needsNormals && info.cellType == CellType::Triangle)
   {
     columns = DeformedVertices::WithNormals;
     solution.values = withNormals(piece, parts, solution.values);
   }
-  return parts.summarize(solution.report, task.notes, solution.values, columns, values);
+  return parts.summarize(solution.report, task->notes, solution.values, columns, values);
 }
 
 } // namespace smg

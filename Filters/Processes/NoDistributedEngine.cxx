@@ -18,13 +18,13 @@ namespace
 
 } // namespace
 
-SolveSummary solveInProcesses(vtkPointSet&, vtkMultiProcessController*, const MakePoissonTask&,
+SolveSummary solveInProcesses(vtkPointSet&, vtkMultiProcessController*, const TaskOf&,
   const ProgressFunction&, std::vector<double>&)
 {
   fail();
 }
 
-SolveSummary deformInProcesses(vtkPointSet&, vtkMultiProcessController*, const MakeDeformationTask&,
+SolveSummary deformInProcesses(vtkPointSet&, vtkMultiProcessController*, const TaskOf&,
   const ProgressFunction&, std::vector<double>&)
 {
   fail();

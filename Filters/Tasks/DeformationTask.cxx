@@ -5,86 +5,76 @@
 #include "Filters/Regions/RegionPoints.h"
 #include "Filters/Tasks/DeformedVertices.h"
 #include "Filters/Tasks/InteractiveMesh.h"
-#include "Filters/Tasks/JobTask.h"
-#include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/MovedResult.h"
 #include "IO/Results/MovedPoints.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/DescribedHandles.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace smg
 {
-namespace
+
+DeformationTask::DeformationTask()
+  : JobTask("this is the deformed preview", "deformed")
 {
-
-/** The share of the solve in the progress; a reading of the deformed mesh takes the rest. */
-constexpr double DeformShare = 0.9;
-
-} // namespace
+  this->asked.description = DeformationDescription::byColumns();
+  this->asked.text = "handles in the arrays of the mesh";
+}
 
 void DeformationTask::check() const
 {
-  checkOptions(this->options);
+  checkOptions(this->asked.deforming);
 }
 
-PieceColumns DeformationTask::columns() const
+std::set<std::string> DeformationTask::required() const
 {
   const auto& names = HandleArrays::names();
-  // The original ids are for the note on inverted cells.
-  return { .all = false,
-    .required = { names.begin(), names.end() },
-    .optional = { CellFlagsName, OriginalCellIdName } };
+  return { names.begin(), names.end() };
 }
 
 Costs DeformationTask::costs(const StreamInfo& info) const
 {
-  Costs costs = deformCosts(info, this->options);
-  if (this->options.inCore)
+  Costs costs = this->JobTask::costs(info);
+  if (this->isInMemory())
   {
     costs.memory = BytesInMemory * info.vertices;
   }
   return costs;
 }
 
-std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
-  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report)
+/** Handles in arrays need no preparation, which would name the arrays where nothing is held. */
+std::unique_ptr<Solution> DeformationTask::run(
+  const StoredMesh& mesh, const ProgressFunction& progress)
 {
-  const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
-  DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());
-  DeformOptions options = this->options;
-  options.scratch = scratch;
-  options.progress = partOf(progress, 0.0, DeformShare);
-  options.checkpoint.mesh = mesh.fingerprint();
-  options.checkpoint.problem = "handles in the arrays of the mesh";
-  auto moved = std::make_unique<DeformedVertices>(deform(*mesh.source(), handles, options));
-  report = moved->report();
-  NormalsOptions reading;
-  reading.scratch = options.scratch;
-  reading.memory = std::min(reading.memory, options.memoryLimit / 4);
-  reading.progress = partOf(progress, DeformShare, 1.0);
-  std::vector<std::string> numbers;
+  DescribedHandles handles(this->asked.description, mesh.info());
+  this->asked.complete(mesh, progress);
+  return deform(
+    *mesh.source(handles.vertexColumns(), handles.cellColumns()), handles, this->asked.deforming);
+}
+
+void DeformationTask::complete(
+  Result& result, const StoredMesh& mesh, const ProgressFunction& progress)
+{
+  std::vector<std::string> numbers; // for the note on inverted cells
   if (findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0)
   {
     numbers.emplace_back(OriginalCellIdName);
   }
   auto rest = mesh.source({}, numbers);
-  if (hasNormals)
+  const NormalsOptions reading = normalsOptions(this->asked, progress);
+  if (this->needsNormals && mesh.info().cellType == CellType::Triangle)
   {
-    moved->addNormals(std::move(rest), reading, &report);
+    result.solution = std::make_unique<DeformedVertices>(
+      std::move(result.solution), std::move(rest), reading, &result.report);
+    return;
   }
-  else
-  {
-    MovedPoints stream(std::move(rest), *moved, &report, reading);
-    visitBlocks(stream, progress, DeformShare, 1.0, [](const MeshBlock&) {});
-  }
-  report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
-  return moved;
+  MovedPoints stream(std::move(rest), *result.solution, &result.report, reading);
+  visitBlocks(stream, progress, 0.0, 1.0, [](const MeshBlock&) {});
 }
 
 SolveSummary DeformationTask::solveInMemory(
@@ -94,7 +84,7 @@ SolveSummary DeformationTask::solveInMemory(
   {
     return this->summaryOfUnmoved(mesh, values);
   }
-  DeformOptions given = this->options;
+  DeformOptions given = this->asked.deforming;
   given.progress = progress;
   given.checkpoint = {};
   values = this->interactive->deform(mesh, given, this->needsNormals);

@@ -9,24 +9,31 @@
 namespace smg
 {
 
-void DeformedVertices::addNormals(
-  std::unique_ptr<MeshSource> mesh, const NormalsOptions& options, Report* report)
+namespace
 {
-  MovedPoints moved(std::move(mesh), *this->Positions, report, options);
-  this->Normals.emplace(moved, options);
+
+VertexNormals normalsOf(std::unique_ptr<MeshSource> mesh, Solution& positions,
+  const NormalsOptions& options, Report* report)
+{
+  MovedPoints moved(std::move(mesh), positions, report, options);
+  return VertexNormals(moved, options);
+}
+
+} // namespace
+
+DeformedVertices::DeformedVertices(std::unique_ptr<Solution> positions,
+  std::unique_ptr<MeshSource> mesh, const NormalsOptions& options, Report* report)
+  : Positions(std::move(positions))
+  , Normals(normalsOf(std::move(mesh), *this->Positions, options, report))
+{
 }
 
 void DeformedVertices::read(std::int64_t first, std::int64_t count, std::span<double> values)
 {
-  if (!this->Normals)
-  {
-    this->Positions->read(first, count, values);
-    return;
-  }
   std::vector<double> positions(3 * count);
   std::vector<float> normals(3 * count);
   this->Positions->read(first, count, positions);
-  this->Normals->read(first, count, normals);
+  this->Normals.read(first, count, normals);
   for (std::int64_t i = 0; i < count; ++i)
   {
     std::copy_n(positions.begin() + 3 * i, 3, values.begin() + WithNormals * i);

@@ -3,15 +3,25 @@
 
 #include "Filters/Pieces/PieceBlock.h"
 #include "Filters/Regions/RegionArrays.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Jobs/ReadOptions.h"
+
+#include <utility>
 
 namespace smg
 {
-
-std::string noteOnPreview(std::int64_t vertices, const std::string& result, const std::string& done)
+namespace
 {
-  return result + ", a mesh of " + std::to_string(vertices) + " vertices: the full mesh is " +
-         done + " when it is saved";
+
+/** The share of the job in the progress; what follows from its result takes the rest. */
+constexpr double JobShare = 0.9;
+
+} // namespace
+
+std::string noteOnPreview(std::int64_t vertices, const char* result, const char* done)
+{
+  return std::string(result) + ", a mesh of " + std::to_string(vertices) +
+         " vertices: the full mesh is " + done + " when it is saved, or with Solve: Full Mesh";
 }
 
 void JobTask::setLimits(const SolveOptions& options)
@@ -24,17 +34,24 @@ void JobTask::setLimits(const SolveOptions& options)
 PieceColumns JobTask::columns() const
 {
   return { .all = false,
-    .required = columnsOf(this->job()),
+    .required = this->required(),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
-std::unique_ptr<Solution> JobTask::run(
-  const StoredMesh& mesh, const ProgressFunction& progress, Report& report)
+std::set<std::string> JobTask::required() const
 {
-  std::unique_ptr<Solution> solution = this->run(mesh, progress);
-  report = solution->report();
-  this->complete(report);
-  return solution;
+  return columnsOf(this->job());
+}
+
+JobTask::Result JobTask::resultOn(const StoredMesh& mesh, const ProgressFunction& progress)
+{
+  this->prepareFor(mesh.info());
+  Result result;
+  result.solution = this->run(mesh, partOf(progress, 0.0, JobShare));
+  result.report = result.solution->report();
+  this->complete(result, mesh, partOf(progress, JobShare, 1.0));
+  result.report.notes.insert(result.report.notes.end(), this->notes.begin(), this->notes.end());
+  return result;
 }
 
 std::unique_ptr<Solution> JobTask::solve(const VsmReader& mesh,
@@ -42,7 +59,9 @@ std::unique_ptr<Solution> JobTask::solve(const VsmReader& mesh,
 {
   this->job().limits.scratch = scratch;
   this->job().setLimits(this->job().limits);
-  return this->run(mesh, progress, report);
+  Result result = this->resultOn(mesh, progress);
+  report = std::move(result.report);
+  return std::move(result.solution);
 }
 
 SolveSummary JobTask::solveInMemory(
@@ -50,15 +69,16 @@ SolveSummary JobTask::solveInMemory(
 {
   this->check();
   dropEmptyRegions(mesh, this->places());
-  const StoredBlock stored(mesh, columnsOf(this->job()));
+  const StoredBlock stored(mesh, this->required());
   this->adaptTo(mesh, stored.info());
   this->job().keepInMemory();
-  Report report;
-  const std::unique_ptr<Solution> solution = this->run(stored, progress, report);
-  values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
-  solution->read(0, solution->vertices(), values);
-  report.notes.push_back(noteOnPreview(report.vertices, this->Result, this->Done));
-  return SolveSummary::of(report, solution->columns());
+  Result result = this->resultOn(stored, progress);
+  Solution& solution = *result.solution;
+  values.resize(static_cast<std::size_t>(solution.vertices() * solution.columns()));
+  solution.read(0, solution.vertices(), values);
+  result.report.notes.push_back(
+    noteOnPreview(result.report.vertices, this->ResultOnPreview, this->Done));
+  return SolveSummary::of(result.report, solution.columns());
 }
 
 } // namespace smg

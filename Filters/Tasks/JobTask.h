@@ -6,8 +6,8 @@
 #include "smg/Region.h"
 
 #include <memory>
+#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkPointSet;
@@ -17,14 +17,15 @@ namespace smg
 
 /** What a report says of a result on a preview, for example "this is the smoothed preview", of a
  * job by which the mesh is, for example, "smoothed". */
-std::string noteOnPreview(
-  std::int64_t vertices, const std::string& result, const std::string& done);
+std::string noteOnPreview(std::int64_t vertices, const char* result, const char* done);
 
 /** The task of a job that works on any stored mesh: on the whole mesh out of core, and on its
  * preview in memory. */
 class JobTask : public StreamedTask
 {
 public:
+  std::vector<std::string> notes; ///< for the report
+
   /** Sets the limits of the job. */
   void setLimits(const SolveOptions& options);
 
@@ -39,32 +40,47 @@ public:
 
 protected:
   /** Both as for noteOnPreview(). */
-  JobTask(std::string result, std::string done)
-    : Result(std::move(result))
-    , Done(std::move(done))
+  JobTask(const char* result, const char* done)
+    : ResultOnPreview(result)
+    , Done(done)
   {
   }
+
+  /** A solution with what a report says of it. */
+  struct Result
+  {
+    std::unique_ptr<Solution> solution;
+    Report report;
+  };
 
   virtual MeshJob& job() = 0;
   const MeshJob& job() const { return const_cast<JobTask*>(this)->job(); }
   /** The parts of the mesh that the job names, of which a preview may lack some. */
-  virtual std::vector<Where>& places() = 0;
+  virtual std::vector<Where>& places() { return this->NoPlaces; }
+  /** The arrays without which the job cannot be done. */
+  virtual std::set<std::string> required() const;
 
+  /** Before a run on a mesh, in memory or not. */
+  virtual void prepareFor(const StreamInfo& /*info*/) {}
   /** Does the job. Throws Error and Cancelled. */
   virtual std::unique_ptr<Solution> run(const StoredMesh& mesh, const ProgressFunction& progress)
   {
     return this->job().solveOn(mesh, progress);
   }
-  /** Before a run on a preview, from whose places() regions that it has no point of are gone. */
+  /** Before a run in memory, from whose places() regions that a preview has no point of are gone.
+   */
   virtual void adaptTo(vtkPointSet& /*preview*/, const StreamInfo& /*info*/) {}
-  /** Adds notes to a report. */
-  virtual void complete(Report& /*report*/) const {}
+  /** Completes a result with what follows from it on the mesh. Throws Error and Cancelled. */
+  virtual void complete(
+    Result& /*result*/, const StoredMesh& /*mesh*/, const ProgressFunction& /*progress*/)
+  {
+  }
 
 private:
-  std::unique_ptr<Solution> run(
-    const StoredMesh& mesh, const ProgressFunction& progress, Report& report);
+  Result resultOn(const StoredMesh& mesh, const ProgressFunction& progress);
 
-  std::string Result, Done;
+  const char *ResultOnPreview, *Done;
+  std::vector<Where> NoPlaces;
 };
 
 } // namespace smg

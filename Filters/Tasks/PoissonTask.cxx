@@ -3,8 +3,6 @@
 
 #include "Filters/Pieces/PieceBlock.h"
 #include "Filters/Pieces/ReplacedArray.h"
-#include "IO/Files/PartialProgress.h"
-#include "IO/Jobs/SolveJob.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Mesh/VisitBlocks.h"
@@ -30,39 +28,34 @@
 namespace smg
 {
 
-namespace
+PoissonTask::PoissonTask()
+  : JobTask("this is the solution on the preview", "solved on")
 {
-
-/** The share of the solve in the progress; the evaluation of the solution takes the rest. */
-constexpr double SolveShare = 0.9;
-
-} // namespace
+}
 
 void PoissonTask::check() const
 {
-  if (!isPosed(this->problem))
+  const ProblemDescription& problem = this->asked.description;
+  if (!isPosed(problem))
   {
     throw Error(
       "Nothing says what to solve: choose a Dirichlet mask with values or a source, put a "
       "Mesh Condition before this filter, or name a problem file.");
   }
-  checkCellResults(this->problem);
-  checkOptions(this->options);
-  checkAutomaticTolerance(this->options, this->problem.weights);
-  checkOperators(this->options);
+  checkCellResults(problem);
+  checkOptions(this->asked.solving);
+  checkAutomaticTolerance(this->asked.solving, problem.weights);
+  checkOperators(this->asked.solving);
 }
 
-PieceColumns PoissonTask::columns() const
+std::set<std::string> PoissonTask::required() const
 {
-  // The original ids are for error messages and for vertices that the problem refers to.
-  return { .all = false,
-    .required = namedColumns(this->problem),
-    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
+  return namedColumns(this->asked.description);
 }
 
 int PoissonTask::columnsOn(const StreamInfo& info) const
 {
-  int columns = this->problem.columns;
+  int columns = this->asked.description.columns;
   for (const DataValue& value : this->values)
   {
     // The last one that has the column counts.
@@ -81,78 +74,58 @@ int PoissonTask::columnsOn(const StreamInfo& info) const
 
 ProblemDescription PoissonTask::description(const StreamInfo& info) const
 {
-  ProblemDescription description = this->problem;
+  ProblemDescription description = this->asked.description;
   description.columns = this->columnsOn(info);
   return description;
 }
 
 Costs PoissonTask::costs(const StreamInfo& info) const
 {
-  return solveCosts(
-    info, this->columnsOn(info), this->problem.weights, this->options, contrastOf(this->problem));
+  SolveJob sized;
+  sized.description = this->description(info);
+  sized.solving = this->asked.solving;
+  return sized.costsOn(info);
 }
 
 AddedValues PoissonTask::added(const StreamInfo& info) const
 {
-  return solvedValues(
-    this->columnsOn(info), this->problem.gradientOutput, this->problem.fluxOutput);
+  SolveJob sized;
+  sized.description = this->description(info);
+  return sized.addedTo(info);
 }
 
-std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
-  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report)
+void PoissonTask::prepareFor(const StreamInfo& info)
 {
-  SolveJob job;
-  job.description = this->description(mesh.info());
-  job.text = textOf(job.description);
-  job.solving = this->options;
-  job.solving.scratch = scratch;
-  job.prepareOn(mesh);
-  std::unique_ptr<Solution> solution = job.solveOn(mesh, partOf(progress, 0.0, SolveShare));
-  report = solution->report();
+  this->asked.description = this->description(info);
+  this->asked.text = textOf(this->asked.description);
+}
+
+std::unique_ptr<Solution> PoissonTask::run(const StoredMesh& mesh, const ProgressFunction& progress)
+{
+  this->asked.prepareOn(mesh);
+  return this->JobTask::run(mesh, progress);
+}
+
+void PoissonTask::complete(Result& result, const StoredMesh& mesh, const ProgressFunction& progress)
+{
   // Pieces get their cell arrays when they are delivered.
-  job.description.gradientOutput = job.description.fluxOutput = false;
-  job.passResult(
-    mesh, *solution,
+  this->asked.description.gradientOutput = this->asked.description.fluxOutput = false;
+  this->asked.passResult(
+    mesh, *result.solution,
     [](MeshSource& solved, const ProgressFunction& read)
     { visitBlocks(solved, read, 0.0, 1.0, [](const MeshBlock&) {}); },
-    report, partOf(progress, SolveShare, 1.0));
-  report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
-  return solution;
-}
-
-SolveSummary PoissonTask::solveInMemory(
-  vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values)
-{
-  this->check();
-  values.clear();
-  const PieceBlock mesh(preview, namedColumns(this->problem));
-  DescribedProblem problem(this->problem, mesh.info());
-  problem.prepare(*mesh.source(), this->options.scratch, this->options.memoryLimit);
-  SolveOptions given = this->options;
-  given.progress = progress;
-  given.inCore = true;
-  given.checkpoint = {};
-  given.again = [&mesh] { return mesh.source(); };
-  const std::unique_ptr<Solution> solution = smg::solve(*mesh.source(), problem, given);
-  values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
-  solution->read(0, mesh.info().vertices, values);
-
-  Report report = solution->report();
-  ProblemResults results(mesh.info(), problem, *solution);
-  results.add(mesh.block());
-  results.finish(report);
-  const std::vector<Column>& columns = mesh.block().vertexColumns;
-  if (const std::ptrdiff_t ids = findColumn(columns, OriginalIdSpec); ids >= 0)
+    result.report, progress);
+  if (mesh.file().empty())
   {
-    const auto numbers = columns[static_cast<std::size_t>(ids)].as<std::int64_t>();
-    renumberExtremes(
-      report, [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+    MeshBlock block;
+    mesh.source({}, {})->next(block);
+    if (const std::ptrdiff_t ids = findColumn(block.vertexColumns, OriginalIdSpec); ids >= 0)
+    {
+      const auto numbers = block.vertexColumns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+      renumberExtremes(result.report,
+        [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+    }
   }
-  report.notes.push_back(
-    "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
-    " vertices: it approximates that on the full mesh, which is solved on when "
-    "it is saved, or with Solve: Full Mesh");
-  return SolveSummary::of(report, problem.columns());
 }
 
 namespace
@@ -287,7 +260,8 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
   {
     return "the boundary of a solid's preview is not that of the mesh";
   }
-  if (!task.problem.flux.empty() || !task.problem.robin.empty())
+  const ProblemDescription& problem = task.asked.description;
+  if (!problem.flux.empty() || !problem.robin.empty())
   {
     return "the preview has open edges that the mesh has not, where flux and exchange would act";
   }
@@ -295,9 +269,10 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
   {
     if (preview.GetNumberOfCells() > 0)
     {
-      const PieceBlock mesh(preview, namedColumns(task.problem));
-      DescribedProblem(task.problem, mesh.info())
-        .prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
+      const PieceBlock mesh(preview, namedColumns(problem));
+      const SolveOptions& options = task.asked.solving;
+      DescribedProblem(problem, mesh.info())
+        .prepare(*mesh.source(), options.scratch, options.memoryLimit);
     }
     return {};
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/StreamedTask.h"
+#include "Filters/Tasks/JobTask.h"
+#include "IO/Jobs/SolveJob.h"
 #include "smg/ProblemDescription.h"
 
+#include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,28 +18,30 @@ namespace smg
 {
 
 /** A problem whose columns are arrays of the pieces. */
-class PoissonTask : public StreamedTask
+class PoissonTask : public JobTask
 {
 public:
-  ProblemDescription problem;
+  PoissonTask();
+
+  SolveJob asked;
   /**
    * Arrays whose number of components is the number of right-hand sides if the problem has fewer.
    */
   std::vector<DataValue> values;
-  SolveOptions options;           ///< except for the progress function
-  std::vector<std::string> notes; ///< for the report
 
   /** The problem on a mesh with these columns. */
   ProblemDescription description(const StreamInfo& info) const;
 
   void check() const override;
-  PieceColumns columns() const override;
   Costs costs(const StreamInfo& info) const override;
   AddedValues added(const StreamInfo& info) const override;
-  std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
-    const ProgressFunction& progress, Report& report) override;
-  SolveSummary solveInMemory(
-    vtkPointSet& preview, const ProgressFunction& progress, std::vector<double>& values) override;
+
+protected:
+  SolveJob& job() override { return this->asked; }
+  std::set<std::string> required() const override;
+  void prepareFor(const StreamInfo& info) override;
+  std::unique_ptr<Solution> run(const StoredMesh& mesh, const ProgressFunction& progress) override;
+  void complete(Result& result, const StoredMesh& mesh, const ProgressFunction& progress) override;
 
 private:
   int columnsOn(const StreamInfo& info) const;

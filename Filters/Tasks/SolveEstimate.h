@@ -19,9 +19,6 @@ class vtkTable;
 namespace smg
 {
 
-/** Makes the task of a filter from what its input delivered last, which may be nothing. */
-using TaskOf = std::function<std::unique_ptr<StreamedTask>(vtkPointSet& input)>;
-
 /** Estimates a computation on a mesh; `present` is what the input delivered last. Throws Error,
  * with a reason. */
 using EstimateOf = std::function<JobEstimate(const EstimatedInput& mesh, vtkPointSet& present)>;

@@ -8,6 +8,7 @@
 #include "smg/VsmReader.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -49,5 +50,8 @@ public:
   virtual SolveSummary solveInMemory(
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) = 0;
 };
+
+/** Makes the task of a filter from what its input delivered last, which may be nothing. */
+using TaskOf = std::function<std::unique_ptr<StreamedTask>(vtkPointSet& input)>;
 
 } // namespace smg

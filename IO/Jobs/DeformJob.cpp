@@ -102,7 +102,8 @@ std::unique_ptr<Solution> DeformJob::solveOn(
 void DeformJob::passResult(const StoredMesh& mesh, Solution& positions, const Reader& read,
   Report& report, const ProgressFunction& progress) const
 {
-  const MovedMesh moved(mesh, positions, this->normals, normalsOptions(*this, progress));
+  const MovedMesh moved(
+    mesh, positions, this->normals, normalsOptions(*this, partOf(progress, 0.0, NormalsShare)));
   read(*moved.source(&report), partOf(progress, NormalsShare, 1.0));
   report.notes.insert(report.notes.end(), this->Notes.begin(), this->Notes.end());
 }

@@ -95,10 +95,12 @@ public:
 
   void setLimits(const JobLimits& limits) override;
   std::int64_t memoryLimit() const override { return this->options().memoryLimit; }
-  void keepInMemory() override { this->options().inCore = true; }
-
-protected:
-  /** Sets what depends on the mesh and on the caller. */
+  void keepInMemory() override
+  {
+    this->options().inCore = true;
+    this->options().checkpoint = {};
+  }
+  /** Sets the options that depend on the mesh and on the caller. */
   void complete(const StoredMesh& mesh, const ProgressFunction& progress);
 };
 

@@ -11,13 +11,13 @@ namespace smg
 
 // What jobs that move vertices have in common.
 
-/** The share of passing the result that computing normals takes. */
+/** The share of computing normals in the progress of passing the result. */
 inline constexpr double NormalsShare = 0.3;
 
-/** How the normals of the moved mesh are computed. `progress`: of passing the result. */
+/** How the normals of the moved mesh are computed. */
 inline NormalsOptions normalsOptions(const SolvingJob& job, const ProgressFunction& progress)
 {
-  return { job.options().scratch, job.writerMemory(), partOf(progress, 0.0, NormalsShare) };
+  return { job.options().scratch, job.writerMemory(), progress };
 }
 
 /** Whether a moved mesh has a column of the mesh at rest, if necessary with other values. */

@@ -124,7 +124,8 @@ void SmoothJob::passResult(const StoredMesh& mesh, Solution& solution, const Rea
     read(smoothed, progress);
     return;
   }
-  const MovedMesh moved(mesh, solution, this->normals, normalsOptions(*this, progress));
+  const MovedMesh moved(
+    mesh, solution, this->normals, normalsOptions(*this, partOf(progress, 0.0, NormalsShare)));
   read(*moved.source(), partOf(progress, NormalsShare, 1.0));
 }
 
