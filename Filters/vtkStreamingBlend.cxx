@@ -137,7 +137,7 @@ void vtkStreamingBlend::CheckRanges() const
   smg::requireInRealRange({ { "Anchor", this->Anchor, 0.0 } });
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<BlendTask>();
   this->FillOptions(task->asked.solving);

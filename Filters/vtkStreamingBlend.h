@@ -86,7 +86,7 @@ protected:
   ~vtkStreamingBlend() override;
 
   void CheckRanges() const override;
-  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
 
 private:

@@ -212,7 +212,7 @@ void vtkStreamingDistance::CheckRanges() const
   smg::requireInRange({ { "MaximumPasses", this->MaximumPasses, 1 } });
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<DistanceTask>();
   smg::SolveOptions options;

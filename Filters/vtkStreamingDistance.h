@@ -127,7 +127,7 @@ protected:
   ~vtkStreamingDistance() override;
 
   void CheckRanges() const override;
-  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int /*columns*/) override { return 1; } // the distance
   int FillOutputPortInformation(int port, vtkInformation* info) override;

@@ -71,7 +71,7 @@ void vtkStreamingMeshArea::CheckRanges() const
   smg::requireInRealRange({ { "Scale", this->Scale, 0.0, smg::RealPropertyRange::NoLimit, true } });
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<AreaTask>();
   smg::SolveOptions& options = task->asked.running;

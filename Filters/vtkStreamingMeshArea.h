@@ -78,7 +78,7 @@ protected:
 
   void CheckRanges() const override;
   bool IsForMemory(vtkPointSet& /*input*/, bool /*isWhole*/) override { return false; }
-  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   void FillFurtherOutputs(
     const smg::SolveSummary& summary, vtkInformationVector& outputVector) override;

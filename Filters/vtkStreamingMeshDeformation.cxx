@@ -70,7 +70,7 @@ void vtkStreamingMeshDeformation::CheckRanges() const
       { "InteractivePoints", this->InteractivePoints, 0 }, { "DragPoints", this->DragPoints, 8 } });
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingMeshDeformation::MakeTask(vtkPointSet& input)
 {
   if (input.GetNumberOfPoints() > 0)
   {
@@ -87,10 +87,9 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
   return task;
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeEstimatedTask(
-  vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingMeshDeformation::MakeEstimatedTask(vtkPointSet& input)
 {
-  std::unique_ptr<smg::StreamedTask> task = this->MakeTask(input);
+  std::unique_ptr<smg::JobTask> task = this->MakeTask(input);
   const bool isWhole = smg::lacksStreamNumbering(input) && !smg::isPreview(input);
   static_cast<smg::DeformationTask&>(*task).asked.deforming.inCore =
     isWhole && this->Internal->isInteractive(input);
@@ -124,10 +123,9 @@ void vtkStreamingMeshDeformation::SpreadValues(
   this->Internal->Dragged.follow(input, columns, values);
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeCoarserTask(
-  vtkPointSet& coarser)
+std::unique_ptr<smg::JobTask> vtkStreamingMeshDeformation::MakeCoarserTask(vtkPointSet& coarser)
 {
-  std::unique_ptr<smg::StreamedTask> task = this->MakeTask(coarser);
+  std::unique_ptr<smg::JobTask> task = this->MakeTask(coarser);
   auto& deformation = static_cast<smg::DeformationTask&>(*task);
   deformation.interactive = &this->Internal->OfCoarser;
   deformation.needsNormals = false;

@@ -100,9 +100,9 @@ protected:
   ~vtkStreamingMeshDeformation() override;
 
   void CheckRanges() const override;
-  std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
-  std::unique_ptr<smg::StreamedTask> MakeCoarserTask(vtkPointSet& coarser) override;
-  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeEstimatedTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeCoarserTask(vtkPointSet& coarser) override;
+  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   vtkSmartPointer<vtkPointSet> MeshInMemory(vtkPointSet& input) override;

@@ -109,7 +109,7 @@ std::string vtkStreamingMeshSmoothing::UnusedProperty()
   });
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<SmoothingTask>();
   smg::Smoothing& description = task->asked.smoothing;

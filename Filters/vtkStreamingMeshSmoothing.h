@@ -137,7 +137,7 @@ protected:
 
   void CheckRanges() const override;
   std::string UnusedProperty() override;
-  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   int ComparedColumns(int columns) override; // without normals
 

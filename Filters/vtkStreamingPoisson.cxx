@@ -267,7 +267,7 @@ bool vtkStreamingPoisson::HasAutomaticTolerance() const
   return true;
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)
 {
   const std::string name = this->Internal->resultName();
   if (smg::isReservedColumn(name) || name == smg::OriginalIdName)
@@ -305,7 +305,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
   return task;
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeEstimatedTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingPoisson::MakeEstimatedTask(vtkPointSet& input)
 {
   return this->Internal->task(input);
 }

@@ -137,8 +137,8 @@ protected:
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int port, vtkMTimeType* time) override;
 
-  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
-  std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::JobTask> MakeEstimatedTask(vtkPointSet& input) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;

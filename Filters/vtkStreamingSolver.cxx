@@ -117,12 +117,12 @@ std::string vtkStreamingSolver::InPanelWords(const std::string& text)
   return smg::withProperties(text, *this);
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeEstimatedTask(vtkPointSet& input)
+std::unique_ptr<smg::JobTask> vtkStreamingSolver::MakeEstimatedTask(vtkPointSet& input)
 {
   return this->MakeTask(input);
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeCoarserTask(vtkPointSet& coarser)
+std::unique_ptr<smg::JobTask> vtkStreamingSolver::MakeCoarserTask(vtkPointSet& coarser)
 {
   return this->MakeTask(coarser);
 }

@@ -43,7 +43,7 @@ namespace smg
 enum class Weights;
 struct SolveOptions;
 struct SolveSummary;
-class StreamedTask;
+class JobTask;
 } // namespace smg
 
 class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingSolver : public vtkPassInputTypeAlgorithm
@@ -227,11 +227,11 @@ protected:
 
   /** Creates the task to compute on the whole mesh, of which `input` is some piece. Throws
    * smg::Error if the properties or the arrays of the input do not allow it. */
-  virtual std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) = 0;
+  virtual std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) = 0;
 
   /** Creates the task of GetEstimate() from what the input delivered last, which may have neither
    * points nor arrays. Default: MakeTask(). */
-  virtual std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input);
+  virtual std::unique_ptr<smg::JobTask> MakeEstimatedTask(vtkPointSet& input);
 
   /** Fills the outputs besides the mesh from a solve, or from that of none. */
   virtual void FillFurtherOutputs(
@@ -274,7 +274,7 @@ protected:
 
   /** Creates the task for a coarser preview, with whose values those on a preview are compared to
    * say how far they may be off. Default: MakeTask(). */
-  virtual std::unique_ptr<smg::StreamedTask> MakeCoarserTask(vtkPointSet& coarser);
+  virtual std::unique_ptr<smg::JobTask> MakeCoarserTask(vtkPointSet& coarser);
   /** How many of the `columns` values of a point that comparison takes as a vector. Default: all.
    */
   virtual int ComparedColumns(int columns) { return columns; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/StreamedTask.h"
 
 #include <vector>
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Tasks/StreamedTask.h"
+#include "Filters/Tasks/SolveSummary.h"
 #include "IO/Jobs/MeshJob.h"
+#include "IO/Vtk/PieceStream.h"
 #include "smg/Region.h"
+#include "smg/VsmReader.h"
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -19,24 +24,38 @@ namespace smg
  * job by which the mesh is, for example, "smoothed". */
 std::string noteOnPreview(std::int64_t vertices, const char* result, const char* done);
 
-/** The task of a job that works on any stored mesh: on the whole mesh out of core, and on its
- * preview in memory. */
-class JobTask : public StreamedTask
+/** What a filter computes: a job on the mesh that its input delivers in pieces, out of core, or,
+ * with its preview or as a whole, in memory. */
+class JobTask
 {
 public:
+  virtual ~JobTask() = default;
+
   std::vector<std::string> notes; ///< for the report
 
   /** Sets the limits of the job. */
   void setLimits(const SolveOptions& options);
 
-  void check() const override { this->job().check(); }
-  PieceColumns columns() const override;
-  Costs costs(const StreamInfo& info) const override { return this->job().costsOn(info); }
-  AddedValues added(const StreamInfo& info) const override { return this->job().addedTo(info); }
+  /** Throws Error for problems that do not depend on the mesh, before the mesh is read. */
+  virtual void check() const { this->job().check(); }
+  /** The arrays of the pieces that the job needs. */
+  PieceColumns columns() const;
+  /** What it is expected to cost on a mesh whose counts and span are known. */
+  virtual Costs costs(const StreamInfo& info) const { return this->job().costsOn(info); }
+  /** Whether the costs are those of a computation in memory, without scratch files. */
+  virtual bool isInMemory() const { return false; }
+  /** The values that its result has besides that mesh. */
+  virtual AddedValues added(const StreamInfo& info) const { return this->job().addedTo(info); }
+
+  /** Computes on the whole mesh, which has these columns, with scratch files in the folder
+   * `scratch`; `mesh` is not needed afterwards. `report` receives the report of the solution with
+   * additional notes. Throws Error and Cancelled. */
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
-    const ProgressFunction& progress, Report& report) override;
-  SolveSummary solveInMemory(
-    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) override;
+    const ProgressFunction& progress, Report& report);
+  /** Computes on a mesh in memory, which has cells, and sets the values at its points. Throws Error
+   * and Cancelled. */
+  virtual SolveSummary solveInMemory(
+    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values);
 
 protected:
   /** Both as for noteOnPreview(). */
@@ -82,5 +101,8 @@ private:
   const char *ResultOnPreview, *Done;
   std::vector<Where> NoPlaces;
 };
+
+/** Makes the task of a filter from what its input delivered last, which may be nothing. */
+using TaskOf = std::function<std::unique_ptr<JobTask>(vtkPointSet& input)>;
 
 } // namespace smg

@@ -119,7 +119,7 @@ EstimateOf estimateOfSolve(const TaskOf& taskOf, const SolveOptions& options)
 {
   return [&taskOf, &options](const EstimatedInput& in, vtkPointSet& present)
   {
-    const std::unique_ptr<StreamedTask> task = taskOf(present);
+    const std::unique_ptr<JobTask> task = taskOf(present);
     const Costs costs = task->costs(in.info);
     JobEstimate estimate(in, { "result.vsm", task->added(in.info) }, costs, placesOf(options));
     estimate.memory_limit = options.memoryLimit;

@@ -109,7 +109,7 @@ void requireNumbers(vtkPointSet& mesh, const std::set<std::string>& names)
 } // namespace
 
 void StreamedSolve::solve(
-  PieceInput& input, StreamedTask& task, const PieceReading& reading, Progress& progress)
+  PieceInput& input, JobTask& task, const PieceReading& reading, Progress& progress)
 {
   const auto make = [&](const std::filesystem::path& container, Progress& pulled, Report& notes)
   {
@@ -126,7 +126,7 @@ void StreamedSolve::solve(
 }
 
 void StreamedSolve::solveWhole(
-  vtkPointSet& mesh, StreamedTask& task, const PieceReading& reading, Progress& progress)
+  vtkPointSet& mesh, JobTask& task, const PieceReading& reading, Progress& progress)
 {
   const auto make = [&](const std::filesystem::path& container, Progress& written, Report& notes)
   {
@@ -192,7 +192,7 @@ void StreamedSolve::fail(const std::string& sentence)
 }
 
 void StreamedSolve::solveFile(const std::filesystem::path& file, const std::string& fingerprint,
-  StreamedTask& task, const PieceReading& reading, Progress& progress)
+  JobTask& task, const PieceReading& reading, Progress& progress)
 {
   try
   {
@@ -211,7 +211,7 @@ void StreamedSolve::solveFile(const std::filesystem::path& file, const std::stri
 }
 
 Report StreamedSolve::solveOnFile(
-  const VsmReader& mesh, StreamedTask& task, const ProgressFunction& progress)
+  const VsmReader& mesh, JobTask& task, const ProgressFunction& progress)
 {
   Report report;
   this->Result = task.solve(mesh, this->Scratch->path(), progress, report);
@@ -219,7 +219,7 @@ Report StreamedSolve::solveOnFile(
 }
 
 void StreamedSolve::solveOn(
-  const MakeFolder& folder, const MakeMesh& make, StreamedTask& task, Progress& progress)
+  const MakeFolder& folder, const MakeMesh& make, JobTask& task, Progress& progress)
 {
   try
   {

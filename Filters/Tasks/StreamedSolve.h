@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Filters/Pieces/PieceRequest.h"
+#include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/SolveSummary.h"
-#include "Filters/Tasks/StreamedTask.h"
 #include "IO/Vtk/PieceInput.h"
 #include "IO/Vtk/PieceStream.h"
 #include "Solver/Core/Progress.h"
@@ -63,13 +63,12 @@ public:
    * folder and solves on it, with scratch files beside it. Does not throw: the summary reports an
    * error, and there is then no solution.
    */
-  void solve(
-    PieceInput& input, StreamedTask& task, const PieceReading& reading, Progress& progress);
+  void solve(PieceInput& input, JobTask& task, const PieceReading& reading, Progress& progress);
 
   /** The same on a .vsm file, which is only read. `fingerprint`: unless empty, that which it must
    * have. */
-  void solveFile(const std::filesystem::path& file, const std::string& fingerprint,
-    StreamedTask& task, const PieceReading& reading, Progress& progress);
+  void solveFile(const std::filesystem::path& file, const std::string& fingerprint, JobTask& task,
+    const PieceReading& reading, Progress& progress);
 
   /**
    * The same on a whole ordinary mesh (see lacksStreamNumbering()): it is converted as a file is,
@@ -77,7 +76,7 @@ public:
    * are left out.
    */
   void solveWhole(
-    vtkPointSet& mesh, StreamedTask& task, const PieceReading& reading, Progress& progress);
+    vtkPointSet& mesh, JobTask& task, const PieceReading& reading, Progress& progress);
 
   /** Of a solution on an ordinary mesh: the values at all its points; not a number where no cell
    * is. */
@@ -98,9 +97,8 @@ private:
   using MakeMesh =
     std::function<void(const std::filesystem::path& container, Progress& progress, Report& notes)>;
   using MakeFolder = std::function<std::unique_ptr<ScratchFolder>()>;
-  void solveOn(
-    const MakeFolder& folder, const MakeMesh& make, StreamedTask& task, Progress& progress);
-  Report solveOnFile(const VsmReader& mesh, StreamedTask& task, const ProgressFunction& progress);
+  void solveOn(const MakeFolder& folder, const MakeMesh& make, JobTask& task, Progress& progress);
+  Report solveOnFile(const VsmReader& mesh, JobTask& task, const ProgressFunction& progress);
   ConversionReport writeWhole(vtkPointSet& mesh, const PieceReading& reading,
     const std::filesystem::path& container, Progress& progress);
 
