@@ -289,13 +289,29 @@ std::int64_t Components::floatingComponents() const
   return count;
 }
 
+/** Whether a sum of right-hand sides that cancel is one of rounding. */
+bool Components::isRounding(double sum, std::size_t label, int column) const
+{
+  constexpr double Rounding = 1e-12;
+  return std::fabs(sum) <= Rounding * this->sums(label, column).absolute;
+}
+
+/** The sum of b on a component that is held. One of rounding counts as 0: divided by row sums that
+ * may be as small as one likes, it would be any number. */
+double Components::heldSum(std::size_t label, int column) const
+{
+  const double sum = this->sums(label, column).b;
+  return this->isRounding(sum, label, column) ? 0.0 : sum;
+}
+
 Components::Weighed Components::weighed(std::size_t label, int column) const
 {
   const Unknowns& all = this->Counted[label];
   const Sums& sum = this->sums(label, column);
   if (this->isHeld(label))
   {
-    return { all.rowSum, all.rowSumSquares, sum.held, sum.heldResiduals, sum.b - sum.held };
+    return { all.rowSum, all.rowSumSquares, sum.held, sum.heldResiduals,
+      this->heldSum(label, column) - sum.held };
   }
   if (all.mass > 0.0)
   {
@@ -305,18 +321,16 @@ Components::Weighed Components::weighed(std::size_t label, int column) const
   return { number, number, sum.initial, sum.residual, sum.b };
 }
 
-/** Calls f(label, column) for floating components in which b does not sum to zero. */
+/** Calls f(label, column) for floating components in which b does not sum to zero; a compatible
+ * right-hand side does so up to rounding, which is not to be reported as a source. */
 template <class F>
 void Components::forShifts(F&& f) const
 {
-  // A compatible right-hand side sums to 0 only up to rounding, which is not to be reported as a
-  // source.
-  constexpr double Rounding = 1e-12;
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
     for (int k = 0; this->floats(label) && k < this->Columns; ++k)
     {
-      if (std::fabs(this->weighed(label, k).b) > Rounding * this->sums(label, k).absolute)
+      if (!this->isRounding(this->weighed(label, k).b, label, k))
       {
         f(label, k);
       }
@@ -349,8 +363,16 @@ std::vector<double> Components::rightSideShifts() const
         all.b / all.weights;
     });
   this->forHeld([&](std::size_t label, int k, std::size_t place)
-    { shifts[place] = this->sums(label, k).b / this->weighed(label, k).weights; });
+    { shifts[place] = this->heldSum(label, k) / this->weighed(label, k).weights; });
   return shifts;
+}
+
+bool Components::hasCancellingSums() const
+{
+  bool any = false;
+  this->forHeld([&](std::size_t label, int k, std::size_t)
+    { any = any || this->heldSum(label, k) != this->sums(label, k).b; });
+  return any;
 }
 
 bool Components::shiftsRightSide() const

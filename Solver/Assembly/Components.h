@@ -78,6 +78,10 @@ public:
   /** Whether any component is held loosely. */
   bool anyHeldLoosely() const { return this->freeComponents() < this->floatingComponents(); }
 
+  /** Whether on one that is held loosely right-hand sides cancel up to rounding, which counts as 0.
+   */
+  bool hasCancellingSums() const;
+
   /** Adds the sums of joined labels to those of their roots. The shifts and means below need this.
    */
   void settle();
@@ -179,6 +183,8 @@ private:
   }
   bool isHeld(std::size_t label) const { return this->Of[label].rowSum > 0.0; }
   bool floats(std::size_t label) const { return this->isRoot(label) && !this->Of[label].anchored; }
+  bool isRounding(double sum, std::size_t label, int column) const;
+  double heldSum(std::size_t label, int column) const;
   Weighed weighed(std::size_t label, int column) const;
   void extendCounts(std::size_t labels);
   template <class F>

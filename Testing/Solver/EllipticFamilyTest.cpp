@@ -331,6 +331,28 @@ TEST(EllipticFamily, AmbientValuesOfZeroAreReachedWhateverTheirCoefficients)
   }
 }
 
+/** The divergence of a field sums to zero on the mesh but for rounding, which beside a tiny
+ * screening would be any mean. */
+TEST(EllipticFamily, AFieldHasTheMeanZeroHoweverSmallTheScreening)
+{
+  for (const StreamMesh& mesh : { patch(9, 8), block(4, 4, 5) })
+  {
+    for (int exponent = -24; exponent <= 0; exponent += 2)
+    {
+      ElementProblem problem(mesh);
+      problem.CellField = [](const Point& p) -> Eigen::MatrixXd
+      { return Eigen::Vector3d(1.0 + p[1], std::sin(p[0]), 0.3); };
+      problem.VertexScreening = [=](const Point&) { return std::pow(10.0, exponent); };
+      problem.Initial = columnsOf(1, [](const Point&, int) { return 5.0; });
+      const Solved solved = solveMesh(mesh, problem, accurate(1e-10));
+      EXPECT_TRUE(solved.report.converged) << exponent;
+      const double range = solved.values.maxCoeff() - solved.values.minCoeff();
+      EXPECT_GT(range, 0.1) << exponent;
+      EXPECT_LT(std::fabs(solved.report.mean.at(0)), 1e-7 * range) << exponent;
+    }
+  }
+}
+
 TEST(EllipticFamily, BodiesThatAreHeldLooselyDoNotKnowEachOther)
 {
   // One body has a large constant, one a prescribed value, one no condition.

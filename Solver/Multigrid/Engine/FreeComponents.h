@@ -188,6 +188,12 @@ void FreeComponents::fixMeans(State& level, Report& report)
   {
     noteFreeComponents(report);
   }
+  if (this->Parts.hasCancellingSums())
+  {
+    report.notes.emplace_back(
+      "sources or fields cancel up to rounding in a component that screening or conditions hold "
+      "by less: its mean, weighted with these, is 0");
+  }
 }
 
 } // namespace smg
