@@ -117,7 +117,7 @@ SolveSummary DeformationTask::summaryOfUnmoved(
   report.converged = true;
   report.warn(std::string("handles hold no point of the preview, which stays as it is: ") +
               (isSurfaceOfSolid(preview) ? std::string(RemedyOfSurface) + ", and " : "") +
-              "Solve On Full Mesh, as Save Data, deforms the mesh itself");
+              "with Solve set to Full Mesh, or by Save Data, the mesh itself is deformed");
   return SolveSummary::of(report, columns);
 }
 

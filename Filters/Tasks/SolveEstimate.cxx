@@ -229,12 +229,7 @@ void fillText(const SolveSummary& summary, vtkTable& table)
   table.Initialize();
   vtkNew<vtkStringArray> text;
   text->SetName("Text");
-  std::string sentence = summary.where();
-  if (const std::size_t comma = sentence.find(", the result"); comma != std::string::npos)
-  {
-    sentence[comma + 1] = '\n'; // for narrow views
-  }
-  text->InsertNextValue(sentence);
+  text->InsertNextValue(summary.where('\n')); // for narrow views
   table.AddColumn(text);
 }
 

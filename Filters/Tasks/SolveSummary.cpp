@@ -83,7 +83,7 @@ std::string SolveSummary::outcome() const
   return text.str();
 }
 
-std::string SolveSummary::where() const
+std::string SolveSummary::where(char gap) const
 {
   if (this->fullPoints == 0 || !this->error.empty())
   {
@@ -95,7 +95,7 @@ std::string SolveSummary::where() const
   }
   return "On the preview only: " + groupedDigits(this->previewPoints) + " of " +
          groupedDigits(this->fullPoints) + " points" +
-         (this->previewError.empty() ? "." : ", " + this->previewError);
+         (this->previewError.empty() ? "." : std::string(",") + gap + this->previewError);
 }
 
 std::string noteOnLoose(std::int64_t points, bool isSurface)

@@ -45,8 +45,8 @@ struct SolveSummary
   /** The outcome in one line; empty before a solve. */
   std::string outcome() const;
   /** Where a preview is shown: whether that or the whole mesh was solved on, in a sentence; else
-   * empty. */
-  std::string where() const;
+   * empty. `gap`: between that and how far off it may be. */
+  std::string where(char gap = ' ') const;
 };
 
 /** The beginning of a note on points of an input that are corners of no cell, as "2 points are

@@ -36,6 +36,13 @@ public:
   using Error::Error;
 };
 
+/** An upstream algorithm has been aborted, of which nobody reports anything. */
+class InputCancelled : public InputFailed
+{
+public:
+  using InputFailed::InputFailed;
+};
+
 /** The field array of data that are empty because of a failure. */
 inline constexpr const char* FailedName = "Failed";
 inline constexpr int FailedComponents = 19;
@@ -131,6 +138,14 @@ inline int offerPieces(vtkInformationVector& outputs)
   return 1;
 }
 
+/** Ends the abort of an algorithm, and returns the answer to the request: nothing is reported. */
+inline int cancel(vtkAlgorithm& algorithm, Failures& failures)
+{
+  endAbort(algorithm);
+  algorithm.GetInformation()->Set(vtkStreamingMeshKeys::CANCELLED(), 1);
+  return failures.refuse(algorithm);
+}
+
 /**
  * Runs the work of RequestData and returns 1. An exception becomes an error of the algorithm, which
  * is shown once; a failed input causes no further message. A streamed request, whose consumer
@@ -149,6 +164,7 @@ int runRequestData(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVe
   vtkDataObject* input = inputs ? vtkDataObject::GetData(inputs[0]) : nullptr;
   vtkDataObject* data = vtkDataObject::GetData(output);
   failures.begin();
+  algorithm.GetInformation()->Remove(vtkStreamingMeshKeys::CANCELLED());
   try
   {
     if (isFailed(input))
@@ -162,10 +178,9 @@ int runRequestData(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVe
   }
   catch (const Cancelled&)
   {
-    endAbort(algorithm);
     data->Initialize();
     completeMesh(*data);
-    return failures.refuse(algorithm);
+    return cancel(algorithm, failures);
   }
   catch (const InputFailed& error)
   {

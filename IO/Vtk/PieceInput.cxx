@@ -65,6 +65,20 @@ std::vector<vtkAlgorithm*> otherFilters(vtkAlgorithm& last)
   return longest;
 }
 
+/** Whether the algorithm, or one before it, was aborted when it was executed last. */
+bool wasCancelled(vtkAlgorithm& last)
+{
+  bool was = last.GetInformation()->Has(vtkStreamingMeshKeys::CANCELLED()) != 0;
+  for (int port = 0; port < last.GetNumberOfInputPorts(); ++port)
+  {
+    for (int k = 0; k < last.GetNumberOfInputConnections(port); ++k)
+    {
+      was = was || wasCancelled(*last.GetInputAlgorithm(port, k));
+    }
+  }
+  return was;
+}
+
 } // namespace
 
 namespace
@@ -187,6 +201,10 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed, int ghos
   if (this->Executive->Update(this->ProducerPort, requests))
   {
     data = this->Producer->GetOutputDataObject(this->ProducerPort);
+  }
+  if (!data && wasCancelled(*this->Producer))
+  {
+    throw InputCancelled(this->placeOfPiece(piece, pieces) + " was not made: it was aborted.");
   }
   if (!data || isFailed(data))
   {

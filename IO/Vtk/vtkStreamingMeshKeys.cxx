@@ -45,6 +45,7 @@ public:
 
 vtkStandardNewMacro(vtkStreamingMeshKeys);
 vtkInformationKeyMacro(vtkStreamingMeshKeys, STREAMED_DATA, Integer);
+vtkInformationKeyMacro(vtkStreamingMeshKeys, CANCELLED, Integer);
 vtkInformationKeyMacro(vtkStreamingMeshKeys, ISOLATED_VALUE, Variant);
 vtkInformationKeyMacro(vtkStreamingMeshKeys, FORMER_SCALARS, Variant);
 

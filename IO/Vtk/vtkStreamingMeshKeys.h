@@ -57,6 +57,9 @@ public:
    * else 0. */
   static vtkInformationIntegerKey* PREVIEWED();
 
+  /** Information of an algorithm whose last execution was aborted. */
+  static vtkInformationIntegerKey* CANCELLED();
+
   /** Information of a point array: the value of each component at points that no cell uses. Writers
    * of VTK's XML files leave out keys of variants. */
   static vtkInformationVariantKey* ISOLATED_VALUE();

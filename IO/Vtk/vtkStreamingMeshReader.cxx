@@ -169,8 +169,7 @@ int vtkStreamingMeshReader::RequestDataObject(
     }
     catch (const smg::Cancelled&)
     {
-      smg::endAbort(*this);
-      return this->Internal->Failures.refuse(*this);
+      return smg::cancel(*this, this->Internal->Failures);
     }
     catch (const std::exception& error)
     {
@@ -210,8 +209,7 @@ int vtkStreamingMeshReader::RequestUpdateExtent(
   }
   catch (const smg::Cancelled&)
   {
-    smg::endAbort(*this);
-    return this->Internal->Failures.refuse(*this);
+    return smg::cancel(*this, this->Internal->Failures);
   }
 }
 

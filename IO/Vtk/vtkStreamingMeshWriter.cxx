@@ -458,6 +458,10 @@ void vtkStreamingMeshWriter::WriteFile()
   {
     code = vtkErrorCode::UserError;
   }
+  catch (const smg::InputCancelled&)
+  {
+    code = vtkErrorCode::UserError;
+  }
   catch (const smg::DiskFull& error)
   {
     code = vtkErrorCode::OutOfDiskSpaceError;

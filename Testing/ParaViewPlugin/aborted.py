@@ -7,7 +7,7 @@ import sys
 
 import smg_testing as t
 from paraview.vtk.vtkFiltersSources import vtkSphereSource
-from streamingmultigrid.vtk import vtkStreamingDistance, vtkStreamingMeshSmoothing, vtkStreamingPoisson
+from streamingmultigrid.vtk import vtkStreamingDistance, vtkStreamingMeshSmoothing, vtkStreamingMeshWriter, vtkStreamingPoisson
 
 NORTH = '[{"halfspace": [0, 0, 1, 0.45]}]'
 FILTERS = ((vtkStreamingDistance, "SetFrom", NORTH), (vtkStreamingMeshSmoothing, "SetHold", NORTH),
@@ -31,7 +31,7 @@ def by_its_container(made):
     return abort, end
 
 
-scratch = t.make_folder()
+scratch, saved = t.make_folder(), t.make_folder()
 for make, setter, text in FILTERS:
     for way in (by_itself, by_its_container):
         sphere = vtkSphereSource()
@@ -50,10 +50,21 @@ for make, setter, text in FILTERS:
         assert calls, (make, way)
         assert made.GetOutput().GetNumberOfPoints() == 0, (make, way)
         assert os.listdir(scratch) == [], (make, way, os.listdir(scratch))
+        writer = vtkStreamingMeshWriter()
+        writer.SetInputConnection(made.GetOutputPort())
+        writer.SetFileName(os.path.join(saved, "aborted.vsm"))
+        writer.AddObserver("ErrorEvent", lambda *_: failed.append(True))
+        end()
+        made.Modified()
+        calls.clear()
+        failed.clear()
+        writer.Write()
+        # A save that is aborted reports no error, and leaves no file.
+        assert calls and not failed and os.listdir(saved) == [], (make, way, failed)
         end()
         failed.clear()
         made.Modified()  # else the aborted work is not repeated
         made.Update()
         assert made.GetOutput().GetNumberOfPoints() > 0 and not failed, (make, way)
-        del made
+        del made, writer
 print("passed")
