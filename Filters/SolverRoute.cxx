@@ -171,8 +171,8 @@ smg::StreamedSolve::PieceReading vtkStreamingSolver::Internals::reading(
   {
     reading.pieces.given = 1;
   }
-  reading.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+  reading.scratch = this->Self.ScratchDirectory;
   reading.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
-  reading.threads = this->Self.NumberOfThreads;
+  reading.threads = this->Self.GetNumberOfThreads();
   return reading;
 }

@@ -49,17 +49,11 @@ public:
     SOFT = 6          ///< adds Coefficient * (u - Value), a density, to the equations
   };
 
-  ///@{
   /** The type of the condition. Default: DIRICHLET. */
-  vtkSetMacro(Condition, int);
-  vtkGetMacro(Condition, int);
-  ///@}
+  smgProperty(Condition, int);
 
-  ///@{
   /** The value, if it is a single number: with one right-hand side. Default: 0. */
-  vtkSetMacro(Value, double);
-  vtkGetMacro(Value, double);
-  ///@}
+  smgProperty(Value, double);
 
   ///@{
   /** The components of the value, one per right-hand side, or those of a tensor; if there are any,
@@ -69,18 +63,11 @@ public:
   int GetNumberOfValues();
   ///@}
 
-  ///@{
   /** Whether the value is the position of the point, for three right-hand sides. Default: off. */
-  vtkSetMacro(ValueIsPosition, bool);
-  vtkGetMacro(ValueIsPosition, bool);
-  vtkBooleanMacro(ValueIsPosition, bool);
-  ///@}
+  smgFlagProperty(ValueIsPosition);
 
-  ///@{
   /** The coefficient of ROBIN, the weight of SOFT; at least 0. Default: 1. */
-  vtkSetMacro(Coefficient, double);
-  vtkGetMacro(Coefficient, double);
-  ///@}
+  smgProperty(Coefficient, double);
 
 protected:
   vtkMeshCondition();

@@ -55,11 +55,8 @@ public:
   vtkIdType GetNumberOfPointTargets();
   ///@}
 
-  ///@{
   /** The motion of the held points. Default: FIXED. */
-  vtkSetMacro(Motion, int);
-  vtkGetMacro(Motion, int);
-  ///@}
+  smgProperty(Motion, int);
 
   ///@{
   /** The axis of the rotation, of any length except 0. Default: (0, 0, 1). */
@@ -67,18 +64,12 @@ public:
   vtkGetVector3Macro(RotationAxis, double);
   ///@}
 
-  ///@{
   /** The angle of the rotation in degrees, from -1e6 to 1e6: 200 is not the same as -160. Default:
    * 0. */
-  vtkSetMacro(RotationAngle, double);
-  vtkGetMacro(RotationAngle, double);
-  ///@}
+  smgProperty(RotationAngle, double);
 
-  ///@{
   /** The scale factor of the held region, from 1e-20 to 1e20. Default: 1. */
-  vtkSetMacro(Scale, double);
-  vtkGetMacro(Scale, double);
-  ///@}
+  smgProperty(Scale, double);
 
   ///@{
   /** The centre of rotation and scale. Default: (0, 0, 0). */

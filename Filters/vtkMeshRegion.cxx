@@ -19,21 +19,17 @@ vtkMeshRegion::vtkMeshRegion()
   this->SetRegionName("RegionMask");
 }
 
-vtkMeshRegion::~vtkMeshRegion()
-{
-  this->SetRegionName(nullptr);
-}
+vtkMeshRegion::~vtkMeshRegion() = default;
 
 void vtkMeshRegion::Check()
 {
-  if (!this->RegionName || !*this->RegionName)
+  if (this->RegionName.empty())
   {
     throw smg::Error("The region has no name: set RegionName, the name of its array.");
   }
-  if (smg::isReservedColumn(this->RegionName) ||
-      std::string(this->RegionName) == smg::OriginalIdName)
+  if (smg::isReservedColumn(this->RegionName) || this->RegionName == smg::OriginalIdName)
   {
-    throw smg::Error("The name " + std::string(this->RegionName) +
+    throw smg::Error("The name " + this->RegionName +
                      " is that of an array that every piece has: choose another RegionName.");
   }
 }
@@ -43,16 +39,16 @@ void vtkMeshRegion::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtk
   output.ShallowCopy(&piece);
   const bool replaces = smg::addToRegion(output, this->RegionName, held);
   this->WarnOfReplaced(
-    replaces ? "The array " + std::string(this->RegionName) +
+    replaces ? "The array " + this->RegionName +
                  " of the input, which no Mesh Region before this one has made, is replaced by the "
                  "region: choose another RegionName to keep both."
              : "");
   // Views show the region.
-  output.GetPointData()->SetActiveScalars(this->RegionName);
+  output.GetPointData()->SetActiveScalars(this->RegionName.c_str());
 }
 
 void vtkMeshRegion::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "RegionName: " << (this->RegionName ? this->RegionName : "(none)") << "\n";
+  os << indent << "RegionName: " << smg::textOrNone(this->RegionName) << "\n";
 }

@@ -26,13 +26,10 @@ public:
   vtkTypeMacro(vtkMeshRegion, vtkRegionFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The name of the point array. An array of this name of the input is replaced, with a warning,
    * if it is of unsigned char with one component, as those of saved results; another is an error.
    * Default: "RegionMask". */
-  vtkSetStringMacro(RegionName);
-  vtkGetStringMacro(RegionName);
-  ///@}
+  smgTextProperty(RegionName);
 
 protected:
   vtkMeshRegion();
@@ -45,7 +42,7 @@ private:
   vtkMeshRegion(const vtkMeshRegion&) = delete;
   void operator=(const vtkMeshRegion&) = delete;
 
-  char* RegionName = nullptr;
+  std::string RegionName;
 };
 
 #endif

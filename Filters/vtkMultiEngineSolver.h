@@ -29,7 +29,6 @@ public:
     AUTOMATIC_ENGINE = 2
   };
 
-  ///@{
   /**
    * What solves. Default: STREAMING.
    * - STREAMING: process 0, out of core, in little memory.
@@ -45,12 +44,10 @@ public:
    * - AUTOMATIC_ENGINE: DISTRIBUTED where there is more than one process and their memory holds an
    *   estimate of what it needs, else STREAMING; a note says why.
    */
-  vtkSetMacro(Engine, int);
-  vtkGetMacro(Engine, int);
-  ///@}
+  smgProperty(Engine, int);
 
 protected:
-  vtkMultiEngineSolver() = default;
+  using vtkStreamingSolver::vtkStreamingSolver;
   ~vtkMultiEngineSolver() override = default;
 
   void CheckRanges() const override;

@@ -242,15 +242,12 @@ vtkRegionFilter::vtkRegionFilter()
 vtkRegionFilter::~vtkRegionFilter()
 {
   this->SetRegionFunction(nullptr);
-  this->SetMaskArray(nullptr);
-  this->SetTagArray(nullptr);
 }
 
 std::string vtkRegionFilter::RegionArray() const
 {
-  const char* array = this->Region == TAG ? this->TagArray : this->MaskArray;
-  const std::string name = array ? array : "";
-  if (name.empty() || name == "None")
+  const std::string& name = this->Region == TAG ? this->TagArray : this->MaskArray;
+  if (!smg::namesArray(name))
   {
     throw smg::Error(std::string("The region has no ") + (this->Region == TAG ? "tag" : "mask") +
                      " array: choose " + (this->Region == TAG ? "TagArray" : "MaskArray") +
@@ -441,8 +438,8 @@ void vtkRegionFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfPoints: " << this->GetNumberOfPoints() << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "Rings: " << this->Rings << "\n";
-  os << indent << "MaskArray: " << (this->MaskArray ? this->MaskArray : "(none)") << "\n";
-  os << indent << "TagArray: " << (this->TagArray ? this->TagArray : "(none)") << "\n";
+  os << indent << "MaskArray: " << smg::textOrNone(this->MaskArray) << "\n";
+  os << indent << "TagArray: " << smg::textOrNone(this->TagArray) << "\n";
   os << indent << "Tag: " << this->Tag << "\n";
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
   os << indent << "NumberOfHeldPoints: " << this->NumberOfHeldPoints << "\n";

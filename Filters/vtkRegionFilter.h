@@ -46,6 +46,7 @@
 #ifndef vtkRegionFilter_h
 #define vtkRegionFilter_h
 
+#include "StreamingMeshProperties.h"
 #include "vtkPassInputTypeAlgorithm.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
@@ -86,11 +87,8 @@ public:
     ORIGINAL_IDS = 1 ///< values of the point array `OriginalId`: indices in the original file
   };
 
-  ///@{
   /** The type of the region. Default: FUNCTION. */
-  vtkSetMacro(Region, int);
-  vtkGetMacro(Region, int);
-  ///@}
+  smgProperty(Region, int);
 
   ///@{
   /** The implicit function that is at most 0 at held points. It must be finite at every point; the
@@ -99,12 +97,8 @@ public:
   vtkImplicitFunction* GetRegionFunction() { return this->RegionFunction; }
   ///@}
 
-  ///@{
   /** Whether to hold the points where the function is above 0 instead. Default: off. */
-  vtkSetMacro(InsideOut, bool);
-  vtkGetMacro(InsideOut, bool);
-  vtkBooleanMacro(InsideOut, bool);
-  ///@}
+  smgFlagProperty(InsideOut);
 
   /** Connects the source of the selection (a vtkSelection) to input port 1. */
   void SetSelectionConnection(vtkAlgorithmOutput* selection);
@@ -117,11 +111,8 @@ public:
   vtkIdType GetId(vtkIdType i);
   ///@}
 
-  ///@{
   /** The meaning of the ids. Default: GLOBAL_IDS. */
-  vtkSetMacro(IdType, int);
-  vtkGetMacro(IdType, int);
-  ///@}
+  smgProperty(IdType, int);
 
   ///@{
   /** The positions whose nearest points are held. Default: none. */
@@ -130,45 +121,31 @@ public:
   vtkIdType GetNumberOfPoints();
   ///@}
 
-  ///@{
   /**
    * The distance from the points of a selection, of ids or of positions within which the mesh is
    * held. 0: only the points themselves. -1 (default): for points selected on a preview,
    * the mean edge length of the preview divided by the square root of 3, the radius that each of
    * them represents; otherwise 0.
    */
-  vtkSetMacro(Radius, double);
-  vtkGetMacro(Radius, double);
-  ///@}
+  smgProperty(Radius, double);
 
-  ///@{
   /** The distance in edges of the mesh, 0 to 100; points within the radius or the rings are held.
    * Default: 0. */
-  vtkSetMacro(Rings, int);
-  vtkGetMacro(Rings, int);
-  ///@}
+  smgProperty(Rings, int);
 
-  ///@{
   /** The name of the array of points or cells of MASK, with one component; points take precedence.
    * Default: none. */
-  vtkSetStringMacro(MaskArray);
-  vtkGetStringMacro(MaskArray);
-  ///@}
+  smgTextProperty(MaskArray);
 
   ///@{
   /** The same of TAG, and its value in the region. Default: none, 0. */
-  vtkSetStringMacro(TagArray);
-  vtkGetStringMacro(TagArray);
-  vtkSetMacro(Tag, double);
-  vtkGetMacro(Tag, double);
+  smgTextProperty(TagArray);
+  smgProperty(Tag, double);
   ///@}
 
-  ///@{
   /** The number of pieces in which the input is requested to search it, 0 to 1,000,000. Default: 0
    * (at least 64, and pieces of at most 64 MiB). The held points do not depend on it. */
-  vtkSetMacro(NumberOfPieces, int);
-  vtkGetMacro(NumberOfPieces, int);
-  ///@}
+  smgProperty(NumberOfPieces, int);
 
   /** The number of held points in the last output; for streamed pieces requested in order, in all
    * pieces since the first. Points owned by an earlier piece do not count. 0 after an error. */
@@ -230,8 +207,8 @@ private:
   int IdType = GLOBAL_IDS;
   double Radius = -1.0;
   int Rings = 0;
-  char* MaskArray = nullptr;
-  char* TagArray = nullptr;
+  std::string MaskArray;
+  std::string TagArray;
   double Tag = 0.0;
   int NumberOfPieces = 0;
   vtkIdType NumberOfHeldPoints = 0;

@@ -5,7 +5,7 @@
 #include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/JobTask.h"
 #include "IO/Jobs/BlendJob.h"
-#include "IO/Vtk/PropertyRange.h"
+#include "IO/Jobs/JobProperties.h"
 #include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
@@ -49,92 +49,16 @@ protected:
 
 } // namespace
 
-struct vtkStreamingBlend::Internals
-{
-  const std::vector<std::string>& chosen() const
-  {
-    return this->Arrays.empty() ? this->Columns : this->Arrays;
-  }
-
-  std::vector<std::string> Arrays, Columns;
-};
-
 vtkStreamingBlend::vtkStreamingBlend()
-  : Internal(new Internals)
+  : vtkStreamingSolver("blend")
 {
 }
 
-vtkStreamingBlend::~vtkStreamingBlend()
-{
-  this->SetPatch(nullptr);
-  this->SetHold(nullptr);
-}
+vtkStreamingBlend::~vtkStreamingBlend() = default;
 
-void vtkStreamingBlend::AddArray(const char* name)
+const std::vector<std::string>& vtkStreamingBlend::ChosenArrays() const
 {
-  if (name && *name)
-  {
-    this->Internal->Arrays.emplace_back(name);
-    this->Modified();
-  }
-}
-
-void vtkStreamingBlend::RemoveAllArrays()
-{
-  if (!this->Internal->Arrays.empty())
-  {
-    this->Internal->Arrays.clear();
-    this->Modified();
-  }
-}
-
-int vtkStreamingBlend::GetNumberOfArrays() const
-{
-  return static_cast<int>(this->Internal->Arrays.size());
-}
-
-const char* vtkStreamingBlend::GetArray(int number) const
-{
-  return number >= 0 && number < this->GetNumberOfArrays()
-           ? this->Internal->Arrays[static_cast<std::size_t>(number)].c_str()
-           : nullptr;
-}
-
-void vtkStreamingBlend::AddColumn(const char* name)
-{
-  if (name && *name)
-  {
-    this->Internal->Columns.emplace_back(name);
-    this->Modified();
-  }
-}
-
-void vtkStreamingBlend::RemoveAllColumns()
-{
-  if (!this->Internal->Columns.empty())
-  {
-    this->Internal->Columns.clear();
-    this->Modified();
-  }
-}
-
-int vtkStreamingBlend::GetNumberOfColumns() const
-{
-  return static_cast<int>(this->Internal->Columns.size());
-}
-
-const char* vtkStreamingBlend::GetColumn(int number) const
-{
-  return number >= 0 && number < this->GetNumberOfColumns()
-           ? this->Internal->Columns[static_cast<std::size_t>(number)].c_str()
-           : nullptr;
-}
-
-void vtkStreamingBlend::CheckRanges() const
-{
-  this->Superclass::CheckRanges();
-  smg::requireInRange({ { "SeamGradient", this->SeamGradient, ZERO, AVERAGE } });
-  smg::requireInRealRange({ { "Anchor", this->Anchor, 0.0 } });
+  return this->Arrays.empty() ? this->Columns : this->Arrays;
 }
 
 std::unique_ptr<smg::JobTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
@@ -142,15 +66,9 @@ std::unique_ptr<smg::JobTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
   auto task = std::make_unique<BlendTask>();
   this->FillOptions(task->asked.solving);
   task->setLimits(task->asked.solving);
-  smg::BlendDescription& description = task->asked.description;
-  // "None" is what ParaView offers for no array.
-  const std::string patch = this->Patch ? this->Patch : "";
-  description.patch = patch == "None" ? "" : patch;
-  description.columns = this->Internal->chosen();
-  description.anchor = this->Anchor;
-  description.seam =
-    this->SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
-  description.hold = smg::placesOn(input, this->Hold, "Hold");
+  this->Options->applyTo(task->asked);
+  task->asked.description.columns = this->ChosenArrays();
+  task->asked.description.hold = smg::placesOn(input, this->GetHold(), "Hold");
   return task;
 }
 
@@ -160,7 +78,7 @@ void vtkStreamingBlend::Deliver(
   output.ShallowCopy(&piece);
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
-  for (const std::string& column : this->Internal->chosen())
+  for (const std::string& column : this->ChosenArrays())
   {
     first += smg::replaceArray(output, column, values, first, stride);
   }
@@ -169,13 +87,10 @@ void vtkStreamingBlend::Deliver(
 void vtkStreamingBlend::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Patch: " << (this->Patch ? this->Patch : "(none)") << "\n";
   os << indent << "Arrays:";
-  for (const std::string& column : this->Internal->chosen())
+  for (const std::string& column : this->ChosenArrays())
   {
     os << ' ' << column;
   }
-  os << "\n" << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
-  os << indent << "Anchor: " << this->Anchor << "\n";
-  os << indent << "SeamGradient: " << (this->SeamGradient == AVERAGE ? "average" : "zero") << "\n";
+  os << "\n";
 }

@@ -29,45 +29,24 @@ public:
   vtkTypeMacro(vtkStreamingBlend, vtkStreamingSolver);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Name of the array of one component with the patch of each point, or of each cell: points of
    * cells of several patches then are in no patch. That of the points counts if both have it. */
-  vtkSetStringMacro(Patch);
-  vtkGetStringMacro(Patch);
-  ///@}
+  smgTextOption(Patch);
 
-  ///@{
   /** Names of the point arrays to blend, with at most 64 components together. Default: none. */
-  void AddArray(const char* name);
-  void RemoveAllArrays();
-  int GetNumberOfArrays() const;
-  /** Null if there is no such number. */
-  const char* GetArray(int number) const;
-  ///@}
+  smgNamesProperty(Array);
 
-  ///@{
   /** The former name of these, which counts if there are none. */
-  void AddColumn(const char* name);
-  void RemoveAllColumns();
-  int GetNumberOfColumns() const;
-  /** Null if there is no such number. */
-  const char* GetColumn(int number) const;
-  ///@}
+  smgNamesProperty(Column);
 
-  ///@{
   /** The parts that keep their values, besides what vtkMeshRegion marks: WHERE of a problem file in
    * JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}. Columns are arrays of the
    * input. Default: none. */
-  vtkSetStringMacro(Hold);
-  vtkGetStringMacro(Hold);
-  ///@}
+  smgTextOption(Hold);
 
-  ///@{
   /** How strongly all values are pulled towards the original ones, at least 0: corrections over
    * less than 1 / sqrt(Anchor) diagonals of the bounds are hardly pulled. Default: 0.01. */
-  vtkSetMacro(Anchor, double);
-  vtkGetMacro(Anchor, double);
-  ///@}
+  smgOption(Anchor, double);
 
   /** The gradients between patches. */
   enum SeamGradientType
@@ -75,17 +54,13 @@ public:
     ZERO,   ///< 0: the steps vanish as far as possible
     AVERAGE ///< the mean of the gradients on both sides
   };
-  ///@{
   /** The gradients between patches. Default: ZERO. */
-  vtkSetMacro(SeamGradient, int);
-  vtkGetMacro(SeamGradient, int);
-  ///@}
+  smgOption(SeamGradient, int);
 
 protected:
   vtkStreamingBlend();
   ~vtkStreamingBlend() override;
 
-  void CheckRanges() const override;
   std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
 
@@ -93,14 +68,9 @@ private:
   vtkStreamingBlend(const vtkStreamingBlend&) = delete;
   void operator=(const vtkStreamingBlend&) = delete;
 
-  struct Internals;
+  const std::vector<std::string>& ChosenArrays() const;
 
-  char* Patch = nullptr;
-  char* Hold = nullptr;
-  double Anchor = 0.01;
-  int SeamGradient = ZERO;
-
-  std::unique_ptr<Internals> Internal;
+  std::vector<std::string> Arrays, Columns;
 };
 
 #endif

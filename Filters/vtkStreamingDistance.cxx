@@ -5,9 +5,9 @@
 #include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/JobTask.h"
 #include "IO/Jobs/DistanceJob.h"
+#include "IO/Jobs/JobProperties.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/PieceColumns.h"
-#include "IO/Vtk/PropertyRange.h"
 #include "Solver/Core/Text.h"
 #include "smg/Deform.h"
 #include "smg/DescriptionFiles.h"
@@ -121,15 +121,12 @@ private:
 } // namespace
 
 vtkStreamingDistance::vtkStreamingDistance()
+  : vtkStreamingSolver("distance")
 {
   this->SetNumberOfOutputPorts(PATHS + 1);
 }
 
-vtkStreamingDistance::~vtkStreamingDistance()
-{
-  this->SetFrom(nullptr);
-  this->SetTo(nullptr);
-}
+vtkStreamingDistance::~vtkStreamingDistance() = default;
 
 int vtkStreamingDistance::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -183,33 +180,15 @@ void vtkStreamingDistance::FillFurtherOutputs(
   }
 }
 
-smg::DistanceDescription vtkStreamingDistance::Description() const
-{
-  smg::DistanceDescription description;
-  description.wall = this->Wall;
-  description.source = this->Source;
-  description.group = this->Group;
-  description.direction = this->Direction;
-  description.accuracy = static_cast<smg::PathAccuracy>(this->Accuracy);
-  if (this->Within > 0.0)
-  {
-    description.within = this->Within;
-  }
-  return description;
-}
-
 void vtkStreamingDistance::CheckRanges() const
 {
   this->Superclass::CheckRanges();
-  smg::requireInRange({ { "Accuracy", this->Accuracy, AUTOMATIC, APPROXIMATE } });
-  smg::requireInRealRange({ { "Within", this->Within, 0.0 } });
-  if (this->To && *this->To && this->Wall)
+  if (!this->Options->text("To").empty() && this->Options->number("Wall") != 0.0)
   {
     throw smg::Error(
       "To are the ends of paths along a surface, which distances to a wall do not have: "
       "leave To empty, or turn Wall off.");
   }
-  smg::requireInRange({ { "MaximumPasses", this->MaximumPasses, 1 } });
 }
 
 std::unique_ptr<smg::JobTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
@@ -222,25 +201,24 @@ std::unique_ptr<smg::JobTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
   {
     throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
   }
-  if (this->Wall && this->Within > 0.0)
+  if (this->GetWall() && this->GetWithin() > 0.0)
   {
     throw smg::Error(
       "Within is the largest length of paths, which distances to a wall are not: set "
       "Within to 0, or turn Wall off.");
   }
-  task->asked.options.maxPasses = this->MaximumPasses;
+  this->Options->applyTo(task->asked);
   smg::DistanceDescription& description = task->asked.description;
-  description = this->Description();
-  description.from = smg::placesOn(input, this->From, "From");
-  if (description.from.empty() && !this->Wall &&
+  description.from = smg::placesOn(input, this->GetFrom(), "From");
+  if (description.from.empty() && !description.wall &&
       input.GetPointData()->HasArray(smg::HandleMaskName))
   {
     description.from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
   }
   task->regions = description.from.size();
-  if (this->To && *this->To)
+  if (const std::string& to = this->Options->text("To"); !to.empty())
   {
-    description.to = smg::readPlacesText(this->To, "To");
+    description.to = smg::readPlacesText(to, "To");
   }
   return task;
 }
@@ -256,7 +234,9 @@ void vtkStreamingDistance::Deliver(
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
   const auto points = stride == 0 ? 0 : static_cast<std::size_t>(piece.GetNumberOfPoints());
-  for (const smg::ColumnSpec& spec : smg::distanceColumns(this->Description()))
+  smg::DistanceJob asked;
+  this->Options->applyTo(asked);
+  for (const smg::ColumnSpec& spec : smg::distanceColumns(asked.description))
   {
     smg::Column column{ spec, {} };
     column.resize(points);
@@ -276,21 +256,4 @@ void vtkStreamingDistance::Deliver(
     first += components;
   }
   output.GetPointData()->SetActiveScalars(smg::DistanceName);
-}
-
-void vtkStreamingDistance::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "From: " << (this->From ? this->From : "(none)") << "\n";
-  os << indent << "To: " << (this->To ? this->To : "(none)") << "\n";
-  os << indent << "Wall: " << this->Wall << "\n";
-  os << indent << "Source: " << this->Source << "\n";
-  os << indent << "Group: " << this->Group << "\n";
-  os << indent << "Direction: " << this->Direction << "\n";
-  os << indent << "Accuracy: "
-     << (this->Accuracy == EXACT        ? "exact"
-          : this->Accuracy == AUTOMATIC ? "automatic"
-                                        : "approximate")
-     << "\n";
-  os << indent << "MaximumPasses: " << this->MaximumPasses << "\n";
 }

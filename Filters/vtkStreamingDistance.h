@@ -27,58 +27,33 @@
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 #include "vtkStreamingSolver.h"
 
-namespace smg
-{
-struct DistanceDescription;
-} // namespace smg
-
 class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingDistance : public vtkStreamingSolver
 {
 public:
   static vtkStreamingDistance* New();
   vtkTypeMacro(vtkStreamingDistance, vtkStreamingSolver);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** Where the distance is 0: WHERE of a problem file in JSON, or a list of these, for example
    * {"vertices": [5]}, in addition to the regions of vtkMeshRegion before this filter. Columns are
    * arrays of the input. Default: none. Without any region, that is what vtkMeshHandle holds,
    * {"mask": "HandleMask"}. With Wall, the wall; without any region the whole boundary. */
-  vtkSetStringMacro(From);
-  vtkGetStringMacro(From);
-  ///@}
+  smgTextOption(From);
 
-  ///@{
   /** Whether to compute the Euclidean distance to the boundary of a tetrahedral mesh instead of
    * that along paths. Default: off. */
-  vtkSetMacro(Wall, bool);
-  vtkGetMacro(Wall, bool);
-  vtkBooleanMacro(Wall, bool);
-  ///@}
+  smgFlagOption(Wall);
 
-  ///@{
   /** Whether to add DistanceSource, the number of the nearest source in the original file; -1 where
    * there is none. Default: off. */
-  vtkSetMacro(Source, bool);
-  vtkGetMacro(Source, bool);
-  vtkBooleanMacro(Source, bool);
-  ///@}
+  smgFlagOption(Source);
 
-  ///@{
   /** Whether to add DistanceGroup, where the nearest source is: the index of the region, from 0,
    * first among those of vtkMeshRegion, in their order in the pipeline (those of one RegionName are
    * one), then among those of From; -1 where there is none. Default: off. */
-  vtkSetMacro(Group, bool);
-  vtkGetMacro(Group, bool);
-  vtkBooleanMacro(Group, bool);
-  ///@}
+  smgFlagOption(Group);
 
-  ///@{
   /** Whether to add DistanceDirection, the unit gradient of the distance. Default: off. */
-  vtkSetMacro(Direction, bool);
-  vtkGetMacro(Direction, bool);
-  vtkBooleanMacro(Direction, bool);
-  ///@}
+  smgFlagOption(Direction);
 
   /** The outputs besides those of vtkStreamingSolver. */
   enum FurtherOutputPorts
@@ -87,13 +62,10 @@ public:
      * arrays To, From (numbers in the original file) and Length. */
     PATHS = NUMBER_OF_OUTPUT_PORTS
   };
-  ///@{
   /** Points whose shortest paths are wanted, at most 1,000: WHERE of a problem file in JSON, or a
    * list of these, for example {"nearest": [[0, 0, 1]]}. Of exact distances on a surface.
    * Default: none. */
-  vtkSetStringMacro(To);
-  vtkGetStringMacro(To);
-  ///@}
+  smgTextOption(To);
 
   /** How the lengths of paths on a surface are computed. */
   enum AccuracyType
@@ -102,25 +74,16 @@ public:
     EXACT,      ///< up to rounding, in 10 to 50 us a point
     APPROXIMATE ///< too long on long thin triangles, in about 1 us a point
   };
-  ///@{
   /** How the lengths of paths on a surface are computed; those through a solid are approximate.
    * Default: AUTOMATIC. */
-  vtkSetMacro(Accuracy, int);
-  vtkGetMacro(Accuracy, int);
-  ///@}
+  smgOption(Accuracy, int);
 
-  ///@{
   /** Of paths, in the unit of the mesh: points that are farther are not reached. 0: none is too
    * far. Default: 0. */
-  vtkSetMacro(Within, double);
-  vtkGetMacro(Within, double);
-  ///@}
+  smgOption(Within, double);
 
-  ///@{
   /** The maximum number of passes over the mesh, at least 1. Default: 200. */
-  vtkSetMacro(MaximumPasses, int);
-  vtkGetMacro(MaximumPasses, int);
-  ///@}
+  smgOption(MaximumPasses, int);
 
 protected:
   vtkStreamingDistance();
@@ -137,19 +100,6 @@ protected:
 private:
   vtkStreamingDistance(const vtkStreamingDistance&) = delete;
   void operator=(const vtkStreamingDistance&) = delete;
-
-  /** Without the sources. */
-  smg::DistanceDescription Description() const;
-
-  char* From = nullptr;
-  char* To = nullptr;
-  bool Wall = false;
-  bool Source = false;
-  bool Group = false;
-  bool Direction = false;
-  int Accuracy = AUTOMATIC;
-  double Within = 0.0;
-  int MaximumPasses = 200;
 };
 
 #endif

@@ -5,7 +5,7 @@
 #include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/JobTask.h"
 #include "IO/Jobs/AreaJob.h"
-#include "IO/Vtk/PropertyRange.h"
+#include "IO/Jobs/JobProperties.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
@@ -54,22 +54,12 @@ protected:
 } // namespace
 
 vtkStreamingMeshArea::vtkStreamingMeshArea()
+  : vtkStreamingSolver("area")
 {
   this->SetNumberOfOutputPorts(AREAS + 1);
 }
 
-vtkStreamingMeshArea::~vtkStreamingMeshArea()
-{
-  this->SetTag(nullptr);
-  this->SetOf(nullptr);
-}
-
-void vtkStreamingMeshArea::CheckRanges() const
-{
-  this->Superclass::CheckRanges();
-  smg::requireInRange({ { "Share", this->Share, EQUAL, VORONOI } });
-  smg::requireInRealRange({ { "Scale", this->Scale, 0.0, smg::RealPropertyRange::NoLimit, true } });
-}
+vtkStreamingMeshArea::~vtkStreamingMeshArea() = default;
 
 std::unique_ptr<smg::JobTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& input)
 {
@@ -81,13 +71,8 @@ std::unique_ptr<smg::JobTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& input)
   {
     throw smg::Error("areas have no checkpoints: leave CheckpointDirectory empty");
   }
-  // "None" is what ParaView offers for no array.
-  const std::string tag = this->Tag ? this->Tag : "";
-  smg::AreaDescription& description = task->asked.description;
-  description.tag = tag == "None" ? "" : tag;
-  description.share = static_cast<smg::AreaShare>(this->Share);
-  description.scale = this->Scale;
-  description.of = smg::placesOn(input, this->Of, "Of");
+  this->Options->applyTo(task->asked);
+  task->asked.description.of = smg::placesOn(input, this->GetOf(), "Of");
   return task;
 }
 
@@ -128,14 +113,4 @@ void vtkStreamingMeshArea::FillFurtherOutputs(
   table.AddColumn(tags);
   table.AddColumn(cells);
   table.AddColumn(areas);
-}
-
-void vtkStreamingMeshArea::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  constexpr const char* shares[] = { "equal", "voronoi" };
-  os << indent << "Tag: " << (this->Tag ? this->Tag : "(none)") << "\n";
-  os << indent << "Of: " << (this->Of ? this->Of : "(none)") << "\n";
-  os << indent << "Share: " << smg::printedChoice(shares, this->Share) << "\n";
-  os << indent << "Scale: " << this->Scale << "\n";
 }

@@ -28,7 +28,6 @@ class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingMeshArea : public vtkStrea
 public:
   static vtkStreamingMeshArea* New();
   vtkTypeMacro(vtkStreamingMeshArea, vtkStreamingSolver);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** The outputs besides those of vtkStreamingSolver. */
   enum FurtherOutputPorts
@@ -37,21 +36,15 @@ public:
       NUMBER_OF_OUTPUT_PORTS ///< a vtkTable with a row for each tag: Tag, Cells, Area or Volume
   };
 
-  ///@{
   /** Name of the cell array of one component by whose values areas are summed, at most 65,536 of
    * them. Empty (default) or "None": only the total. */
-  vtkSetStringMacro(Tag);
-  vtkGetStringMacro(Tag);
-  ///@}
+  smgTextOption(Tag);
 
-  ///@{
   /** The parts of the mesh that count, besides the regions of vtkMeshRegion before this filter: a
    * cell counts if all of its corners lie in one of them; an array of the cells selects cells.
    * WHERE of a problem file in JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}.
    * Columns are arrays of the input. Default: none; without any region all cells count. */
-  vtkSetStringMacro(Of);
-  vtkGetStringMacro(Of);
-  ///@}
+  smgTextOption(Of);
 
   /** What a point has of its cells. */
   enum ShareTypes
@@ -59,24 +52,17 @@ public:
     EQUAL,  ///< as much as the other corners: the lumped mass of linear finite elements
     VORONOI ///< of triangles, what is nearest to it
   };
-  ///@{
   /** What a point has of its cells. Default: EQUAL. */
-  vtkSetMacro(Share, int);
-  vtkGetMacro(Share, int);
-  ///@}
+  smgOption(Share, int);
 
-  ///@{
   /** By which lengths are multiplied, above 0: 0.001 for a mesh in millimetres and areas in square
    * metres. Default: 1. */
-  vtkSetMacro(Scale, double);
-  vtkGetMacro(Scale, double);
-  ///@}
+  smgOption(Scale, double);
 
 protected:
   vtkStreamingMeshArea();
   ~vtkStreamingMeshArea() override;
 
-  void CheckRanges() const override;
   bool IsForMemory(vtkPointSet& /*input*/, bool /*isWhole*/) override { return false; }
   std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
@@ -86,11 +72,6 @@ protected:
 private:
   vtkStreamingMeshArea(const vtkStreamingMeshArea&) = delete;
   void operator=(const vtkStreamingMeshArea&) = delete;
-
-  char* Tag = nullptr;
-  char* Of = nullptr;
-  int Share = EQUAL;
-  double Scale = 1.0;
 };
 
 #endif

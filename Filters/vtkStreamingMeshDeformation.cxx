@@ -30,7 +30,7 @@ struct vtkStreamingMeshDeformation::Internals
     smg::DeformOptions options;
     this->Self.FillOptions(options);
     options.weights = this->Self.ChosenWeights();
-    options.cycles = this->Self.Cycles;
+    options.cycles = this->Self.GetCycles();
     return options;
   }
 
@@ -48,10 +48,10 @@ struct vtkStreamingMeshDeformation::Internals
 };
 
 vtkStreamingMeshDeformation::vtkStreamingMeshDeformation()
-  : Internal(new Internals(*this))
+  : vtkMultiEngineSolver("deform")
+  , Internal(new Internals(*this))
 {
   this->SetWeights(CLAMPED);
-  this->SetTolerance(smg::DeformOptions().tolerance);
   this->SetSolve(ON_PREVIEW);
 }
 
@@ -66,8 +66,7 @@ void vtkStreamingMeshDeformation::CheckRanges() const
 {
   this->Superclass::CheckRanges();
   smg::requireInRange(
-    { { "Cycles", this->Cycles, 0 }, { "Normals", this->Normals, RECOMPUTE, DROP },
-      { "InteractivePoints", this->InteractivePoints, 0 }, { "DragPoints", this->DragPoints, 8 } });
+    { { "InteractivePoints", this->InteractivePoints, 0 }, { "DragPoints", this->DragPoints, 8 } });
 }
 
 std::unique_ptr<smg::JobTask> vtkStreamingMeshDeformation::MakeTask(vtkPointSet& input)
@@ -78,7 +77,7 @@ std::unique_ptr<smg::JobTask> vtkStreamingMeshDeformation::MakeTask(vtkPointSet&
   }
   auto task = std::make_unique<smg::DeformationTask>();
   task->asked.deforming = this->Internal->options();
-  task->needsNormals = this->Normals == RECOMPUTE && smg::findNormals(*input.GetPointData());
+  task->needsNormals = this->GetNormals() == RECOMPUTE && smg::findNormals(*input.GetPointData());
   task->interactive = &this->Internal->Interactive;
   if (!this->GetEngineNote().empty())
   {
@@ -142,7 +141,7 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInProcesses(
 
 std::string vtkStreamingMeshDeformation::WhyStreaming()
 {
-  return this->Cycles > 0 ? "it counts V-cycles (Cycles)" : this->Superclass::WhyStreaming();
+  return this->GetCycles() > 0 ? "it counts V-cycles (Cycles)" : this->Superclass::WhyStreaming();
 }
 
 void vtkStreamingMeshDeformation::Deliver(
@@ -151,7 +150,7 @@ void vtkStreamingMeshDeformation::Deliver(
   smg::movePiece(piece,
     { .values = values,
       .columns = this->GetSummary().columns,
-      .needsCellNormals = this->Normals == RECOMPUTE },
+      .needsCellNormals = this->GetNormals() == RECOMPUTE },
     output);
   smg::HandleArrays::forgetPlaces(*output.GetPointData());
   if (!this->KeepHandleArrays)
@@ -163,8 +162,6 @@ void vtkStreamingMeshDeformation::Deliver(
 void vtkStreamingMeshDeformation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Cycles: " << this->Cycles << "\n";
-  os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
   os << indent << "KeepHandleArrays: " << this->KeepHandleArrays << "\n";
   os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
   os << indent << "DragPoints: " << this->DragPoints << "\n";

@@ -48,48 +48,32 @@ public:
     DROP = 1       ///< they are dropped
   };
 
-  ///@{
   /** V-cycles of each of the two steps. Default: 0 (as many as Tolerance needs, at most
    * MaximumCycles). */
-  vtkSetMacro(Cycles, int);
-  vtkGetMacro(Cycles, int);
-  ///@}
+  smgOption(Cycles, int);
 
-  ///@{
   /**
    * The treatment of the normals of points and of cells (the active normals and arrays `Normals`),
    * which the deformation invalidates. Default: RECOMPUTE. Point normals are averages over the
    * whole mesh, weighted by angles, in single precision; they do not depend on pieces. Active
    * tangents are always dropped.
    */
-  vtkSetMacro(Normals, int);
-  vtkGetMacro(Normals, int);
-  ///@}
+  smgOption(Normals, int);
 
-  ///@{
   /** Whether the output keeps the arrays of the handles. Default: off, so that a second deformation
    * starts without handles. */
-  vtkSetMacro(KeepHandleArrays, bool);
-  vtkGetMacro(KeepHandleArrays, bool);
-  vtkBooleanMacro(KeepHandleArrays, bool);
-  ///@}
+  smgFlagProperty(KeepHandleArrays);
 
-  ///@{
   /**
    * Meshes of at most this many points are deformed in memory, which takes about 1 KiB per point,
    * and their hierarchy is kept. Default: 200,000. 0: only previews. The result does not depend on
    * it. A larger mesh that is displayed without a preview is deformed out of core at each change.
    */
-  vtkSetMacro(InteractivePoints, vtkIdType);
-  vtkGetMacro(InteractivePoints, vtkIdType);
-  ///@}
+  smgProperty(InteractivePoints, vtkIdType);
 
-  ///@{
   /** A preview of more points is made coarser before it is deformed, so that it follows a dragged
    * handle; at least 8. Default: 10,000, which answer in about 40 ms. */
-  vtkSetMacro(DragPoints, vtkIdType);
-  vtkGetMacro(DragPoints, vtkIdType);
-  ///@}
+  smgProperty(DragPoints, vtkIdType);
 
   /** The number of hierarchies built in memory; it does not increase while only the motion of
    * handles changes. */
@@ -112,7 +96,7 @@ protected:
   std::string WhyStreaming() override;
   int GetUsualColumns() override { return 7; }                // of both steps
   int ComparedColumns(int /*columns*/) override { return 3; } // without normals
-  bool IsToConverge() override { return this->Cycles == 0; }
+  bool IsToConverge() override { return this->GetCycles() == 0; }
 
 private:
   vtkStreamingMeshDeformation(const vtkStreamingMeshDeformation&) = delete;
@@ -120,8 +104,6 @@ private:
 
   struct Internals;
 
-  int Cycles = 0;
-  int Normals = RECOMPUTE;
   bool KeepHandleArrays = false;
   vtkIdType InteractivePoints = 200000;
   vtkIdType DragPoints = 10000;

@@ -22,6 +22,7 @@
 #ifndef vtkStreamingMeshPreview_h
 #define vtkStreamingMeshPreview_h
 
+#include "StreamingMeshProperties.h"
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
@@ -34,21 +35,15 @@ public:
   vtkTypeMacro(vtkStreamingMeshPreview, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The maximum number of points of the preview, 8 to 1,000,000; it usually has as many. Default:
    * 100,000. */
-  vtkSetMacro(PreviewPoints, int);
-  vtkGetMacro(PreviewPoints, int);
-  ///@}
+  smgProperty(PreviewPoints, int);
 
-  ///@{
   /**
    * The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
    * and pieces of at most 64 MiB). More pieces need less memory.
    */
-  vtkSetMacro(NumberOfPieces, int);
-  vtkGetMacro(NumberOfPieces, int);
-  ///@}
+  smgProperty(NumberOfPieces, int);
 
   ///@{
   /** Points and cells of the mesh that the preview represents; 0 before it has been created. */

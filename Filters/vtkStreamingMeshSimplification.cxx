@@ -8,6 +8,7 @@
 #include "Filters/Regions/RegionPoints.h"
 #include "Filters/Tasks/SolveEstimate.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/JobProperties.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "IO/Vtk/Failures.h"
 #include "IO/Vtk/MeshPieceData.h"
@@ -94,8 +95,7 @@ struct vtkStreamingMeshSimplification::Internals
     try
     {
       this->checkRanges();
-      const char* folder = this->Self.ScratchDirectory;
-      this->Scratch.emplace(folder ? folder : "");
+      this->Scratch.emplace(this->Self.ScratchDirectory);
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
       vtkPointSet& present =
         *vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, false));
@@ -109,7 +109,7 @@ struct vtkStreamingMeshSimplification::Internals
       this->Report = smg::simplify(mesh, this->target(), result,
         { .hold = hold,
           .memoryLimit = this->memory(),
-          .threads = this->Self.NumberOfThreads,
+          .threads = this->Self.GetNumberOfThreads(),
           .codec = smg::Codec::Lz4,
           .scratch = this->Scratch->path(),
           .progress = smg::partOf(smg::progressOf(this->Self), ReadShare, 1.0) });
@@ -131,18 +131,11 @@ struct vtkStreamingMeshSimplification::Internals
 
   void checkRanges() const
   {
-    constexpr int LeastMemory = 16, MaxThreads = 4096;
-    if (this->Self.NumberOfVertices != 0)
-    {
-      smg::requireInRange(
-        { { "NumberOfVertices", this->Self.NumberOfVertices, smg::SimplifyTarget::MinVertices,
-          smg::PropertyRange::NoLimit, "0 (as few as MaximumError allows)" } });
-    }
+    constexpr int LeastMemory = 16;
     smg::requireInRange({ { "MemoryLimit", this->Self.MemoryLimit, LeastMemory },
-      { "NumberOfPieces", this->Self.NumberOfPieces, 0, smg::PieceCount::Most },
-      { "NumberOfThreads", this->Self.NumberOfThreads, 0, MaxThreads } });
-    smg::requireInRealRange({ { "MaximumError", this->Self.MaximumError, 0.0 } });
-    if (this->Self.NumberOfVertices == 0 && this->Self.MaximumError == 0.0)
+      { "NumberOfPieces", this->Self.NumberOfPieces, 0, smg::PieceCount::Most } });
+    this->Self.Options->check();
+    if (this->Self.GetNumberOfVertices() == 0 && this->Self.GetMaximumError() == 0.0)
     {
       throw smg::Error(
         "Nothing says how far to simplify: set NumberOfVertices, MaximumError or both "
@@ -153,7 +146,7 @@ struct vtkStreamingMeshSimplification::Internals
   std::string estimate() const
   {
     smg::ConversionOptions places;
-    places.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+    places.scratch = this->Self.ScratchDirectory;
     places.memoryLimit = this->memory();
     return smg::estimateText(this->Self, places,
       [&](const smg::EstimatedInput& mesh, vtkPointSet& present)
@@ -176,12 +169,12 @@ struct vtkStreamingMeshSimplification::Internals
 
   smg::SimplifyTarget target() const
   {
-    return { this->Self.NumberOfVertices, this->Self.MaximumError };
+    return { this->Self.GetNumberOfVertices(), this->Self.GetMaximumError() };
   }
   /** What Mesh Regions of the input and Hold name. */
   std::vector<smg::Where> held(vtkPointSet& input) const
   {
-    return smg::placesOn(input, this->Self.Hold, "Hold");
+    return smg::placesOn(input, this->Self.GetHold(), "Hold");
   }
   std::int64_t memory() const { return std::int64_t(this->Self.MemoryLimit) << 20; }
 
@@ -214,7 +207,7 @@ struct vtkStreamingMeshSimplification::Internals
       smg::ConversionOptions options;
       options.memoryLimit = this->memory();
       options.scratch = this->Scratch->path();
-      options.threads = this->Self.NumberOfThreads;
+      options.threads = this->Self.GetNumberOfThreads();
       options.progress = progress;
       this->Lost = smg::writeOrdinaryMesh(*vtkPointSet::SafeDownCast(mesh), copy, options).notes;
       return { copy, {} };
@@ -264,15 +257,13 @@ struct vtkStreamingMeshSimplification::Internals
 };
 
 vtkStreamingMeshSimplification::vtkStreamingMeshSimplification()
-  : Internal(new Internals(*this))
+  : Options(new smg::JobProperties("simplify"))
+  , Internal(new Internals(*this))
 {
+  this->SetNumberOfVertices(100000);
 }
 
-vtkStreamingMeshSimplification::~vtkStreamingMeshSimplification()
-{
-  this->SetScratchDirectory(nullptr);
-  this->SetHold(nullptr);
-}
+vtkStreamingMeshSimplification::~vtkStreamingMeshSimplification() = default;
 
 double vtkStreamingMeshSimplification::GetReachedError()
 {
@@ -360,15 +351,10 @@ int vtkStreamingMeshSimplification::RequestData(
 void vtkStreamingMeshSimplification::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
-  os << indent << "MaximumError: " << this->MaximumError << "\n";
-  os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
+  this->Options->print(os, indent);
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent
-     << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
-     << "\n";
+  os << indent << "ScratchDirectory: " << smg::textOrNone(this->ScratchDirectory) << "\n";
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ReachedError: " << this->GetReachedError() << "\n";
   os << indent << "Outcome: " << this->GetOutcome() << "\n";
 }

@@ -22,6 +22,7 @@
 #ifndef vtkStreamingMeshSimplification_h
 #define vtkStreamingMeshSimplification_h
 
+#include "StreamingMeshProperties.h"
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
@@ -35,52 +36,31 @@ public:
   vtkTypeMacro(vtkStreamingMeshSimplification, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The most points of the result, at least 4; 0: as many as MaximumError needs. Default: 100,000.
    */
-  vtkSetMacro(NumberOfVertices, vtkIdType);
-  vtkGetMacro(NumberOfVertices, vtkIdType);
-  ///@}
+  smgOption(NumberOfVertices, vtkIdType);
 
-  ///@{
   /** The largest error, in the unit of the mesh: see smg::SimplifyOptions. 0 (default): what
    * NumberOfVertices needs. With both, what comes first ends the simplification. */
-  vtkSetMacro(MaximumError, double);
-  vtkGetMacro(MaximumError, double);
-  ///@}
+  smgOption(MaximumError, double);
 
-  ///@{
   /** The parts whose points all stay, in addition to the regions that vtkMeshRegion has marked:
    * WHERE of a problem file in JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}.
    * Columns are arrays of the input. Default: none. */
-  vtkSetStringMacro(Hold);
-  vtkGetStringMacro(Hold);
-  ///@}
+  smgTextOption(Hold);
 
-  ///@{
   /** The memory limit in MiB, at least 16. Default: 256. The result depends on it. */
-  vtkSetMacro(MemoryLimit, int);
-  vtkGetMacro(MemoryLimit, int);
-  ///@}
+  smgProperty(MemoryLimit, int);
 
-  ///@{
   /** The folder for scratch files. Default: none (the system's folder for temporary files). */
-  vtkSetFilePathMacro(ScratchDirectory);
-  vtkGetFilePathMacro(ScratchDirectory);
-  ///@}
+  smgFileProperty(ScratchDirectory);
 
-  ///@{
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
    * and pieces of at most 64 MiB). */
-  vtkSetMacro(NumberOfPieces, int);
-  vtkGetMacro(NumberOfPieces, int);
-  ///@}
+  smgProperty(NumberOfPieces, int);
 
-  ///@{
-  /** Compute threads; 0 (default): one per core. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  /** Compute threads, at most 1024; 0 (default): one per core. The result does not depend on it. */
+  smgOption(NumberOfThreads, int);
 
   /** What a simplification of the whole mesh is expected to cost, in one line: memory, scratch
    * files, processor time and the size of the result, which with MaximumError alone is that of the
@@ -117,14 +97,11 @@ private:
 
   struct Internals;
 
-  vtkIdType NumberOfVertices = 100000;
-  double MaximumError = 0.0;
-  char* Hold = nullptr;
   int MemoryLimit = 256;
-  char* ScratchDirectory = nullptr;
+  std::string ScratchDirectory;
   int NumberOfPieces = 0;
-  int NumberOfThreads = 0;
 
+  std::unique_ptr<smg::JobProperties> Options;
   std::unique_ptr<Internals> Internal;
 };
 

@@ -6,6 +6,7 @@
 #include "Filters/Tasks/DeformedVertices.h"
 #include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/MovedPiece.h"
+#include "IO/Jobs/JobProperties.h"
 #include "IO/Jobs/MovedResult.h"
 #include "IO/Jobs/SmoothJob.h"
 #include "IO/Vtk/MeshPieceData.h"
@@ -68,31 +69,23 @@ protected:
 
 } // namespace
 
-vtkStreamingMeshSmoothing::vtkStreamingMeshSmoothing() = default;
-
-vtkStreamingMeshSmoothing::~vtkStreamingMeshSmoothing()
+vtkStreamingMeshSmoothing::vtkStreamingMeshSmoothing()
+  : vtkStreamingSolver("smooth")
 {
-  this->SetHold(nullptr);
-  this->SetArray(nullptr);
-  this->SetColumn(nullptr);
 }
+
+vtkStreamingMeshSmoothing::~vtkStreamingMeshSmoothing() = default;
 
 std::string vtkStreamingMeshSmoothing::SmoothedArray() const
 {
-  // "None" is what ParaView offers for no array.
-  const auto named = [](const char* name)
-  { return name && std::string(name) != "None" ? std::string(name) : std::string(); };
-  const std::string array = named(this->Array);
-  return array.empty() ? named(this->Column) : array;
+  const std::string& array = this->Options->text("Array");
+  return smg::namesArray(array) ? array : smg::namesArray(this->Column) ? this->Column : "";
 }
 
 void vtkStreamingMeshSmoothing::CheckRanges() const
 {
-  constexpr int MaxSteps = 1000;
   this->Superclass::CheckRanges();
-  smg::requireInRange({ { "SizeUnit", this->SizeUnit, MEAN_EDGES, DIAGONAL },
-    { "Boundary", this->Boundary, AUTOMATIC, FREE }, { "Normals", this->Normals, RECOMPUTE, DROP },
-    { "Steps", this->Steps, 1, MaxSteps } });
+  smg::requireInRange({ { "SizeUnit", this->SizeUnit, MEAN_EDGES, DIAGONAL } });
   constexpr double NoLimit = smg::RealPropertyRange::NoLimit, StraightAngle = 180.0;
   smg::requireInRealRange({ { "Size", this->Size, 0.0, NoLimit, true } });
   if (this->KeepEdges)
@@ -117,22 +110,17 @@ std::unique_ptr<smg::JobTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& i
   task->setLimits(description);
   // Both enumerations have the same order.
   description.size = { this->Size, static_cast<smg::SmoothingSize::Unit>(this->SizeUnit) };
-  description.steps = this->Steps;
-  description.keepVolume = this->KeepVolume;
+  this->Options->applyTo(task->asked);
   description.column = this->SmoothedArray();
   if (this->KeepEdges)
   {
     description.keepEdges = this->EdgeAngle;
   }
-  if (this->Boundary != AUTOMATIC)
-  {
-    description.boundary = static_cast<smg::SmoothedBoundary>(this->Boundary - SMOOTH);
-  }
-  description.hold = smg::placesOn(input, this->Hold, "Hold");
+  description.hold = smg::placesOn(input, this->GetHold(), "Hold");
   const bool isSurface =
     vtkPolyData::SafeDownCast(&input) ||
     (smg::lacksStreamNumbering(input) && smg::countingCells(input) == smg::CellChoice::Triangles);
-  task->needsNormals = description.column.empty() && this->Normals == RECOMPUTE && isSurface &&
+  task->needsNormals = description.column.empty() && this->GetNormals() == RECOMPUTE && isSurface &&
                        smg::findNormals(*input.GetPointData());
   return task;
 }
@@ -155,7 +143,7 @@ void vtkStreamingMeshSmoothing::Deliver(
   smg::movePiece(piece,
     { .values = values,
       .columns = this->GetSummary().columns,
-      .needsCellNormals = this->Normals == RECOMPUTE },
+      .needsCellNormals = this->GetNormals() == RECOMPUTE },
     output);
 }
 
@@ -163,16 +151,9 @@ void vtkStreamingMeshSmoothing::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   constexpr const char* units[] = { "mean edges", "mesh unit", "diagonal" };
-  constexpr const char* boundaries[] = { "automatic", "smooth", "fixed", "free" };
   os << indent << "Size: " << this->Size << "\n";
   os << indent << "SizeUnit: " << smg::printedChoice(units, this->SizeUnit) << "\n";
-  os << indent << "Steps: " << this->Steps << "\n";
-  os << indent << "KeepVolume: " << this->KeepVolume << "\n";
   os << indent << "KeepEdges: " << this->KeepEdges << "\n";
   os << indent << "EdgeAngle: " << this->EdgeAngle << "\n";
-  os << indent << "Boundary: " << smg::printedChoice(boundaries, this->Boundary) << "\n";
-  os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
-  os << indent << "Array: " << (this->Array ? this->Array : "(none)") << "\n";
-  os << indent << "Column: " << (this->Column ? this->Column : "(none)") << "\n";
-  os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
+  os << indent << "Column: " << smg::textOrNone(this->Column) << "\n";
 }

@@ -57,79 +57,44 @@ public:
     DROP = 1       ///< they are dropped
   };
 
-  ///@{
   /** Waves of this length are halved by all steps together, in SizeUnit. Default: 4. */
-  vtkSetMacro(Size, double);
-  vtkGetMacro(Size, double);
-  ///@}
+  smgProperty(Size, double);
 
-  ///@{
   /** The unit of Size. Default: MEAN_EDGES. */
-  vtkSetMacro(SizeUnit, int);
-  vtkGetMacro(SizeUnit, int);
-  ///@}
+  smgProperty(SizeUnit, int);
 
-  ///@{
   /** Implicit steps, 1 to 1000. Default: 1. */
-  vtkSetMacro(Steps, int);
-  vtkGetMacro(Steps, int);
-  ///@}
+  smgOption(Steps, int);
 
-  ///@{
   /** Whether each step moves the points along their normals, by the distance with which the surface
    * sweeps no volume. Default: on. */
-  vtkSetMacro(KeepVolume, bool);
-  vtkGetMacro(KeepVolume, bool);
-  vtkBooleanMacro(KeepVolume, bool);
-  ///@}
+  smgFlagOption(KeepVolume);
 
-  ///@{
   /** Whether to keep edges at which the surface turns by more than EdgeAngle. Needs about 5 Steps.
    * Default: off. */
-  vtkSetMacro(KeepEdges, bool);
-  vtkGetMacro(KeepEdges, bool);
-  vtkBooleanMacro(KeepEdges, bool);
-  ///@}
+  smgFlagProperty(KeepEdges);
 
-  ///@{
   /** The angle of KeepEdges in degrees, between 0 and 180. Default: 30, for machined parts. */
-  vtkSetMacro(EdgeAngle, double);
-  vtkGetMacro(EdgeAngle, double);
-  ///@}
+  smgProperty(EdgeAngle, double);
 
-  ///@{
   /** What becomes of the boundary of a surface. Default: AUTOMATIC. */
-  vtkSetMacro(Boundary, int);
-  vtkGetMacro(Boundary, int);
-  ///@}
+  smgOption(Boundary, int);
 
-  ///@{
   /** The parts that do not change, in addition to the regions of vtkMeshRegion before this filter:
    * WHERE of a problem file in JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}.
    * Columns are arrays of the input. Default: none. */
-  vtkSetStringMacro(Hold);
-  vtkGetStringMacro(Hold);
-  ///@}
+  smgTextOption(Hold);
 
-  ///@{
   /** Name of the point array to smooth instead of the points. Empty (default) or "None": the
    * points. */
-  vtkSetStringMacro(Array);
-  vtkGetStringMacro(Array);
-  ///@}
+  smgTextOption(Array);
 
-  ///@{
   /** The former name of Array, which counts if there is none. */
-  vtkSetStringMacro(Column);
-  vtkGetStringMacro(Column);
-  ///@}
+  smgTextProperty(Column);
 
-  ///@{
   /** The treatment of the normals of points and of cells (the active normals and arrays `Normals`)
    * if points move: see vtkStreamingMeshDeformation. Default: RECOMPUTE. */
-  vtkSetMacro(Normals, int);
-  vtkGetMacro(Normals, int);
-  ///@}
+  smgOption(Normals, int);
 
 protected:
   vtkStreamingMeshSmoothing();
@@ -150,15 +115,9 @@ private:
 
   double Size = 4.0;
   int SizeUnit = MEAN_EDGES;
-  int Steps = 1;
-  bool KeepVolume = true;
   bool KeepEdges = false;
   double EdgeAngle = 30.0;
-  int Boundary = AUTOMATIC;
-  char* Hold = nullptr;
-  char* Array = nullptr;
-  char* Column = nullptr;
-  int Normals = RECOMPUTE;
+  std::string Column;
 };
 
 #endif

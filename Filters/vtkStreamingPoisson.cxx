@@ -10,6 +10,7 @@
 #include "Filters/Tasks/PoissonTask.h"
 #include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/WarnOnce.h"
+#include "IO/Jobs/JobProperties.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/OrdinaryMesh.h"
@@ -71,14 +72,14 @@ struct vtkStreamingPoisson::Internals
       defaults.columns = problem.columns;
     };
     goOn();
-    if (const char* file = this->Self.ProblemFileName; file && *file)
+    if (!this->Self.ProblemFileName.empty())
     {
-      append(problem, smg::readProblemFile(file, defaults));
+      append(problem, smg::readProblemFile(this->Self.ProblemFileName, defaults));
       goOn();
     }
-    if (const char* text = this->Self.Problem; text && *text)
+    if (!this->Self.Problem.empty())
     {
-      append(problem, smg::readProblemText(text, "Problem", defaults));
+      append(problem, smg::readProblemText(this->Self.Problem, "Problem", defaults));
     }
     smg::requireConditionsAfterJoins(this->Self);
     this->Conditions = smg::applyConditions(input, problem);
@@ -139,7 +140,7 @@ struct vtkStreamingPoisson::Internals
     smg::SolveOptions& options = task->asked.solving;
     this->Self.FillOptions(options);
     options.inCore = this->Self.InCore;
-    options.acceleration = static_cast<smg::AccelerationKind>(this->Self.Acceleration);
+    this->Self.Options->applyTo(task->asked);
     return task;
   }
 
@@ -190,9 +191,9 @@ struct vtkStreamingPoisson::Internals
   /** Whether the problem file has changed since. */
   void lookAtFile()
   {
-    const char* name = this->Self.ProblemFileName;
+    const std::string& name = this->Self.ProblemFileName;
     std::error_code absent;
-    const auto time = name && *name ? std::filesystem::last_write_time(name, absent)
+    const auto time = !name.empty() ? std::filesystem::last_write_time(name, absent)
                                     : std::filesystem::file_time_type();
     if (time != this->FileTime)
     {
@@ -203,8 +204,8 @@ struct vtkStreamingPoisson::Internals
 
   const char* resultName() const
   {
-    const char* name = this->Self.ResultArrayName;
-    return name && *name ? name : "Solution";
+    const std::string& name = this->Self.ResultArrayName;
+    return name.empty() ? "Solution" : name.c_str();
   }
 
   vtkStreamingPoisson& Self;
@@ -220,15 +221,9 @@ struct vtkStreamingPoisson::Internals
 vtkStreamingPoisson::vtkStreamingPoisson()
   : Internal(new Internals(*this))
 {
-  this->SetResultArrayName("Solution");
 }
 
-vtkStreamingPoisson::~vtkStreamingPoisson()
-{
-  this->SetResultArrayName(nullptr);
-  this->SetProblemFileName(nullptr);
-  this->SetProblem(nullptr);
-}
+vtkStreamingPoisson::~vtkStreamingPoisson() = default;
 
 int vtkStreamingPoisson::GetCycles()
 {
@@ -251,7 +246,6 @@ int vtkStreamingPoisson::ComputePipelineMTime(vtkInformation* request,
 void vtkStreamingPoisson::CheckRanges() const
 {
   this->Superclass::CheckRanges();
-  smg::requireInRange({ { "Acceleration", this->Acceleration, AUTOMATIC, CONJUGATE_GRADIENTS } });
   smg::requireInRealRange(
     { { "Conductivity", this->Conductivity, 0.0, smg::RealPropertyRange::NoLimit, true },
       { "Screening", this->Screening, 0.0 } });
@@ -260,11 +254,6 @@ void vtkStreamingPoisson::CheckRanges() const
 std::string vtkStreamingPoisson::InPanelWords(const std::string& text)
 {
   return this->Internal->Conditions.in(this->Superclass::InPanelWords(text));
-}
-
-bool vtkStreamingPoisson::HasAutomaticTolerance() const
-{
-  return true;
 }
 
 std::unique_ptr<smg::JobTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)
@@ -363,16 +352,14 @@ void vtkStreamingPoisson::Deliver(
 
 void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)
 {
-  const auto text = [](const char* string) { return string && *string ? string : "(none)"; };
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Conductivity: " << this->Conductivity << "\n";
   os << indent << "Screening: " << this->Screening << "\n";
-  os << indent << "ProblemFileName: " << text(this->ProblemFileName) << "\n";
-  os << indent << "Problem: " << text(this->Problem) << "\n";
+  os << indent << "ProblemFileName: " << smg::textOrNone(this->ProblemFileName) << "\n";
+  os << indent << "Problem: " << smg::textOrNone(this->Problem) << "\n";
   os << indent << "Gradient: " << this->Gradient << "\n";
   os << indent << "Flux: " << this->Flux << "\n";
-  os << indent << "Acceleration: " << this->Acceleration << "\n";
   os << indent << "InCore: " << this->InCore << "\n";
-  os << indent << "ResultArrayName: " << text(this->ResultArrayName) << "\n";
+  os << indent << "ResultArrayName: " << smg::textOrNone(this->ResultArrayName) << "\n";
   os << indent << "Cycles: " << this->GetSummary().cycles << "\n";
 }

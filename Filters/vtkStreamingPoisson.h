@@ -62,62 +62,36 @@ public:
     CONJUGATE_GRADIENTS = 3
   };
 
-  ///@{
   /** The conductivity K, greater than 0, where nothing else defines it. Default: 1. */
-  vtkSetMacro(Conductivity, double);
-  vtkGetMacro(Conductivity, double);
-  ///@}
+  smgProperty(Conductivity, double);
 
-  ///@{
   /** The screening s, at least 0: larger values keep the effect of sources local. Default: 0. */
-  vtkSetMacro(Screening, double);
-  vtkGetMacro(Screening, double);
-  ///@}
+  smgProperty(Screening, double);
 
   ///@{
   /** A problem in JSON, as for `smg solve --problem`: a file, and a string. Columns of the mesh are
    * arrays of the input. Default: none. */
-  vtkSetFilePathMacro(ProblemFileName);
-  vtkGetFilePathMacro(ProblemFileName);
-  vtkSetStringMacro(Problem);
-  vtkGetStringMacro(Problem);
+  smgFileProperty(ProblemFileName);
+  smgTextProperty(Problem);
   ///@}
 
-  ///@{
   /** Whether the output has the cell array `Gradient`, grad u: 3 components per right-hand side.
    * Default: off. */
-  vtkSetMacro(Gradient, bool);
-  vtkGetMacro(Gradient, bool);
-  vtkBooleanMacro(Gradient, bool);
-  ///@}
+  smgFlagProperty(Gradient);
 
-  ///@{
   /** Whether the output has the cell array `Flux`, -K grad u: 3 components per right-hand side.
    * Default: off. */
-  vtkSetMacro(Flux, bool);
-  vtkGetMacro(Flux, bool);
-  vtkBooleanMacro(Flux, bool);
-  ///@}
+  smgFlagProperty(Flux);
 
-  ///@{
   /** The acceleration of the V-cycles. Default: AUTOMATIC. */
-  vtkSetMacro(Acceleration, int);
-  vtkGetMacro(Acceleration, int);
-  ///@}
+  smgOption(Acceleration, int);
 
-  ///@{
   /** Whether the solver works in memory, without files. Default: off. The solution does not depend
    * on it. */
-  vtkSetMacro(InCore, bool);
-  vtkGetMacro(InCore, bool);
-  vtkBooleanMacro(InCore, bool);
-  ///@}
+  smgFlagProperty(InCore);
 
-  ///@{
   /** Name of the point array with the solution. Default: "Solution". */
-  vtkSetStringMacro(ResultArrayName);
-  vtkGetStringMacro(ResultArrayName);
-  ///@}
+  smgTextProperty(ResultArrayName);
 
   /** V-cycles of the last solve. */
   int GetCycles();
@@ -130,7 +104,6 @@ protected:
   ~vtkStreamingPoisson() override;
 
   void CheckRanges() const override;
-  bool HasAutomaticTolerance() const override;
   /** Names Mesh Conditions instead of the entries of the problem that they make. */
   std::string InPanelWords(const std::string& text) override;
   /** Looks whether the problem file has changed, once for every update of the pipeline. */
@@ -153,13 +126,12 @@ private:
 
   double Conductivity = 1.0;
   double Screening = 0.0;
-  char* ProblemFileName = nullptr;
-  char* Problem = nullptr;
+  std::string ProblemFileName;
+  std::string Problem;
   bool Gradient = false;
   bool Flux = false;
-  int Acceleration = AUTOMATIC;
   bool InCore = false;
-  char* ResultArrayName = nullptr;
+  std::string ResultArrayName = "Solution";
 
   std::unique_ptr<Internals> Internal;
 };

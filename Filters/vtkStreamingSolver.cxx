@@ -3,6 +3,8 @@
 
 #include "Filters/SolverInternals.h"
 #include "Filters/Tasks/SolveEstimate.h"
+#include "IO/Jobs/JobProperties.h"
+#include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/PieceInput.h"
 #include "IO/Vtk/PieceStream.h"
 #include "IO/Vtk/PropertyNames.h"
@@ -26,19 +28,16 @@
 
 vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
 
-vtkStreamingSolver::vtkStreamingSolver()
-  : Internal(new Internals(*this))
+vtkStreamingSolver::vtkStreamingSolver(const char* job)
+  : Options(new smg::JobProperties(job))
+  , Internal(new Internals(*this))
 {
   this->SetNumberOfOutputPorts(NUMBER_OF_OUTPUT_PORTS);
-  this->SetOperators("extended");
   this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
 vtkStreamingSolver::~vtkStreamingSolver()
 {
-  this->SetOperators(nullptr);
-  this->SetScratchDirectory(nullptr);
-  this->SetCheckpointDirectory(nullptr);
   this->SetController(nullptr);
 }
 
@@ -144,25 +143,11 @@ const char* vtkStreamingSolver::GetError()
 
 void vtkStreamingSolver::CheckRanges() const
 {
-  constexpr int MaxThreads = 4096;
   smg::requireInRange({ { "Solve", this->Solve, AUTOMATIC_SOLVE, ON_FULL_MESH },
-    { "Weights", this->Weights, UNIFORM, CLAMPED }, { "Sweeps", this->Sweeps, 1, 20 },
-    { "MaximumCycles", this->MaximumCycles, 1 }, { "MemoryLimit", this->MemoryLimit, 1 },
+    { "Weights", this->Weights, UNIFORM, CLAMPED }, { "MemoryLimit", this->MemoryLimit, 1 },
     { "ScratchLimit", this->ScratchLimit, 0 },
-    { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most },
-    { "NumberOfThreads", this->NumberOfThreads, 0, MaxThreads } });
-  const bool isAutomatic =
-    this->Tolerance == smg::SolveOptions::AutomaticTolerance && this->HasAutomaticTolerance();
-  if (!isAutomatic)
-  {
-    smg::requireInRealRange({ { "Tolerance", this->Tolerance, 0.0, 1.0, true,
-      this->HasAutomaticTolerance() ? "0 (automatic)" : "" } });
-  }
-}
-
-bool vtkStreamingSolver::HasAutomaticTolerance() const
-{
-  return false;
+    { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
+  this->Options->check();
 }
 
 std::string vtkStreamingSolver::UnusedProperty()
@@ -172,15 +157,15 @@ std::string vtkStreamingSolver::UnusedProperty()
 
 void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
 {
-  options.operators = this->Operators ? this->Operators : "";
-  options.sweeps = this->Sweeps;
-  options.tolerance = this->Tolerance;
-  options.maxCycles = this->MaximumCycles;
+  options.operators = this->Operators;
+  options.sweeps = static_cast<int>(this->Options->number("Sweeps"));
+  options.tolerance = this->Options->number("Tolerance");
+  options.maxCycles = static_cast<int>(this->Options->number("MaximumCycles"));
   options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
-  options.threads = this->NumberOfThreads;
-  options.scratch = this->ScratchDirectory ? this->ScratchDirectory : "";
+  options.threads = static_cast<int>(this->Options->number("NumberOfThreads"));
+  options.scratch = this->ScratchDirectory;
   options.scratchLimit = std::int64_t(this->ScratchLimit) << 20;
-  if (this->CheckpointDirectory && *this->CheckpointDirectory)
+  if (!this->CheckpointDirectory.empty())
   {
     // The task replaces both texts, when it knows the mesh.
     options.checkpoint = { this->CheckpointDirectory, "input", "properties" };
@@ -337,19 +322,13 @@ void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Solve: " << smg::printedChoice(places, this->Solve) << "\n";
   constexpr const char* names[] = { "uniform", "cotangent", "clamped" };
   os << indent << "Weights: " << smg::printedChoice(names, this->Weights) << "\n";
-  os << indent << "Operators: " << (this->Operators ? this->Operators : "(none)") << "\n";
-  os << indent << "Sweeps: " << this->Sweeps << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "MaximumCycles: " << this->MaximumCycles << "\n";
+  os << indent << "Operators: " << smg::textOrNone(this->Operators) << "\n";
+  this->Options->print(os, indent);
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent
-     << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
-     << "\n";
+  os << indent << "ScratchDirectory: " << smg::textOrNone(this->ScratchDirectory) << "\n";
   os << indent << "ScratchLimit: " << this->ScratchLimit << "\n";
-  os << indent << "CheckpointDirectory: "
-     << (this->CheckpointDirectory ? this->CheckpointDirectory : "(none)") << "\n";
+  os << indent << "CheckpointDirectory: " << smg::textOrNone(this->CheckpointDirectory) << "\n";
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "Residual: " << this->GetResidual() << "\n";
   os << indent << "Passes: " << this->GetPasses() << "\n";

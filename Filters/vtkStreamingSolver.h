@@ -26,6 +26,7 @@
 #ifndef vtkStreamingSolver_h
 #define vtkStreamingSolver_h
 
+#include "StreamingMeshProperties.h" // For the macros of properties
 #include "vtkPassInputTypeAlgorithm.h"
 #include "vtkSmartPointer.h"                    // For vtkSmartPointer
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
@@ -41,6 +42,7 @@ class vtkPointSet;
 namespace smg
 {
 enum class Weights;
+class JobProperties;
 struct SolveOptions;
 struct SolveSummary;
 class JobTask;
@@ -78,77 +80,49 @@ public:
     ON_FULL_MESH = 2 ///< on the full mesh; the preview then has its values
   };
 
-  ///@{
   /**
    * Where to solve while the preview of a mesh is shown: see SolveTypes. What is saved is always
    * that of the full mesh. GetOutcome() says first which of them it was. Default: AUTOMATIC_SOLVE;
    * for vtkStreamingMeshDeformation: ON_PREVIEW.
    */
-  vtkSetMacro(Solve, int);
-  vtkGetMacro(Solve, int);
-  ///@}
+  smgProperty(Solve, int);
 
-  ///@{
   /** The weights of the edges. Default: COTANGENT; for vtkStreamingMeshDeformation: CLAMPED. */
-  vtkSetMacro(Weights, int);
-  vtkGetMacro(Weights, int);
-  ///@}
+  smgProperty(Weights, int);
 
-  ///@{
   /** Name of the multigrid's operator set. Default: "extended". */
-  vtkSetStringMacro(Operators);
-  vtkGetStringMacro(Operators);
-  ///@}
+  smgTextProperty(Operators);
 
-  ///@{
   /** Gauss-Seidel sweeps before and after each coarse-grid correction, 1 to 20. Default: 2. */
-  vtkSetMacro(Sweeps, int);
-  vtkGetMacro(Sweeps, int);
-  ///@}
+  smgOption(Sweeps, int);
 
-  ///@{
   /**
    * The solve ends when the norm of the residual is at most this fraction of that of the best
    * constant, or of the mesh at rest where it is moved; in (0, 1).
    * Default: 1e-8, with which the result agrees with that of a direct solver to the digits of a
    * float; of Streaming Mesh Deformation 1e-6.
    */
-  vtkSetMacro(Tolerance, double);
-  vtkGetMacro(Tolerance, double);
-  ///@}
+  smgOption(Tolerance, double);
 
-  ///@{
-  /** The maximum number of V-cycles, at least 1. Default: 50. */
-  vtkSetMacro(MaximumCycles, int);
-  vtkGetMacro(MaximumCycles, int);
-  ///@}
+  /** The maximum number of V-cycles, 1 to 1,000,000. Default: 50. */
+  smgOption(MaximumCycles, int);
 
-  ///@{
   /** The memory limit of the solver in MiB, at least 1. Default: 1024. If the mesh needs more, the
    * solve fails immediately and states how much. Scratch files in memory (see ScratchDirectory)
    * take at most half of it, besides. */
-  vtkSetMacro(MemoryLimit, int);
-  vtkGetMacro(MemoryLimit, int);
-  ///@}
+  smgProperty(MemoryLimit, int);
 
-  ///@{
   /** The folder for scratch files. Default: none: the system's folder for temporary files; of an
    * ordinary mesh the system's folder in memory, /dev/shm, if half of MemoryLimit has room for
    * them.
    */
-  vtkSetFilePathMacro(ScratchDirectory);
-  vtkGetFilePathMacro(ScratchDirectory);
-  ///@}
+  smgFileProperty(ScratchDirectory);
 
-  ///@{
   /** The limit of the scratch files that exist at once, in MiB; 0 (default): none. Before it is
    * exceeded, the solve fails with an error that states both figures. The files of a checkpoint
    * have this limit for themselves. */
-  vtkSetMacro(ScratchLimit, int);
-  vtkGetMacro(ScratchLimit, int);
-  ///@}
+  smgProperty(ScratchLimit, int);
 
-  ///@{
   /**
    * A folder from which the same filter on the same input, in another program, continues the solve
    * if this program is killed or the solve is aborted. The folder is for this filter alone: it is
@@ -158,23 +132,16 @@ public:
    * vtkStreamingMeshDeformation have checkpoints, when they do not solve in memory; the other
    * subclasses fail with one. Default: none.
    */
-  vtkSetFilePathMacro(CheckpointDirectory);
-  vtkGetFilePathMacro(CheckpointDirectory);
-  ///@}
+  smgFileProperty(CheckpointDirectory);
 
-  ///@{
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
    * and such that a piece takes at most a sixteenth of MemoryLimit). More pieces need less memory.
    * The solution does not depend on it. */
-  vtkSetMacro(NumberOfPieces, int);
-  vtkGetMacro(NumberOfPieces, int);
-  ///@}
+  smgProperty(NumberOfPieces, int);
 
-  ///@{
-  /** Compute threads; 0 (default): one per core. The solution does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  /** Compute threads, at most 1024; 0 (default): one per core. The solution does not depend on it.
+   */
+  smgOption(NumberOfThreads, int);
 
   ///@{
   /** The controller of the processes that work together, each requesting its own piece. Default:
@@ -211,7 +178,8 @@ public:
   const char* GetError();
 
 protected:
-  vtkStreamingSolver();
+  /** @param job the kind of the job that it does, whose options are its properties */
+  explicit vtkStreamingSolver(const char* job = "solve");
   ~vtkStreamingSolver() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
@@ -284,8 +252,6 @@ protected:
 
   /** Throws smg::Error if a property is out of its range. Subclasses add their own. */
   virtual void CheckRanges() const;
-  /** Whether a Tolerance of 0 stands for one that suits the mesh. Default: false. */
-  virtual bool HasAutomaticTolerance() const;
   /** What the libraries say, in the words of a user of panels and properties. */
   virtual std::string InPanelWords(const std::string& text);
   /** A sentence about a property that is set but has no effect with the others, for a warning; ""
@@ -301,6 +267,9 @@ protected:
    * solve. */
   const smg::SolveSummary& GetPresentSummary() const;
 
+  /** The properties that are options of the job. */
+  std::unique_ptr<smg::JobProperties> Options;
+
 private:
   vtkStreamingSolver(const vtkStreamingSolver&) = delete;
   void operator=(const vtkStreamingSolver&) = delete;
@@ -309,16 +278,12 @@ private:
 
   int Solve = AUTOMATIC_SOLVE;
   int Weights = COTANGENT;
-  char* Operators = nullptr;
-  int Sweeps = 2;
-  double Tolerance = 1e-8;
-  int MaximumCycles = 50;
+  std::string Operators = "extended";
   int MemoryLimit = 1024;
-  char* ScratchDirectory = nullptr;
+  std::string ScratchDirectory;
   int ScratchLimit = 0;
-  char* CheckpointDirectory = nullptr;
+  std::string CheckpointDirectory;
   int NumberOfPieces = 0;
-  int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;
 
   std::unique_ptr<Internals> Internal;

@@ -29,7 +29,8 @@ constexpr auto BlendTable = joined(
       .kind = ColumnsOption{ BlendMember<std::vector<std::string>, &BlendDescription::columns> },
       .help = "Columns of the vertices to blend, of any numeric type, with at most 64 components "
               "together",
-      .isRequired = true },
+      .isRequired = true,
+      .property = "Arrays" },
     JobOption{ .key = "hold",
       .kind = WhereOption{ BlendMember<std::vector<Where>, &BlendDescription::hold> },
       .help = "Parts of the mesh that keep their values" },
@@ -40,7 +41,8 @@ constexpr auto BlendTable = joined(
               "all" },
     JobOption{ .key = "seam",
       .kind = ChoiceOption{ BlendMember<std::size_t, &BlendDescription::seam>, SeamNames },
-      .help = "Gradients between patches: zero, or the average of those on both sides" },
+      .help = "Gradients between patches: zero, or the average of those on both sides",
+      .property = "SeamGradient" },
   },
   ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
 

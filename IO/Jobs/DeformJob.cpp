@@ -52,7 +52,8 @@ constexpr auto DeformTable = joined(
       .kind = ChoiceOption{ DeformMember<std::size_t, &DeformOptions::weights>, WeightsNames,
         "raw-cotangent", static_cast<std::size_t>(Weights::Cotangent) },
       .help = "Weights of the edges, instead of those of the handle file: clamped, cotangent "
-              "(finite elements) or uniform" },
+              "(finite elements) or uniform",
+      .property = "" },
     JobOption{ .key = "tolerance",
       .kind = NumberOption{ DeformTolerance, { 0.0, 1.0, true } },
       .help = "Relative residual at which each of the two steps stops, instead of that which the "

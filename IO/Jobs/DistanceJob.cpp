@@ -59,7 +59,8 @@ constexpr auto DistanceTable = joined(
           memberOf<std::int64_t, DistanceJob, &DistanceJob::options, &DistanceOptions::maxPasses>,
           1, 1000000 },
       .help = "Maximum number of passes over the mesh",
-      .isAdvanced = true },
+      .isAdvanced = true,
+      .property = "MaximumPasses" },
   },
   LimitOptions, ScratchLimitOption);
 

@@ -118,6 +118,9 @@ struct JobOption
   bool isAdvanced = false;
   bool isCommon = false;          ///< a command has it as all commands have
   const char* excludes = nullptr; ///< the key of an earlier option that does not go with it
+  /** Of the filter in VTK, if it is not the key as SeveralWords; "": none, or one that is more than
+   * its value. */
+  const char* property = nullptr;
 };
 
 template <class Kind>
@@ -211,15 +214,18 @@ inline constexpr std::array LimitOptions{
   JobOption{ .key = "memory",
     .kind = BytesOption{ memberOf<std::int64_t, Job, &Job::limits, &JobLimits::memory> },
     .help = "Limit of the accounted memory, in bytes or with a unit, as 2GB",
-    .isCommon = true },
+    .isCommon = true,
+    .property = "MemoryLimit" },
   JobOption{ .key = "threads",
     .kind = CountOption{ memberOf<std::int64_t, Job, &Job::limits, &JobLimits::threads>, 0, 1024 },
     .help = "Threads that compute; 0: one for each core. The result does not depend on it",
-    .isCommon = true },
+    .isCommon = true,
+    .property = "NumberOfThreads" },
   JobOption{ .key = "scratch",
     .kind = FolderOption{ memberOf<std::filesystem::path, Job, &Job::limits, &JobLimits::scratch> },
     .help = "Folder for scratch files",
-    .isCommon = true },
+    .isCommon = true,
+    .property = "ScratchDirectory" },
 };
 
 /** What the scratch files may take. */
@@ -242,7 +248,8 @@ inline constexpr std::array ToleranceOptions{
 inline constexpr std::array SolverOptions{
   JobOption{ .key = "max_cycles",
     .kind = CountOption{ solverMember<std::int64_t, &SolveOptions::maxCycles>, 1, 1000000 },
-    .help = "Maximum number of V-cycles, of each step if there are several" },
+    .help = "Maximum number of V-cycles, of each step if there are several",
+    .property = "MaximumCycles" },
   JobOption{ .key = "sweeps",
     .kind = CountOption{ solverMember<std::int64_t, &SolveOptions::sweeps>, 1, 20 },
     .help = "Gauss-Seidel sweeps before and after a coarse-grid correction",
@@ -251,7 +258,8 @@ inline constexpr std::array SolverOptions{
     .kind = FlagOption{ solverMember<bool, &SolveOptions::inCore> },
     .help = "Keep everything in memory and use no scratch files; the result is the same, bit for "
             "bit",
-    .isAdvanced = true },
+    .isAdvanced = true,
+    .property = "" },
 };
 
 /** Where a killed job continues from. */
@@ -261,7 +269,8 @@ inline constexpr std::array CheckpointOption{
       &CheckpointOptions::folder> },
     .help = "Folder from which the same job, run again, continues if it was killed",
     .isAdvanced = true,
-    .isCommon = true },
+    .isCommon = true,
+    .property = "CheckpointDirectory" },
 };
 
 /** In the order of MovedNormals. */

@@ -35,14 +35,16 @@ constexpr auto SmoothTable = joined(
       .kind = NumberOption{ SmoothMember<double, &Smoothing::keepEdges>, { 0.0, 180.0, true },
         "degrees" },
       .help = "Keep edges at which the surface turns by more than this angle, about 30 for "
-              "machined parts; with about 5 steps" },
+              "machined parts; with about 5 steps",
+      .property = "" },
     JobOption{ .key = "keep_volume",
       .kind = FlagOption{ SmoothMember<bool, &Smoothing::keepVolume> },
       .help = "Move the surface along its normals so that it keeps its volume" },
     JobOption{ .key = "orient",
       .kind = FlagOption{ SmoothMember<bool, &Smoothing::orient> },
       .help = "Turn triangles of the result so that those of a body are wound alike, and outwards "
-              "if it is closed" },
+              "if it is closed",
+      .property = "" },
     JobOption{ .key = "hold",
       .kind = WhereOption{ SmoothMember<std::vector<Where>, &Smoothing::hold> },
       .help = "Parts of the mesh that do not move" },
@@ -52,7 +54,8 @@ constexpr auto SmoothTable = joined(
               "(default of a column)" },
     JobOption{ .key = "column",
       .kind = ColumnOption{ SmoothMember<std::string, &Smoothing::column> },
-      .help = "Smooth this column of the vertices instead of their positions" },
+      .help = "Smooth this column of the vertices instead of their positions",
+      .property = "Array" },
   },
   NormalsOption<SmoothJob>, ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
 

@@ -31,9 +31,9 @@ inline std::string unusedProperty(std::initializer_list<ModeProperty> properties
 }
 
 /** Whether a property names an array; "None" is what ParaView offers for none. */
-inline bool namesArray(const char* name)
+inline bool namesArray(const std::string& name)
 {
-  return name && *name && std::string(name) != "None";
+  return !name.empty() && name != "None";
 }
 
 } // namespace smg

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Vtk/PropertyNames.h"
 
+#include "IO/Jobs/JobProperties.h"
+
 #include "vtkAlgorithm.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 namespace smg
@@ -16,33 +19,29 @@ namespace
 struct NamedOption
 {
   std::string_view option, property;
-  bool isOfConverter; ///< whether only the Streaming Mesh Converter has it
 };
 
-constexpr NamedOption NamedOptions[] = {
-  { "--memory", "MemoryLimit", false },
-  { "--scratch", "ScratchDirectory", false },
-  { "--scratch-limit", "ScratchLimit", false },
-  { "--checkpoint", "CheckpointDirectory", false },
-  { "--in-core", "InCore", false },
-  { "--size", "Size", false },
-  { "--cells", "Cells", true },
-  { "--weld", "WeldDistance", true },
-  { "--time-step", "TimeStep", true },
-  { "--partition", "Partition", true },
+/** Those of the Streaming Mesh Converter. */
+constexpr NamedOption OptionsOfConverter[] = {
+  { "--cells", "Cells" },
+  { "--weld", "WeldDistance" },
+  { "--time-step", "TimeStep" },
+  { "--partition", "Partition" },
 };
 
-/** The properties whose names are several words, which a panel shows apart from each other. */
-constexpr std::string_view SeveralWords[] = { "CellDataArrays", "CheckpointDirectory",
-  "ChooseArraysToWrite", "ConductivityArray", "DirichletMask", "DirichletValues", "DragPoints",
-  "EdgeAngle", "FieldArray", "FileName", "FullNumberOfCells", "FullNumberOfPoints", "HeldBounds",
-  "IdType", "InCore", "InitialGuess", "InsideOut", "InteractivePoints", "KeepEdges",
-  "KeepHandleArrays", "KeepVolume", "MaskArray", "MaximumCycles", "MaximumError", "MaximumPasses",
-  "MaximumPointsInMemory", "MemoryLimit", "NumberOfBuilds", "NumberOfHeldPoints", "NumberOfPieces",
-  "NumberOfThreads", "NumberOfVertices", "OutputFileName", "PeakMemory", "PointDataArrays",
-  "PointTargets", "PreviewCells", "PreviewPoints", "ProblemFileName", "ReachedError",
-  "RegionFunction", "RegionName", "RestoreOrder", "ResultArrayName", "RotationAngle",
-  "RotationAxis", "ScratchDirectory", "ScratchLimit", "ScreeningArray", "SeamGradient", "SizeUnit",
+/** Those whose properties are more than their values. */
+constexpr NamedOption OtherOptions[] = { { "--in-core", "InCore" }, { "--size", "Size" } };
+
+/** The properties that are no options of jobs and whose names are several words, which a panel
+ * shows apart from each other. */
+constexpr std::string_view SeveralWords[] = { "CellDataArrays", "ChooseArraysToWrite",
+  "ConductivityArray", "DirichletMask", "DirichletValues", "DragPoints", "EdgeAngle", "FieldArray",
+  "FileName", "FullNumberOfCells", "FullNumberOfPoints", "HeldBounds", "IdType", "InCore",
+  "InitialGuess", "InsideOut", "InteractivePoints", "KeepEdges", "KeepHandleArrays", "MaskArray",
+  "MaximumPointsInMemory", "NumberOfBuilds", "NumberOfHeldPoints", "NumberOfPieces",
+  "OutputFileName", "PeakMemory", "PointDataArrays", "PointTargets", "PreviewCells",
+  "PreviewPoints", "ProblemFileName", "ReachedError", "RegionFunction", "RegionName",
+  "RestoreOrder", "ResultArrayName", "RotationAngle", "RotationAxis", "ScreeningArray", "SizeUnit",
   "StreamFileName", "TagArray", "TimeStep", "ValueIsPosition", "WeldDistance", "WriteText" };
 
 /** Parts of sentences for whoever reads them at any of the doors, and what the window says. */
@@ -54,10 +53,18 @@ constexpr std::pair<std::string_view, std::string_view> Sayings[] = {
     "choose a point array to smooth instead (property Array)" },
 };
 
-const NamedOption* find(std::string_view option)
+/** Empty: there is none. */
+std::string_view find(std::span<const NamedOption> options, std::string_view option)
 {
-  const auto* found = std::ranges::find(NamedOptions, option, &NamedOption::option);
-  return found == std::end(NamedOptions) ? nullptr : found;
+  const auto found = std::ranges::find(options, option, &NamedOption::option);
+  return found == options.end() ? std::string_view() : found->property;
+}
+
+bool isSeveralWords(const std::string& word)
+{
+  const auto isIt = [&word](const auto& named) { return named.second == word; };
+  return std::ranges::find(SeveralWords, word) != std::end(SeveralWords) ||
+         std::ranges::any_of(propertiesOfOptions(), isIt);
 }
 
 void replace(std::string& text, std::string_view from, std::string_view to)
@@ -123,7 +130,7 @@ void separateWords(std::string& text)
       // Not what is part of a path, of a text of JSON or of a number with a fraction.
       const char before = begin > 0 ? text[begin - 1] : ' ';
       const bool isPlain = before == ' ' || before == '(';
-      if (isPlain && std::ranges::find(SeveralWords, word) != std::end(SeveralWords))
+      if (isPlain && isSeveralWords(word))
       {
         for (std::size_t k = end - 1; k > begin; --k)
         {
@@ -149,23 +156,27 @@ void separateWords(std::string& text)
 }
 
 /** As "property MemoryLimit". */
-std::string nameOf(const NamedOption& named, vtkAlgorithm& algorithm)
+std::string nameOf(std::string_view option, vtkAlgorithm& algorithm)
 {
+  const std::string_view property = propertyOf(option);
   const bool isConverter = algorithm.IsA("vtkStreamingMeshConverter");
   // A reader has no limit of memory: those of its conversion are set there.
-  const bool isEvaluatedBySolver =
-    !isConverter && (named.isOfConverter ||
-                      (algorithm.IsA("vtkStreamingMeshReader") && named.property == "MemoryLimit"));
-  return "property " + std::string(named.property) +
-         (isEvaluatedBySolver ? " of the Streaming Mesh Converter" : "");
+  const bool isElsewhere =
+    !isConverter && (!find(OptionsOfConverter, option).empty() ||
+                      (algorithm.IsA("vtkStreamingMeshReader") && property == "MemoryLimit"));
+  return "property " + std::string(property) +
+         (isElsewhere ? " of the Streaming Mesh Converter" : "");
 }
 
 } // namespace
 
 std::string_view propertyOf(std::string_view option)
 {
-  const NamedOption* named = find(option);
-  return named ? named->property : std::string_view();
+  const auto of = propertiesOfOptions().find(option);
+  const std::string_view other = find(OtherOptions, option);
+  return of != propertiesOfOptions().end() ? std::string_view(of->second)
+         : !other.empty()                  ? other
+                                           : find(OptionsOfConverter, option);
 }
 
 std::string withProperties(std::string sentence, vtkAlgorithm& algorithm)
@@ -182,9 +193,10 @@ std::string withProperties(std::string sentence, vtkAlgorithm& algorithm)
   {
     const std::size_t begin = at + word.size() - 2;
     const std::size_t end = std::min(sentence.find_first_not_of(letters, begin), sentence.size());
-    if (const NamedOption* named = find(std::string_view(sentence).substr(begin, end - begin)))
+    const std::string option = sentence.substr(begin, end - begin);
+    if (!propertyOf(option).empty())
     {
-      sentence.replace(at, end - at, nameOf(*named, algorithm));
+      sentence.replace(at, end - at, nameOf(option, algorithm));
     }
   }
   separateWords(sentence);

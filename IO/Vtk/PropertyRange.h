@@ -38,7 +38,7 @@ inline void requireInRange(std::initializer_list<PropertyRange> numbers)
         std::string(number.property) + " is " + std::to_string(number.value) + ": set it to " +
         (number.most == PropertyRange::NoLimit ? "at least " + std::to_string(number.least)
                                                : "a number from " + std::to_string(number.least) +
-                                                   " to " + std::to_string(number.most)) +
+                                                   " to " + groupedDigits(number.most)) +
         (*number.other ? std::string(", or to ") + number.other : "") + '.');
     }
   }

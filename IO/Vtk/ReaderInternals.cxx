@@ -25,7 +25,7 @@
 vtkStreamingMeshReader::Internals::Stamp vtkStreamingMeshReader::Internals::stampOf(
   vtkStreamingMeshReader& self)
 {
-  return { self.GetMTime(), smg::InputState(self.FileName ? self.FileName : ""),
+  return { self.GetMTime(), smg::InputState(self.FileName),
     smg::InputState(self.GetContainerName()) };
 }
 
@@ -76,7 +76,7 @@ bool vtkStreamingMeshReader::Internals::state(vtkStreamingMeshReader& self)
   {
     std::vector<double> times = smg::timesOf(self.GetContainerName());
     smg::ConversionOptions options;
-    options.scratch = self.ScratchDirectory ? self.ScratchDirectory : "";
+    options.scratch = self.ScratchDirectory;
     options.progress = smg::progressOf(self);
     options.timeStep = presentStep(this->Step, times);
     self.ChooseConversion(options);
@@ -144,8 +144,7 @@ smg::VsmReader& vtkStreamingMeshReader::Internals::open(
 bool vtkStreamingMeshReader::Internals::isOpen(vtkStreamingMeshReader& self) const
 {
   return this->Mesh && this->Name == self.GetContainerName() &&
-         this->Scratch == (self.ScratchDirectory ? self.ScratchDirectory : "") &&
-         this->Opened.Container.isUnchanged();
+         this->Scratch == self.ScratchDirectory && this->Opened.Container.isUnchanged();
 }
 
 /** Takes the names of the container and of the scratch folder; another one has other arrays. */
@@ -158,7 +157,7 @@ void vtkStreamingMeshReader::Internals::takeName(vtkStreamingMeshReader& self)
     this->CellArrays->RemoveAllArrays();
   }
   this->Name = name;
-  this->Scratch = self.ScratchDirectory ? self.ScratchDirectory : "";
+  this->Scratch = self.ScratchDirectory;
 }
 
 /** The .vsm file of the mesh, now or when it is converted. */

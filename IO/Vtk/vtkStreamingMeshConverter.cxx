@@ -86,10 +86,7 @@ vtkStandardNewMacro(vtkStreamingMeshConverter);
 
 vtkStreamingMeshConverter::vtkStreamingMeshConverter() = default;
 
-vtkStreamingMeshConverter::~vtkStreamingMeshConverter()
-{
-  this->SetOutputFileName(nullptr);
-}
+vtkStreamingMeshConverter::~vtkStreamingMeshConverter() = default;
 
 const char* vtkStreamingMeshConverter::GetReport()
 {
@@ -109,7 +106,7 @@ int vtkStreamingMeshConverter::CanReadFile(const char* name)
 std::string vtkStreamingMeshConverter::GetContainerName()
 {
   const bool isMeshNamed = !this->Superclass::GetContainerName().empty();
-  return isMeshNamed && this->OutputFileName ? this->OutputFileName : "";
+  return isMeshNamed ? this->OutputFileName : "";
 }
 
 struct vtkStreamingMeshConverter::Internals
@@ -227,8 +224,7 @@ void vtkStreamingMeshConverter::UpdateContainer()
 void vtkStreamingMeshConverter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "OutputFileName: " << (this->OutputFileName ? this->OutputFileName : "(none)")
-     << "\n";
+  os << indent << "OutputFileName: " << smg::textOrNone(this->OutputFileName) << "\n";
   os << indent << "Order: " << this->Order << "\n";
   os << indent << "Cells: " << this->Cells << "\n";
   os << indent << "Weld: " << this->Weld << "\n";

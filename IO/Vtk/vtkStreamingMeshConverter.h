@@ -47,17 +47,11 @@ public:
     SPECTRAL = 3       ///< along the Fiedler vector: the smallest width
   };
 
-  ///@{
   /** The container to write, with the suffix .vsm. Default: none; it is required. */
-  vtkSetFilePathMacro(OutputFileName);
-  vtkGetFilePathMacro(OutputFileName);
-  ///@}
+  smgFileProperty(OutputFileName);
 
-  ///@{
   /** The order of the stream. Default: BREADTH_FIRST, which suits nearly every mesh. */
-  vtkSetMacro(Order, int);
-  vtkGetMacro(Order, int);
-  ///@}
+  smgProperty(Order, int);
 
   /** The cells of a file that has both surface cells and volume cells. */
   enum CellTypes
@@ -67,64 +61,37 @@ public:
     TETRAHEDRA = 2 ///< surface cells are omitted
   };
 
-  ///@{
   /** The cells of a file to keep. Default: ONLY. */
-  vtkSetMacro(Cells, int);
-  vtkGetMacro(Cells, int);
-  ///@}
+  smgProperty(Cells, int);
 
-  ///@{
   /** Whether to merge points that lie within WeldDistance of each other. Default: off. */
-  vtkSetMacro(Weld, bool);
-  vtkGetMacro(Weld, bool);
-  vtkBooleanMacro(Weld, bool);
-  ///@}
+  smgFlagProperty(Weld);
 
-  ///@{
   /** Points within this distance, in units of the coordinates, are merged. Default: 0 (points of
    * equal coordinates). */
-  vtkSetMacro(WeldDistance, double);
-  vtkGetMacro(WeldDistance, double);
-  ///@}
+  smgProperty(WeldDistance, double);
 
-  ///@{
   /** Whether to turn triangles so that those of a body are wound alike, and outwards if it is
    * closed. Default: off. */
-  vtkSetMacro(Orient, bool);
-  vtkGetMacro(Orient, bool);
-  vtkBooleanMacro(Orient, bool);
-  ///@}
+  smgFlagProperty(Orient);
 
-  ///@{
   /** Which time step of a file with time steps (VTKHDF) to read, from 0. Default: 0. */
-  vtkSetMacro(TimeStep, int);
-  vtkGetMacro(TimeStep, int);
-  ///@}
+  smgProperty(TimeStep, int);
 
-  ///@{
   /**
    * Which partition of a file with partitions (VTKHDF) to read, from 0. Default: -1, all of them,
    * joined.
    */
-  vtkSetMacro(Partition, int);
-  vtkGetMacro(Partition, int);
-  ///@}
+  smgProperty(Partition, int);
 
-  ///@{
   /**
    * Whether OutputFileName may replace a file that is not a conversion of FileName. Default: off.
    */
-  vtkSetMacro(Overwrite, bool);
-  vtkGetMacro(Overwrite, bool);
-  vtkBooleanMacro(Overwrite, bool);
-  ///@}
+  smgFlagProperty(Overwrite);
 
-  ///@{
   /** The memory limit of the conversion in MiB, at least 16, for any size of the mesh. Default: 0,
    * which is 256. */
-  vtkSetMacro(MemoryLimit, int);
-  vtkGetMacro(MemoryLimit, int);
-  ///@}
+  smgProperty(MemoryLimit, int);
 
   /**
    * Whether the file is a mesh of a format that is not a stream. If VTK can read the format, the
@@ -155,7 +122,7 @@ private:
   vtkStreamingMeshConverter(const vtkStreamingMeshConverter&) = delete;
   void operator=(const vtkStreamingMeshConverter&) = delete;
 
-  char* OutputFileName = nullptr;
+  std::string OutputFileName;
   int Order = BREADTH_FIRST;
   int Cells = ONLY;
   bool Weld = false;

@@ -34,15 +34,11 @@ vtkStreamingMeshReader::vtkStreamingMeshReader()
   this->SetNumberOfInputPorts(0);
 }
 
-vtkStreamingMeshReader::~vtkStreamingMeshReader()
-{
-  this->SetFileName(nullptr);
-  this->SetScratchDirectory(nullptr);
-}
+vtkStreamingMeshReader::~vtkStreamingMeshReader() = default;
 
 std::string vtkStreamingMeshReader::GetContainerName()
 {
-  return this->FileName ? this->FileName : "";
+  return this->FileName;
 }
 
 bool vtkStreamingMeshReader::IsContainerMade()
@@ -254,10 +250,8 @@ int vtkStreamingMeshReader::RequestData(
 void vtkStreamingMeshReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-  os << indent
-     << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
-     << "\n";
+  os << indent << "FileName: " << smg::textOrNone(this->FileName) << "\n";
+  os << indent << "ScratchDirectory: " << smg::textOrNone(this->ScratchDirectory) << "\n";
   os << indent << "MaximumPointsInMemory: " << this->MaximumPointsInMemory << "\n";
   os << indent << "PreviewPoints: " << this->PreviewPoints << "\n";
   os << indent << "PreviewCells: " << (this->PreviewCells == SURFACE ? "surface" : "tetrahedra")

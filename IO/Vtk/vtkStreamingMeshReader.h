@@ -56,6 +56,7 @@
 #ifndef vtkStreamingMeshReader_h
 #define vtkStreamingMeshReader_h
 
+#include "StreamingMeshProperties.h"
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 
@@ -76,32 +77,20 @@ public:
   vtkTypeMacro(vtkStreamingMeshReader, vtkDataObjectAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to read. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  smgFileProperty(FileName);
 
-  ///@{
   /** The folder for the temporary container of a file that is not a .vsm. Default: none (the
    * system's folder for temporary files). */
-  vtkSetFilePathMacro(ScratchDirectory);
-  vtkGetFilePathMacro(ScratchDirectory);
-  ///@}
+  smgFileProperty(ScratchDirectory);
 
-  ///@{
   /** The maximum number of points of a piece that is not streamed; for a larger piece the preview
    * is returned. Default: 2,000,000. 0: always the preview. */
-  vtkSetMacro(MaximumPointsInMemory, vtkIdType);
-  vtkGetMacro(MaximumPointsInMemory, vtkIdType);
-  ///@}
+  smgProperty(MaximumPointsInMemory, vtkIdType);
 
-  ///@{
   /** The maximum number of points of the preview, 8 to 1,000,000. Making it takes up to 3.5 KB of
    * memory a point. Default: 100,000. */
-  vtkSetMacro(PreviewPoints, int);
-  vtkGetMacro(PreviewPoints, int);
-  ///@}
+  smgProperty(PreviewPoints, int);
 
   /** What the preview of a tetrahedral mesh consists of. */
   enum PreviewCellsType
@@ -109,11 +98,8 @@ public:
     SURFACE,   ///< triangles of its outer surface: the shape in most detail
     TETRAHEDRA ///< fewer and larger tetrahedra, on which a deformation acts inside, too
   };
-  ///@{
   /** What the preview of a tetrahedral mesh consists of. Default: SURFACE. */
-  vtkSetMacro(PreviewCells, int);
-  vtkGetMacro(PreviewCells, int);
-  ///@}
+  smgProperty(PreviewCells, int);
 
   ///@{
   /** The point and cell columns to read as arrays. Default: all. */
@@ -181,8 +167,8 @@ private:
   vtkStreamingMeshReader(const vtkStreamingMeshReader&) = delete;
   void operator=(const vtkStreamingMeshReader&) = delete;
 
-  char* FileName = nullptr;
-  char* ScratchDirectory = nullptr;
+  std::string FileName;
+  std::string ScratchDirectory;
   vtkIdType MaximumPointsInMemory = 2000000;
   int PreviewPoints = 100000;
   int PreviewCells = SURFACE;

@@ -317,7 +317,7 @@ struct vtkStreamingMeshWriter::Internals
   void write(int& code)
   {
     code = vtkErrorCode::NoFileNameError;
-    if (!this->Self.FileName || !*this->Self.FileName)
+    if (this->Self.FileName.empty())
     {
       throw smg::Error("No file is named: set FileName.");
     }
@@ -326,8 +326,7 @@ struct vtkStreamingMeshWriter::Internals
     smg::checkOutputPlace(path);
     smg::UsedFiles files;
     addInputs(this->Self, files);
-    files.readMesh(
-      this->Self.StreamFileName ? this->Self.StreamFileName : "", "that of Stream File Name");
+    files.readMesh(this->Self.StreamFileName, "that of Stream File Name");
     files.writeMesh(path);
     files.check();
     code = vtkErrorCode::UnknownError;
@@ -383,8 +382,7 @@ struct vtkStreamingMeshWriter::Internals
       input.hidePieces();
     }
     const InputProbe probe = probeInput(input, this->Self.NumberOfStreamedPieces);
-    const char* streamFile = this->Self.StreamFileName;
-    const Job job{ input, probe.pieces, path, streamFile ? streamFile : "", this->Self.WriteText,
+    const Job job{ input, probe.pieces, path, this->Self.StreamFileName, this->Self.WriteText,
       progress };
     Notes notes = probe.isOrdinary && write != writeIndexedPieces
                     ? writeOrdinary(job, this->Self.RestoreOrder)
@@ -409,11 +407,7 @@ vtkStreamingMeshWriter::vtkStreamingMeshWriter()
 {
 }
 
-vtkStreamingMeshWriter::~vtkStreamingMeshWriter()
-{
-  this->SetFileName(nullptr);
-  this->SetStreamFileName(nullptr);
-}
+vtkStreamingMeshWriter::~vtkStreamingMeshWriter() = default;
 
 void vtkStreamingMeshWriter::AddPointArray(const char* name)
 {
@@ -504,11 +498,10 @@ void vtkStreamingMeshWriter::WriteData()
 void vtkStreamingMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "FileName: " << smg::textOrNone(this->FileName) << "\n";
   os << indent << "RestoreOrder: " << this->RestoreOrder << "\n";
   os << indent << "WriteText: " << this->WriteText << "\n";
-  os << indent << "StreamFileName: " << (this->StreamFileName ? this->StreamFileName : "(none)")
-     << "\n";
+  os << indent << "StreamFileName: " << smg::textOrNone(this->StreamFileName) << "\n";
   os << indent << "NumberOfStreamedPieces: " << this->NumberOfStreamedPieces << "\n";
   os << indent << "ChooseArraysToWrite: " << this->ChooseArraysToWrite << "\n";
 }

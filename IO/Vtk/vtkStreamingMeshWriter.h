@@ -28,6 +28,7 @@
 #ifndef vtkStreamingMeshWriter_h
 #define vtkStreamingMeshWriter_h
 
+#include "StreamingMeshProperties.h"
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 #include "vtkWriter.h"
 
@@ -40,52 +41,33 @@ public:
   vtkTypeMacro(vtkStreamingMeshWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /** The file to write; its suffix selects the format. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  smgFileProperty(FileName);
 
-  ///@{
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (pieces of
    * about 4 MiB). (ParaView calls SetNumberOfPieces with the number of processes.) */
-  vtkSetMacro(NumberOfStreamedPieces, int);
-  vtkGetMacro(NumberOfStreamedPieces, int);
-  ///@}
+  smgProperty(NumberOfStreamedPieces, int);
 
-  ///@{
   /**
    * Whether to restore the order of vertices and cells of the original mesh file, according to the
    * arrays OriginalId and OriginalCellId: a PLY file is written as the same PLY file with moved
    * points. A mesh of any other source is written in its own order, without these arrays. For
    * formats that docs/formats.md says are restored. Takes at most 256 MiB of memory. Default: off.
    */
-  vtkSetMacro(RestoreOrder, bool);
-  vtkGetMacro(RestoreOrder, bool);
-  vtkBooleanMacro(RestoreOrder, bool);
-  ///@}
+  smgFlagProperty(RestoreOrder);
 
-  ///@{
   /** Whether to write text where the format has a binary and a text form. Numbers read back
    * exactly. Formats of binary files are an error. Default: off. */
-  vtkSetMacro(WriteText, bool);
-  vtkGetMacro(WriteText, bool);
-  vtkBooleanMacro(WriteText, bool);
-  ///@}
+  smgFlagProperty(WriteText);
 
-  ///@{
   /** The .vsm file with the points of no cell. Default: none (the file in
    * vtkStreamingMeshKeys::STREAM_FILE() of the input, if any). Required only for other data. */
-  vtkSetFilePathMacro(StreamFileName);
-  vtkGetFilePathMacro(StreamFileName);
-  ///@}
+  smgFileProperty(StreamFileName);
 
   ///@{
   /** Whether to write only the arrays that are named by AddPointArray() and AddCellArray().
    * Default: off, all arrays. */
-  vtkSetMacro(ChooseArraysToWrite, bool);
-  vtkGetMacro(ChooseArraysToWrite, bool);
-  vtkBooleanMacro(ChooseArraysToWrite, bool);
+  smgFlagProperty(ChooseArraysToWrite);
   void AddPointArray(const char* name);
   void AddCellArray(const char* name);
   void RemoveAllPointArrays();
@@ -114,11 +96,11 @@ private:
 
   void WriteFile();
 
-  char* FileName = nullptr;
+  std::string FileName;
   int NumberOfStreamedPieces = 0;
   bool RestoreOrder = false;
   bool WriteText = false;
-  char* StreamFileName = nullptr;
+  std::string StreamFileName;
   bool ChooseArraysToWrite = false;
   std::unique_ptr<Internals> Internal;
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Jobs/JobProperties.h"
 #include "IO/Vtk/PropertyNames.h"
 #include "IO/Vtk/vtkStreamingMeshConverter.h"
 #include "IO/Vtk/vtkStreamingMeshReader.h"
@@ -119,6 +120,13 @@ TEST(VtkPropertyNames, AreWordsInSentences)
         ++found;
       }
     }
+  }
+  for (const auto& [option, name] : propertiesOfOptions())
+  {
+    const std::string words = std::regex_replace(name, std::regex("([a-z])([A-Z])"), "$1 $2");
+    EXPECT_EQ(withProperties("(option " + option + ')', *reader).find("(property " + words), 0U);
+    EXPECT_EQ(withProperties("set " + name, *reader), "set " + words);
+    ++found;
   }
   EXPECT_GT(found, 100);
   for (const char* stays : { "the array 'RegionName'", "/tmp/MemoryLimit", "{\"Region\": 1}",
