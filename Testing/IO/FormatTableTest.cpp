@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/FormatTable.h"
-#include "IO/Files/Decompressor.h"
-#include "Testing/Support/FormatSuffixes.h"
 #include "Testing/Support/TestFolders.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,25 +21,6 @@ std::string textOf(const std::string& file)
   std::ifstream stream(sourceFolder() / file);
   EXPECT_TRUE(stream) << file;
   return { std::istreambuf_iterator<char>(stream), {} };
-}
-
-/** The suffixes, with dots, in the first hint of the proxies of a file of the plugin, from the
- * proxy `name` on. */
-std::set<std::string> suffixesOfProxy(
-  const std::string& file, const std::string& hint, const std::string& name = "")
-{
-  const std::string text = textOf("ParaViewPlugin/StreamingMultigrid/" + file);
-  const std::string begin = "<" + hint + " extensions=\"";
-  const std::size_t at = text.find(begin, text.find("name=\"" + name));
-  EXPECT_NE(at, std::string::npos) << file;
-  std::istringstream words(
-    text.substr(at + begin.size(), text.find('"', at + begin.size()) - at - begin.size()));
-  std::set<std::string> suffixes;
-  for (std::string word; words >> word;)
-  {
-    suffixes.insert('.' + word);
-  }
-  return suffixes;
 }
 
 /** In what form files are written, if it is one. */
@@ -126,40 +104,6 @@ TEST(FormatTable, ListsFollowFromIt)
   EXPECT_FALSE(restoresColumns("a.vsm", Names{ "Colors" }));
   EXPECT_FALSE(restoresColumns("a.stl", Names{ "Colors" }));
   EXPECT_FALSE(restoresColumns("a", Names{ "Colors" }));
-}
-
-TEST(FormatTable, ParaViewOffersItsFormats)
-{
-  const auto isStream = [](auto& format, auto&) { return format.kind != MeshFileKind::Indexed; };
-  EXPECT_EQ(suffixesOfProxy("StreamingMeshReader.xml", "ReaderFactory"), suffixesWhere(isStream));
-  // What ParaView writes, too, is ours where a preview is shown; later versions write VTKHDF.
-  const auto isOfVtk = [](const Format& format, const FileSuffix& suffix)
-  { return format.isReadByVtk || suffix.text == ".vtkhdf"; };
-  std::set<std::string> saved = suffixesOfProxy("BigMeshWriter.xml", "WriterFactory");
-  saved.merge(suffixesOfProxy("BigMeshWriter.xml", "WriterFactory", "BigMeshPieces"));
-  EXPECT_EQ(saved, suffixesWhere(isOfVtk));
-  // A file .hdf may be anything.
-  const auto isWritten = [&](auto& format, auto& suffix)
-  { return format.bytes && !isOfVtk(format, suffix) && suffix.text != ".hdf"; };
-  EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), suffixesWhere(isWritten));
-  // Only one file of TetGen is opened; ParaView reads the pieces.
-  const auto isOpened = [](const Format& format, const FileSuffix& suffix)
-  {
-    return format.parse && &format != formatOfSuffix(".pvtu") && suffix.text != ".ele" &&
-           suffix.text != ".hdf";
-  };
-  // Files that may be text are compressed; others are so by themselves.
-  const auto isText = [&](auto& format, auto& suffix)
-  { return isOpened(format, suffix) && suffix.form != FileForm::Binary; };
-  std::set<std::string> opened = suffixesWhere(isOpened);
-  for (const std::string& suffix : suffixesWhere(isText))
-  {
-    for (const std::string_view compressed : CompressedSuffixes)
-    {
-      opened.insert(suffix + std::string(compressed));
-    }
-  }
-  EXPECT_EQ(suffixesOfProxy("StreamingMeshConverter.xml", "ReaderFactory"), opened);
 }
 
 TEST(FormatTable, ItsDocumentIsUpToDate)

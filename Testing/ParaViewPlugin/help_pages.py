@@ -3,7 +3,7 @@
 
     help_pages.py HELP_FILE
 
-ParaView looks for GROUP.NAME.html in the folder that is named as the help file itself is.
+whose folder is in that of the server-manager XML. ParaView looks for GROUP.NAME.html in the folder that is named as the help file itself is.
 """
 
 import os
@@ -12,7 +12,7 @@ import sys
 import xml.etree.ElementTree as xml
 import zlib
 
-PROXIES = os.path.join(os.path.dirname(__file__), "../../ParaViewPlugin/StreamingMultigrid")
+PROXIES = os.path.dirname(os.path.dirname(sys.argv[1]))
 
 help_file = sqlite3.connect(sys.argv[1])
 (namespace,), (folder,) = (help_file.execute(f"SELECT Name FROM {table}").fetchone()

@@ -13,7 +13,7 @@ from paraview.vtk import vtkOutputWindow, vtkStringOutputWindow
 
 vtkOutputWindow.SetInstance(vtkStringOutputWindow())  # the errors are wanted
 LoadPlugin(sys.argv[1], ns=globals())
-SOURCE = os.path.join(os.environ["SMG_SOURCE_DIR"], "ParaViewPlugin", "StreamingMultigrid")
+PROXIES = sys.argv[2]
 
 # What makes a property count.
 MODES = {"Coefficient": {"Condition": 2}, "Scale": {"Motion": 1}, "RotationAxis": {"Motion": 1}, "Center": {"Motion": 1},
@@ -32,7 +32,7 @@ def is_number(element):
 def proxies():
     """(group, name in Python) of each proxy that a user can make, and its numbers, with those of its bases."""
     found, bases, labels = {}, {}, {}
-    for path in glob.glob(os.path.join(SOURCE, "*.xml")):
+    for path in glob.glob(os.path.join(PROXIES, "*.xml")):
         for group in xml.parse(path).getroot():
             for proxy in group:
                 key = group.get("name"), proxy.get("name")
