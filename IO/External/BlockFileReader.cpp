@@ -4,7 +4,6 @@
 #include "IO/External/Codec.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/Checksum.h"
-#include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
@@ -13,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <utility>
 
 // Reading a block file. Opening verifies front, header and index with their checksums, and that the
 // index accounts for every byte of the file; reading verifies the checksum of the column of the
@@ -23,243 +21,170 @@
 namespace smg
 {
 
-struct BlockFileReader::Implementation
+void BlockFileReader::fail(const std::string& what) const
 {
-  Implementation(std::filesystem::path path, IoStatistics* statistics)
-    : Name(path.string())
-    , Statistics(statistics)
-    , File(FileDescriptor::openForReading(path))
-  {
-  }
+  throw Error(oneLine(this->Name + ": " + what));
+}
 
-  [[noreturn]] void fail(const std::string& what) const
-  {
-    throw Error(oneLine(this->Name + ": " + what));
-  }
-
-  /** Reads and checks the front. */
-  BlockFileFront readFront(std::span<std::byte> region) const
-  {
-    const std::size_t there = this->File.readSome(0, region);
-    BlockFileFront front{};
-    std::memcpy(&front, region.data(), std::min(there, sizeof(front)));
-    // First whether it is such a file at all, then whether this program can read it, then whether
-    // it is damaged: so that the message says what to do.
-    if (std::string_view(front.magic, sizeof(front.magic)) != BlockFileMagic)
-    {
-      this->fail(
-        "is not a file of this kind: it does not begin with " + std::string(BlockFileMagic) + ".");
-    }
-    if (there < region.size())
-    {
-      this->fail("is truncated: it has only " + std::to_string(there) + " bytes.");
-    }
-    if (front.order != BlockFileFront::OrderMark)
-    {
-      this->fail("was written on a machine with another byte order; create it again on this one.");
-    }
-    if (front.version != BlockFileVersion)
-    {
-      this->fail("is of version " + std::to_string(front.version) + ", but this program reads " +
-                 std::to_string(BlockFileVersion) + "; create it again with this program.");
-    }
-    if (front.frontChecksum != checksum(region.first(offsetof(BlockFileFront, frontChecksum))))
-    {
-      this->fail("the checksum of its first bytes is wrong: the file is damaged; create it again.");
-    }
-    return front;
-  }
-
-  /** Refuses an index that no writer makes before it is read. */
-  void checkIndexBytes(const BlockFileFront& front) const
-  {
-    if (front.tailBytes > MaxIndexBytes)
-    {
-      this->fail("has an index of " + mebibytes(front.tailBytes) + ", but at most " +
-                 mebibytes(MaxIndexBytes) +
-                 " are read: it has too many blocks or columns; create it again, without columns "
-                 "that are not needed.");
-    }
-  }
-
-  void checkLength(const BlockFileFront& front) const
-  {
-    const std::int64_t size = this->File.size();
-    // The sum of both must not overflow.
-    const std::int64_t most = INT64_MAX / 2;
-    if (front.tailOffset < BlockFileHeaderBytes || front.tailOffset > most || front.tailBytes < 0 ||
-        front.tailBytes > most)
-    {
-      this->fail("its first bytes are invalid: the file is damaged; create it again.");
-    }
-    const std::int64_t expected = front.tailOffset + front.tailBytes;
-    // A file that was cut off, or had something appended, is found without reading it.
-    if (size != expected)
-    {
-      this->fail((size < expected ? "is truncated: it has " : "has bytes appended: it has ") +
-                 std::to_string(size) + " bytes instead of " + std::to_string(expected) + ".");
-    }
-  }
-
-  void open()
-  {
-    std::vector<std::byte> region(BlockFileHeaderBytes);
-    const BlockFileFront front = this->readFront(region);
-    this->checkLength(front);
-    this->checkIndexBytes(front);
-    const std::span<std::byte> rest = std::span(region).subspan(sizeof(front));
-    // The front is sound, but may have been made on purpose: its numbers are compared with the
-    // room.
-    const bool fits =
-      front.headerBytes >= 0 && front.headerBytes <= static_cast<std::int64_t>(rest.size());
-    const auto header = rest.first(fits ? front.headerBytes : 0);
-    const auto zeros = rest.subspan(header.size());
-    if (!fits || checksum(header) != front.headerChecksum ||
-        std::any_of(zeros.begin(), zeros.end(), [](std::byte b) { return b != std::byte{}; }))
-    {
-      this->fail("the checksum of the header is wrong: the file is damaged; create it again.");
-    }
-    this->Header.assign(reinterpret_cast<const char*>(header.data()), header.size());
-    if (!nlohmann::json::accept(this->Header))
-    {
-      this->fail("the header is not JSON: the file is damaged; create it again.");
-    }
-    std::vector<std::byte> tail(front.tailBytes);
-    this->File.read(front.tailOffset, tail);
-    if (checksum(tail) != front.tailChecksum)
-    {
-      this->fail("the checksum of the index is wrong: the file is damaged; create it again.");
-    }
-    this->IndexBytes = front.tailBytes;
-    this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
-    this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
-    // The front has the checksums of header and index, and the index those of all columns: one
-    // number stands for the whole file.
-    this->ContentChecksum = front.frontChecksum;
-    this->count(BlockFileHeaderBytes + front.tailBytes, 0);
-  }
-
-  std::string place(int table, std::int64_t block) const
-  {
-    return "table '" + this->Index.tables[table].name + "', block " + std::to_string(block);
-  }
-
-  void check(int table, std::int64_t block) const
-  {
-    if (table < 0 || table >= static_cast<int>(this->Index.tables.size()) || block < 0 ||
-        block >= this->Index.blocks[table].blocks())
-    {
-      this->fail(
-        "there is no block " + std::to_string(block) + " of table " + std::to_string(table) + ".");
-    }
-  }
-
-  void count(std::int64_t bytes, std::int64_t waited)
-  {
-    if (this->Statistics)
-    {
-      this->Statistics->bytesRead += bytes;
-      this->Statistics->waitNanoseconds += waited;
-    }
-  }
-
-  /** Reads the stored bytes of a column. */
-  void readStored(int table, std::int64_t block, int column, std::span<std::byte> bytes)
-  {
-    // The columns of a block follow each other in the file.
-    std::int64_t offset = this->Index.blocks[table].offset[block];
-    // The index has the place of the block; columns have no places of their own.
-    for (int c = 0; c < column; c++)
-    {
-      offset += this->Index.entry(table, block, c).storedBytes;
-    }
-    std::int64_t waited = 0;
-    if (const int error = this->File.tryRead(offset, bytes, waited); error != 0)
-    {
-      FileDescriptor::throwReadError(this->Name, error);
-    }
-    this->count(std::ssize(bytes), waited);
-  }
-
-  std::string Name;
-  IoStatistics* Statistics;
-  FileDescriptor File;
-  std::string Header;
-  BlockFileIndex Index;
-  std::int64_t IndexBytes = 0;
-  std::uint64_t ContentChecksum = 0;
-  std::unique_ptr<ColumnCodec> Coder;
-  std::vector<std::byte> Stored;
-};
-
-BlockFileReader::BlockFileReader(std::filesystem::path path, IoStatistics* statistics)
-  : Self(std::make_unique<Implementation>(std::move(path), statistics))
+/** Reads and checks the front. */
+BlockFileFront BlockFileReader::readFront(std::span<std::byte> region) const
 {
-  this->Self->open();
+  const std::size_t there = this->File.readSome(0, region);
+  BlockFileFront front{};
+  std::memcpy(&front, region.data(), std::min(there, sizeof(front)));
+  // First whether it is such a file at all, then whether this program can read it, then whether
+  // it is damaged: so that the message says what to do.
+  if (std::string_view(front.magic, sizeof(front.magic)) != BlockFileMagic)
+  {
+    this->fail(
+      "is not a file of this kind: it does not begin with " + std::string(BlockFileMagic) + ".");
+  }
+  if (there < region.size())
+  {
+    this->fail("is truncated: it has only " + std::to_string(there) + " bytes.");
+  }
+  if (front.order != BlockFileFront::OrderMark)
+  {
+    this->fail("was written on a machine with another byte order; create it again on this one.");
+  }
+  if (front.version != BlockFileVersion)
+  {
+    this->fail("is of version " + std::to_string(front.version) + ", but this program reads " +
+               std::to_string(BlockFileVersion) + "; create it again with this program.");
+  }
+  if (front.frontChecksum != checksum(region.first(offsetof(BlockFileFront, frontChecksum))))
+  {
+    this->fail("the checksum of its first bytes is wrong: the file is damaged; create it again.");
+  }
+  return front;
+}
+
+/** Refuses an index that no writer makes before it is read. */
+void BlockFileReader::checkIndexBytes(const BlockFileFront& front) const
+{
+  if (front.tailBytes > MaxIndexBytes)
+  {
+    this->fail("has an index of " + mebibytes(front.tailBytes) + ", but at most " +
+               mebibytes(MaxIndexBytes) +
+               " are read: it has too many blocks or columns; create it again, without columns "
+               "that are not needed.");
+  }
+}
+
+void BlockFileReader::checkLength(const BlockFileFront& front) const
+{
+  const std::int64_t size = this->File.size();
+  // The sum of both must not overflow.
+  const std::int64_t most = INT64_MAX / 2;
+  if (front.tailOffset < BlockFileHeaderBytes || front.tailOffset > most || front.tailBytes < 0 ||
+      front.tailBytes > most)
+  {
+    this->fail("its first bytes are invalid: the file is damaged; create it again.");
+  }
+  const std::int64_t expected = front.tailOffset + front.tailBytes;
+  // A file that was cut off, or had something appended, is found without reading it.
+  if (size != expected)
+  {
+    this->fail((size < expected ? "is truncated: it has " : "has bytes appended: it has ") +
+               std::to_string(size) + " bytes instead of " + std::to_string(expected) + ".");
+  }
+}
+
+BlockFileReader::BlockFileReader(const std::filesystem::path& path, IoStatistics* statistics)
+  : Name(path.string())
+  , Statistics(statistics)
+  , File(FileDescriptor::openForReading(path))
+{
+  std::vector<std::byte> region(BlockFileHeaderBytes);
+  const BlockFileFront front = this->readFront(region);
+  this->checkLength(front);
+  this->checkIndexBytes(front);
+  const std::span<std::byte> rest = std::span(region).subspan(sizeof(front));
+  // The front is sound, but may have been made on purpose: its numbers are compared with the
+  // room.
+  const bool fits =
+    front.headerBytes >= 0 && front.headerBytes <= static_cast<std::int64_t>(rest.size());
+  const auto header = rest.first(fits ? front.headerBytes : 0);
+  const auto zeros = rest.subspan(header.size());
+  if (!fits || checksum(header) != front.headerChecksum ||
+      std::any_of(zeros.begin(), zeros.end(), [](std::byte b) { return b != std::byte{}; }))
+  {
+    this->fail("the checksum of the header is wrong: the file is damaged; create it again.");
+  }
+  this->Header.assign(reinterpret_cast<const char*>(header.data()), header.size());
+  if (!nlohmann::json::accept(this->Header))
+  {
+    this->fail("the header is not JSON: the file is damaged; create it again.");
+  }
+  std::vector<std::byte> tail(front.tailBytes);
+  this->File.read(front.tailOffset, tail);
+  if (checksum(tail) != front.tailChecksum)
+  {
+    this->fail("the checksum of the index is wrong: the file is damaged; create it again.");
+  }
+  this->IndexBytes = front.tailBytes;
+  this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
+  this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
+  // The front has the checksums of header and index, and the index those of all columns: one
+  // number stands for the whole file.
+  this->ContentChecksum = front.frontChecksum;
+  this->count(BlockFileHeaderBytes + front.tailBytes, 0);
+}
+
+std::string BlockFileReader::place(int table, std::int64_t block) const
+{
+  return "table '" + this->Index.tables[table].name + "', block " + std::to_string(block);
+}
+
+void BlockFileReader::check(int table, std::int64_t block) const
+{
+  if (table < 0 || table >= static_cast<int>(this->Index.tables.size()) || block < 0 ||
+      block >= this->Index.blocks[table].blocks())
+  {
+    this->fail(
+      "there is no block " + std::to_string(block) + " of table " + std::to_string(table) + ".");
+  }
+}
+
+void BlockFileReader::count(std::int64_t bytes, std::int64_t waited)
+{
+  if (this->Statistics)
+  {
+    this->Statistics->bytesRead += bytes;
+    this->Statistics->waitNanoseconds += waited;
+  }
+}
+
+/** Reads the stored bytes of a column. */
+void BlockFileReader::readStored(
+  int table, std::int64_t block, int column, std::span<std::byte> bytes)
+{
+  // The columns of a block follow each other in the file.
+  std::int64_t offset = this->Index.blocks[table].offset[block];
+  // The index has the place of the block; columns have no places of their own.
+  for (int c = 0; c < column; c++)
+  {
+    offset += this->Index.entry(table, block, c).storedBytes;
+  }
+  std::int64_t waited = 0;
+  if (const int error = this->File.tryRead(offset, bytes, waited); error != 0)
+  {
+    FileDescriptor::throwReadError(this->Name, error);
+  }
+  this->count(std::ssize(bytes), waited);
 }
 
 BlockFileReader::~BlockFileReader() = default;
 
-const std::string& BlockFileReader::header() const
-{
-  return this->Self->Header;
-}
-
-std::uint64_t BlockFileReader::contentChecksum() const
-{
-  return this->Self->ContentChecksum;
-}
-
-const std::vector<TableSpec>& BlockFileReader::tables() const
-{
-  return this->Self->Index.tables;
-}
-
-Codec BlockFileReader::codec() const
-{
-  return this->Self->Index.codec;
-}
-
-std::int64_t BlockFileReader::indexBytes() const
-{
-  return this->Self->IndexBytes;
-}
-
-std::int64_t BlockFileReader::rows(int table) const
-{
-  return this->Self->Index.blocks[table].firstRow.back();
-}
-
-std::int64_t BlockFileReader::blocks(int table) const
-{
-  return this->Self->Index.blocks[table].blocks();
-}
-
-std::int64_t BlockFileReader::firstRow(int table, std::int64_t block) const
-{
-  return this->Self->Index.blocks[table].firstRow[block];
-}
-
-std::int64_t BlockFileReader::blockRows(int table, std::int64_t block) const
-{
-  const auto& firstRow = this->Self->Index.blocks[table].firstRow;
-  return firstRow[block + 1] - firstRow[block];
-}
-
 std::int64_t BlockFileReader::blockOf(int table, std::int64_t row) const
 {
-  const auto& firstRow = this->Self->Index.blocks[table].firstRow;
+  const auto& firstRow = this->Index.blocks[table].firstRow;
   if (row < 0 || row >= firstRow.back())
   {
-    this->Self->fail(
+    this->fail(
       "table '" + this->tables()[table].name + "' has no row " + std::to_string(row) + ".");
   }
   return std::upper_bound(firstRow.begin(), firstRow.end(), row) - firstRow.begin() - 1;
-}
-
-std::size_t BlockFileReader::columnBytes(int table, std::int64_t block, int column) const
-{
-  return this->Self->Index.entry(table, block, column).plainBytes;
 }
 
 std::int64_t BlockFileReader::storedBytes(int table, int column) const
@@ -267,62 +192,60 @@ std::int64_t BlockFileReader::storedBytes(int table, int column) const
   std::int64_t bytes = 0;
   for (std::int64_t block = 0; block < this->blocks(table); block++)
   {
-    bytes += this->Self->Index.entry(table, block, column).storedBytes;
+    bytes += this->Index.entry(table, block, column).storedBytes;
   }
   return bytes;
 }
 
 void BlockFileReader::read(int table, std::int64_t block, int column, std::span<std::byte> bytes)
 {
-  Implementation& self = *this->Self;
-  self.check(table, block);
-  const ColumnEntry& entry = self.Index.entry(table, block, column);
-  const ColumnSpec& spec = self.Index.tables[table].columns[column];
+  this->check(table, block);
+  const ColumnEntry& entry = this->Index.entry(table, block, column);
+  const ColumnSpec& spec = this->Index.tables[table].columns[column];
   // Callers size their memory by the index; a mismatch would be a fault of the program, not of the
   // file.
   if (bytes.size() != entry.plainBytes)
   {
-    self.fail(self.place(table, block) + ": column '" + spec.name + "' has " +
-              std::to_string(entry.plainBytes) + " bytes, not " + std::to_string(bytes.size()) +
-              ".");
+    this->fail(this->place(table, block) + ": column '" + spec.name + "' has " +
+               std::to_string(entry.plainBytes) + " bytes, not " + std::to_string(bytes.size()) +
+               ".");
   }
   // Columns that compression does not make smaller are stored as they are, and read straight to the
   // caller.
   const bool compressed = entry.storedBytes < entry.plainBytes;
   // One buffer for all reads, which grows to the largest column.
-  if (compressed && self.Stored.size() < entry.storedBytes)
+  if (compressed && this->Stored.size() < entry.storedBytes)
   {
-    self.Stored.resize(entry.storedBytes);
+    this->Stored.resize(entry.storedBytes);
   }
   const std::span<std::byte> stored =
-    compressed ? std::span(self.Stored).first(entry.storedBytes) : bytes;
-  self.readStored(table, block, column, stored);
+    compressed ? std::span(this->Stored).first(entry.storedBytes) : bytes;
+  this->readStored(table, block, column, stored);
   // Compared before decompression, so that decoders see only what an encoder has made.
   if (checksum(stored) != entry.checksum)
   {
-    self.fail(self.place(table, block) + ": the checksum of column '" + spec.name +
-              "' is wrong: the file is damaged; create it again.");
+    this->fail(this->place(table, block) + ": the checksum of column '" + spec.name +
+               "' is wrong: the file is damaged; create it again.");
   }
-  if (compressed && !self.Coder->decompress(stored, bytes, spec.tupleBytes()))
+  if (compressed && !this->Coder->decompress(stored, bytes, spec.tupleBytes()))
   {
-    self.fail(self.place(table, block) + ": column '" + spec.name +
-              "' cannot be decompressed: the file is damaged; create it again.");
+    this->fail(this->place(table, block) + ": column '" + spec.name +
+               "' cannot be decompressed: the file is damaged; create it again.");
   }
 }
 
 void BlockFileReader::prefetch(int table, std::int64_t block)
 {
-  Implementation& self = *this->Self;
-  self.check(table, block);
+  this->check(table, block);
   // All columns of a block in one request: they are contiguous.
   std::size_t bytes = 0;
-  for (std::size_t c = 0; c < self.Index.tables[table].columns.size(); c++)
+  for (std::size_t c = 0; c < this->Index.tables[table].columns.size(); c++)
   {
-    bytes += self.Index.entry(table, block, static_cast<int>(c)).storedBytes;
+    bytes += this->Index.entry(table, block, static_cast<int>(c)).storedBytes;
   }
   if (bytes > 0)
   {
-    self.File.willRead(self.Index.blocks[table].offset[block], bytes);
+    this->File.willRead(this->Index.blocks[table].offset[block], bytes);
   }
 }
 

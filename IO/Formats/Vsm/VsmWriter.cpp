@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/VsmWriter.h"
 
-#include "IO/External/PagedArray.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
-#include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Mesh/Columns.h"
 #include "smg/Error.h"
@@ -75,94 +73,51 @@ std::vector<TableSpec> tablesOf(const StreamInfo& info, const std::string& file)
 
 } // namespace
 
-struct VsmWriter::Implementation
-{
-  Implementation(
-    std::filesystem::path path, const StreamInfo& info, const VsmWriterOptions& options)
-    : Name(path.string())
-    , Info(info)
-    , Corners(cornersOf(info.cellType))
-    , Rows(info, this->Name)
-    , Positions(info.doublePositions)
-    , VertexRows(info.vertexColumns)
-    , CellRows(info.cellColumns)
-    , LastCell(options.scratch, LastCellBytes)
-    , Statistics(options.scratch)
-    , Isolated(this->Name, info, this->Rows.vertices)
-    , File(path, tablesOf(info, this->Name), options.codec, options.statistics, options.workers)
-  {
-    this->Info.vertices = this->Info.cells = this->Info.width = this->Info.span = 0;
-    for (int axis = 0; axis < 3; axis++)
-    {
-      this->Info.bounds[2 * axis] = std::numeric_limits<double>::infinity();
-      this->Info.bounds[2 * axis + 1] = -std::numeric_limits<double>::infinity();
-    }
-  }
-
-  [[noreturn]] void fail(const std::string& what) const { throw Error(this->Name + ": " + what); }
-
-  void checkBlock(const MeshBlock& block) const;
-  void addVertices(const MeshBlock& block);
-  void addPositions(const MeshBlock& block, std::int64_t first, std::int64_t count);
-  void addCells(const MeshBlock& block);
-  void addCell(const std::int64_t* corners);
-  void settle(std::int64_t end);
-
-  void flushVertices();
-  void flushLast();
-  void flushCells();
-  void writeBlockTable();
-
-  std::string Name;
-  StreamInfo Info; ///< what has been appended so far
-  int Corners;
-  VsmBlockRows Rows;
-  std::int64_t Introduced = 0; ///< vertices used so far
-  std::int64_t Settled = 0;    ///< vertices whose last cell is known
-  double MeanWidth = 0;
-
-  PositionBuffer Positions; ///< of the current block
-  RowBuffer VertexRows;
-  std::vector<std::uint64_t> Distances; ///< corners of the current block
-  RowBuffer CellRows;
-  std::vector<std::uint64_t> LastRows;
-  std::int64_t PreviousLast = 0;
-  std::vector<std::byte> Packed;
-
-  std::vector<std::int64_t> FirstVertex; ///< of each block of cells
-  std::vector<std::int64_t> Finalized;   ///< after each block of cells, as far as known
-
-  PagedArray<std::int64_t> LastCell; ///< so far
-  StreamStatistics Statistics;
-  IsolatedWriter Isolated;
-  BlockFileWriter File;
-};
-
 VsmWriter::VsmWriter(
-  std::filesystem::path path, const StreamInfo& info, const VsmWriterOptions& options)
-  : Self(std::make_unique<Implementation>(std::move(path), info, options))
+  const std::filesystem::path& path, const StreamInfo& info, const VsmWriterOptions& options)
+  : Name(path.string())
+  , Info(info)
+  , Corners(cornersOf(info.cellType))
+  , Rows(info, this->Name)
+  , Positions(info.doublePositions)
+  , VertexRows(info.vertexColumns)
+  , CellRows(info.cellColumns)
+  , LastCell(options.scratch, LastCellBytes)
+  , Statistics(options.scratch)
+  , Isolated(this->Name, info, this->Rows.vertices)
+  , File(path, tablesOf(info, this->Name), options.codec, options.statistics, options.workers)
 {
+  this->Info.vertices = this->Info.cells = this->Info.width = this->Info.span = 0;
+  for (int axis = 0; axis < 3; axis++)
+  {
+    this->Info.bounds[2 * axis] = std::numeric_limits<double>::infinity();
+    this->Info.bounds[2 * axis + 1] = -std::numeric_limits<double>::infinity();
+  }
 }
 
 VsmWriter::~VsmWriter() = default;
 
-void VsmWriter::append(const MeshBlock& block)
+void VsmWriter::fail(const std::string& what) const
 {
-  Implementation& self = *this->Self;
-  self.checkBlock(block);
-  self.addVertices(block);
-  self.addCells(block);
-  if (block.finalized < self.Settled || block.finalized > self.Introduced)
-  {
-    self.fail("after cell " + std::to_string(self.Info.cells) + ", " +
-              std::to_string(block.finalized) +
-              " vertices are said to be final, but it can only be " + std::to_string(self.Settled) +
-              " to " + std::to_string(self.Introduced) + ".");
-  }
-  self.settle(block.finalized);
+  throw Error(this->Name + ": " + what);
 }
 
-void VsmWriter::Implementation::checkBlock(const MeshBlock& block) const
+void VsmWriter::append(const MeshBlock& block)
+{
+  this->checkBlock(block);
+  this->addVertices(block);
+  this->addCells(block);
+  if (block.finalized < this->Settled || block.finalized > this->Introduced)
+  {
+    this->fail("after cell " + std::to_string(this->Info.cells) + ", " +
+               std::to_string(block.finalized) +
+               " vertices are said to be final, but it can only be " +
+               std::to_string(this->Settled) + " to " + std::to_string(this->Introduced) + ".");
+  }
+  this->settle(block.finalized);
+}
+
+void VsmWriter::checkBlock(const MeshBlock& block) const
 {
   if (block.firstVertex != this->Info.vertices || block.firstCell != this->Info.cells)
   {
@@ -191,7 +146,7 @@ void VsmWriter::Implementation::checkBlock(const MeshBlock& block) const
   }
 }
 
-void VsmWriter::Implementation::addVertices(const MeshBlock& block)
+void VsmWriter::addVertices(const MeshBlock& block)
 {
   for (std::int64_t done = 0; done < block.vertices();)
   {
@@ -208,8 +163,7 @@ void VsmWriter::Implementation::addVertices(const MeshBlock& block)
   }
 }
 
-void VsmWriter::Implementation::addPositions(
-  const MeshBlock& block, std::int64_t first, std::int64_t count)
+void VsmWriter::addPositions(const MeshBlock& block, std::int64_t first, std::int64_t count)
 {
   for (std::int64_t i = 3 * first; i < 3 * (first + count); i++)
   {
@@ -227,7 +181,7 @@ void VsmWriter::Implementation::addPositions(
   }
 }
 
-void VsmWriter::Implementation::addCells(const MeshBlock& block)
+void VsmWriter::addCells(const MeshBlock& block)
 {
   const auto cells = static_cast<std::int64_t>(block.corners.size()) / this->Corners;
   for (std::int64_t done = 0; done < cells;)
@@ -252,7 +206,7 @@ void VsmWriter::Implementation::addCells(const MeshBlock& block)
   }
 }
 
-void VsmWriter::Implementation::addCell(const std::int64_t* corners)
+void VsmWriter::addCell(const std::int64_t* corners)
 {
   std::int64_t least = corners[0];
   std::int64_t most = corners[0];
@@ -283,7 +237,7 @@ void VsmWriter::Implementation::addCell(const std::int64_t* corners)
 }
 
 /** Stores the last cells of the vertices up to `end`. */
-void VsmWriter::Implementation::settle(std::int64_t end)
+void VsmWriter::settle(std::int64_t end)
 {
   for (; this->Settled < end; this->Settled++)
   {
@@ -305,7 +259,7 @@ void VsmWriter::Implementation::settle(std::int64_t end)
   this->Statistics.count(this->Info.cells, this->Settled);
 }
 
-void VsmWriter::Implementation::flushVertices()
+void VsmWriter::flushVertices()
 {
   this->File.append(VsmFormat::Vertices, std::int64_t(this->Positions.positions()),
     this->VertexRows.block({ this->Positions.bytes() }));
@@ -313,7 +267,7 @@ void VsmWriter::Implementation::flushVertices()
   this->VertexRows.clear();
 }
 
-void VsmWriter::Implementation::flushLast()
+void VsmWriter::flushLast()
 {
   packIntegers(this->LastRows, this->Packed);
   const std::span<const std::byte> column = this->Packed;
@@ -322,7 +276,7 @@ void VsmWriter::Implementation::flushLast()
   this->PreviousLast = 0;
 }
 
-void VsmWriter::Implementation::flushCells()
+void VsmWriter::flushCells()
 {
   packIntegers(this->Distances, this->Packed);
   this->File.append(VsmFormat::Cells, std::int64_t(this->Distances.size()) / this->Corners,
@@ -331,7 +285,7 @@ void VsmWriter::Implementation::flushCells()
   this->CellRows.clear();
 }
 
-void VsmWriter::Implementation::writeBlockTable()
+void VsmWriter::writeBlockTable()
 {
   this->Finalized.resize(this->FirstVertex.size(), this->Info.vertices);
   const std::span<const std::byte> columns[] = { std::as_bytes(std::span(this->FirstVertex)),
@@ -342,40 +296,39 @@ void VsmWriter::Implementation::writeBlockTable()
 void VsmWriter::isolated(std::span<const std::int64_t> ids, std::span<const double> positions,
   const std::vector<Column>& columns)
 {
-  this->Self->Isolated.append(this->Self->File, ids, positions, columns);
+  this->Isolated.append(this->File, ids, positions, columns);
 }
 
 StreamInfo VsmWriter::finish(const std::string& origin)
 {
-  Implementation& self = *this->Self;
-  StreamInfo& info = self.Info;
+  StreamInfo& info = this->Info;
   if (info.cells == 0)
   {
-    self.fail("a mesh without cells cannot be written.");
+    this->fail("a mesh without cells cannot be written.");
   }
-  if (self.Introduced < info.vertices)
+  if (this->Introduced < info.vertices)
   {
-    self.fail("vertex " + std::to_string(self.Introduced) +
-              " belongs to no cell: leave out such vertices.");
+    this->fail("vertex " + std::to_string(this->Introduced) +
+               " belongs to no cell: leave out such vertices.");
   }
-  self.settle(info.vertices);
-  if (info.vertices % self.Rows.vertices != 0)
+  this->settle(info.vertices);
+  if (info.vertices % this->Rows.vertices != 0)
   {
-    self.flushVertices();
+    this->flushVertices();
   }
   if (info.vertices % VsmFormat::BlockRows != 0)
   {
-    self.flushLast();
+    this->flushLast();
   }
-  if (info.cells % self.Rows.cells != 0)
+  if (info.cells % this->Rows.cells != 0)
   {
-    self.flushCells();
+    this->flushCells();
   }
-  self.writeBlockTable();
-  self.Isolated.finish(self.File);
-  const StreamStatistics::Result alive = self.Statistics.result();
+  this->writeBlockTable();
+  this->Isolated.finish(this->File);
+  const StreamStatistics::Result alive = this->Statistics.result();
   info.width = alive.width;
-  self.MeanWidth = alive.mean;
+  this->MeanWidth = alive.mean;
   nlohmann::json header = { { "kind", VsmFormat::Kind },
     { "cell", info.cellType == CellType::Triangle ? "triangle" : "tetrahedron" },
     { "precision", info.doublePositions ? "float64" : "float32" }, { "vertices", info.vertices },
@@ -385,13 +338,8 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   {
     header["origin"] = origin;
   }
-  self.File.finish(header.dump());
+  this->File.finish(header.dump());
   return info;
-}
-
-double VsmWriter::meanWidth() const
-{
-  return this->Self->MeanWidth;
 }
 
 } // namespace smg

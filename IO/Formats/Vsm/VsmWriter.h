@@ -2,12 +2,13 @@
 #pragma once
 
 #include "IO/External/BlockFile.h"
+#include "IO/External/PagedArray.h"
+#include "IO/Formats/Vsm/VsmBuffers.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,12 +40,10 @@ class SMG_EXPORT VsmWriter
 public:
   /** Uses cellType, doublePositions and the columns of `info`; the rest is computed. Throws Error
    * if the file cannot be created or the name of a column is empty, reserved or used twice. */
-  VsmWriter(
-    std::filesystem::path path, const StreamInfo& info, const VsmWriterOptions& options = {});
+  VsmWriter(const std::filesystem::path& path, const StreamInfo& info,
+    const VsmWriterOptions& options = {});
   /** Without finish(), no file is left. */
   ~VsmWriter();
-  VsmWriter(const VsmWriter&) = delete;
-  VsmWriter& operator=(const VsmWriter&) = delete;
 
   /**
    * Appends the stream's next block. Throws Error if the block does not continue the stream, the
@@ -73,11 +72,45 @@ public:
   StreamInfo finish(const std::string& origin = {});
 
   /** After finish(): the mean over the cells of the number of vertices alive. */
-  double meanWidth() const;
+  double meanWidth() const { return this->MeanWidth; }
 
 private:
-  struct Implementation;
-  std::unique_ptr<Implementation> Self;
+  [[noreturn]] void fail(const std::string& what) const;
+  void checkBlock(const MeshBlock& block) const;
+  void addVertices(const MeshBlock& block);
+  void addPositions(const MeshBlock& block, std::int64_t first, std::int64_t count);
+  void addCells(const MeshBlock& block);
+  void addCell(const std::int64_t* corners);
+  void settle(std::int64_t end);
+
+  void flushVertices();
+  void flushLast();
+  void flushCells();
+  void writeBlockTable();
+
+  std::string Name;
+  StreamInfo Info; ///< what has been appended so far
+  int Corners;
+  VsmBlockRows Rows;
+  std::int64_t Introduced = 0; ///< vertices used so far
+  std::int64_t Settled = 0;    ///< vertices whose last cell is known
+  double MeanWidth = 0;
+
+  PositionBuffer Positions; ///< of the current block
+  RowBuffer VertexRows;
+  std::vector<std::uint64_t> Distances; ///< corners of the current block
+  RowBuffer CellRows;
+  std::vector<std::uint64_t> LastRows;
+  std::int64_t PreviousLast = 0;
+  std::vector<std::byte> Packed;
+
+  std::vector<std::int64_t> FirstVertex; ///< of each block of cells
+  std::vector<std::int64_t> Finalized;   ///< after each block of cells, as far as known
+
+  PagedArray<std::int64_t> LastCell; ///< so far
+  StreamStatistics Statistics;
+  IsolatedWriter Isolated;
+  BlockFileWriter File;
 };
 
 } // namespace smg
