@@ -2,7 +2,7 @@
 #include "IO/Arrays/OriginalOrder.h"
 
 #include "IO/Files/PartialProgress.h"
-#include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Import/Weld.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
@@ -70,20 +70,6 @@ std::vector<std::int64_t> ranksOf(const std::vector<std::int64_t>& numbers)
 bool hasCellNumbers(const StoredMesh& mesh)
 {
   return findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0;
-}
-
-/** Calls use(number of the first, vertices) for the vertices of no cell, some at a time. */
-template <class Use>
-void forEachIsolated(const StoredMesh& mesh, const Use& use)
-{
-  VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
-  IsolatedVertices chunk;
-  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
-  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
-  {
-    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
-    use(first, chunk);
-  }
 }
 
 /** Whether each cell of the file has become one of the mesh. */
@@ -160,8 +146,8 @@ void OriginalOrder::readVertices(const StoredMesh& mesh, const ProgressFunction&
   SeenNumbers seen(this->Vertices.count);
   visitBlocks(*mesh.source({ OriginalIdName }, {}), progress, 0.0, 1.0,
     [&seen](const MeshBlock& block) { seen.add(block.vertexColumns[0].as<std::int64_t>()); });
-  forEachIsolated(
-    mesh, [&seen](std::int64_t, const IsolatedVertices& vertices) { seen.add(vertices.ids); });
+  forEachIsolated(mesh.file(), mesh.fileFingerprint(),
+    [&seen](std::int64_t, const IsolatedVertices& vertices) { seen.add(vertices.ids); });
   if (seen.areRows())
   {
     this->Vertices.column = OriginalIdName;
@@ -219,7 +205,7 @@ void OriginalOrder::findMerged(
         isOfCell[static_cast<std::size_t>(rows[i])] = true;
       }
     });
-  forEachIsolated(mesh,
+  forEachIsolated(mesh.file(), mesh.fileFingerprint(),
     [&](std::int64_t first, const IsolatedVertices& vertices)
     {
       for (std::size_t i = 0; i < vertices.ids.size(); ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Arrays/ReadColumn.h"
 
-#include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Rounded.h"
 #include "Solver/Mesh/VisitBlocks.h"
@@ -54,11 +54,10 @@ public:
   }
   void fillAll(std::int64_t count) const
   {
-    const bool isReal =
-      this->Spec.type == ScalarType::Float32 || this->Spec.type == ScalarType::Float64;
+    const bool isFloat = isReal(this->Spec.type);
     for (std::int64_t k = 0; k < count; ++k)
     {
-      this->fill(k, isReal ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+      this->fill(k, isFloat ? std::numeric_limits<double>::quiet_NaN() : 0.0);
     }
   }
 
@@ -75,24 +74,6 @@ std::vector<std::string> withNumbers(std::vector<std::string> names, const Origi
     names.push_back(rows.column);
   }
   return names;
-}
-
-/** Calls use(number among them, vertices) for the vertices of no cell, some at a time. */
-template <class Use>
-void forIsolated(const StoredMesh& mesh, const AddedColumns* added, const Use& use)
-{
-  VsmReader reader(mesh.file(), nullptr, mesh.fileFingerprint());
-  IsolatedVertices chunk;
-  const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
-  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
-  {
-    reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
-    if (added)
-    {
-      added->completeIsolated(first, chunk);
-    }
-    use(first, chunk);
-  }
 }
 
 /** The tuples of a column of vertices, or their positions; null: they do not have it. */
@@ -112,9 +93,13 @@ void readIsolated(
   const StoredMesh& mesh, const OriginalOrder& order, const AddedColumns* added, const Rows& rows)
 {
   rows.fillAll(order.vertices().count);
-  forIsolated(mesh, added,
-    [&](std::int64_t first, const IsolatedVertices& vertices)
+  forEachIsolated(mesh.file(), mesh.fileFingerprint(),
+    [&](std::int64_t first, IsolatedVertices& vertices)
     {
+      if (added)
+      {
+        added->completeIsolated(first, vertices);
+      }
       const ColumnSpec& column = rows.spec();
       const std::byte* const tuples = tuplesOf(column, vertices.positions, vertices.columns);
       for (std::size_t i = 0; i < vertices.ids.size(); ++i)

@@ -36,44 +36,54 @@ void fill(Column& column, double value)
 
 } // namespace
 
-void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer,
-  const CompleteIsolated& complete, const std::string& fingerprint, const CompleteIsolated& change)
+void forEachIsolated(
+  const std::filesystem::path& vsm, const std::string& fingerprint, const CompleteIsolated& use)
 {
-  VsmReader reader(from, nullptr, fingerprint);
+  VsmReader reader(vsm, nullptr, fingerprint);
   IsolatedVertices chunk;
   const std::int64_t rows = VsmFormat::blockRows(rowBytes(reader.info().vertexColumns));
   for (std::int64_t first = 0; first < reader.isolatedVertices(); first += rows)
   {
     reader.readIsolated(first, std::min(rows, reader.isolatedVertices() - first), chunk);
-    if (complete)
-    {
-      complete(first, chunk);
-    }
-    std::vector<Column> columns = emptyColumns(info.vertexColumns);
-    for (Column& column : columns)
-    {
-      const std::ptrdiff_t same = findColumn(chunk.columns, column.spec);
-      column.resize(chunk.ids.size());
-      if (column.spec.isolated)
-      {
-        fill(column, *column.spec.isolated);
-      }
-      else if (same >= 0)
-      {
-        column.bytes = chunk.columns[static_cast<std::size_t>(same)].bytes;
-      }
-    }
-    chunk.columns = std::move(columns);
-    if (change)
-    {
-      change(first, chunk);
-    }
-    if (!info.doublePositions)
-    {
-      roundToSingle(chunk.positions);
-    }
-    writer.isolated(chunk.ids, chunk.positions, chunk.columns);
+    use(first, chunk);
   }
+}
+
+void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer,
+  const CompleteIsolated& complete, const std::string& fingerprint, const CompleteIsolated& change)
+{
+  forEachIsolated(from, fingerprint,
+    [&](std::int64_t first, IsolatedVertices& chunk)
+    {
+      if (complete)
+      {
+        complete(first, chunk);
+      }
+      std::vector<Column> columns = emptyColumns(info.vertexColumns);
+      for (Column& column : columns)
+      {
+        const std::ptrdiff_t same = findColumn(chunk.columns, column.spec);
+        column.resize(chunk.ids.size());
+        if (column.spec.isolated)
+        {
+          fill(column, *column.spec.isolated);
+        }
+        else if (same >= 0)
+        {
+          column.bytes = chunk.columns[static_cast<std::size_t>(same)].bytes;
+        }
+      }
+      chunk.columns = std::move(columns);
+      if (change)
+      {
+        change(first, chunk);
+      }
+      if (!info.doublePositions)
+      {
+        roundToSingle(chunk.positions);
+      }
+      writer.isolated(chunk.ids, chunk.positions, chunk.columns);
+    });
 }
 
 WrittenVsm writeVsm(

@@ -48,6 +48,11 @@ struct WriteVsmOptions
 WrittenVsm writeVsm(
   MeshSource& source, const std::filesystem::path& path, const WriteVsmOptions& options = {});
 
+/** Calls use(number of the first, vertices) for the vertices of no cell of a .vsm file, some at a
+ * time. `fingerprint`: unless empty, that which the file must have. */
+SMG_EXPORT void forEachIsolated(
+  const std::filesystem::path& vsm, const std::string& fingerprint, const CompleteIsolated& use);
+
 /**
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
  * stream like `info`, since a stream made from a .vsm file does not contain them. Columns with a
@@ -57,8 +62,5 @@ WrittenVsm writeVsm(
 SMG_EXPORT void copyIsolated(const std::filesystem::path& from, const StreamInfo& info,
   VsmWriter& writer, const CompleteIsolated& complete = {}, const std::string& fingerprint = {},
   const CompleteIsolated& change = {});
-
-/** The container of this library. */
-extern const Format VsmFileFormat;
 
 } // namespace smg
