@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Rounded.h"
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
@@ -77,12 +78,8 @@ ReplacedColumns::ReplacedColumns(const StoredMesh& mesh, Solution& solution,
                 std::to_string(info.vertices) + " vertices and columns of " +
                 std::to_string(components) + " components: it is that of another mesh.");
   }
-  std::vector<std::string> cellNames;
-  for (const ColumnSpec& spec : info.cellColumns)
-  {
-    cellNames.push_back(spec.name);
-  }
-  auto source = mesh.source(otherNames(info.vertexColumns, columns, dropped), std::move(cellNames));
+  auto source =
+    mesh.source(otherNames(info.vertexColumns, columns, dropped), columnNames(info.cellColumns));
   StreamInfo result = source->info();
   result.vertexColumns.insert(result.vertexColumns.end(), columns.begin(), columns.end());
   this->Self.reset(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/SolvedMesh.h"
 
+#include "IO/Mesh/Columns.h"
 #include "IO/Results/SourcePrefetch.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -38,17 +38,10 @@ void append(
   columns.push_back(std::move(column));
 }
 
-std::vector<std::string> namesOf(const std::vector<ColumnSpec>& specs)
-{
-  std::vector<std::string> names;
-  std::ranges::transform(specs, std::back_inserter(names), &ColumnSpec::name);
-  return names;
-}
-
 /** The stream with all columns. */
 std::unique_ptr<MeshSource> wholeSource(const StoredMesh& mesh)
 {
-  return mesh.source(namesOf(mesh.info().vertexColumns), namesOf(mesh.info().cellColumns));
+  return mesh.source(columnNames(mesh.info().vertexColumns), columnNames(mesh.info().cellColumns));
 }
 
 } // namespace

@@ -2,12 +2,13 @@
 #include "IO/Simplification/HeldMesh.h"
 
 #include "IO/Mesh/Columns.h"
+#include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Mesh/VisitBlocks.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
-#include <span>
+#include <utility>
 #include <variant>
 
 // What a simplification holds, and its seams, as a column of the stream: so it goes with the
@@ -17,8 +18,6 @@ namespace smg
 {
 namespace
 {
-
-constexpr const char* HeldName = "held";
 
 void append(std::string& text, const char* what, std::span<const double> numbers)
 {
@@ -141,27 +140,18 @@ HeldMesh::HeldMesh(const StoredMesh& mesh, const std::vector<Where>& parts, std:
   this->Marks = this->Holds || !this->Seams.empty();
   this->Mesh =
     mesh.source(columnNames(mesh.info().vertexColumns), columnNames(carriedColumns(mesh.info())));
-  this->Info = this->Mesh->info();
   if (this->Marks)
   {
-    this->Info.vertexColumns.push_back({ HeldName, ScalarType::UInt8, 1 });
+    this->Mesh = std::make_unique<AddedColumn>(std::move(this->Mesh), AddedColumn::Vertices,
+      ColumnSpec{ "held", ScalarType::UInt8, 1 },
+      [this](const MeshBlock& block, Column& column)
+      { this->mark(block, column.as<std::uint8_t>()); });
   }
 }
 
-bool HeldMesh::next(MeshBlock& block)
+void HeldMesh::mark(const MeshBlock& block, std::span<std::uint8_t> marks)
 {
-  if (!this->Marks)
-  {
-    return this->Mesh->next(block);
-  }
-  // The column of the last block is none of the mesh.
-  block.vertexColumns.resize(
-    std::min(block.vertexColumns.size(), this->Info.vertexColumns.size() - 1));
-  if (!this->Mesh->next(block))
-  {
-    return false;
-  }
-  std::vector<std::uint8_t> marks(static_cast<std::size_t>(block.vertices()), 0);
+  std::ranges::fill(marks, 0);
   const std::int64_t end = block.firstVertex + block.vertices();
   for (auto seam =
          std::ranges::lower_bound(this->Seams, block.firstVertex, {}, &SeamVertices::Seam::vertex);
@@ -179,10 +169,6 @@ bool HeldMesh::next(MeshBlock& block)
     }
     this->Count += static_cast<std::int64_t>(held.size()) - std::ranges::count(held, 0);
   }
-  const auto bytes = std::as_bytes(std::span(marks));
-  block.vertexColumns.push_back(
-    { this->Info.vertexColumns.back(), { bytes.begin(), bytes.end() } });
-  return true;
 }
 
 } // namespace smg

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ public:
   HeldMesh(const StoredMesh& mesh, const std::vector<Where>& parts, std::int64_t memory,
     const std::filesystem::path& scratch, const ProgressFunction& progress);
 
-  const StreamInfo& info() const override { return this->Info; }
-  bool next(MeshBlock& block) override;
+  const StreamInfo& info() const override { return this->Mesh->info(); }
+  bool next(MeshBlock& block) override { return this->Mesh->next(block); }
 
   /** Whether there is the column. */
   bool marksHeld() const { return this->Marks; }
@@ -43,10 +44,11 @@ public:
   std::int64_t peakMemory() const { return this->Columns.memory().peak(); }
 
 private:
+  void mark(const MeshBlock& block, std::span<std::uint8_t> marks);
+
   MeshColumns Columns;
   FixedVertices Vertices;
   std::unique_ptr<MeshSource> Mesh;
-  StreamInfo Info;
   bool Holds, Marks = false;
   std::vector<SeamVertices::Seam> Seams; ///< if all are known
   std::int64_t SeamPlaces = 0;

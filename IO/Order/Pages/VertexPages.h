@@ -60,12 +60,7 @@ public:
   {
     if (count > this->Memory.size() / sizeof(T))
     {
-      Buffer larger(this->Space->pool(), count * sizeof(T));
-      if (this->Size > 0)
-      {
-        std::memcpy(larger.data(), this->Memory.data(), this->Size * sizeof(T));
-      }
-      this->Memory = std::move(larger);
+      this->Memory.grow(this->Space->pool(), count * sizeof(T));
     }
   }
   /** Removes the elements, but keeps the memory. */
