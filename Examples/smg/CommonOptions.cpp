@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 
-#include "IO/Conversion/FreeSpace.h"
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Description/Sizes.h"
 #include "IO/Files/FileNames.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Tasks/SolveEstimate.h"
 
-#include "IO/Conversion/FreeSpace.h"
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Vtk/Failures.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/OrdinaryMesh.h"

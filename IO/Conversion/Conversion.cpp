@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Conversion.h"
 
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/ConversionStages.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
@@ -34,27 +35,15 @@ constexpr std::int64_t MaxStreamMemory = std::int64_t(256) << 20;
 } // namespace
 
 Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::path& out,
-  const ConversionOptions& options)
+  const ConversionOptions& options, MeshImporter importer)
   : In(in)
   , Out(out)
   , Options(options)
-  , Memory(options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory)
-  , From(kindOfInput(in))
-  , To(kindOfOutput(out))
-  , State(this->From == MeshFileKind::Vsm ? InputState() : InputState(in))
-{
-  this->checkOptions();
-}
-
-Conversion::Conversion(MeshImporter importer, const std::filesystem::path& name,
-  const std::filesystem::path& out, const ConversionOptions& options)
-  : In(name)
-  , Out(out)
-  , Options(options)
-  , Memory(options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory)
+  , Memory(memoryOf(options))
   , Importer(std::move(importer))
-  , From(MeshFileKind::Indexed)
+  , From(this->Importer ? MeshFileKind::Indexed : kindOfInput(in))
   , To(kindOfOutput(out))
+  , State(this->Importer || this->From == MeshFileKind::Vsm ? InputState() : InputState(in))
 {
   this->checkOptions();
 }

@@ -26,12 +26,10 @@ using MeshImporter = std::function<RawMesh(Workspace&, const ProgressFunction&)>
 class Conversion
 {
 public:
-  /** Keeps references. Throws Error if the options are invalid for any mesh. */
+  /** Keeps references. With an importer, the mesh is in no file, and `in` is what errors call it.
+   * Throws Error if the options are invalid for any mesh. */
   Conversion(const std::filesystem::path& in, const std::filesystem::path& out,
-    const ConversionOptions& options);
-  /** The same of a mesh that is in no file; `name` is what errors call it. */
-  Conversion(MeshImporter importer, const std::filesystem::path& name,
-    const std::filesystem::path& out, const ConversionOptions& options);
+    const ConversionOptions& options, MeshImporter importer = {});
 
   /** Whether such a conversion has stages, from which it can continue with a checkpoint. */
   static bool hasStages(const std::filesystem::path& in, const ConversionOptions& options);

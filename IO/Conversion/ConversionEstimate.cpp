@@ -6,7 +6,6 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
-#include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Formats/Vsm/VsmBytes.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Text.h"
@@ -14,8 +13,6 @@
 #include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -98,11 +95,6 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
     }
   }
   return guess(file, compressed, format ? format->share : VertexShare{});
-}
-
-std::int64_t memoryOf(const ConversionOptions& options)
-{
-  return options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
 }
 
 /** A mesh with the columns that a conversion adds; width and span are the usual ones. */
@@ -250,20 +242,6 @@ ConversionEstimate estimateConversion(const StreamInfo& mesh, const ConversionOp
   estimate.counted = true;
   estimate.scratch_bytes = scratchBytes(mesh, options, estimate.output_bytes);
   return estimate;
-}
-
-std::string ConversionEstimate::json(int indent) const
-{
-  nlohmann::ordered_json json;
-  json["vertices"] = this->vertices;
-  json["cells"] = this->cells;
-  json["counted"] = this->counted;
-  json["memory_bytes"] = this->memory_bytes;
-  json["scratch_bytes"] = this->scratch_bytes;
-  json["scratch_free"] = this->scratch_free;
-  json["output_bytes"] = this->output_bytes;
-  json["cpu_seconds"] = this->cpu_seconds;
-  return json.dump(indent);
 }
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Import/RawMesh.h"
+#include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Export.h"
 
@@ -38,9 +39,6 @@ struct SMG_EXPORT ConversionEstimate
   std::int64_t scratch_free = 0;  ///< free space in the folder for scratch files
   std::int64_t output_bytes = 0;  ///< of a .vsm file
   double cpu_seconds = 0;         ///< on a machine of 2023
-
-  /** As a JSON object with the names above. */
-  std::string json(int indent = 2) const;
 };
 
 /** Estimates the conversion of a mesh file from its header or its size. `throughVsm`: the .vsm file
@@ -52,12 +50,22 @@ SMG_EXPORT ConversionEstimate estimateConversion(
  * scratch file, too. */
 ConversionEstimate estimateConversion(const StreamInfo& mesh, const ConversionOptions& options);
 
+/** The memory limit of a conversion, bytes. */
+inline std::int64_t memoryOf(const ConversionOptions& options)
+{
+  return options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
+}
 /** The folder for scratch files that an option names; empty: the temporary folder. */
 std::filesystem::path scratchPlace(const std::filesystem::path& folder);
 
 /** The free bytes of the file system of `folder`; empty: the temporary folder. -1: not known. */
 std::int64_t freeBytes(const std::filesystem::path& folder);
 
+/** "12 MiB are free", of freeBytes(); negative: there is no such folder to ask. */
+inline std::string freeSpace(std::int64_t bytes)
+{
+  return bytes < 0 ? "the folder does not exist" : mebibytes(bytes) + " are free";
+}
 /** The most bytes of scratch files at once while a parsed mesh is ordered and written, the latter
  * to a scratch file of `written` bytes. */
 std::int64_t scratchBytes(

@@ -14,6 +14,7 @@
 #include "IO/Import/RawMesh.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Import/Weld.h"
+#include "IO/Mesh/Columns.h"
 #include "IO/Order/Assembly/CellFlagger.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
@@ -23,6 +24,7 @@
 #include "Solver/Core/Timer.h"
 #include "Solver/Jobs/Fairing/OrientedMesh.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/VisitBlocks.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -40,133 +42,53 @@
 namespace smg
 {
 
-/** Sorts a mesh into a stream order with scratch files and writes it. Throws like convert(). */
-void convertMesh(Conversion& conversion);
+namespace
+{
 
-/** Writes a stream in its order, block by block, with the flags of its degenerate and duplicate
- * cells. Throws like convert(). */
-void copyStream(Conversion& conversion);
+void freeName(std::vector<RawColumn>& columns, const ColumnSpec& numbers, Numbering numbering,
+  std::vector<std::string>& notes)
+{
+  const std::string& name = numbers.name;
+  const auto isNamed = [&columns](const std::string& candidate)
+  {
+    return std::ranges::any_of(
+      columns, [&candidate](const RawColumn& column) { return column.spec.name == candidate; });
+  };
+  for (RawColumn& column : columns)
+  {
+    if (column.spec.name == name && (numbering == Numbering::OfRows || column.spec != numbers))
+    {
+      int number = 1;
+      while (isNamed(name + ('_' + std::to_string(number))))
+      {
+        ++number;
+      }
+      column.spec.name += '_' + std::to_string(number);
+      notes.push_back("The column " + inQuotes(name) + " of the input is called " +
+                      inQuotes(column.spec.name) + ", since " + inQuotes(name) +
+                      " says the places in the input itself.");
+    }
+  }
+}
 
 /** Renames a column of the mesh that has the name of the original indices but another type (as in
  * formats without such integers), with a sentence in `notes`. */
-void freeNumberNames(RawMesh& mesh, Numbering numbering, std::vector<std::string>& notes);
+void freeNumberNames(RawMesh& mesh, Numbering numbering, std::vector<std::string>& notes)
+{
+  freeName(mesh.vertexColumns, OriginalIdSpec, numbering, notes);
+  freeName(mesh.elementColumns, OriginalCellIdSpec, numbering, notes);
+}
 
 /** Whether the mesh already has columns of original indices. */
-bool isNumbered(const RawMesh& mesh);
-
-namespace
+bool isNumbered(const RawMesh& mesh)
 {
-
-/** Restores the order of the original file. */
-void restoreMesh(Conversion& conversion)
-{
-  if (conversion.inputKind() != MeshFileKind::Vsm)
+  const auto has = [](const std::vector<RawColumn>& columns, const ColumnSpec& numbers)
   {
-    throw Error(conversion.in().string() +
-                ": only a .vsm file knows the order of the file that it was made of: give one.");
-  }
-  Workspace& space = conversion.workspace();
-  ConversionReport& report = conversion.report();
-  space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-  const VsmReader reader(conversion.in());
-  const StreamInfo& info = reader.info();
-  report.order = "restored";
-  report.vertices = info.vertices;
-  report.cells = info.cells;
-  report.notes = writeRestored(conversion.in(), conversion.out(), space, conversion.options().text);
-  report.seconds.write = conversion.lap();
+    return std::ranges::any_of(
+      columns, [&numbers](const RawColumn& column) { return column.spec == numbers; });
+  };
+  return has(mesh.vertexColumns, OriginalIdSpec) || has(mesh.elementColumns, OriginalCellIdSpec);
 }
-
-/** Converts a compressed stream via an uncompressed file in the scratch folder. Throws like
- * convert(), and Error if the compressed data are damaged. */
-ConversionReport convertCompressedStream(const std::filesystem::path& in,
-  const std::filesystem::path& out, const ConversionOptions& options)
-{
-  const std::int64_t memory =
-    options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
-  Workspace space(options.scratch, memory, {}, options.scratchLimit);
-  ConversionOptions inner = options;
-  inner.scratch = space.folder();
-  inner.checkpoint.clear(); // the inflated file has another name in each program
-  InputFile file(in);
-  const std::string name = in.stem().string() + ".stream";
-  const InflatedFile inflated(file, space, name.c_str());
-  try
-  {
-    ConversionReport report = convert(inflated.path(), out, inner);
-    report.scratch_bytes_peak = space.peakScratch();
-    return report;
-  }
-  catch (const Cancelled&)
-  {
-    throw;
-  }
-  catch (const Error& error)
-  {
-    std::string sentence = error.what();
-    const std::string path = inflated.path().string();
-    if (sentence.starts_with(path))
-    {
-      sentence.replace(0, path.size(), in.string());
-    }
-    throw Error(sentence);
-  }
-}
-
-void run(Conversion& conversion)
-{
-  const ConversionOptions& options = conversion.options();
-  if (options.restoreOrder)
-  {
-    restoreMesh(conversion);
-    return;
-  }
-  checkOutput(conversion.out());
-  conversion.report().order = nameOf(options.order);
-  conversion.copies() ? copyStream(conversion) : convertMesh(conversion);
-}
-
-} // namespace
-
-ConversionReport convert(const std::filesystem::path& in, const std::filesystem::path& out,
-  const ConversionOptions& options)
-{
-  checkIsNotInput(in, out);
-  checkOutputPlace(out);
-  checkForm(out, options.text);
-  if (!options.checkpoint.empty() && !Conversion::hasStages(in, options))
-  {
-    throw Error(in.string() +
-                ": this conversion has no stages from which it could continue: leave the "
-                "checkpoint out (option --checkpoint).");
-  }
-  if (isCompressedStream(in))
-  {
-    return convertCompressedStream(in, out, options);
-  }
-  Conversion conversion(in, out, options);
-  return runConversion(conversion);
-}
-
-ConversionReport runConversion(Conversion& conversion)
-{
-  const Timer timer;
-  const double cpu = processSeconds();
-  run(conversion);
-  Workspace& space = conversion.workspace();
-  ConversionReport report = conversion.report();
-  report.pool_bytes_peak = space.pool().peak();
-  report.scratch_bytes_peak = space.peakScratch();
-  report.scratch_bytes_read = space.traffic().bytesRead;
-  report.scratch_bytes_written = space.traffic().bytesWritten;
-  report.seconds.total = timer.seconds();
-  report.cpu_seconds = processSeconds() - cpu;
-  report.rss_bytes_peak = peakResidentBytes();
-  return report;
-}
-
-namespace
-{
 
 constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
 
@@ -377,8 +299,7 @@ std::unique_ptr<MeshSource> wound(Conversion& conversion, std::optional<Orientat
   return numberedByFirstUse(oriented(std::move(source), *winding));
 }
 
-} // namespace
-
+/** Sorts a mesh into a stream order with scratch files and writes it. Throws like convert(). */
 void convertMesh(Conversion& conversion)
 {
   Workspace& space = conversion.workspace();
@@ -421,31 +342,13 @@ void convertMesh(Conversion& conversion)
   stages.discard();
 }
 
-namespace
-{
-
 const ColumnSpec FlagsSpec{ CellFlagsName, ScalarType::UInt8, 1 };
-
-/** Passes all blocks of the stream with these cell columns to `use`, and reports progress. */
-template <class Use>
-void forEachBlock(Conversion& conversion, const VsmReader& reader,
-  const std::vector<std::string>& columns, Use&& use)
-{
-  Progress reported(conversion.progress());
-  const std::unique_ptr<MeshSource> source = reader.source({}, columns);
-  for (MeshBlock block; source->next(block);)
-  {
-    use(block);
-    reported.update(
-      static_cast<double>(block.firstCell) / static_cast<double>(reader.info().cells));
-  }
-}
 
 /** Counts the flags of the cells of the stream. */
 void countFlags(Conversion& conversion, const VsmReader& reader)
 {
   ConversionReport& report = conversion.report();
-  forEachBlock(conversion, reader, { CellFlagsName },
+  visitBlocks(*reader.source({}, { CellFlagsName }), conversion.progress(), 0.0, 1.0,
     [&report](const MeshBlock& block)
     {
       for (const std::uint8_t flags : block.cellColumns[0].as<std::uint8_t>())
@@ -470,8 +373,8 @@ void findFlags(Conversion& conversion, const VsmReader& reader)
     return;
   }
   CellFlagger flagger(info.cellType);
-  forEachBlock(
-    conversion, reader, {}, [&flagger](const MeshBlock& block) { flagger.flags(block); });
+  visitBlocks(*reader.source({}, {}), conversion.progress(), 0.0, 1.0,
+    [&flagger](const MeshBlock& block) { flagger.flags(block); });
   report.degenerate_cells = flagger.degenerateCells();
   report.duplicate_cells = flagger.duplicateCells();
 }
@@ -483,13 +386,12 @@ std::unique_ptr<MeshSource> withFlags(std::unique_ptr<MeshSource> source, CellTy
     { std::memcpy(column.bytes.data(), flagger.flags(block).data(), column.bytes.size()); });
 }
 
-} // namespace
-
+/** Writes a stream in its order, block by block, with the flags of its degenerate and duplicate
+ * cells. Throws like convert(). */
 void copyStream(Conversion& conversion)
 {
   Workspace& space = conversion.workspace();
   ConversionReport& report = conversion.report();
-  constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
   space.beginPart(0.4, Unknown);
   const VsmReader& reader = conversion.openStream();
   checkOutput(conversion.out(), reader.info().cellType);
@@ -512,51 +414,110 @@ void copyStream(Conversion& conversion)
     { copyIsolated(reader.path(), source->info(), writer, {}, reader.fingerprint()); });
 }
 
-namespace
+/** Restores the order of the original file. */
+void restoreMesh(Conversion& conversion)
 {
-
-void freeName(std::vector<RawColumn>& columns, const ColumnSpec& numbers, Numbering numbering,
-  std::vector<std::string>& notes)
-{
-  const std::string& name = numbers.name;
-  const auto isNamed = [&columns](const std::string& candidate)
+  if (conversion.inputKind() != MeshFileKind::Vsm)
   {
-    return std::ranges::any_of(
-      columns, [&candidate](const RawColumn& column) { return column.spec.name == candidate; });
-  };
-  for (RawColumn& column : columns)
-  {
-    if (column.spec.name == name && (numbering == Numbering::OfRows || column.spec != numbers))
-    {
-      int number = 1;
-      while (isNamed(name + ('_' + std::to_string(number))))
-      {
-        ++number;
-      }
-      column.spec.name += '_' + std::to_string(number);
-      notes.push_back("The column " + inQuotes(name) + " of the input is called " +
-                      inQuotes(column.spec.name) + ", since " + inQuotes(name) +
-                      " says the places in the input itself.");
-    }
+    throw Error(conversion.in().string() +
+                ": only a .vsm file knows the order of the file that it was made of: give one.");
   }
+  Workspace& space = conversion.workspace();
+  ConversionReport& report = conversion.report();
+  space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+  const VsmReader reader(conversion.in());
+  const StreamInfo& info = reader.info();
+  report.order = "restored";
+  report.vertices = info.vertices;
+  report.cells = info.cells;
+  report.notes = writeRestored(conversion.in(), conversion.out(), space, conversion.options().text);
+  report.seconds.write = conversion.lap();
+}
+
+/** Converts a compressed stream via an uncompressed file in the scratch folder. Throws like
+ * convert(), and Error if the compressed data are damaged. */
+ConversionReport convertCompressedStream(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ConversionOptions& options)
+{
+  Workspace space(options.scratch, memoryOf(options), {}, options.scratchLimit);
+  ConversionOptions inner = options;
+  inner.scratch = space.folder();
+  inner.checkpoint.clear(); // the inflated file has another name in each program
+  InputFile file(in);
+  const std::string name = in.stem().string() + ".stream";
+  const InflatedFile inflated(file, space, name.c_str());
+  try
+  {
+    ConversionReport report = convert(inflated.path(), out, inner);
+    report.scratch_bytes_peak = space.peakScratch();
+    return report;
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    std::string sentence = error.what();
+    const std::string path = inflated.path().string();
+    if (sentence.starts_with(path))
+    {
+      sentence.replace(0, path.size(), in.string());
+    }
+    throw Error(sentence);
+  }
+}
+
+void run(Conversion& conversion)
+{
+  const ConversionOptions& options = conversion.options();
+  if (options.restoreOrder)
+  {
+    restoreMesh(conversion);
+    return;
+  }
+  checkOutput(conversion.out());
+  conversion.report().order = nameOf(options.order);
+  conversion.copies() ? copyStream(conversion) : convertMesh(conversion);
 }
 
 } // namespace
 
-void freeNumberNames(RawMesh& mesh, Numbering numbering, std::vector<std::string>& notes)
+ConversionReport convert(const std::filesystem::path& in, const std::filesystem::path& out,
+  const ConversionOptions& options)
 {
-  freeName(mesh.vertexColumns, OriginalIdSpec, numbering, notes);
-  freeName(mesh.elementColumns, OriginalCellIdSpec, numbering, notes);
+  checkIsNotInput(in, out);
+  checkOutputPlace(out);
+  checkForm(out, options.text);
+  if (!options.checkpoint.empty() && !Conversion::hasStages(in, options))
+  {
+    throw Error(in.string() +
+                ": this conversion has no stages from which it could continue: leave the "
+                "checkpoint out (option --checkpoint).");
+  }
+  if (isCompressedStream(in))
+  {
+    return convertCompressedStream(in, out, options);
+  }
+  Conversion conversion(in, out, options);
+  return runConversion(conversion);
 }
 
-bool isNumbered(const RawMesh& mesh)
+ConversionReport runConversion(Conversion& conversion)
 {
-  const auto has = [](const std::vector<RawColumn>& columns, const ColumnSpec& numbers)
-  {
-    return std::ranges::any_of(
-      columns, [&numbers](const RawColumn& column) { return column.spec == numbers; });
-  };
-  return has(mesh.vertexColumns, OriginalIdSpec) || has(mesh.elementColumns, OriginalCellIdSpec);
+  const Timer timer;
+  const double cpu = processSeconds();
+  run(conversion);
+  Workspace& space = conversion.workspace();
+  ConversionReport report = conversion.report();
+  report.pool_bytes_peak = space.pool().peak();
+  report.scratch_bytes_peak = space.peakScratch();
+  report.scratch_bytes_read = space.traffic().bytesRead;
+  report.scratch_bytes_written = space.traffic().bytesWritten;
+  report.seconds.total = timer.seconds();
+  report.cpu_seconds = processSeconds() - cpu;
+  report.rss_bytes_peak = peakResidentBytes();
+  return report;
 }
 
 } // namespace smg

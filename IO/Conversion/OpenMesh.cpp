@@ -2,6 +2,7 @@
 #include "smg/Convert.h"
 
 #include "IO/Arrays/ImportArrays.h"
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/ConversionStages.h"
 #include "IO/Conversion/OpenArrays.h"
 #include "IO/Formats/MeshFile.h"
@@ -83,8 +84,7 @@ std::unique_ptr<OpenedMesh> openMesh(
       requireNoConversionIn(options.checkpoint);
     }
     mesh.reader.emplace(path);
-    mesh.reader->requireBlocksWithin(
-      options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory);
+    mesh.reader->requireBlocksWithin(memoryOf(options));
     return opened;
   }
   ConversionOptions conversion = options;
@@ -119,9 +119,9 @@ std::unique_ptr<OpenedMesh> openArrays(
   ConversionOptions conversion = options;
   conversion.scratch = mesh.scratch->path();
   const std::filesystem::path name("the mesh"), converted = mesh.scratch->path() / "mesh.vsm";
-  Conversion converting([&](Workspace& space, const ProgressFunction& progress)
-    { return importArrays(points, cells, space, progress); },
-    name, converted, conversion);
+  Conversion converting(name, converted, conversion,
+    [&](Workspace& space, const ProgressFunction& progress)
+    { return importArrays(points, cells, space, progress); });
   mesh.conversion = runConversion(converting);
   mesh.conversion->scratch_bytes_peak = mesh.scratch->account().peak();
   mesh.reader.emplace(converted);
@@ -133,9 +133,9 @@ ConversionReport convertArrays(const MeshArrays& mesh, const std::string& name,
 {
   checkOutputPlace(out);
   const std::filesystem::path in(name);
-  Conversion converting([&](Workspace& space, const ProgressFunction& progress)
-    { return importArrays(mesh, name, options.cells, space, progress); },
-    in, out, options);
+  Conversion converting(in, out, options,
+    [&](Workspace& space, const ProgressFunction& progress)
+    { return importArrays(mesh, name, options.cells, space, progress); });
   return runConversion(converting);
 }
 
