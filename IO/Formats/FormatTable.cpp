@@ -3,17 +3,6 @@
 
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
-#include "IO/Formats/Gmsh/GmshFormat.h"
-#include "IO/Formats/Medit/MeditFormat.h"
-#include "IO/Formats/Obj/ObjFormat.h"
-#include "IO/Formats/Off/OffFormat.h"
-#include "IO/Formats/Ply/PlyFormat.h"
-#include "IO/Formats/Stl/StlFormat.h"
-#include "IO/Formats/Streams/StreamsFormat.h"
-#include "IO/Formats/TetGen/TetGenFormat.h"
-#include "IO/Formats/Vsm/WriteVsm.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
-#include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 

@@ -289,6 +289,21 @@ void RawMeshBuilder::solid(std::span<const std::int64_t> corners)
   this->endElement(static_cast<std::int64_t>(tetrahedra.all().size()));
 }
 
+void RawMeshBuilder::element(int dimension, std::span<const std::int64_t> c, bool isHigherOrder)
+{
+  const std::int64_t before = this->cells();
+  dimension < 2    ? this->dropped()
+  : c.size() == 3  ? this->triangle(c[0], c[1], c[2])
+  : dimension == 2 ? this->polygon(c)
+  : c.size() == 4  ? this->tetrahedron(c[0], c[1], c[2], c[3])
+  : c.size() == 6  ? this->solid(std::array{ c[0], c[2], c[1], c[3], c[5], c[4] })
+                   : this->solid(c);
+  if (isHigherOrder && this->cells() > before)
+  {
+    this->noteHigherOrder();
+  }
+}
+
 void RawMeshBuilder::dropped()
 {
   ++this->Mesh.counts.droppedCells;

@@ -139,11 +139,9 @@ public:
    * match.
    */
   void solid(std::span<const std::int64_t> corners);
-  /** The same for a wedge whose first triangle faces inwards; that of VTK's faces outwards. */
-  void invertedPrism(std::span<const std::int64_t> c)
-  {
-    this->solid(std::array<std::int64_t, 6>{ c[0], c[2], c[1], c[3], c[5], c[4] });
-  }
+  /** Any of these, by its dimension and corners. The first triangle of a wedge faces inwards; that
+   * of VTK's faces outwards. `isHigherOrder`: it has further points, which are not used. */
+  void element(int dimension, std::span<const std::int64_t> corners, bool isHigherOrder = false);
   /** A point, a line, or another element without triangles and tetrahedra. */
   void dropped();
   /** Counts that the last element had points besides its corners, which are not used. */

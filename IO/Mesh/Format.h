@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
 #include "smg/WriteMesh.h"
 
@@ -193,6 +194,13 @@ struct Format
   std::vector<std::filesystem::path> (*furtherInputs)(const std::filesystem::path& path) = nullptr;
   std::vector<std::filesystem::path> (*furtherOutputs)(const std::filesystem::path& path) = nullptr;
 };
+
+// All formats, each defined in its folder.
+extern const Format VsmFileFormat, StreamsFormat, PlyFormat, StlFormat, ObjFormat, OffFormat,
+  MeditFormat, BinaryMeditFormat, GmshFormat, TetGenFormat, LegacyVtkFormat, VtkXmlFormat,
+  VtkHdfFormat;
+/** The pieces of a .pvtp or .pvtu file, one after the other. */
+SMG_EXPORT extern const Format ParallelVtkXmlFormat;
 
 /** Format::parse of a function that reports progress only by the bytes it reads. */
 template <void (*Parse)(InputFile&, RawMeshBuilder&)>

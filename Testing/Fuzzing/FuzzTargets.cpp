@@ -5,8 +5,6 @@
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Formats/TetGen/TetGenFormat.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/Fuzzing/FuzzPlace.h"

@@ -56,7 +56,7 @@ class ImportGmsh : public VolumeImport
 protected:
   ReadMesh gmsh(const std::string& bytes, CellChoice choice = CellChoice::Only)
   {
-    return this->read(importGmsh, "a.msh", bytes, choice);
+    return this->read(GmshFormat, "a.msh", bytes, choice);
   }
   void expectRefused(const std::string& bytes, const std::string& part)
   {
@@ -457,10 +457,10 @@ TEST_F(ImportGmsh, DamagedFilesAreRefusedOrValid)
 {
   for (const GmshVariant& variant : GmshVariants)
   {
-    this->expectSafe(importGmsh, "a.msh", fourSolids(variant, consecutiveTags(1)));
+    this->expectSafe(GmshFormat, "a.msh", fourSolids(variant, consecutiveTags(1)));
   }
   const Numbers tags{ 1, 2, 40, 3, 99, 7, 5, 4, 90, 13, 12, 11 };
-  this->expectSafe(importGmsh, "a.msh", fourSolids(GmshVariants[1], tags));
+  this->expectSafe(GmshFormat, "a.msh", fourSolids(GmshVariants[1], tags));
 }
 
 TEST_F(ImportGmsh, ArchiveMeshHasItsCounts)
@@ -470,7 +470,7 @@ TEST_F(ImportGmsh, ArchiveMeshHasItsCounts)
   {
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
   }
-  const ReadMesh mesh = this->readFile(importGmsh, folder / "armadillo_tet.msh");
+  const ReadMesh mesh = this->readFile(GmshFormat, folder / "armadillo_tet.msh");
   EXPECT_EQ(mesh.vertices(), 13230);
   EXPECT_EQ(mesh.cells(), 54985);
 }

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Gmsh/GmshFormat.h"
-#include "IO/Formats/Medit/MeditFormat.h"
-#include "IO/Formats/Obj/ObjFormat.h"
-#include "IO/Formats/Off/OffFormat.h"
-#include "IO/Formats/Ply/PlyFormat.h"
-#include "IO/Formats/Stl/StlFormat.h"
-#include "IO/Formats/TetGen/TetGenFormat.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "Testing/IO/LookOfParser.h"
 #include "Testing/IO/MeshText.h"
@@ -79,9 +71,9 @@ protected:
     Workspace workspace(this->Folder.path(), Workspace::MinMemory);
     RawMeshBuilder builder(workspace, cells);
     InputFile file(this->Path);
-    importLegacyVtk(file, builder);
+    LegacyVtkFormat.parse(file, builder, {}, {});
     const RawMesh mesh = builder.finish();
-    expectLook(this->Path, cells, importLegacyVtk, mesh);
+    expectLook(this->Path, cells, LegacyVtkFormat, mesh);
     return readRaw(mesh);
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/FormatTable.h"
-#include "IO/Formats/Medit/MeditFormat.h"
 #include "Testing/IO/VolumeImport.h"
 #include "Testing/Support/TestFolders.h"
 
@@ -25,7 +24,7 @@ class ImportMedit : public VolumeImport
 protected:
   ReadMesh medit(const std::string& text, CellChoice choice = CellChoice::Only)
   {
-    return this->read(importMedit, "a.mesh", text, choice);
+    return this->read(MeditFormat, "a.mesh", text, choice);
   }
   void expectRefused(const std::string& text, const std::string& part)
   {
@@ -140,8 +139,8 @@ TEST_F(ImportMedit, ErrorsNameTheLine)
 
 TEST_F(ImportMedit, DamagedFilesAreRefusedOrValid)
 {
-  this->expectSafe(importMedit, "a.mesh", Mixed);
-  this->expectSafe(importMedit, "a.mesh",
+  this->expectSafe(MeditFormat, "a.mesh", Mixed);
+  this->expectSafe(MeditFormat, "a.mesh",
     fourVertices("Prisms\n1\n1 2 3 4 1 2 0\nTetrahedra\n2\n1 2 3 4 0\n1 2 4 3 1\nEnd\n"));
 }
 
@@ -153,7 +152,7 @@ TEST_F(ImportMedit, ArchiveMeshHasItsCounts)
     GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
   }
   const ReadMesh mesh =
-    this->readFile(importMedit, folder / "bunny_tet.mesh", CellChoice::Tetrahedra);
+    this->readFile(MeditFormat, folder / "bunny_tet.mesh", CellChoice::Tetrahedra);
   EXPECT_EQ(mesh.vertices(), 5433);
   EXPECT_EQ(mesh.cells(), 34055);
   EXPECT_TRUE(mesh.vertexColumns.empty());
@@ -257,7 +256,7 @@ TEST_F(ImportMedit, BinaryFilesAreTheSame)
     for (const bool big : { false, true })
     {
       const ReadMesh mesh =
-        this->read(importBinaryMedit, "a.meshb", binaryMixed(version, big), CellChoice::Tetrahedra);
+        this->read(BinaryMeditFormat, "a.meshb", binaryMixed(version, big), CellChoice::Tetrahedra);
       EXPECT_EQ(mesh.doublePositions, version > 1);
       EXPECT_EQ(mesh.positions, text.positions);
       EXPECT_EQ(mesh.corners, text.corners);
@@ -277,7 +276,7 @@ TEST_F(ImportMedit, DamageOfBinaryFilesIsFound)
   const auto expectRefused = [this](const std::string& bytes, const std::string& part)
   {
     expectError(
-      [&] { this->read(importBinaryMedit, "a.meshb", bytes, CellChoice::Tetrahedra); }, part);
+      [&] { this->read(BinaryMeditFormat, "a.meshb", bytes, CellChoice::Tetrahedra); }, part);
   };
   const std::string bytes = binaryMixed(2, false);
   for (std::size_t length = 1; length < bytes.size(); ++length)

@@ -17,7 +17,7 @@ protected:
   ReadMesh tetGen(const std::string& nodes, const std::string& elements)
   {
     this->write("a.1.node", nodes);
-    return this->read(importTetGen, "a.1.ele", elements);
+    return this->read(TetGenFormat, "a.1.ele", elements);
   }
   void expectRefused(const std::string& nodes, const std::string& elements, const std::string& part)
   {
@@ -33,7 +33,7 @@ TEST_F(ImportTetGen, EitherFileIsOpened)
   EXPECT_EQ(mesh.vertices(), 5);
   EXPECT_EQ(mesh.positions[3 * 4 + 2], 1.0);
   EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 0, 1, 2, 3, 1, 2, 3, 4 }));
-  EXPECT_EQ(this->readFile(importTetGen, this->Folder / "a.1.node").corners, mesh.corners);
+  EXPECT_EQ(this->readFile(TetGenFormat, this->Folder / "a.1.node").corners, mesh.corners);
 }
 
 TEST_F(ImportTetGen, AttributesAndMarkersAreColumns)
@@ -75,9 +75,9 @@ TEST_F(ImportTetGen, PlaneMeshesOfTriangles)
 TEST_F(ImportTetGen, TheOtherFileMustBeThere)
 {
   this->write("b.node", PlainNodes);
-  expectError([&] { this->readFile(importTetGen, this->Folder / "b.node"); }, "b.ele', which has");
+  expectError([&] { this->readFile(TetGenFormat, this->Folder / "b.node"); }, "b.ele', which has");
   this->write("c.ele", Elements);
-  expectError([&] { this->readFile(importTetGen, this->Folder / "c.ele"); }, "c.node', which has");
+  expectError([&] { this->readFile(TetGenFormat, this->Folder / "c.ele"); }, "c.node', which has");
 }
 
 TEST_F(ImportTetGen, ErrorsNameFileAndLine)
@@ -105,9 +105,9 @@ TEST_F(ImportTetGen, ErrorsNameFileAndLine)
 TEST_F(ImportTetGen, DamagedFilesAreRefusedOrValid)
 {
   this->write("d.node", Nodes);
-  this->expectSafe(importTetGen, "d.ele", Elements);
+  this->expectSafe(TetGenFormat, "d.ele", Elements);
   this->write("d.ele", Elements);
-  this->expectSafe(importTetGen, "d.node", Nodes);
+  this->expectSafe(TetGenFormat, "d.node", Nodes);
 }
 
 } // namespace smg::testing

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Gmsh/GmshFormat.h"
-#include "IO/Formats/Medit/MeditFormat.h"
-#include "IO/Formats/Obj/ObjFormat.h"
-#include "IO/Formats/Off/OffFormat.h"
-#include "IO/Formats/Ply/PlyFormat.h"
-#include "IO/Formats/Stl/StlFormat.h"
-#include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkAttributes.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "Testing/IO/LookOfParser.h"
@@ -44,9 +36,9 @@ protected:
     Workspace workspace(this->Folder.path(), memory);
     RawMeshBuilder builder(workspace, CellChoice::Only);
     InputFile file(this->Path);
-    importVtkXml(file, builder);
+    VtkXmlFormat.parse(file, builder, {}, {});
     const RawMesh mesh = builder.finish();
-    expectLook(this->Path, CellChoice::Only, importVtkXml, mesh);
+    expectLook(this->Path, CellChoice::Only, VtkXmlFormat, mesh);
     return readRaw(mesh);
   }
 

@@ -3,6 +3,7 @@
 
 #include "IO/Files/InputFile.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/Format.h"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,15 @@ namespace smg::testing
 {
 
 /** Expects that a parser which only looks at a file finds the type of the cells of the mesh. */
-inline void expectLook(const std::filesystem::path& path, CellChoice cells,
-  void (*parser)(InputFile&, RawMeshBuilder&), const RawMesh& mesh)
+inline void expectLook(
+  const std::filesystem::path& path, CellChoice cells, const Format& format, const RawMesh& mesh)
 {
   Workspace workspace({}, Workspace::MinMemory);
   RawMeshBuilder builder(workspace, cells, RawMeshBuilder::Look);
   InputFile file(path);
   try
   {
-    parser(file, builder);
+    format.parse(file, builder, {}, {});
     ADD_FAILURE() << "no cell is found";
   }
   catch (const CellTypeFound& found)

@@ -2,15 +2,8 @@
 #pragma once
 
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Gmsh/GmshFormat.h"
-#include "IO/Formats/Medit/MeditFormat.h"
-#include "IO/Formats/Obj/ObjFormat.h"
-#include "IO/Formats/Off/OffFormat.h"
-#include "IO/Formats/Ply/PlyFormat.h"
-#include "IO/Formats/Stl/StlFormat.h"
-#include "IO/Formats/TetGen/TetGenFormat.h"
-#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "IO/Mesh/Format.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
@@ -85,15 +78,13 @@ inline void expectFourSolids(const ReadMesh& mesh)
 class VolumeImport : public ::testing::Test
 {
 protected:
-  using Importer = void (*)(InputFile&, RawMeshBuilder&);
-
   /** Imports the file of this name, which exists. */
   ReadMesh readFile(
-    Importer importer, const std::filesystem::path& path, CellChoice choice = CellChoice::Only)
+    const Format& format, const std::filesystem::path& path, CellChoice choice = CellChoice::Only)
   {
     InputFile file(path);
     RawMeshBuilder builder(this->Space, choice);
-    importer(file, builder);
+    format.parse(file, builder, {}, {});
     try
     {
       return readRaw(builder.finish());
@@ -111,19 +102,19 @@ protected:
     writeBytes(this->Folder / name, bytes);
   }
 
-  ReadMesh read(Importer importer, const std::string& name, std::string_view bytes,
+  ReadMesh read(const Format& format, const std::string& name, std::string_view bytes,
     CellChoice choice = CellChoice::Only)
   {
     this->write(name, bytes);
-    return this->readFile(importer, this->Folder / name, choice);
+    return this->readFile(format, this->Folder / name, choice);
   }
 
   /** Damages the file in many ways: each time it must be read as a valid mesh, or refused. */
-  void expectSafe(Importer importer, const std::string& name, const std::string& bytes)
+  void expectSafe(const Format& format, const std::string& name, const std::string& bytes)
   {
     for (std::size_t length = 0; length < bytes.size(); ++length)
     {
-      this->attempt(importer, name, bytes.substr(0, length));
+      this->attempt(format, name, bytes.substr(0, length));
     }
     Random random(7);
     for (int i = 0; i < 400; ++i)
@@ -137,7 +128,7 @@ protected:
                          : i % 3 == 1 ? static_cast<char>(random.below(256))
                                       : "0123456789-.e \n$"[random.below(16)];
       }
-      this->attempt(importer, name, damaged);
+      this->attempt(format, name, damaged);
     }
     this->write(name, bytes);
   }
@@ -146,11 +137,11 @@ protected:
   Workspace Space{ this->Folder.path(), Workspace::MinMemory };
 
 private:
-  void attempt(Importer importer, const std::string& name, const std::string& bytes)
+  void attempt(const Format& format, const std::string& name, const std::string& bytes)
   {
     try
     {
-      expectValid(this->read(importer, name, bytes));
+      expectValid(this->read(format, name, bytes));
     }
     catch (const Error& error)
     {

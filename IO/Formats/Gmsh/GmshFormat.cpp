@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Gmsh/GmshFormat.h"
-
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Files/InputFile.h"
@@ -10,6 +8,7 @@
 #include "IO/Formats/Gmsh/GmshSections.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/Format.h"
 
 #include <array>
 #include <string>
@@ -358,7 +357,7 @@ private:
   void readElement(GmshElementType type, const auto& readTag)
   {
     std::array<std::int64_t, 8> corners{};
-    const std::size_t count = type.corners();
+    const std::size_t count = type.corners;
     for (std::size_t k = 0; k < type.nodes; ++k)
     {
       const std::int64_t tag = readTag();
@@ -367,7 +366,7 @@ private:
         corners[k] = tag;
       }
     }
-    addGmshElement(this->Builder, type, std::span(corners).first(count));
+    this->Builder.element(type.dimension, std::span(corners).first(count), type.nodes > count);
   }
 
   void checkSum(std::int64_t found, std::int64_t promised, const std::string& things)
@@ -386,15 +385,10 @@ private:
   bool HasNodes = false;
 };
 
-} // namespace
-
 void importGmsh(InputFile& file, RawMeshBuilder& builder)
 {
   GmshReader(file, builder).read();
 }
-
-namespace
-{
 
 /** Version 2.2, text: triangles, quadrilaterals or tetrahedra, with the tags of cells. */
 class GmshWriter : public MeshFileWriter

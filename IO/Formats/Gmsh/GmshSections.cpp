@@ -20,7 +20,7 @@ namespace
 struct Run
 {
   std::size_t first;
-  GmshShape shape;
+  GmshElementType shape;
   std::initializer_list<std::uint16_t> nodes;
 };
 
@@ -30,7 +30,8 @@ constexpr std::size_t GmshTypes = 132;
  * without inner nodes. */
 constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
 {
-  using enum GmshShape;
+  constexpr GmshElementType None{}, Triangle{ 2, 3 }, Quadrilateral{ 2, 4 }, Tetrahedron{ 3, 4 },
+    Hexahedron{ 3, 8 }, Prism{ 3, 6 }, Pyramid{ 3, 5 };
   std::array<GmshElementType, GmshTypes> types{};
   for (const Run& run : {
          Run{ 1, None, { 2 } },
@@ -73,7 +74,7 @@ constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
     std::size_t type = run.first;
     for (const std::uint16_t nodes : run.nodes)
     {
-      types[type++] = { run.shape, nodes };
+      types[type++] = { run.shape.dimension, run.shape.corners, nodes };
     }
   }
   return types;
@@ -81,47 +82,11 @@ constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
 
 } // namespace
 
-std::size_t GmshElementType::corners() const
-{
-  constexpr std::array<std::size_t, 7> corners{ 0, 3, 4, 4, 8, 6, 5 };
-  return corners[static_cast<std::size_t>(this->shape)];
-}
-
 GmshElementType gmshElementType(std::int64_t type)
 {
   static constexpr std::array<GmshElementType, GmshTypes> types = makeGmshTypes();
   return type < 0 || type >= std::int64_t(GmshTypes) ? GmshElementType()
                                                      : types[static_cast<std::size_t>(type)];
-}
-
-void addGmshElement(
-  RawMeshBuilder& builder, GmshElementType type, std::span<const std::int64_t> corners)
-{
-  const std::int64_t before = builder.cells();
-  switch (type.shape)
-  {
-    case GmshShape::None:
-      builder.dropped();
-      break;
-    case GmshShape::Triangle:
-      builder.triangle(corners[0], corners[1], corners[2]);
-      break;
-    case GmshShape::Quadrilateral:
-      builder.polygon(corners);
-      break;
-    case GmshShape::Tetrahedron:
-      builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
-      break;
-    case GmshShape::Prism:
-      builder.invertedPrism(corners);
-      break;
-    default:
-      builder.solid(corners);
-  }
-  if (type.nodes > type.corners() && builder.cells() > before)
-  {
-    builder.noteHigherOrder();
-  }
 }
 
 void GmshNodes::addOther(std::int64_t tag)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/BinaryInput.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Medit/MeditFormat.h"
 #include "IO/Formats/Medit/MeditSections.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/Format.h"
 
 #include <algorithm>
 #include <array>
@@ -189,7 +189,7 @@ private:
       {
         corner = this->integer("a vertex of an element");
       }
-      addMeditElement(this->Builder, section, corners);
+      this->Builder.element(section.dimension, corners);
       this->ElementReferences->add(this->integer("a label"));
     }
   }
@@ -216,8 +216,6 @@ bool isBinaryMedit(std::string_view start)
 
 constexpr FileSuffix BinaryMeditSuffixes[] = { { ".meshb" } };
 
-} // namespace
-
 void importBinaryMedit(InputFile& file, RawMeshBuilder& builder)
 {
   const std::optional<std::endian> order = orderOfMedit(file.at(0, 4));
@@ -227,6 +225,8 @@ void importBinaryMedit(InputFile& file, RawMeshBuilder& builder)
   }
   BinaryMeditReader(file, *order, builder).read();
 }
+
+} // namespace
 
 const Format BinaryMeditFormat{
   .name = "binary Medit",

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Medit/MeditFormat.h"
-
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Files/InputFile.h"
@@ -10,6 +8,7 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/Format.h"
 
 #include <algorithm>
 #include <array>
@@ -171,7 +170,7 @@ private:
         corner = this->Scanner.integer("a vertex of an element");
       }
       this->Builder.setLine(this->Scanner.line());
-      addMeditElement(this->Builder, section, corners);
+      this->Builder.element(section.dimension, corners);
       this->ElementReferences.add(this->reference());
     }
   }
@@ -189,15 +188,10 @@ private:
   std::int64_t Dimension = 3;
 };
 
-} // namespace
-
 void importMedit(InputFile& file, RawMeshBuilder& builder)
 {
   MeditReader(file, builder).read();
 }
-
-namespace
-{
 
 /** Tetrahedra, or triangles and then quadrilaterals; vertices and cells with their references. */
 class MeditWriter : public MeshFileWriter

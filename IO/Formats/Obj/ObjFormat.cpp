@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Obj/ObjFormat.h"
-
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Export/WrittenColors.h"
@@ -10,6 +8,7 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/Format.h"
 #include "Solver/Core/Text.h"
 
 #include <algorithm>

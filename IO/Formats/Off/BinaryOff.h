@@ -27,13 +27,6 @@ struct OffHeader
   std::size_t body = 0; ///< of a binary file: the byte at which its vertices begin
 };
 
-/** Reads a file up to its first vertex; a text with the scanner, which is at its beginning. Throws
- * Error if it is not an OFF file of points in space, or too short for its counts. */
-OffHeader readOffHeader(InputFile& file, TextScanner& scanner);
-
-class InputFile;
-class RawMeshBuilder;
-
 /** Reads the counts of a binary file, from byte `header.body` on, and advances past them. Throws
  * Error if the file is too short for them. */
 void readBinaryOffCounts(InputFile& file, OffHeader& header);

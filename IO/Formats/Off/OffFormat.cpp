@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Off/OffFormat.h"
-
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Export/WrittenColors.h"
@@ -11,6 +9,7 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/Format.h"
 
 #include <cmath>
 #include <string>
@@ -102,8 +101,8 @@ void readFaces(TextScanner& scanner, std::int64_t faces, RawMeshBuilder& builder
   colors.finish();
 }
 
-} // namespace
-
+/** Reads a file up to its first vertex; a text with the scanner, which is at its beginning. Throws
+ * Error if it is not an OFF file of points in space, or too short for its counts. */
 OffHeader readOffHeader(InputFile& file, TextScanner& scanner)
 {
   OffHeader header;
@@ -118,9 +117,6 @@ OffHeader readOffHeader(InputFile& file, TextScanner& scanner)
   scanner.integer("the number of edges");
   return header;
 }
-
-namespace
-{
 
 void importOff(InputFile& file, RawMeshBuilder& builder)
 {

@@ -7,12 +7,10 @@ namespace smg
 {
 
 /**
- * PLY. Reads ASCII and both binary orders, any elements and properties in any order; polygons and
+ * Reads ASCII and both binary orders, any elements and properties in any order; polygons and
  * strips become triangles; scalar properties become columns, with nx ny nz as `Normals` and red
- * green blue (alpha) as `Colors`. Writes binary or text, with the columns as properties.
+ * green blue (alpha) as `Colors`.
  */
-extern const Format PlyFormat;
-
 void importPly(InputFile& file, RawMeshBuilder& builder);
 /** With the columns as properties; see WritePly.cpp. */
 MeshFileFunction makePlyWriter;

@@ -11,9 +11,7 @@
 namespace smg
 {
 
-/** STL, text or binary; corners with the same coordinates become one vertex. */
-extern const Format StlFormat;
-
+/** Text or binary; corners with the same coordinates become one vertex. */
 void importStl(InputFile& file, RawMeshBuilder& builder);
 
 /** Whether a file begins as STL in text does: "solid", any name, then a facet or the end, in

@@ -6,9 +6,6 @@
 namespace smg
 {
 
-/** The streaming formats SMA, SMB, SVA and SVB; see StreamFile.h. */
-extern const Format StreamsFormat;
-
 class MovedVertices;
 /**
  * Writes the streaming mesh file `in` again as `out`, another or the same of the four formats, with

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/TetGen/TetGenFormat.h"
-
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Files/FileNames.h"
@@ -12,6 +10,7 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/Format.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -189,13 +188,8 @@ private:
       corner = scanner.integer("a node of an element");
     }
     const bool flat = nodes == 3 || nodes == 6;
-    const std::int64_t before = this->Builder.cells();
-    flat ? this->Builder.triangle(corners[0], corners[1], corners[2])
-         : this->Builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
-    if (nodes > (flat ? 3U : 4U) && this->Builder.cells() > before)
-    {
-      this->Builder.noteHigherOrder();
-    }
+    const std::size_t count = flat ? 3 : 4;
+    this->Builder.element(flat ? 2 : 3, std::span(corners).first(count), nodes > count);
   }
 
   RawMeshBuilder& Builder;
@@ -246,8 +240,6 @@ std::vector<std::filesystem::path> furtherTetGenOutputs(const std::filesystem::p
   return { isOfElements(path) ? nodes : elements };
 }
 
-} // namespace
-
 void importTetGen(InputFile& file, RawMeshBuilder& builder)
 {
   const bool isElements = isOfElements(file.name());
@@ -274,9 +266,6 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
   reader.readNodes(isElements ? other : file);
   reader.readElements(isElements ? file : other);
 }
-
-namespace
-{
 
 constexpr int AnyNumber = std::numeric_limits<int>::max();
 

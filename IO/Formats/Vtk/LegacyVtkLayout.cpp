@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vtk/LegacyVtkLayout.h"
-
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
 #include "IO/Formats/Vtk/VtkAttributes.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
 
 #include <limits>
 #include <string>

@@ -5,9 +5,8 @@
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
-#include "IO/Formats/Vtk/LegacyVtkLayout.h"
-#include "IO/Formats/Vtk/VtkMeshReader.h"
-#include "IO/Formats/Vtk/VtkXmlLayout.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "smg/Error.h"
 
@@ -66,8 +65,6 @@ constexpr FileSuffix LegacySuffixes[] = { { ".vtk", true, true, FileForm::Either
 constexpr FileSuffix XmlSuffixes[] = { { ".vtp", true, false }, { ".vtu" } };
 constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" } };
 
-} // namespace
-
 void importLegacyVtk(InputFile& file, RawMeshBuilder& builder)
 {
   readVtkMesh(file, legacyVtkLayout(file), builder);
@@ -79,61 +76,6 @@ void importVtkXml(InputFile& file, RawMeshBuilder& builder)
   addVtkXmlLayout(file, layout, builder.workspace().available() / 2);
   readVtkMesh(file, layout, builder);
 }
-
-const Format LegacyVtkFormat{
-  .name = "legacy VTK",
-  .suffixes = LegacySuffixes,
-  .description = "versions 2.0 to 5.1, text and binary; written as 3.0",
-  .cells = "polygonal data, unstructured grids",
-  .holdsColumns = true,
-  .isReadByVtk = true,
-  .hasSign = isLegacyVtk,
-  .alwaysSigned = true,
-  .parse = parseWith<importLegacyVtk>,
-  .share = { 45, 3 },
-  .bytes = bytesOfVtk,
-  .writer = makeLegacyVtkWriter,
-  .scratch = scratchOfTextVtk,
-};
-
-const Format VtkXmlFormat{
-  .name = "VTK XML",
-  .suffixes = XmlSuffixes,
-  .description = "text, base64, raw; plain or compressed by zlib, LZ4 or LZMA",
-  .cells = "polygonal data (the only cells of `.vtp`), unstructured grids",
-  .holdsColumns = true,
-  .isReadByVtk = true,
-  .hasSign = isVtkXml,
-  .firstCharacter = '<',
-  .parse = parseWith<importVtkXml>,
-  .bytes = bytesOfVtkXml,
-  .writer = makeVtkXmlWriter,
-  .turn = PartTurn::AsTheyCome,
-};
-
-namespace
-{
-void parseParallel(
-  InputFile& file, RawMeshBuilder& builder, const MeshPart& part, const ProgressFunction& progress);
-std::vector<std::filesystem::path> namedPieces(const std::filesystem::path& path);
-} // namespace
-
-const Format ParallelVtkXmlFormat{
-  .name = "VTK XML in pieces",
-  .suffixes = ParallelSuffixes,
-  .description = "pieces in the folder of the file or below, each compressed or not; written by "
-                 "`vtkStreamingMeshWriter`",
-  .cells = "as VTK XML",
-  .holdsColumns = true,
-  .isReadByVtk = true,
-  .hasSign = isParallelVtkXml,
-  .firstCharacter = '<',
-  .parse = parseParallel,
-  .furtherInputs = namedPieces,
-};
-
-namespace
-{
 
 /** The names of the pieces are held in memory. */
 constexpr std::size_t MaxPieces = 100000;
@@ -233,5 +175,50 @@ void parseParallel(InputFile& file, RawMeshBuilder& builder, const MeshPart& /*p
 }
 
 } // namespace
+
+const Format LegacyVtkFormat{
+  .name = "legacy VTK",
+  .suffixes = LegacySuffixes,
+  .description = "versions 2.0 to 5.1, text and binary; written as 3.0",
+  .cells = "polygonal data, unstructured grids",
+  .holdsColumns = true,
+  .isReadByVtk = true,
+  .hasSign = isLegacyVtk,
+  .alwaysSigned = true,
+  .parse = parseWith<importLegacyVtk>,
+  .share = { 45, 3 },
+  .bytes = bytesOfVtk,
+  .writer = makeLegacyVtkWriter,
+  .scratch = scratchOfTextVtk,
+};
+
+const Format VtkXmlFormat{
+  .name = "VTK XML",
+  .suffixes = XmlSuffixes,
+  .description = "text, base64, raw; plain or compressed by zlib, LZ4 or LZMA",
+  .cells = "polygonal data (the only cells of `.vtp`), unstructured grids",
+  .holdsColumns = true,
+  .isReadByVtk = true,
+  .hasSign = isVtkXml,
+  .firstCharacter = '<',
+  .parse = parseWith<importVtkXml>,
+  .bytes = bytesOfVtkXml,
+  .writer = makeVtkXmlWriter,
+  .turn = PartTurn::AsTheyCome,
+};
+
+const Format ParallelVtkXmlFormat{
+  .name = "VTK XML in pieces",
+  .suffixes = ParallelSuffixes,
+  .description = "pieces in the folder of the file or below, each compressed or not; written by "
+                 "`vtkStreamingMeshWriter`",
+  .cells = "as VTK XML",
+  .holdsColumns = true,
+  .isReadByVtk = true,
+  .hasSign = isParallelVtkXml,
+  .firstCharacter = '<',
+  .parse = parseParallel,
+  .furtherInputs = namedPieces,
+};
 
 } // namespace smg

@@ -3,18 +3,9 @@
 
 #include "IO/Mesh/Format.h"
 #include "smg/Column.h"
-#include "smg/Export.h"
 
 namespace smg
 {
-
-extern const Format LegacyVtkFormat;
-extern const Format VtkXmlFormat;
-/** The pieces of a .pvtp or .pvtu file, one after the other. */
-SMG_EXPORT extern const Format ParallelVtkXmlFormat;
-
-void importLegacyVtk(InputFile& file, RawMeshBuilder& builder);
-void importVtkXml(InputFile& file, RawMeshBuilder& builder);
 
 MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
 /** A name as one word of a legacy file, in VTK's encoding. */

@@ -3,6 +3,8 @@
 
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/ByteSource.h"
+#include "Solver/Core/Progress.h"
+#include "smg/Export.h"
 
 #include <algorithm>
 #include <array>
@@ -92,6 +94,34 @@ struct VtkLayout
   std::int64_t bytes = 0; ///< approximate memory of the pieces
   bool isPart = false;    ///< whether there are other, unread pieces, whose cells are omitted
 };
+
+/**
+ * Finds the positions of all data in a legacy VTK file of polygonal data or of an unstructured
+ * grid, text or binary, versions 1 to 5, without storing the data. Arrays of texts and bits are
+ * omitted.
+ * @throws Error with the byte position if the file is invalid, truncated, or has another kind of
+ * data
+ */
+VtkLayout legacyVtkLayout(InputFile& file);
+
+/**
+ * The same of a .vtp or .vtu file: adds its pieces to the layout.
+ * @param maxBytes of memory that the layout may take
+ */
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t maxBytes);
+
+class RawMeshBuilder;
+
+/**
+ * Passes the mesh with a known layout to the builder: points, cells, and as columns the arrays that
+ * all pieces have. Of several pieces, cells that belong to another piece (`vtkGhostType`) are
+ * omitted, and points with the same global number are merged.
+ * @param file the only file of the layout, or the one that names the files
+ * @param progress of several files; otherwise `file` reports it
+ * @throws Error with the position in a file; Cancelled
+ */
+SMG_EXPORT void readVtkMesh(InputFile& file, const VtkLayout& layout, RawMeshBuilder& builder,
+  const ProgressFunction& progress = {});
 
 /** Types of cells in VTK, which are the same in its files. */
 namespace VtkCellTypes

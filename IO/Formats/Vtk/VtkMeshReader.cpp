@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vtk/VtkMeshReader.h"
-
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 #include "IO/Formats/Vtk/VtkAttributes.h"
@@ -8,6 +6,7 @@
 #include "IO/Formats/Vtk/VtkCellReader.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Import/ImportColumn.h"
+#include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Memory/Pool.h"
 

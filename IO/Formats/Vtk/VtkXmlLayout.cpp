@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vtk/VtkXmlLayout.h"
-
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/Vtk/VtkAttributes.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstddef>
 #include <limits>
@@ -20,6 +20,94 @@ namespace smg
 
 namespace
 {
+
+/** How a file stores its arrays that are not text, as its root element declares. */
+struct VtkXmlEncoding
+{
+  std::endian byteOrder = std::endian::little;
+  int headerBytes = 4;
+  VtkCompression compression = VtkCompression::None;
+};
+
+/** Throws Error if the compressor is not known. */
+VtkXmlEncoding vtkXmlEncoding(const InputFile& file, const XmlTag& root)
+{
+  VtkXmlEncoding encoding;
+  encoding.byteOrder =
+    root.value("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
+  encoding.headerBytes = root.value("header_type", "UInt32") == "UInt64" ? 8 : 4;
+  const std::string compressor = root.value("compressor");
+  encoding.compression = compressor.empty()                      ? VtkCompression::None
+                         : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
+                         : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
+                                                                 : VtkCompression::Lzma;
+  if (encoding.compression == VtkCompression::Lzma && compressor != "vtkLZMADataCompressor")
+  {
+    file.fail(root.begin, "the compressor " + inQuotes(compressor) + " is not known");
+  }
+  return encoding;
+}
+
+/** The value of an attribute as a count; 0 if it is missing. Throws Error if it is not a count. */
+std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* name)
+{
+  // No file has more points, cells or bytes.
+  constexpr std::int64_t MaxXmlCount = std::int64_t(1) << 48;
+  const std::string text = tag.value(name, "0");
+  std::string_view digits = text;
+  digits.remove_prefix(std::min(digits.find_first_not_of(" \t\r\n"), digits.size()));
+  digits = digits.substr(0, digits.find_first_of(" \t\r\n"));
+  std::int64_t value = -1;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
+      value > MaxXmlCount)
+  {
+    file.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
+  }
+  return value;
+}
+
+/**
+ * The array of a tag <DataArray>; how many values it has is not known yet. One that is appended has
+ * the encoding Raw, and its begin is an offset from the first byte of the appended data. Throws
+ * Error.
+ */
+VtkArray vtkXmlArray(
+  const InputFile& file, const XmlTag& tag, ScalarType type, const VtkXmlEncoding& encoding)
+{
+  VtkArray array;
+  array.name = tag.value("Name");
+  array.type = array.columnType = type;
+  array.begin = tag.end;
+  array.byteOrder = encoding.byteOrder;
+  const std::int64_t components =
+    tag.attribute("NumberOfComponents") ? vtkXmlCount(file, tag, "NumberOfComponents") : 1;
+  if (components < 1 || components > std::numeric_limits<std::int16_t>::max())
+  {
+    file.fail(tag.begin, "an array cannot have " + std::to_string(components) + " components");
+  }
+  array.components = static_cast<int>(components);
+  const std::string format = tag.value("format", "ascii");
+  if (format != "ascii" && format != "binary" && format != "appended")
+  {
+    file.fail(tag.begin,
+      "the array here has the format " + inQuotes(format) + ", not ascii, binary or appended");
+  }
+  if (format == "ascii")
+  {
+    return array;
+  }
+  array.headerBytes = encoding.headerBytes;
+  array.compression = encoding.compression;
+  array.encoding = VtkEncoding::Base64;
+  if (format == "appended")
+  {
+    // The offset and the encoding of the appended data follow after all arrays.
+    array.encoding = VtkEncoding::Raw;
+    array.begin = static_cast<std::size_t>(vtkXmlCount(file, tag, "offset"));
+  }
+  return array;
+}
 
 /** Reads the tags of a file into the pieces of a layout. */
 class XmlLayoutReader
@@ -252,7 +340,7 @@ private:
     }
   }
 
-  /** Tells the arrays that are appended where and how that is. */
+  /** Resolves the offsets of appended arrays. */
   void placeAppended(const XmlTag& tag)
   {
     const bool base64 = tag.value("encoding", "base64") != "raw";
@@ -344,95 +432,6 @@ private:
   VtkArrayNames PointNames, CellNames; ///< of the current piece
 };
 
-} // namespace
-
-void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t maxBytes)
-{
-  XmlLayoutReader(file, layout, maxBytes).read();
-}
-
-namespace
-{
-
-/** No file has more points, cells or bytes. */
-constexpr std::int64_t MaxXmlCount = std::int64_t(1) << 48;
-
-} // namespace
-
-VtkXmlEncoding vtkXmlEncoding(const InputFile& file, const XmlTag& root)
-{
-  VtkXmlEncoding encoding;
-  encoding.byteOrder =
-    root.value("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
-  encoding.headerBytes = root.value("header_type", "UInt32") == "UInt64" ? 8 : 4;
-  const std::string compressor = root.value("compressor");
-  encoding.compression = compressor.empty()                      ? VtkCompression::None
-                         : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
-                         : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
-                                                                 : VtkCompression::Lzma;
-  if (encoding.compression == VtkCompression::Lzma && compressor != "vtkLZMADataCompressor")
-  {
-    file.fail(root.begin, "the compressor " + inQuotes(compressor) + " is not known");
-  }
-  return encoding;
-}
-
-VtkArray vtkXmlArray(
-  const InputFile& file, const XmlTag& tag, ScalarType type, const VtkXmlEncoding& encoding)
-{
-  VtkArray array;
-  array.name = tag.value("Name");
-  array.type = array.columnType = type;
-  array.begin = tag.end;
-  array.byteOrder = encoding.byteOrder;
-  const std::int64_t components =
-    tag.attribute("NumberOfComponents") ? vtkXmlCount(file, tag, "NumberOfComponents") : 1;
-  if (components < 1 || components > std::numeric_limits<std::int16_t>::max())
-  {
-    file.fail(tag.begin, "an array cannot have " + std::to_string(components) + " components");
-  }
-  array.components = static_cast<int>(components);
-  const std::string format = tag.value("format", "ascii");
-  if (format != "ascii" && format != "binary" && format != "appended")
-  {
-    file.fail(tag.begin,
-      "the array here has the format " + inQuotes(format) + ", not ascii, binary or appended");
-  }
-  if (format == "ascii")
-  {
-    return array;
-  }
-  array.headerBytes = encoding.headerBytes;
-  array.compression = encoding.compression;
-  array.encoding = VtkEncoding::Base64;
-  if (format == "appended")
-  {
-    // The offset and the encoding of the appended data follow after all arrays.
-    array.encoding = VtkEncoding::Raw;
-    array.begin = static_cast<std::size_t>(vtkXmlCount(file, tag, "offset"));
-  }
-  return array;
-}
-
-std::int64_t vtkXmlCount(const InputFile& file, const XmlTag& tag, const char* name)
-{
-  const std::string text = tag.value(name, "0");
-  std::string_view digits = text;
-  digits.remove_prefix(std::min(digits.find_first_not_of(" \t\r\n"), digits.size()));
-  digits = digits.substr(0, digits.find_first_of(" \t\r\n"));
-  std::int64_t value = -1;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
-      value > MaxXmlCount)
-  {
-    file.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
-  }
-  return value;
-}
-
-namespace
-{
-
 /** A file that is cut off within its last tags may look whole otherwise. */
 void requireEnd(InputFile& file)
 {
@@ -455,6 +454,11 @@ XmlTag vtkXmlRoot(InputFile& file, XmlTags& tags)
     file.fail(0, "the file does not begin with <VTKFile>");
   }
   return root;
+}
+
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t maxBytes)
+{
+  XmlLayoutReader(file, layout, maxBytes).read();
 }
 
 } // namespace smg

@@ -74,4 +74,10 @@ SMG_EXPORT std::string xmlText(std::string_view text);
 /** The same with the characters that mean something in XML written as entities. */
 SMG_EXPORT std::string xmlEscaped(const std::string& text);
 
+/**
+ * The tag <VTKFile>, which comes first. Throws Error if it does not, or if the file does not end
+ * with its closing tag.
+ */
+XmlTag vtkXmlRoot(InputFile& file, XmlTags& tags);
+
 } // namespace smg

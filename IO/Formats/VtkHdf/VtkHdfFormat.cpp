@@ -86,6 +86,8 @@ constexpr FileSuffix VtkHdfSuffixes[] = { { ".vtkhdf" }, { ".hdf" } };
 
 } // namespace
 
+/** Partitions whose points have global numbers become one mesh, without duplicate cells. Writes
+ * version 1.0, which every reader since VTK 9.1 supports. */
 const Format VtkHdfFormat{
   .name = "VTKHDF",
   .suffixes = VtkHdfSuffixes,

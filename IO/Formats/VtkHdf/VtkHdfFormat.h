@@ -9,10 +9,6 @@
 namespace smg
 {
 
-/** Partitions whose points have global numbers become one mesh, without duplicate cells. Writes
- * version 1.0, which every reader since VTK 9.1 supports. */
-extern const Format VtkHdfFormat;
-
 /** The default number of cells of a partition of a written file. */
 inline constexpr std::int64_t VtkHdfPartitionCells = std::int64_t(1) << 18;
 

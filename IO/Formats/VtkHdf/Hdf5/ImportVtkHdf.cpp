@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/VtkHdf/Hdf5/ImportVtkHdf.h"
-
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Vtk/VtkMeshReader.h"
+#include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
@@ -31,8 +29,6 @@ std::string noteOn(std::int64_t count, const char* what, std::int64_t chosen)
          " is read.";
 }
 
-} // namespace
-
 void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part)
 {
   const Hdf5File hdf(file.path(), file.name());
@@ -49,9 +45,6 @@ void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part
   }
   readVtkMesh(file, layout, builder);
 }
-
-namespace
-{
 
 std::vector<ColumnSpec> hdfColumns(const std::vector<VtkArray>& arrays)
 {
@@ -90,8 +83,6 @@ FileCounts readCounts(InputFile& file, const MeshPart& part)
   return counts;
 }
 
-} // namespace
-
 std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
 {
   try
@@ -105,6 +96,7 @@ std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
   }
 }
 
+/** The times of the time steps; empty: there are none. Throws Error. */
 std::vector<double> timesOfVtkHdf(const std::filesystem::path& path)
 {
   const Hdf5File hdf(path, path.string());
@@ -131,6 +123,8 @@ std::vector<double> timesOfVtkHdf(const std::filesystem::path& path)
   }
   return times;
 }
+
+} // namespace
 
 } // namespace smg
 
