@@ -98,8 +98,7 @@ public:
     {
       this->Polled.at(i);
       const std::uint32_t* c = corners.data() + i;
-      const Vector area = cross(difference(this->point(c[1]), this->point(c[0])),
-        difference(this->point(c[2]), this->point(c[0])));
+      const Vector area = this->Part.area(c[0], c[1], c[2]);
       this->addPlane({ c, 3 }, area, std::sqrt(dot(area, area)));
     }
   }
@@ -120,9 +119,9 @@ public:
       if (lacks[ends[0]] && lacks[ends[1]] &&
           (this->Surface.isBoundary(ends[0], ends[1]) || this->Surface.isBorder(ends[0], ends[1])))
       {
-        const Vector edge = difference(this->point(ends[1]), this->point(ends[0]));
+        const Vector edge = difference(this->Part.point(ends[1]), this->Part.point(ends[0]));
         const Vector area =
-          cross(edge, difference(this->point(corners[last]), this->point(ends[0])));
+          cross(edge, difference(this->Part.point(corners[last]), this->Part.point(ends[0])));
         this->addPlane(ends, cross(edge, area), BoundaryWeight * dot(edge, edge));
       }
     }
@@ -211,11 +210,6 @@ private:
     return static_cast<std::size_t>(std::ranges::count(isUsed, 1));
   }
 
-  const double* point(std::uint32_t v) const
-  {
-    return this->Part.points.data() + 3 * std::size_t(v);
-  }
-
   /** Adds the plane with this normal, of any length, through the first of some vertices that lie in
    * it, to all of them. */
   void addPlane(std::span<const std::uint32_t> to, const Vector& normal, double weight)
@@ -229,7 +223,7 @@ private:
     const Vector unit{ normal[0] / length, normal[1] / length, normal[2] / length };
     // Relative to a point of the mesh: far from the origin of the coordinates, squares would lose
     // their digits.
-    const Vector at = difference(this->point(to[0]), this->Part.origin.data());
+    const Vector at = difference(this->Part.point(to[0]), this->Part.origin.data());
     Quadric plane;
     plane.addPlane(unit.data(), at.data(), weight);
     for (const std::uint32_t v : to)
@@ -241,7 +235,7 @@ private:
   /** The squared error of a collapse: what `from` stands for, measured at the place of `to`. */
   double errorOf(std::uint32_t from, std::uint32_t to) const
   {
-    const Vector at = difference(this->point(to), this->Part.origin.data());
+    const Vector at = difference(this->Part.point(to), this->Part.origin.data());
     return this->Part.quadrics[from].squaredDistance(at.data());
   }
 
@@ -272,7 +266,7 @@ private:
     const double error = std::min(ofA, ofB);
     if (error <= limit && error < None)
     {
-      const Vector edge = difference(this->point(a), this->point(b));
+      const Vector edge = difference(this->Part.point(a), this->Part.point(b));
       const auto rank =
         static_cast<float>((error + LengthShare * dot(edge, edge)) * this->InverseSquare);
       this->Edges.push_back(ofA <= ofB ? Collapse{ a, b, rank } : Collapse{ b, a, rank });

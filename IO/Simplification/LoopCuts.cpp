@@ -37,8 +37,7 @@ LoopCuts::LoopCuts(SurfacePart& part, SurfaceTopology& surface, double scale)
 
 double LoopCuts::squaredDistance(std::uint32_t a, std::uint32_t b) const
 {
-  const double* points = this->Part.points.data();
-  const Vector way = difference(points + 3 * std::size_t(a), points + 3 * std::size_t(b));
+  const Vector way = difference(this->Part.point(a), this->Part.point(b));
   return dot(way, way);
 }
 
@@ -57,10 +56,7 @@ bool LoopCuts::costsTooMuch(float rank, float limit, Pass& pass)
  * surface. */
 double LoopCuts::costOf(const Loop& loop) const
 {
-  const auto point = [this](std::uint32_t v)
-  { return this->Part.points.data() + 3 * std::size_t(v); };
-  const Vector area = cross(
-    difference(point(loop.to), point(loop.from)), difference(point(loop.across), point(loop.from)));
+  const Vector area = this->Part.area(loop.from, loop.to, loop.across);
   const double length = std::sqrt(this->squaredDistance(loop.from, loop.to)) +
                         std::sqrt(this->squaredDistance(loop.to, loop.across)) +
                         std::sqrt(this->squaredDistance(loop.across, loop.from));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SeamVertices.h"
 
+#include "Solver/Assembly/Elements.h"
 #include "Solver/Files/Checksum.h"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ struct Places
       poll.at(v);
       if (part.isHeld(v) || part.seamOf(v) > 0)
       {
-        this->vertices.emplace_back(placeOf(part.points.data() + 3 * std::size_t(v)), v);
+        this->vertices.emplace_back(placeOf(part.point(v)), v);
       }
     }
     poll.now();
@@ -148,8 +149,7 @@ void SeamVertices::add(const MeshBlock& block)
   {
     const std::int64_t* c = block.corners.data() + i;
     // As for the parts that are simplified.
-    const bool isRepeated = flags && (flags->as<std::uint8_t>()[i / 3] & DuplicateCell) != 0;
-    if (!isRepeated && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
+    if (isDistinctCell(c, 3, flags ? flags->as<std::uint8_t>()[i / 3] : 0))
     {
       const std::uint64_t hash[3] = { hashOf(c[0]), hashOf(c[1]), hashOf(c[2]) };
       for (std::size_t k = 0; k < 3; ++k)

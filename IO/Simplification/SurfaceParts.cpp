@@ -2,11 +2,12 @@
 #include "IO/Simplification/SurfaceParts.h"
 
 #include "IO/Mesh/Columns.h"
-#include "Solver/Core/Vector.h"
+#include "Solver/Assembly/Elements.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -33,6 +34,38 @@ void markUsed(
   }
 }
 
+/** Appends a row of a table whose rows have so many values. */
+template <class T>
+void appendRow(std::vector<T>& to, const std::vector<T>& from, std::size_t row, std::size_t values)
+{
+  const T* const begin = from.data() + row * values;
+  to.insert(to.end(), begin, begin + values);
+}
+
+/** Copies a row of such a table to the place of another one. */
+template <class T>
+void moveRow(std::vector<T>& table, std::size_t from, std::size_t to, std::size_t values)
+{
+  std::copy_n(table.data() + from * values, values, table.data() + to * values);
+}
+
+/** Appends the tuples of a row to columns. */
+void appendTuples(const std::byte* row, std::span<Column> columns)
+{
+  for (Column& column : columns)
+  {
+    const std::size_t bytes = column.spec.tupleBytes();
+    column.bytes.insert(column.bytes.end(), row, row + bytes);
+    row += bytes;
+  }
+}
+
+/** Whether triangles carry a column of cells. */
+bool isCarried(const ColumnSpec& spec)
+{
+  return spec.name != OriginalCellIdName && spec.name != CellFlagsName;
+}
+
 } // namespace
 
 void SurfacePart::reserve(std::size_t triangles, const SurfacePart& like)
@@ -52,50 +85,30 @@ void SurfacePart::reserve(std::size_t triangles, const SurfacePart& like)
 void SurfacePart::addVertex(const SurfacePart& from, std::size_t vertex)
 {
   this->ids.push_back(from.ids[vertex]);
-  const auto point = from.points.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
-  this->points.insert(this->points.end(), point, point + 3);
-  const std::size_t stride = from.rowBytes();
-  const auto row = from.rows.begin() + static_cast<std::ptrdiff_t>(vertex * stride);
-  this->rows.insert(this->rows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
+  appendRow(this->points, from.points, vertex, 3);
+  appendRow(this->rows, from.rows, vertex, from.rowBytes());
 }
 
 void SurfacePart::copyVertex(
   std::size_t vertex, std::vector<double>& positions, std::span<Column> columns) const
 {
-  const auto point = this->points.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
-  positions.insert(positions.end(), point, point + 3);
-  const std::byte* from = this->rows.data() + vertex * this->rowBytes();
-  for (Column& column : columns)
-  {
-    const std::size_t bytes = column.spec.tupleBytes();
-    column.bytes.insert(column.bytes.end(), from, from + bytes);
-    from += bytes;
-  }
+  appendRow(positions, this->points, vertex, 3);
+  appendTuples(this->rows.data() + vertex * this->rowBytes(), columns);
 }
 
 void SurfacePart::copyTriangle(std::size_t triangle, std::span<Column> columns) const
 {
-  const std::byte* from = this->cellRows.data() + triangle * this->cellRowBytes();
-  for (Column& column : columns)
-  {
-    const std::size_t bytes = column.spec.tupleBytes();
-    column.bytes.insert(column.bytes.end(), from, from + bytes);
-    from += bytes;
-  }
+  appendTuples(this->cellRows.data() + triangle * this->cellRowBytes(), columns);
 }
 
 void SurfacePart::moveTriangle(std::size_t from, std::size_t to)
 {
-  const std::size_t stride = this->cellRowBytes();
-  std::copy_n(this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(from), 3,
-    this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(to));
+  moveRow(this->corners, from, to, 3);
   if (!this->wedges.empty())
   {
-    std::copy_n(this->wedges.begin() + 3 * static_cast<std::ptrdiff_t>(from), 3,
-      this->wedges.begin() + 3 * static_cast<std::ptrdiff_t>(to));
+    moveRow(this->wedges, from, to, 3);
   }
-  std::copy_n(this->cellRows.begin() + static_cast<std::ptrdiff_t>(from * stride), stride,
-    this->cellRows.begin() + static_cast<std::ptrdiff_t>(to * stride));
+  moveRow(this->cellRows, from, to, this->cellRowBytes());
 }
 
 void SurfacePart::keepTriangles(std::size_t number)
@@ -114,11 +127,8 @@ SurfacePart SurfacePart::extract(
   for (std::size_t k = 0; k < triangles.size(); ++k)
   {
     poll.at(k);
-    const std::uint32_t t = triangles[k];
-    const auto corner = this->corners.begin() + 3 * static_cast<std::ptrdiff_t>(t);
-    some.insert(some.end(), corner, corner + 3);
-    const auto row = this->cellRows.begin() + static_cast<std::ptrdiff_t>(t * stride);
-    part.cellRows.insert(part.cellRows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
+    appendRow(some, this->corners, triangles[k], 3);
+    appendRow(part.cellRows, this->cellRows, triangles[k], stride);
   }
   std::vector<std::uint32_t> place(this->vertices(), Unused);
   markUsed(some, place, poll);
@@ -159,15 +169,13 @@ void SurfacePart::dropUnusedVertices(const Poll& poll)
     }
     place[v] = kept;
     this->ids[kept] = this->ids[v];
-    std::copy_n(this->points.begin() + 3 * static_cast<std::ptrdiff_t>(v), 3,
-      this->points.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
+    moveRow(this->points, v, kept, 3);
     if (hasQuadrics)
     {
       this->quadrics[kept] = this->quadrics[v];
       this->lacksBoundary[kept] = this->lacksBoundary[v];
     }
-    std::copy_n(this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride), stride,
-      this->rows.begin() + static_cast<std::ptrdiff_t>(kept * stride));
+    moveRow(this->rows, v, kept, stride);
     if (!this->atPlace.empty())
     {
       this->atPlace[kept] = this->atPlace[v];
@@ -192,8 +200,7 @@ void SurfacePart::dropUnusedVertices(const Poll& poll)
 std::vector<ColumnSpec> carriedColumns(const StreamInfo& info)
 {
   std::vector<ColumnSpec> carried = info.cellColumns;
-  std::erase_if(carried, [](const ColumnSpec& spec)
-    { return spec.name == OriginalCellIdName || spec.name == CellFlagsName; });
+  std::erase_if(carried, std::not_fn(isCarried));
   return carried;
 }
 
@@ -277,11 +284,17 @@ void SurfaceParts::add(const MeshBlock& block)
   {
     const std::int64_t* c = block.corners.data() + i;
     // Triangles that lie on each other or have no area would only keep edges from collapsing.
-    const bool isRepeated = flags && (flags->as<std::uint8_t>()[i / 3] & DuplicateCell) != 0;
-    if (!isRepeated && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
+    if (!isDistinctCell(c, 3, flags ? flags->as<std::uint8_t>()[i / 3] : 0))
     {
-      this->Corners.insert(this->Corners.end(), c, c + 3);
-      this->addCellRow(block, i / 3);
+      continue;
+    }
+    this->Corners.insert(this->Corners.end(), c, c + 3);
+    for (const Column& column : block.cellColumns)
+    {
+      if (isCarried(column.spec))
+      {
+        appendRow(this->CellRows, column.bytes, i / 3, column.spec.tupleBytes());
+      }
     }
   }
   this->Vertices += block.vertices();
@@ -291,19 +304,6 @@ void SurfaceParts::add(const MeshBlock& block)
   {
     this->Progress(
       static_cast<double>(this->Vertices) / static_cast<double>(this->Source.info().vertices));
-  }
-}
-
-void SurfaceParts::addCellRow(const MeshBlock& block, std::size_t cell)
-{
-  for (const Column& column : block.cellColumns)
-  {
-    if (column.spec.name != OriginalCellIdName && column.spec.name != CellFlagsName)
-    {
-      const std::size_t bytes = column.spec.tupleBytes();
-      const std::byte* from = column.bytes.data() + cell * bytes;
-      this->CellRows.insert(this->CellRows.end(), from, from + bytes);
-    }
   }
 }
 
@@ -364,9 +364,7 @@ void SurfaceParts::addAreas(CellLabels::Surface on, const SurfacePart& surface)
   {
     this->Polled.at(t);
     const std::uint32_t* c = surface.corners.data() + 3 * t;
-    const double* a = surface.points.data() + 3 * std::size_t(c[0]);
-    const Vector twice = cross(difference(surface.points.data() + 3 * std::size_t(c[1]), a),
-      difference(surface.points.data() + 3 * std::size_t(c[2]), a));
+    const Vector twice = surface.area(c[0], c[1], c[2]);
     const double area = std::sqrt(dot(twice, twice));
     this->Areas[on] += area;
     if (stride > 0)

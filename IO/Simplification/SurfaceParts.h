@@ -3,6 +3,7 @@
 
 #include "IO/Simplification/CellLabels.h"
 #include "IO/Simplification/Poll.h"
+#include "Solver/Core/Vector.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Column.h"
 #include "smg/MeshSource.h"
@@ -90,6 +91,13 @@ struct SurfacePart
 
   std::size_t vertices() const { return this->ids.size(); }
   std::size_t triangles() const { return this->corners.size() / 3; }
+  const double* point(std::size_t vertex) const { return this->points.data() + 3 * vertex; }
+  /** The normal of the triangle of three vertices, as long as twice its area. */
+  Vector area(std::size_t a, std::size_t b, std::size_t c) const
+  {
+    return cross(
+      difference(this->point(b), this->point(a)), difference(this->point(c), this->point(a)));
+  }
   /** The bytes of the row of a vertex. */
   std::size_t rowBytes() const
   {
@@ -251,7 +259,6 @@ public:
 private:
   void addAreas(CellLabels::Surface on, const SurfacePart& surface);
   void add(const MeshBlock& block);
-  void addCellRow(const MeshBlock& block, std::size_t cell);
   void localise(SurfacePart& surface);
 
   MeshSource& Source;

@@ -200,8 +200,7 @@ void SurfaceTopology::move(std::uint32_t from, std::uint32_t to)
 bool SurfaceTopology::turn(
   std::span<const std::uint32_t> triangles, std::uint32_t v, std::uint32_t to) const
 {
-  const auto point = [this](std::uint32_t w)
-  { return this->Part.points.data() + 3 * std::size_t(w); };
+  const auto point = [this](std::uint32_t w) { return this->Part.point(w); };
   return !this->MayTurn &&
          std::ranges::any_of(triangles,
            [&](std::uint32_t triangle)
@@ -230,8 +229,7 @@ double SurfaceTopology::fromBoundary(std::uint32_t from, std::uint32_t to) const
   {
     return 0.0;
   }
-  const auto point = [this](std::uint32_t w)
-  { return this->Part.points.data() + 3 * std::size_t(w); };
+  const auto point = [this](std::uint32_t w) { return this->Part.point(w); };
   for (const std::uint32_t t : this->star(from))
   {
     const auto [a, b] = this->others(t, from);

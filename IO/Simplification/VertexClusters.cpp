@@ -176,7 +176,7 @@ private:
   /** The point relative to that of the quadrics. */
   Vector at(std::size_t v) const
   {
-    return difference(this->Part.points.data() + 3 * v, this->Part.origin.data());
+    return difference(this->Part.point(v), this->Part.origin.data());
   }
 
   const SurfacePart& Part;
