@@ -109,6 +109,41 @@ private:
   int Files = 0;
 };
 
+constexpr const char* MeshName = "mesh.vsm";
+constexpr const char* StagesName = "stages";
+constexpr const char* StateName = "state-conversion";
+constexpr std::int64_t StateMemory = std::int64_t(1) << 24;
+
+/** Converts with a checkpoint of its own in the folder, which remains with that. */
+ConversionReport convertInStages(const std::filesystem::path& in, const std::filesystem::path& out,
+  ConversionOptions options, ScratchFolder& folder)
+{
+  options.checkpoint.clear();
+  if (Conversion::hasStages(in, options))
+  {
+    options.checkpoint = folder / StagesName;
+  }
+  try
+  {
+    return convert(in, out, options);
+  }
+  catch (...)
+  {
+    if (std::filesystem::exists(folder / StagesName))
+    {
+      folder.retain();
+    }
+    throw;
+  }
+}
+
+[[noreturn]] void failOther(const std::filesystem::path& folder)
+{
+  throw Error(folder.string() +
+              ": is the checkpoint of a computation on another mesh file: repeat its command to "
+              "continue it, or remove the folder to begin anew.");
+}
+
 } // namespace
 
 ConversionStages::ConversionStages(Conversion& conversion)
@@ -170,46 +205,6 @@ void ConversionStages::discard()
     this->States->discard();
   }
 }
-
-namespace
-{
-
-constexpr const char* MeshName = "mesh.vsm";
-constexpr const char* StagesName = "stages";
-constexpr const char* StateName = "state-conversion";
-constexpr std::int64_t StateMemory = std::int64_t(1) << 24;
-
-/** Converts with a checkpoint of its own in the folder, which remains with that. */
-ConversionReport convertInStages(const std::filesystem::path& in, const std::filesystem::path& out,
-  ConversionOptions options, ScratchFolder& folder)
-{
-  options.checkpoint.clear();
-  if (Conversion::hasStages(in, options))
-  {
-    options.checkpoint = folder / StagesName;
-  }
-  try
-  {
-    return convert(in, out, options);
-  }
-  catch (...)
-  {
-    if (std::filesystem::exists(folder / StagesName))
-    {
-      folder.retain();
-    }
-    throw;
-  }
-}
-
-[[noreturn]] void failOther(const std::filesystem::path& folder)
-{
-  throw Error(folder.string() +
-              ": is the checkpoint of a computation on another mesh file: repeat its command to "
-              "continue it, or remove the folder to begin anew.");
-}
-
-} // namespace
 
 void requireNoConversionIn(const std::filesystem::path& folder)
 {

@@ -18,7 +18,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -35,6 +34,9 @@ std::int64_t elementBytes(Workspace& workspace)
 {
   return workspace.pool().limit() / 8;
 }
+
+/** The approximate bytes of vertices delivered at once. */
+constexpr std::size_t VertexChunkBytes = std::size_t(512) << 10;
 
 } // namespace
 
@@ -258,14 +260,6 @@ bool ElementRestorer::next(ElementChunk& elements)
   this->Next += elements.count();
   return elements.count() > 0;
 }
-
-namespace
-{
-
-/** The approximate bytes of vertices delivered at once. */
-constexpr std::size_t VertexChunkBytes = std::size_t(512) << 10;
-
-} // namespace
 
 VertexRestorer::VertexRestorer(
   Workspace& workspace, std::int64_t memory, const MeshFileInfo& info, std::string name)

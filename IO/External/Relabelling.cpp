@@ -20,7 +20,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -31,6 +30,15 @@ std::uint32_t rangeOf(std::int64_t count, std::size_t rowBytes, std::int64_t mem
   const std::int64_t buckets = std::max<std::int64_t>((count + most - 1) / most, 1);
   return static_cast<std::uint32_t>(std::max<std::int64_t>((count + buckets - 1) / buckets, 1));
 }
+
+constexpr std::size_t ChunkNumbers = std::size_t(16) << 10;
+
+/** Numbers, and what replaces them. */
+struct NumberChunk
+{
+  std::vector<std::uint32_t> numbers, replaced;
+};
+constexpr std::int64_t NumberChunkBytes = 2 * std::int64_t(ChunkNumbers * sizeof(std::uint32_t));
 
 } // namespace
 
@@ -85,20 +93,6 @@ std::span<const std::byte> RowTable::read(std::int64_t first, std::int64_t most)
   return this->Rows.bytes().subspan(static_cast<std::size_t>(place) * this->RowBytes,
     static_cast<std::size_t>(rows) * this->RowBytes);
 }
-
-namespace
-{
-
-constexpr std::size_t ChunkNumbers = std::size_t(16) << 10;
-
-/** Numbers, and what replaces them. */
-struct NumberChunk
-{
-  std::vector<std::uint32_t> numbers, replaced;
-};
-constexpr std::int64_t NumberChunkBytes = 2 * std::int64_t(ChunkNumbers * sizeof(std::uint32_t));
-
-} // namespace
 
 std::vector<int> Relabelling::neededBuckets() const
 {

@@ -20,7 +20,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -49,6 +48,62 @@ MeshFileKind kindOfContent(const std::filesystem::path& path)
     return formatOfName(path) == indexed ? MeshFileKind::Indexed : MeshFileKind::Stream;
   }
   return isStreamSuffix(lowerSuffix(path)) ? MeshFileKind::Stream : MeshFileKind::Indexed;
+}
+
+void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
+  const ImportOptions& options, const ProgressFunction& progress)
+{
+  if (!format)
+  {
+    throw Error(file.name() + ": the format is not known by its content or suffix: meshes are " +
+                "read from " + suffixList(FormatUse::Read, "and") +
+                " files, which may be compressed by gzip, xz or zstd.");
+  }
+  if (!format->hasParts)
+  {
+    checkIsWhole(options.part, file.name());
+  }
+  format->parse(file, builder, options.part, progress);
+}
+
+/** Passes a file that is not compressed to the builder, and calls `finish`. */
+template <class Finish>
+void importInflated(InputFile& file, RawMeshBuilder& builder, const ImportOptions& options,
+  const ProgressFunction& progress, const Finish& finish)
+{
+  const std::string start(file.at(0, FormatBytes).substr(0, FormatBytes));
+  // The name of the file before decompression, with its suffix.
+  const Format* const format = formatOfStart(start, file.size(), file.name());
+  refuseForeignMesh(file.name(), start, file.size(), format);
+  try
+  {
+    import(file, format, builder, options, progress);
+    finish();
+  }
+  catch (const MeshError& error)
+  {
+    throw Error(file.name() + ": " + error.what() + '.');
+  }
+}
+
+/** Passes a file to the builder, and calls `finish`. */
+template <class Finish>
+void importFile(const std::filesystem::path& path, RawMeshBuilder& builder,
+  const ImportOptions& options, const Finish& finish)
+{
+  constexpr double inflatingShare = 0.3;
+  std::optional<InflatedFile> inflated;
+  {
+    InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
+    if (isCompressed(file))
+    {
+      inflated.emplace(file, builder.workspace(), "inflated");
+    }
+  }
+  const ProgressFunction progress =
+    inflated ? partOf(options.progress, inflatingShare, 1.0) : options.progress;
+  InputFile file(inflated ? inflated->path() : path, progress, path.string());
+  importInflated(file, builder, options, progress, finish);
 }
 
 } // namespace
@@ -141,47 +196,6 @@ void checkIsNotInput(
   files.check();
 }
 
-namespace
-{
-
-void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
-  const ImportOptions& options, const ProgressFunction& progress)
-{
-  if (!format)
-  {
-    throw Error(file.name() + ": the format is not known by its content or suffix: meshes are " +
-                "read from " + suffixList(FormatUse::Read, "and") +
-                " files, which may be compressed by gzip, xz or zstd.");
-  }
-  if (!format->hasParts)
-  {
-    checkIsWhole(options.part, file.name());
-  }
-  format->parse(file, builder, options.part, progress);
-}
-
-/** Passes a file that is not compressed to the builder, and calls `finish`. */
-template <class Finish>
-void importInflated(InputFile& file, RawMeshBuilder& builder, const ImportOptions& options,
-  const ProgressFunction& progress, const Finish& finish)
-{
-  const std::string start(file.at(0, FormatBytes).substr(0, FormatBytes));
-  // The name of the file before decompression, with its suffix.
-  const Format* const format = formatOfStart(start, file.size(), file.name());
-  refuseForeignMesh(file.name(), start, file.size(), format);
-  try
-  {
-    import(file, format, builder, options, progress);
-    finish();
-  }
-  catch (const MeshError& error)
-  {
-    throw Error(file.name() + ": " + error.what() + '.');
-  }
-}
-
-} // namespace
-
 void refuseForeignMesh(const std::string& name, std::string_view start,
   std::optional<std::uint64_t> size, const Format* format)
 {
@@ -190,31 +204,6 @@ void refuseForeignMesh(const std::string& name, std::string_view start,
     refuseForeign(name, start, format);
   }
 }
-
-namespace
-{
-
-/** Passes a file to the builder, and calls `finish`. */
-template <class Finish>
-void importFile(const std::filesystem::path& path, RawMeshBuilder& builder,
-  const ImportOptions& options, const Finish& finish)
-{
-  constexpr double inflatingShare = 0.3;
-  std::optional<InflatedFile> inflated;
-  {
-    InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
-    if (isCompressed(file))
-    {
-      inflated.emplace(file, builder.workspace(), "inflated");
-    }
-  }
-  const ProgressFunction progress =
-    inflated ? partOf(options.progress, inflatingShare, 1.0) : options.progress;
-  InputFile file(inflated ? inflated->path() : path, progress, path.string());
-  importInflated(file, builder, options, progress, finish);
-}
-
-} // namespace
 
 RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)

@@ -29,7 +29,6 @@
 
 namespace smg
 {
-
 void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
 {
   const FileSuffix* const suffix = suffixFor(FormatUse::Restore, path);
@@ -246,6 +245,12 @@ std::vector<std::string> withoutIsolated(
       : 0);
 }
 
+bool isPlainPly(const std::filesystem::path& path)
+{
+  InputFile file(path);
+  return formatOfFile(path) == &PlyFormat && !isCompressed(file);
+}
+
 } // namespace
 
 std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
@@ -328,17 +333,6 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
            ? writeMesh(*reader.source(), path, options)
            : withoutIsolated(writeAgain(format, vsm, path, options), format, options);
 }
-
-namespace
-{
-
-bool isPlainPly(const std::filesystem::path& path)
-{
-  InputFile file(path);
-  return formatOfFile(path) == &PlyFormat && !isCompressed(file);
-}
-
-} // namespace
 
 bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& out)
 {

@@ -201,36 +201,6 @@ std::optional<BodyCentredGrid> gridFor(
                                                : 1.0);
 }
 
-} // namespace
-
-MeshPiece makeSolidPreview(
-  const StoredMesh& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
-{
-  const std::int64_t vertices = mesh.info().vertices;
-  const std::int64_t most = vertices <= maximumPoints ? maximumPoints
-                                                      : std::clamp(vertices / VerticesPerPoint,
-                                                          MinPreviewPoints, maximumPoints);
-  Progress done(progress);
-  const auto rising = [&done](double part)
-  {
-    done.update(part);
-    return true;
-  };
-  std::optional<BodyCentredGrid> grid = gridFor(mesh, most, partOf(rising, 0.0, 0.4));
-  for (;;)
-  {
-    if (const auto clusters = cluster(mesh, grid, most, partOf(rising, 0.4, 1.0)))
-    {
-      return collect(*clusters);
-    }
-    constexpr double Growth = 1.1;
-    grid = BodyCentredGrid(grid->origin(), Growth * grid->side());
-  }
-}
-
-namespace
-{
-
 using SolidPoint = SolidClusters::Point;
 
 /** Tetrahedra with less than this share of the volume between lattice points are flat: their
@@ -266,6 +236,31 @@ int sortClusters(SolidClusters::Tetrahedron& clusters)
 }
 
 } // namespace
+
+MeshPiece makeSolidPreview(
+  const StoredMesh& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
+{
+  const std::int64_t vertices = mesh.info().vertices;
+  const std::int64_t most = vertices <= maximumPoints ? maximumPoints
+                                                      : std::clamp(vertices / VerticesPerPoint,
+                                                          MinPreviewPoints, maximumPoints);
+  Progress done(progress);
+  const auto rising = [&done](double part)
+  {
+    done.update(part);
+    return true;
+  };
+  std::optional<BodyCentredGrid> grid = gridFor(mesh, most, partOf(rising, 0.0, 0.4));
+  for (;;)
+  {
+    if (const auto clusters = cluster(mesh, grid, most, partOf(rising, 0.4, 1.0)))
+    {
+      return collect(*clusters);
+    }
+    constexpr double Growth = 1.1;
+    grid = BodyCentredGrid(grid->origin(), Growth * grid->side());
+  }
+}
 
 std::size_t SolidClusters::Hash::operator()(const Tetrahedron& corners) const
 {

@@ -74,6 +74,41 @@ MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& col
   return piece;
 }
 
+/** The values of a column at the vertices `ids`, ascending, read in ranges of several vertices. */
+Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::int64_t>& ids)
+{
+  constexpr std::int64_t stretch = 16384;
+  const std::size_t size = spec.tupleBytes();
+  Column gathered{ spec, {} };
+  gathered.resize(ids.size());
+  Column rows;
+  for (std::size_t begin = 0; begin < ids.size();)
+  {
+    const std::int64_t first = ids[begin];
+    std::size_t end = begin;
+    while (end < ids.size() && ids[end] < first + stretch)
+    {
+      ++end;
+    }
+    mesh.readVertexColumn(spec.name, first, ids[end - 1] + 1 - first, rows);
+    for (; begin < end; ++begin)
+    {
+      std::memcpy(gathered.bytes.data() + begin * size,
+        rows.bytes.data() + (ids[begin] - first) * size, size);
+    }
+  }
+  return gathered;
+}
+
+/** Of the vertices that are left in the surface: whether they are locked. */
+std::vector<std::uint8_t> lockedOf(const SurfacePart& surface, std::span<const std::uint8_t> locked)
+{
+  std::vector<std::uint8_t> left(surface.vertices());
+  std::ranges::transform(surface.ids, left.begin(),
+    [&locked](std::int64_t id) { return locked[static_cast<std::size_t>(id)]; });
+  return left;
+}
+
 } // namespace
 
 MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
@@ -126,37 +161,6 @@ JobEstimate previewEstimate(const EstimatedInput& mesh, std::int64_t maximumPoin
   return estimate;
 }
 
-namespace
-{
-
-/** The values of a column at the vertices `ids`, ascending, read in ranges of several vertices. */
-Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::int64_t>& ids)
-{
-  constexpr std::int64_t stretch = 16384;
-  const std::size_t size = spec.tupleBytes();
-  Column gathered{ spec, {} };
-  gathered.resize(ids.size());
-  Column rows;
-  for (std::size_t begin = 0; begin < ids.size();)
-  {
-    const std::int64_t first = ids[begin];
-    std::size_t end = begin;
-    while (end < ids.size() && ids[end] < first + stretch)
-    {
-      ++end;
-    }
-    mesh.readVertexColumn(spec.name, first, ids[end - 1] + 1 - first, rows);
-    for (; begin < end; ++begin)
-    {
-      std::memcpy(gathered.bytes.data() + begin * size,
-        rows.bytes.data() + (ids[begin] - first) * size, size);
-    }
-  }
-  return gathered;
-}
-
-} // namespace
-
 MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints,
   const ProgressFunction& progress, SolidPreviewCells cells, std::vector<std::string>* notes)
 {
@@ -180,20 +184,6 @@ std::string emptyPreview(std::int64_t maximumPoints)
   return "a preview of at most " + std::to_string(maximumPoints) +
          " points shows nothing of this mesh: its cells repeat a corner or one another.";
 }
-
-namespace
-{
-
-/** Of the vertices that are left in the surface: whether they are locked. */
-std::vector<std::uint8_t> lockedOf(const SurfacePart& surface, std::span<const std::uint8_t> locked)
-{
-  std::vector<std::uint8_t> left(surface.vertices());
-  std::ranges::transform(surface.ids, left.begin(),
-    [&locked](std::int64_t id) { return locked[static_cast<std::size_t>(id)]; });
-  return left;
-}
-
-} // namespace
 
 CoarserSurface coarserSurface(std::span<const double> points, std::span<const std::int64_t> corners,
   std::span<const std::uint8_t> locked, std::int64_t most)

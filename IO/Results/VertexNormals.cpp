@@ -15,7 +15,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -77,6 +76,36 @@ private:
 
 constexpr std::int64_t BytesPerVertex = 3 * sizeof(float);
 
+double length(const Vector& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+/** The unit vector from a to b; zero if they are equal. */
+Vector direction(std::span<const double, 3> a, std::span<const double, 3> b)
+{
+  Vector edge = difference(b.data(), a.data());
+  // Squares of the smallest and the largest numbers underflow and overflow.
+  const double scale = std::max({ std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2]) });
+  if (!(scale > 0.0))
+  {
+    return {};
+  }
+  edge = { edge[0] / scale, edge[1] / scale, edge[2] / scale };
+  const double size = length(edge);
+  return { edge[0] / size, edge[1] / size, edge[2] / size };
+}
+
+TriangleShape shapeOf(const TriangleView& triangles, std::size_t cell)
+{
+  const auto point = [&](std::size_t k)
+  {
+    const auto vertex = static_cast<std::size_t>(triangles.corners[3 * cell + k]);
+    return triangles.positions.subspan(3 * vertex).first<3>();
+  };
+  return shapeOfTriangle(point(0), point(1), point(2));
+}
+
 } // namespace
 
 VertexNormals::VertexNormals(MeshSource& mesh, const NormalsOptions& options)
@@ -116,31 +145,6 @@ void VertexNormals::read(std::int64_t first, std::int64_t count, std::span<float
   this->File.read(first * BytesPerVertex,
     std::as_writable_bytes(normals.first(static_cast<std::size_t>(3 * count))));
 }
-
-namespace
-{
-
-double length(const Vector& a)
-{
-  return std::sqrt(dot(a, a));
-}
-
-/** The unit vector from a to b; zero if they are equal. */
-Vector direction(std::span<const double, 3> a, std::span<const double, 3> b)
-{
-  Vector edge = difference(b.data(), a.data());
-  // Squares of the smallest and the largest numbers underflow and overflow.
-  const double scale = std::max({ std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2]) });
-  if (!(scale > 0.0))
-  {
-    return {};
-  }
-  edge = { edge[0] / scale, edge[1] / scale, edge[2] / scale };
-  const double size = length(edge);
-  return { edge[0] / size, edge[1] / size, edge[2] / size };
-}
-
-} // namespace
 
 TriangleShape shapeOfTriangle(
   std::span<const double, 3> a, std::span<const double, 3> b, std::span<const double, 3> c)
@@ -206,21 +210,6 @@ void CellNormals::read(const MeshBlock& block, std::span<float> normals)
   }
   this->release(block);
 }
-
-namespace
-{
-
-TriangleShape shapeOf(const TriangleView& triangles, std::size_t cell)
-{
-  const auto point = [&](std::size_t k)
-  {
-    const auto vertex = static_cast<std::size_t>(triangles.corners[3 * cell + k]);
-    return triangles.positions.subspan(3 * vertex).first<3>();
-  };
-  return shapeOfTriangle(point(0), point(1), point(2));
-}
-
-} // namespace
 
 std::array<float, 3> unitNormal(std::span<const double, 3> sum)
 {

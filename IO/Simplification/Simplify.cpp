@@ -303,11 +303,6 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const SimplifyTarget& targe
   return report;
 }
 
-} // namespace
-
-namespace
-{
-
 /** The vertices that are held by their numbers, as points or all: others are known when the mesh is
  * read. */
 std::int64_t heldByName(const std::vector<Where>& parts, const StreamInfo& mesh)

@@ -14,7 +14,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -201,44 +200,6 @@ PlyHeader readLines(TextScanner& scanner)
   return header;
 }
 
-} // namespace
-
-std::size_t PlyElement::minBytes(bool ascii) const
-{
-  std::size_t bytes = 0;
-  for (const PlyProperty& property : this->properties)
-  {
-    // A number in text and the blank or line end after it.
-    bytes += ascii ? 2 : sizeOf(property.list ? property.lengthType : property.type);
-  }
-  return bytes;
-}
-
-PlyHeader readPlyHeader(InputFile& file)
-{
-  TextScanner scanner(file);
-  if (scanner.tokenInLine() != "ply")
-  {
-    scanner.fail("a PLY file must begin with the line 'ply'");
-  }
-  try
-  {
-    return readLines(scanner);
-  }
-  catch (const Error&)
-  {
-    // An error in the last line of the file means that the file is cut.
-    if (scanner.left() > 0)
-    {
-      throw;
-    }
-    scanner.fail("the file ends in its header");
-  }
-}
-
-namespace
-{
-
 /** The column of a property, and its component in it. */
 std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty& property)
 {
@@ -334,6 +295,39 @@ PlyStep stepOfList(const PlyProperty& property, bool mayBeCorners)
 }
 
 } // namespace
+
+std::size_t PlyElement::minBytes(bool ascii) const
+{
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : this->properties)
+  {
+    // A number in text and the blank or line end after it.
+    bytes += ascii ? 2 : sizeOf(property.list ? property.lengthType : property.type);
+  }
+  return bytes;
+}
+
+PlyHeader readPlyHeader(InputFile& file)
+{
+  TextScanner scanner(file);
+  if (scanner.tokenInLine() != "ply")
+  {
+    scanner.fail("a PLY file must begin with the line 'ply'");
+  }
+  try
+  {
+    return readLines(scanner);
+  }
+  catch (const Error&)
+  {
+    // An error in the last line of the file means that the file is cut.
+    if (scanner.left() > 0)
+    {
+      throw;
+    }
+    scanner.fail("the file ends in its header");
+  }
+}
 
 const PlyProperty* findNumber(const PlyElement& element, std::string_view name)
 {

@@ -25,7 +25,6 @@
 
 namespace smg
 {
-
 RowReader::RowReader(BlockFileReader& file, int table, int column)
   : File(&file)
   , Table(table)
@@ -144,6 +143,18 @@ std::array<double, 6> boundsOf(const nlohmann::json& header)
                     ", not six numbers xmin, xmax, ymin, ymax, zmin, zmax");
   }
   return bounds;
+}
+
+/** Reads a block as a whole, which checks it. */
+void readBlock(BlockFileReader& file, int table, std::int64_t block, std::vector<std::byte>& bytes)
+{
+  const auto columns =
+    static_cast<int>(file.tables()[static_cast<std::size_t>(table)].columns.size());
+  for (int column = 0; column < columns; ++column)
+  {
+    bytes.resize(file.columnBytes(table, block, column));
+    file.read(table, block, column, bytes);
+  }
 }
 
 } // namespace
@@ -424,23 +435,6 @@ int VsmFile::cellColumn(const std::string& name) const
 {
   return this->find(this->Info.cellColumns, name, "cell");
 }
-
-namespace
-{
-
-/** Reads a block as a whole, which checks it. */
-void readBlock(BlockFileReader& file, int table, std::int64_t block, std::vector<std::byte>& bytes)
-{
-  const auto columns =
-    static_cast<int>(file.tables()[static_cast<std::size_t>(table)].columns.size());
-  for (int column = 0; column < columns; ++column)
-  {
-    bytes.resize(file.columnBytes(table, block, column));
-    file.read(table, block, column, bytes);
-  }
-}
-
-} // namespace
 
 std::int64_t checkVsm(const std::filesystem::path& path, const ProgressFunction& progress)
 {

@@ -14,7 +14,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -33,6 +32,8 @@ void fill(Column& column, double value)
   dispatch(column.spec.type,
     [&]<class T>(T) { std::ranges::fill(column.as<T>(), static_cast<T>(value)); });
 }
+
+constexpr FileSuffix VsmSuffixes[] = { { ".vsm" } };
 
 } // namespace
 
@@ -130,13 +131,6 @@ WrittenVsm writeVsm(
   written.meanWidth = writer.meanWidth();
   return written;
 }
-
-namespace
-{
-
-constexpr FileSuffix VsmSuffixes[] = { { ".vsm" } };
-
-} // namespace
 
 const Format VsmFileFormat{
   .name = "VSM",

@@ -14,7 +14,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -98,6 +97,21 @@ const TypeOfCell& typeOf(int type)
 {
   throw MeshError("its type is " + nameOfVtkType(type) +
                   ", which is not read: cut the mesh into triangles or tetrahedra first");
+}
+
+/** Memory for the parts on their way; more go through scratch files. */
+constexpr std::int64_t Memory = std::int64_t(64) << 20;
+
+std::vector<std::int64_t> numbersIn(RecordFile<std::uint32_t>& file)
+{
+  std::vector<std::int64_t> numbers;
+  numbers.reserve(static_cast<std::size_t>(file.size()));
+  RecordFile<std::uint32_t>::Reader reader(file);
+  for (std::uint32_t number = 0; reader.next(number);)
+  {
+    numbers.push_back(number);
+  }
+  return numbers;
 }
 
 } // namespace
@@ -210,26 +224,6 @@ void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder&
     builder.noteHigherOrder();
   }
 }
-
-namespace
-{
-
-/** Memory for the parts on their way; more go through scratch files. */
-constexpr std::int64_t Memory = std::int64_t(64) << 20;
-
-std::vector<std::int64_t> numbersIn(RecordFile<std::uint32_t>& file)
-{
-  std::vector<std::int64_t> numbers;
-  numbers.reserve(static_cast<std::size_t>(file.size()));
-  RecordFile<std::uint32_t>::Reader reader(file);
-  for (std::uint32_t number = 0; reader.next(number);)
-  {
-    numbers.push_back(number);
-  }
-  return numbers;
-}
-
-} // namespace
 
 VtkCellParts cutVtkCells(std::int64_t points, const VtkPointAt& pointAt, std::int64_t cells,
   CellChoice choice, const VtkCellAt& at, const std::filesystem::path& scratch)

@@ -20,7 +20,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -62,53 +61,6 @@ void fillPositions(const RawMesh& mesh, CellSample& sample)
     });
 }
 
-} // namespace
-
-std::vector<std::size_t> CellSample::differentVertices() const
-{
-  std::vector<std::size_t> places(this->cells());
-  for (std::size_t cell = 0; cell < places.size(); ++cell)
-  {
-    places[cell] = cell * this->corners + cell % this->corners;
-  }
-  // The corner changes from cell to cell, so that no place within cells is preferred. Then
-  // repetitions go.
-  const auto vertexAt = [this](std::size_t place) { return this->vertices[place]; };
-  std::ranges::sort(places, {}, vertexAt);
-  const auto repeated = std::unique(places.begin(), places.end(),
-    [&](std::size_t a, std::size_t b) { return vertexAt(a) == vertexAt(b); });
-  places.erase(repeated, places.end());
-  return places;
-}
-
-CellSample sampleCells(const RawMesh& mesh)
-{
-  CellSample sample;
-  sample.corners = static_cast<std::size_t>(cornersOf(mesh.cellType));
-  const std::vector<std::int64_t> chosen = chooseCells(mesh.cells);
-  // One pass over the cells; the chosen ones ascend as well.
-  const auto corners = static_cast<std::int64_t>(sample.corners);
-  std::int64_t first = 0;
-  auto next = chosen.begin();
-  forEachStretch(mesh.corners, sample.corners,
-    [&](std::span<const std::uint32_t> stretch)
-    {
-      const std::int64_t end = first + static_cast<std::int64_t>(stretch.size()) / corners;
-      for (; next != chosen.end() && *next < end; ++next)
-      {
-        const auto cell =
-          stretch.subspan(static_cast<std::size_t>((*next - first) * corners), sample.corners);
-        sample.vertices.insert(sample.vertices.end(), cell.begin(), cell.end());
-      }
-      first = end;
-    });
-  mesh.doublePositions ? fillPositions<double>(mesh, sample) : fillPositions<float>(mesh, sample);
-  return sample;
-}
-
-namespace
-{
-
 /** Rotates three bits left by `count` positions. */
 unsigned turned(unsigned bits, int count)
 {
@@ -140,29 +92,6 @@ Step step(unsigned state, unsigned octant)
   const unsigned nextEntry = entry ^ turned(even ^ even >> 1, direction + 1);
   return { digit, static_cast<unsigned>((direction + turn + 1) % 3) * 8 + nextEntry };
 }
-
-} // namespace
-
-/** Two levels of the curve for each state and pair of bits of the coordinates: halves the steps of
- * a key. */
-HilbertCurve::HilbertCurve()
-{
-  for (unsigned state = 0; state < States; ++state)
-  {
-    for (unsigned place = 0; place < 64; ++place)
-    {
-      const unsigned coarse = (place >> 1 & 1) | (place >> 3 & 1) << 1 | (place >> 5 & 1) << 2;
-      const unsigned fine = (place & 1) | (place >> 2 & 1) << 1 | (place >> 4 & 1) << 2;
-      const Step first = step(state, coarse);
-      const Step second = step(first.state, fine);
-      this->Steps[state * 64 + place] =
-        static_cast<std::uint16_t>(second.state * 64 + first.digit * 8 + second.digit);
-    }
-  }
-}
-
-namespace
-{
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -241,6 +170,66 @@ Range rangeAlong(
 }
 
 } // namespace
+
+std::vector<std::size_t> CellSample::differentVertices() const
+{
+  std::vector<std::size_t> places(this->cells());
+  for (std::size_t cell = 0; cell < places.size(); ++cell)
+  {
+    places[cell] = cell * this->corners + cell % this->corners;
+  }
+  // The corner changes from cell to cell, so that no place within cells is preferred. Then
+  // repetitions go.
+  const auto vertexAt = [this](std::size_t place) { return this->vertices[place]; };
+  std::ranges::sort(places, {}, vertexAt);
+  const auto repeated = std::unique(places.begin(), places.end(),
+    [&](std::size_t a, std::size_t b) { return vertexAt(a) == vertexAt(b); });
+  places.erase(repeated, places.end());
+  return places;
+}
+
+CellSample sampleCells(const RawMesh& mesh)
+{
+  CellSample sample;
+  sample.corners = static_cast<std::size_t>(cornersOf(mesh.cellType));
+  const std::vector<std::int64_t> chosen = chooseCells(mesh.cells);
+  // One pass over the cells; the chosen ones ascend as well.
+  const auto corners = static_cast<std::int64_t>(sample.corners);
+  std::int64_t first = 0;
+  auto next = chosen.begin();
+  forEachStretch(mesh.corners, sample.corners,
+    [&](std::span<const std::uint32_t> stretch)
+    {
+      const std::int64_t end = first + static_cast<std::int64_t>(stretch.size()) / corners;
+      for (; next != chosen.end() && *next < end; ++next)
+      {
+        const auto cell =
+          stretch.subspan(static_cast<std::size_t>((*next - first) * corners), sample.corners);
+        sample.vertices.insert(sample.vertices.end(), cell.begin(), cell.end());
+      }
+      first = end;
+    });
+  mesh.doublePositions ? fillPositions<double>(mesh, sample) : fillPositions<float>(mesh, sample);
+  return sample;
+}
+
+/** Two levels of the curve for each state and pair of bits of the coordinates: halves the steps of
+ * a key. */
+HilbertCurve::HilbertCurve()
+{
+  for (unsigned state = 0; state < States; ++state)
+  {
+    for (unsigned place = 0; place < 64; ++place)
+    {
+      const unsigned coarse = (place >> 1 & 1) | (place >> 3 & 1) << 1 | (place >> 5 & 1) << 2;
+      const unsigned fine = (place & 1) | (place >> 2 & 1) << 1 | (place >> 4 & 1) << 2;
+      const Step first = step(state, coarse);
+      const Step second = step(first.state, fine);
+      this->Steps[state * 64 + place] =
+        static_cast<std::uint16_t>(second.state * 64 + first.digit * 8 + second.digit);
+    }
+  }
+}
 
 EdgeMetric::EdgeMetric(const CellSample& sample)
 {

@@ -28,7 +28,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -179,17 +178,6 @@ PagedMesh build(const RawMesh& mesh, Workspace& workspace, const PageOptions& op
   return pages.finish();
 }
 
-} // namespace
-
-PagedMesh buildPages(const RawMesh& mesh, Workspace& workspace, const PageOptions& options)
-{
-  return mesh.doublePositions ? build<double>(mesh, workspace, options)
-                              : build<float>(mesh, workspace, options);
-}
-
-namespace
-{
-
 constexpr int MinVertices = 64;
 constexpr std::int64_t DirectoryBytes = 32; ///< of a page, always in memory
 
@@ -214,6 +202,12 @@ double frontierBytes(
 }
 
 } // namespace
+
+PagedMesh buildPages(const RawMesh& mesh, Workspace& workspace, const PageOptions& options)
+{
+  return mesh.doublePositions ? build<double>(mesh, workspace, options)
+                              : build<float>(mesh, workspace, options);
+}
 
 int choosePageVertices(
   CellType cellType, bool doublePositions, std::int64_t vertices, std::int64_t memory)

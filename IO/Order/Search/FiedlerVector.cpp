@@ -16,7 +16,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -71,20 +70,6 @@ std::vector<double> solve(const WeightedGraph& graph, const std::function<void()
   return Lobpcg(graph, std::move(vector)).run(poll);
 }
 
-} // namespace
-
-std::vector<double> fiedlerVector(const WeightedGraph& graph, const std::function<void()>& poll)
-{
-  if (graph.nodes() < 2)
-  {
-    return std::vector<double>(graph.nodes(), 0.0);
-  }
-  return solve(graph, poll);
-}
-
-namespace
-{
-
 constexpr int MaxIterations = 300;
 /** The iteration ends when the eigenvalue has decreased by less than this share twice in
  * succession. */
@@ -119,6 +104,15 @@ void scale(std::vector<double>& values, double factor)
 }
 
 } // namespace
+
+std::vector<double> fiedlerVector(const WeightedGraph& graph, const std::function<void()>& poll)
+{
+  if (graph.nodes() < 2)
+  {
+    return std::vector<double>(graph.nodes(), 0.0);
+  }
+  return solve(graph, poll);
+}
 
 Lobpcg::Lobpcg(const WeightedGraph& graph, std::vector<double> start)
   : Graph(graph)

@@ -22,7 +22,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -253,6 +252,15 @@ private:
   Levels Tried;
 };
 
+/** The share of the extent along an axis that counts as its end. */
+constexpr double EndShare = 0.015;
+
+Eigen::Vector3d point(std::span<const float> points, std::uint32_t i)
+{
+  const float* x = points.data() + std::size_t(3) * i;
+  return { x[0], x[1], x[2] };
+}
+
 } // namespace
 
 std::int64_t sourcePlanMemory(std::size_t samples, int threads)
@@ -289,20 +297,6 @@ std::vector<SourcePlan> planSources(
   std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
   return plans;
 }
-
-namespace
-{
-
-/** The share of the extent along an axis that counts as its end. */
-constexpr double EndShare = 0.015;
-
-Eigen::Vector3d point(std::span<const float> points, std::uint32_t i)
-{
-  const float* x = points.data() + std::size_t(3) * i;
-  return { x[0], x[1], x[2] };
-}
-
-} // namespace
 
 std::vector<std::vector<std::uint32_t>> axisEnds(
   std::span<const float> points, std::span<const std::uint32_t> chosen)

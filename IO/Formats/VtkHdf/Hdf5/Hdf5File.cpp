@@ -14,7 +14,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -89,6 +88,40 @@ std::string missingFilter(hid_t set)
     }
   }
   return {};
+}
+
+[[noreturn]] void refuse(
+  const std::string& name, const std::string& object, const std::string& reason)
+{
+  throw Error(name + ": " + inQuotes(object) + ' ' + reason + '.');
+}
+
+/** Whether a dataset has its numbers in the file itself or, with `virtualToo`, in virtual parts. */
+bool isStored(hid_t properties, bool virtualToo)
+{
+  return H5Pget_external_count(properties) == 0 &&
+         (virtualToo || H5Pget_layout(properties) != H5D_VIRTUAL);
+}
+
+/** A text that HDF5 gives by a function of its size and place. */
+template <class Get>
+std::string textOf(Get&& get)
+{
+  const ssize_t length = get(nullptr, 0);
+  std::vector<char> text(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1);
+  get(text.data(), text.size());
+  return text.data();
+}
+
+void checkSource(hid_t file, const std::string& name, const std::string& object)
+{
+  checkLinks(file, name, object);
+  const Hdf5Handle<H5Dclose> set(H5Dopen2(file, object.c_str(), H5P_DEFAULT));
+  const Hdf5Handle<H5Pclose> properties(set.valid() ? H5Dget_create_plist(set.id()) : -1);
+  if (!properties.valid() || !isStored(properties.id(), false))
+  {
+    refuse(name, object, "has its numbers elsewhere, which is not followed any further");
+  }
 }
 
 } // namespace
@@ -390,45 +423,6 @@ void Hdf5Numbers::read(std::byte* values, std::size_t bytes)
     left -= taken;
   }
 }
-
-namespace
-{
-
-[[noreturn]] void refuse(
-  const std::string& name, const std::string& object, const std::string& reason)
-{
-  throw Error(name + ": " + inQuotes(object) + ' ' + reason + '.');
-}
-
-/** Whether a dataset has its numbers in the file itself or, with `virtualToo`, in virtual parts. */
-bool isStored(hid_t properties, bool virtualToo)
-{
-  return H5Pget_external_count(properties) == 0 &&
-         (virtualToo || H5Pget_layout(properties) != H5D_VIRTUAL);
-}
-
-/** A text that HDF5 gives by a function of its size and place. */
-template <class Get>
-std::string textOf(Get&& get)
-{
-  const ssize_t length = get(nullptr, 0);
-  std::vector<char> text(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1);
-  get(text.data(), text.size());
-  return text.data();
-}
-
-void checkSource(hid_t file, const std::string& name, const std::string& object)
-{
-  checkLinks(file, name, object);
-  const Hdf5Handle<H5Dclose> set(H5Dopen2(file, object.c_str(), H5P_DEFAULT));
-  const Hdf5Handle<H5Pclose> properties(set.valid() ? H5Dget_create_plist(set.id()) : -1);
-  if (!properties.valid() || !isStored(properties.id(), false))
-  {
-    refuse(name, object, "has its numbers elsewhere, which is not followed any further");
-  }
-}
-
-} // namespace
 
 bool checkLinks(std::int64_t file, const std::string& name, const std::string& object)
 {

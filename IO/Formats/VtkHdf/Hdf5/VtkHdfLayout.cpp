@@ -17,7 +17,6 @@
 
 namespace smg
 {
-
 namespace
 {
 
@@ -399,19 +398,44 @@ private:
   std::map<std::string, Hdf5Shape> Shapes;
 };
 
+const std::string Group = VtkHdfRoot + "Steps";
+
+class DatasetBytes : public ByteSource
+{
+public:
+  DatasetBytes(const Hdf5File& hdf, const std::string& name, InputFile& file, const VtkArray& array,
+    Pool& pool)
+    : Numbers(hdf, name, array.type, static_cast<std::int64_t>(array.begin))
+    , Chunk(pool, memoryOf(this->Numbers.chunkBytes()))
+    , File(file)
+  {
+  }
+
+  void read(std::span<std::byte> bytes) override
+  {
+    this->Numbers.read(bytes.data(), bytes.size());
+    this->File.passed(bytes.size());
+  }
+
+private:
+  /** The bytes of a chunk, twice while it is decompressed. */
+  static std::int64_t memoryOf(std::uint64_t chunkBytes)
+  {
+    constexpr std::uint64_t Most = std::uint64_t(1) << 60;
+    return static_cast<std::int64_t>(2 * std::min(chunkBytes, Most));
+  }
+
+  Hdf5Numbers Numbers; // reads no chunk before numbers are requested
+  Reservation Chunk;
+  InputFile& File;
+};
+
 } // namespace
 
 VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t maxBytes)
 {
   return LayoutReader(file, part, maxBytes).read();
 }
-
-namespace
-{
-
-const std::string Group = VtkHdfRoot + "Steps";
-
-} // namespace
 
 VtkHdfStep::VtkHdfStep(const Hdf5File& file, std::int64_t step)
   : File(file)
@@ -472,41 +496,6 @@ std::int64_t VtkHdfStep::nextPartition(std::int64_t first, std::int64_t all) con
   }
   return next;
 }
-
-namespace
-{
-
-class DatasetBytes : public ByteSource
-{
-public:
-  DatasetBytes(const Hdf5File& hdf, const std::string& name, InputFile& file, const VtkArray& array,
-    Pool& pool)
-    : Numbers(hdf, name, array.type, static_cast<std::int64_t>(array.begin))
-    , Chunk(pool, memoryOf(this->Numbers.chunkBytes()))
-    , File(file)
-  {
-  }
-
-  void read(std::span<std::byte> bytes) override
-  {
-    this->Numbers.read(bytes.data(), bytes.size());
-    this->File.passed(bytes.size());
-  }
-
-private:
-  /** The bytes of a chunk, twice while it is decompressed. */
-  static std::int64_t memoryOf(std::uint64_t chunkBytes)
-  {
-    constexpr std::uint64_t Most = std::uint64_t(1) << 60;
-    return static_cast<std::int64_t>(2 * std::min(chunkBytes, Most));
-  }
-
-  Hdf5Numbers Numbers; // reads no chunk before numbers are requested
-  Reservation Chunk;
-  InputFile& File;
-};
-
-} // namespace
 
 DatasetOpener::DatasetOpener(const Hdf5File& file, std::string name)
   : Hdf(file)
