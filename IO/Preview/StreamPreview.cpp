@@ -6,7 +6,6 @@
 #include "IO/Results/VertexNormals.h"
 #include "IO/Simplification/Bodies.h"
 #include "IO/Simplification/EdgeCollapse.h"
-#include "IO/Simplification/SimplifierNotes.h"
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
 #include "IO/Simplification/VertexClusters.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Simplification/SimplifierNotes.h"
+#include "IO/Simplification/StreamSimplifier.h"
 
 #include "Solver/Mesh/StreamCheck.h"
 

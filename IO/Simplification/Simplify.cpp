@@ -9,7 +9,7 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/HeldMesh.h"
 #include "IO/Simplification/SimplifiedMesh.h"
-#include "IO/Simplification/SimplifierNotes.h"
+#include "IO/Simplification/StreamSimplifier.h"
 #include "IO/Simplification/WindowSize.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/Text.h"

@@ -195,4 +195,13 @@ private:
   std::int64_t KeptResults = 0, ResumedResults = 0, Replayed = 0;
 };
 
+// What simplifications and previews say of their results.
+
+/** Says how many bodies are left out. */
+void noteBodies(const StreamSimplifier& simplifier, std::vector<std::string>& notes);
+
+/** Says how many vertices were merged, and where area is lost by that, or by triangles that turn
+ * over. `coincide`: whether there are points that could be joined. */
+void noteShape(const StreamSimplifier& simplifier, bool coincide, std::vector<std::string>& notes);
+
 } // namespace smg

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/BinaryInput.h"
-#include "IO/Formats/Streams/StreamReaders.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
-#include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Results/MovedVertices.h"
 

@@ -8,11 +8,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace smg
 {
+
+class MovedVertices;
 
 struct StreamToVsmOptions
 {
@@ -55,5 +58,12 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
 std::vector<std::string> vsmToStream(const std::filesystem::path& in,
   const std::filesystem::path& out, const std::filesystem::path& scratch = {},
   const ProgressFunction& progress = {});
+
+/**
+ * Writes the streaming mesh file `in` again as `out`, another or the same of the four formats, with
+ * its vertices moved; see rewriteMesh(). Comments are kept in text. Throws Error; Cancelled.
+ */
+void rewriteStream(const std::filesystem::path& in, const std::filesystem::path& out,
+  MovedVertices& moved, const ProgressFunction& progress, const std::function<void()>& beforeEnd);
 
 } // namespace smg

@@ -3,7 +3,6 @@
 
 #include "IO/Files/FileNames.h"
 #include "IO/Formats/Foreign/ForeignFile.h"
-#include "IO/Formats/Streams/StreamReaders.h"
 #include "IO/Mesh/Format.h"
 #include "smg/Error.h"
 

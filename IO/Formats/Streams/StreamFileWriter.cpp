@@ -2,7 +2,7 @@
 #include "IO/Formats/Streams/StreamFileWriter.h"
 
 #include "IO/Files/ByteOrder.h"
-#include "IO/Formats/Streams/StreamReaders.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Streams/StreamsFormat.h"
-
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Mesh/Format.h"
 
 namespace smg
 {

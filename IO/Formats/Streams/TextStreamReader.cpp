@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/FileNames.h"
 #include "IO/Files/TextScanner.h"
-#include "IO/Formats/Streams/StreamReaders.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "smg/Error.h"
 
 #include <algorithm>
