@@ -151,22 +151,122 @@ public:
     }
   }
   /** Adds the properties of columns. Other names are noted. */
-  void add(const std::vector<ColumnSpec>& columns, WrittenPly& written);
+  void add(const std::vector<ColumnSpec>& columns, WrittenPly& written)
+  {
+    // Columns that can keep their names do so, whatever others would be called.
+    std::vector<std::vector<std::string>> names(columns.size());
+    const auto choose = [&](std::size_t i, const std::string& name)
+    {
+      const std::vector<std::string> chosen = namesOf(columns[i], name);
+      if (!this->areFree(chosen))
+      {
+        return false;
+      }
+      this->Names.insert(this->Names.end(), chosen.begin(), chosen.end());
+      names[i] = chosen;
+      return true;
+    };
+    for (const bool severalProperties : { false, true })
+    {
+      for (std::size_t i = 0; i < columns.size(); ++i)
+      {
+        const std::string& name = columns[i].name;
+        if ((columns[i].components > 1) == severalProperties && plyName(name) == name)
+        {
+          choose(i, name);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      const std::string base = plyName(columns[i].name);
+      std::string name = base;
+      for (int k = 1; names[i].empty() && !choose(i, name); ++k)
+      {
+        name = base + '_' + std::to_string(k);
+      }
+      if (name != columns[i].name)
+      {
+        written.renamedColumns.emplace_back(columns[i].name, name);
+      }
+      if (names[i].front() == name + "_0")
+      {
+        written.splitColumns.emplace_back(name, columns[i].components);
+      }
+      const ScalarType type =
+        isLongInteger(columns[i].type) ? ScalarType::Float64 : columns[i].type;
+      this->Places.push_back(static_cast<std::ptrdiff_t>(this->RecordBytes));
+      for (const std::string& property : names[i])
+      {
+        this->addProperty(type, property);
+      }
+    }
+  }
 
   const std::string& header() const { return this->Header; }
   std::size_t recordBytes() const { return this->RecordBytes; }
   /** About the characters of a record as text. */
-  double recordCharacters() const;
+  double recordCharacters() const
+  {
+    double characters = 0;
+    for (const ScalarType type : this->Types)
+    {
+      const ColumnSpec number{ "", type, 1 };
+      characters += tupleCharacters({ &number, 1 }, 0);
+    }
+    return characters;
+  }
 
   /** Makes `count` records, whose fields must be filled. */
   void begin(std::size_t count) { this->Records.resize(count * this->RecordBytes); }
   /** Fills in tuples of `bytes` bytes, one per record, at a position of the record. */
-  void fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes);
+  void fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes)
+  {
+    const std::byte* from = tuples.data();
+    std::byte* const end = this->Records.data() + this->Records.size();
+    for (std::byte* record = this->Records.data(); record < end; record += this->RecordBytes)
+    {
+      std::memcpy(record + place, from, bytes);
+      from += bytes;
+    }
+  }
+
   /** Fills in the columns that were added. Rounded values are noted. */
-  void fill(const std::vector<Column>& columns, WrittenPly& written);
+  void fill(const std::vector<Column>& columns, WrittenPly& written)
+  {
+    std::vector<std::string>& rounded = written.roundedColumns;
+    for (std::size_t i = 0; i < this->Places.size(); ++i)
+    {
+      const std::string& name = columns[i].spec.name;
+      if (this->fill(this->Places[i], columns[i]) &&
+          std::find(rounded.begin(), rounded.end(), name) == rounded.end())
+      {
+        rounded.push_back(name);
+      }
+    }
+  }
+
   std::span<const std::byte> records() const { return this->Records; }
   /** Writes the numbers of a record as text, with a blank before each but the first of a line. */
-  void write(TextOutput& out, std::size_t record, bool beginsLine) const;
+  void write(TextOutput& out, std::size_t record, bool beginsLine) const
+  {
+    const std::byte* from = this->Records.data() + record * this->RecordBytes;
+    for (const ScalarType type : this->Types)
+    {
+      if (!beginsLine)
+      {
+        out << ' ';
+      }
+      beginsLine = false;
+      dispatch(type,
+        [&]<class T>(T number)
+        {
+          std::memcpy(&number, from, sizeof(number));
+          out << number;
+          from += sizeof(number);
+        });
+    }
+  }
 
 private:
   void addProperty(ScalarType type, const std::string& name)
@@ -181,7 +281,30 @@ private:
     return std::ranges::none_of(names, [this](const std::string& name)
       { return std::ranges::find(this->Names, name) != this->Names.end(); });
   }
-  bool fill(std::ptrdiff_t place, const Column& column);
+
+  /** Returns whether a value was rounded. */
+  bool fill(std::ptrdiff_t place, const Column& column)
+  {
+    if (!isLongInteger(column.spec.type))
+    {
+      this->fill(place, column.bytes, column.spec.tupleBytes());
+      return false;
+    }
+    bool exact = true;
+    const auto convert = [this, &exact]<class T>(std::span<const T> values)
+    {
+      this->Doubles.assign(values.begin(), values.end());
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        exact = exact && isExact(values[i], this->Doubles[i]);
+      }
+    };
+    column.spec.type == ScalarType::Int64 ? convert(column.as<std::int64_t>())
+                                          : convert(column.as<std::uint64_t>());
+    this->fill(place, std::as_bytes(std::span(this->Doubles)),
+      sizeof(double) * static_cast<std::size_t>(column.spec.components));
+    return !exact;
+  }
 
   std::string Header;
   std::vector<std::string> Names;
@@ -191,137 +314,6 @@ private:
   std::vector<std::byte> Records;
   std::vector<double> Doubles;
 };
-
-void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written)
-{
-  // Columns that can keep their names do so, whatever others would be called.
-  std::vector<std::vector<std::string>> names(columns.size());
-  const auto choose = [&](std::size_t i, const std::string& name)
-  {
-    const std::vector<std::string> chosen = namesOf(columns[i], name);
-    if (!this->areFree(chosen))
-    {
-      return false;
-    }
-    this->Names.insert(this->Names.end(), chosen.begin(), chosen.end());
-    names[i] = chosen;
-    return true;
-  };
-  for (const bool severalProperties : { false, true })
-  {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-    {
-      const std::string& name = columns[i].name;
-      if ((columns[i].components > 1) == severalProperties && plyName(name) == name)
-      {
-        choose(i, name);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    const std::string base = plyName(columns[i].name);
-    std::string name = base;
-    for (int k = 1; names[i].empty() && !choose(i, name); ++k)
-    {
-      name = base + '_' + std::to_string(k);
-    }
-    if (name != columns[i].name)
-    {
-      written.renamedColumns.emplace_back(columns[i].name, name);
-    }
-    if (names[i].front() == name + "_0")
-    {
-      written.splitColumns.emplace_back(name, columns[i].components);
-    }
-    const ScalarType type = isLongInteger(columns[i].type) ? ScalarType::Float64 : columns[i].type;
-    this->Places.push_back(static_cast<std::ptrdiff_t>(this->RecordBytes));
-    for (const std::string& property : names[i])
-    {
-      this->addProperty(type, property);
-    }
-  }
-}
-
-void PlyRecords::fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes)
-{
-  const std::byte* from = tuples.data();
-  std::byte* const end = this->Records.data() + this->Records.size();
-  for (std::byte* record = this->Records.data(); record < end; record += this->RecordBytes)
-  {
-    std::memcpy(record + place, from, bytes);
-    from += bytes;
-  }
-}
-
-void PlyRecords::fill(const std::vector<Column>& columns, WrittenPly& written)
-{
-  std::vector<std::string>& rounded = written.roundedColumns;
-  for (std::size_t i = 0; i < this->Places.size(); ++i)
-  {
-    const std::string& name = columns[i].spec.name;
-    if (this->fill(this->Places[i], columns[i]) &&
-        std::find(rounded.begin(), rounded.end(), name) == rounded.end())
-    {
-      rounded.push_back(name);
-    }
-  }
-}
-
-/** Returns whether a value was rounded. */
-bool PlyRecords::fill(std::ptrdiff_t place, const Column& column)
-{
-  if (!isLongInteger(column.spec.type))
-  {
-    this->fill(place, column.bytes, column.spec.tupleBytes());
-    return false;
-  }
-  bool exact = true;
-  const auto convert = [this, &exact]<class T>(std::span<const T> values)
-  {
-    this->Doubles.assign(values.begin(), values.end());
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      exact = exact && isExact(values[i], this->Doubles[i]);
-    }
-  };
-  column.spec.type == ScalarType::Int64 ? convert(column.as<std::int64_t>())
-                                        : convert(column.as<std::uint64_t>());
-  this->fill(place, std::as_bytes(std::span(this->Doubles)),
-    sizeof(double) * static_cast<std::size_t>(column.spec.components));
-  return !exact;
-}
-
-double PlyRecords::recordCharacters() const
-{
-  double characters = 0;
-  for (const ScalarType type : this->Types)
-  {
-    const ColumnSpec number{ "", type, 1 };
-    characters += tupleCharacters({ &number, 1 }, 0);
-  }
-  return characters;
-}
-
-void PlyRecords::write(TextOutput& out, std::size_t record, bool beginsLine) const
-{
-  const std::byte* from = this->Records.data() + record * this->RecordBytes;
-  for (const ScalarType type : this->Types)
-  {
-    if (!beginsLine)
-    {
-      out << ' ';
-    }
-    beginsLine = false;
-    dispatch(type,
-      [&]<class T>(T number)
-      {
-        std::memcpy(&number, from, sizeof(number));
-        out << number;
-        from += sizeof(number);
-      });
-  }
-}
 
 /** Throws Error if there are more vertices than PLY has numbers for. */
 const std::filesystem::path& checkedForPly(const std::filesystem::path& path, std::int64_t vertices)

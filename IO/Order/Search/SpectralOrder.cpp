@@ -133,7 +133,16 @@ public:
 
 private:
   /** The longest run whose adjacency fits into a share of the memory. */
-  std::int64_t longestRun() const;
+  std::int64_t longestRun() const
+  {
+    // In addition to the adjacency, the labelling of a run needs 5 bytes per vertex, and 8 per
+    // crossing edge.
+    const std::int64_t bytesOfVertex =
+      this->Pages.allAdjacencyBytes() * 5 / 4 / std::max<std::int64_t>(1, this->Pages.vertices()) +
+      16;
+    return std::max<std::int64_t>(
+      this->Pages.pageVertices(), this->Space.available() / 4 / bytesOfVertex);
+  }
 
   VertexPages& Pages;
   Workspace& Space;
@@ -141,17 +150,6 @@ private:
   Reservation Reserved;
   PagedArray<float> Values;
 };
-
-std::int64_t SpectralValues::longestRun() const
-{
-  // In addition to the adjacency, the labelling of a run needs 5 bytes per vertex, and 8 per
-  // crossing edge.
-  const std::int64_t bytesOfVertex =
-    this->Pages.allAdjacencyBytes() * 5 / 4 / std::max<std::int64_t>(1, this->Pages.vertices()) +
-    16;
-  return std::max<std::int64_t>(
-    this->Pages.pageVertices(), this->Space.available() / 4 / bytesOfVertex);
-}
 
 bool SpectralValues::compute()
 {
