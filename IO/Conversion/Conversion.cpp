@@ -68,11 +68,6 @@ bool Conversion::hasStages(const std::filesystem::path& in, const ConversionOpti
          !Conversion(in, none, options).copies();
 }
 
-bool Conversion::copies() const
-{
-  return this->isStream() && this->Options.order == StreamOrder::Keep && !this->Options.weld;
-}
-
 Workspace& Conversion::workspace()
 {
   if (!this->Space)
@@ -82,11 +77,6 @@ Workspace& Conversion::workspace()
       this->Options.scratchLimit, this->Options.threads);
   }
   return *this->Space;
-}
-
-const std::filesystem::path& Conversion::scratch() const
-{
-  return this->Options.checkpoint.empty() ? this->Options.scratch : this->Options.checkpoint;
 }
 
 ScratchFolder* Conversion::kept()
@@ -106,11 +96,6 @@ ProgressFunction Conversion::progress()
     workspace.tell(done);
     return true;
   };
-}
-
-bool Conversion::isStream() const
-{
-  return this->From == MeshFileKind::Vsm || this->From == MeshFileKind::Stream;
 }
 
 const VsmReader& Conversion::openStream()

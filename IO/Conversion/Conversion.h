@@ -45,7 +45,10 @@ public:
   /** Scratch files and memory, created on first use. */
   Workspace& workspace();
   /** The parent of the folder for scratch files. */
-  const std::filesystem::path& scratch() const;
+  const std::filesystem::path& scratch() const
+  {
+    return this->Options.checkpoint.empty() ? this->Options.scratch : this->Options.checkpoint;
+  }
   /** The folder ConversionOptions::checkpoint; nullptr: none. */
   ScratchFolder* kept();
   /** The progress of the current part of the workspace, for operations that report fractions. */
@@ -55,9 +58,15 @@ public:
   /** Of a mesh that is in no file; else empty. */
   const MeshImporter& importer() const { return this->Importer; }
   /** Whether the input already has a stream order. */
-  bool isStream() const;
+  bool isStream() const
+  {
+    return this->From == MeshFileKind::Vsm || this->From == MeshFileKind::Stream;
+  }
   /** Whether the cells are only copied. */
-  bool copies() const;
+  bool copies() const
+  {
+    return this->isStream() && this->Options.order == StreamOrder::Keep && !this->Options.weld;
+  }
   /** Throws Error if the input has been replaced or changed since the conversion began. A .vsm file
    * is compared by its reader. */
   void checkInput() const { this->State.check(); }

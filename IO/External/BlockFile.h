@@ -205,7 +205,10 @@ private:
   BlockFileFront readFront(std::span<std::byte> region) const;
   void checkIndexBytes(const BlockFileFront& front) const;
   void checkLength(const BlockFileFront& front) const;
-  std::string place(int table, std::int64_t block) const;
+  std::string place(int table, std::int64_t block) const
+  {
+    return "table '" + this->Index.tables[table].name + "', block " + std::to_string(block);
+  }
   void check(int table, std::int64_t block) const;
   void count(std::int64_t bytes, std::int64_t waited);
   void readStored(int table, std::int64_t block, int column, std::span<std::byte> bytes);

@@ -131,11 +131,6 @@ BlockFileReader::BlockFileReader(const std::filesystem::path& path, IoStatistics
   this->count(BlockFileHeaderBytes + front.tailBytes, 0);
 }
 
-std::string BlockFileReader::place(int table, std::int64_t block) const
-{
-  return "table '" + this->Index.tables[table].name + "', block " + std::to_string(block);
-}
-
 void BlockFileReader::check(int table, std::int64_t block) const
 {
   if (table < 0 || table >= static_cast<int>(this->Index.tables.size()) || block < 0 ||

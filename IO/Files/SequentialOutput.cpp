@@ -67,9 +67,4 @@ void PositionedFile::write(std::int64_t offset, std::span<const std::byte> bytes
   }
 }
 
-void PositionedFile::finish()
-{
-  this->File.renameTo(this->Path);
-}
-
 } // namespace smg

@@ -52,7 +52,7 @@ public:
   void write(std::int64_t offset, std::span<const std::byte> bytes);
 
   /** Closes and renames the file. Throws Error. */
-  void finish();
+  void finish() { this->File.renameTo(this->Path); }
 
 private:
   std::filesystem::path Path;

@@ -171,11 +171,6 @@ InputState::InputState(const std::filesystem::path& mesh)
   }
 }
 
-bool InputState::isUnchanged() const
-{
-  return std::ranges::all_of(this->Files, [](const File& file) { return File(file.path) == file; });
-}
-
 void InputState::check() const
 {
   for (const File& file : this->Files)

@@ -3,6 +3,7 @@
 
 #include "smg/Export.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -60,7 +61,11 @@ public:
   /** Throws Error that names the file if one has been replaced or changed since. */
   void check() const;
   /** Whether none has. No file is read for that. */
-  bool isUnchanged() const;
+  bool isUnchanged() const
+  {
+    return std::ranges::all_of(
+      this->Files, [](const File& file) { return File(file.path) == file; });
+  }
 
 private:
   struct File

@@ -304,12 +304,6 @@ void RawMeshBuilder::element(int dimension, std::span<const std::int64_t> c, boo
   }
 }
 
-void RawMeshBuilder::dropped()
-{
-  ++this->Mesh.counts.droppedCells;
-  this->endElement(0);
-}
-
 RawMesh RawMeshBuilder::finish()
 {
   RawMesh& mesh = this->Mesh;

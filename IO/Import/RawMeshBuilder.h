@@ -143,7 +143,11 @@ public:
    * of VTK's faces outwards. `isHigherOrder`: it has further points, which are not used. */
   void element(int dimension, std::span<const std::int64_t> corners, bool isHigherOrder = false);
   /** A point, a line, or another element without triangles and tetrahedra. */
-  void dropped();
+  void dropped()
+  {
+    ++this->Mesh.counts.droppedCells;
+    this->endElement(0);
+  }
   /** Counts that the last element had points besides its corners, which are not used. */
   void noteHigherOrder() { ++this->Mesh.counts.higherOrderCells; }
   /** Counts points that the parser merged. */

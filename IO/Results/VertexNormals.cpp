@@ -195,11 +195,6 @@ TriangleShape CellNormals::shape(const MeshBlock& block, std::size_t cell)
   return shapeOfTriangle(point(0), point(1), point(2));
 }
 
-void CellNormals::release(const MeshBlock& block)
-{
-  this->Positions.discardBelow(block.finalized);
-}
-
 void CellNormals::read(const MeshBlock& block, std::span<float> normals)
 {
   this->take(block);

@@ -75,7 +75,7 @@ public:
   /** Adds the next block and writes the normals of its cells, 3 floats per cell. */
   void read(const MeshBlock& block, std::span<float> normals);
   /** Releases the vertices that are final after the block. */
-  void release(const MeshBlock& block);
+  void release(const MeshBlock& block) { this->Positions.discardBelow(block.finalized); }
 
 private:
   ScratchFolder Scratch;

@@ -35,12 +35,6 @@ LoopCuts::LoopCuts(SurfacePart& part, SurfaceTopology& surface, double scale)
   std::iota(this->Gone.begin(), this->Gone.end(), 0U);
 }
 
-double LoopCuts::squaredDistance(std::uint32_t a, std::uint32_t b) const
-{
-  const Vector way = difference(this->Part.point(a), this->Part.point(b));
-  return dot(way, way);
-}
-
 /** Whether something of this rank is too large to change; then notes what it costs. */
 bool LoopCuts::costsTooMuch(float rank, float limit, Pass& pass)
 {
@@ -70,14 +64,6 @@ LoopCuts::Loop LoopCuts::leastLoop(std::uint32_t from, std::uint32_t to) const
       return this->costOf({ from, to, v });
     });
   return { from, to, *across };
-}
-
-/** Whether a vertex that was not touched has one closed fan of triangles, of one label and on no
- * seam, and may go. */
-bool LoopCuts::isPlain(std::uint32_t v) const
-{
-  return this->Surface.IsFixed[v] == 0 && this->Surface.Curves[v] == 0 &&
-         this->Surface.Touched[v] == 0 && this->Surface.Open[v] == 0 && this->Part.seamOf(v) == 0;
 }
 
 /** The triangles of a vertex that have not collapsed. */

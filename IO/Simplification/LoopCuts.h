@@ -103,10 +103,20 @@ private:
     std::uint32_t from = 0, to = 0, across = 0;
   };
 
-  double squaredDistance(std::uint32_t a, std::uint32_t b) const;
+  double squaredDistance(std::uint32_t a, std::uint32_t b) const
+  {
+    const Vector way = difference(this->Part.point(a), this->Part.point(b));
+    return dot(way, way);
+  }
   double costOf(const Loop& loop) const;
   Loop leastLoop(std::uint32_t from, std::uint32_t to) const;
-  bool isPlain(std::uint32_t v) const;
+  /** Whether a vertex that was not touched has one closed fan of triangles, of one label and on no
+   * seam, and may go. */
+  bool isPlain(std::uint32_t v) const
+  {
+    return this->Surface.IsFixed[v] == 0 && this->Surface.Curves[v] == 0 &&
+           this->Surface.Touched[v] == 0 && this->Surface.Open[v] == 0 && this->Part.seamOf(v) == 0;
+  }
   std::size_t trianglesOf(std::uint32_t v) const;
   bool isHole(const Loop& loop) const;
   bool walk(std::uint32_t v, std::uint32_t triangle, std::uint32_t start, std::uint32_t end,

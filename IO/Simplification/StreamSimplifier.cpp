@@ -386,12 +386,6 @@ void StreamSimplifier::count(const Collapsed& done)
   this->Counts.turns = this->Counts.turns || done.turns;
 }
 
-void StreamSimplifier::countMerged(std::size_t vertices)
-{
-  this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
-  this->Counts.merged += static_cast<std::int64_t>(vertices);
-}
-
 /** Removes the smallest bodies of the window, so that so many vertices are enough for the others:
  * no collapse removes a body. Returns whether they are fragments, which stay. */
 bool StreamSimplifier::dropBodies(std::int64_t vertices)
@@ -570,13 +564,6 @@ void StreamSimplifier::finish()
     }
   }
   this->deliver(std::vector<std::uint8_t>(this->Window.triangles(), 1));
-}
-
-/** The vertices of the window that were not delivered yet. */
-std::int64_t StreamSimplifier::remaining() const
-{
-  return std::ranges::count_if(
-    this->Window.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
 }
 
 /** Lists the places of those vertices of the window that later parts may have. */

@@ -152,14 +152,23 @@ private:
   void makeRoom();
   void collapse(std::int64_t vertices);
   void count(const Collapsed& done);
-  void countMerged(std::size_t vertices);
+  void countMerged(std::size_t vertices)
+  {
+    this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
+    this->Counts.merged += static_cast<std::int64_t>(vertices);
+  }
   bool dropBodies(std::int64_t vertices);
   void fit(std::int64_t vertices);
   void shrink(std::size_t vertices);
   void deliverOlderHalf();
   void deliver(const std::vector<std::uint8_t>& leaves);
   void finish();
-  std::int64_t remaining() const;
+  /** The vertices of the window that were not delivered yet. */
+  std::int64_t remaining() const
+  {
+    return std::ranges::count_if(
+      this->Window.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
+  }
   void renumber();
   Checkpoint keptResult(std::int64_t number) const;
   void save();

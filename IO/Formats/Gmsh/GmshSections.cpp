@@ -223,16 +223,4 @@ std::int64_t GmshTags::groupOf(std::int64_t dimension, std::int64_t entity) cons
   return found == groups.end() ? NoGroup : found->second;
 }
 
-void GmshTags::add(std::int64_t group, std::int64_t entity)
-{
-  this->Physical.add(group);
-  this->Geometrical.add(entity);
-}
-
-void GmshTags::finish()
-{
-  this->Physical.finish();
-  this->Geometrical.finish();
-}
-
 } // namespace smg

@@ -111,9 +111,17 @@ public:
   std::int64_t groupOf(std::int64_t dimension, std::int64_t entity) const;
 
   /** Appends the tags of the next element. */
-  void add(std::int64_t group, std::int64_t entity);
+  void add(std::int64_t group, std::int64_t entity)
+  {
+    this->Physical.add(group);
+    this->Geometrical.add(entity);
+  }
   /** After the last element. */
-  void finish();
+  void finish()
+  {
+    this->Physical.finish();
+    this->Geometrical.finish();
+  }
 
 private:
   void setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group);

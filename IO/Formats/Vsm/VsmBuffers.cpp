@@ -195,9 +195,4 @@ void StreamStatistics::count(std::int64_t cells, std::int64_t vertices)
   this->Changes.discardBelow(this->Cells);
 }
 
-StreamStatistics::Result StreamStatistics::result() const
-{
-  return { this->Width, this->Cells > 0 ? this->Sum / static_cast<double>(this->Cells) : 0 };
-}
-
 } // namespace smg

@@ -177,7 +177,10 @@ public:
     double mean = 0;        ///< vertices alive at a cell, on average
   };
   /** Over the cells that were counted. */
-  Result result() const;
+  Result result() const
+  {
+    return { this->Width, this->Cells > 0 ? this->Sum / static_cast<double>(this->Cells) : 0 };
+  }
 
 private:
   /** A cell has at most four corners: half a byte each for the vertices that begin and end. */

@@ -297,11 +297,6 @@ void VsmFile::checkColumns() const
   }
 }
 
-std::int64_t VsmFile::blockIntroducing(std::int64_t vertex) const
-{
-  return std::ranges::upper_bound(this->FirstVertex, vertex) - this->FirstVertex.begin() - 1;
-}
-
 void VsmFile::readBlockTable()
 {
   const std::int64_t count = this->cellBlocks();
@@ -424,16 +419,6 @@ int VsmFile::find(
   }
   this->fail(std::string("has no ") + kind + " column '" + name + "'; it has" +
              (known.empty() ? " none." : known + "."));
-}
-
-int VsmFile::vertexColumn(const std::string& name) const
-{
-  return this->find(this->Info.vertexColumns, name, "vertex");
-}
-
-int VsmFile::cellColumn(const std::string& name) const
-{
-  return this->find(this->Info.cellColumns, name, "cell");
 }
 
 std::int64_t checkVsm(const std::filesystem::path& path, const ProgressFunction& progress)

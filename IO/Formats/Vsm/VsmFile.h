@@ -7,6 +7,7 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -59,7 +60,10 @@ public:
   /** Vertices introduced before a block of the cells; also for the block after the last one. */
   std::int64_t firstVertex(std::int64_t block) const { return this->FirstVertex[block]; }
   /** The block of the cells that introduces a vertex. */
-  std::int64_t blockIntroducing(std::int64_t vertex) const;
+  std::int64_t blockIntroducing(std::int64_t vertex) const
+  {
+    return std::ranges::upper_bound(this->FirstVertex, vertex) - this->FirstVertex.begin() - 1;
+  }
   /** No cell after the block uses a vertex below this. */
   std::int64_t finalized(std::int64_t block) const { return this->Finalized[block]; }
   std::int64_t cellBlocks() const { return this->Blocks.blocks(VsmFormat::Cells); }
@@ -80,8 +84,14 @@ public:
   std::int64_t blockBytes() const;
 
   /** The index of the column of this name in its table. */
-  int vertexColumn(const std::string& name) const;
-  int cellColumn(const std::string& name) const;
+  int vertexColumn(const std::string& name) const
+  {
+    return this->find(this->Info.vertexColumns, name, "vertex");
+  }
+  int cellColumn(const std::string& name) const
+  {
+    return this->find(this->Info.cellColumns, name, "cell");
+  }
 
   StreamInfo Info;
   double MeanWidth = 0;

@@ -182,12 +182,6 @@ void VertexPages::flush()
   this->Collected = 0;
 }
 
-void VertexPages::close()
-{
-  this->flush();
-  this->Collecting = Buffer();
-}
-
 void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
 {
   const Page& where = this->Directory[std::size_t(page)];

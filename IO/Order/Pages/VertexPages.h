@@ -223,7 +223,11 @@ public:
   /** Appends the next page: pageVertices vertices, the last page fewer. Throws Error. */
   void append(std::span<const Vertex> vertices);
   /** To be called after the last append(). */
-  void close();
+  void close()
+  {
+    this->flush();
+    this->Collecting = Buffer();
+  }
 
   int pageVertices() const { return static_cast<int>(this->PageVertices); }
   bool doublePositions() const { return this->DoublePositions; }

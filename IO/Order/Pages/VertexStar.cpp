@@ -29,12 +29,6 @@ CellGroups::CellGroups(Workspace& workspace, RankRange range, std::int64_t group
 {
 }
 
-RankRange CellGroups::range(int group) const
-{
-  const std::int64_t begin = std::int64_t(this->Begin) + std::int64_t(group) * this->GroupVertices;
-  return { begin, std::min(begin + this->GroupVertices, std::int64_t(this->Begin) + this->Size) };
-}
-
 VertexStar::VertexStar(Pool& pool, RankRange range, std::size_t largestLink)
   : Owner(&pool)
   , First(static_cast<std::uint32_t>(range.begin))
@@ -44,12 +38,6 @@ VertexStar::VertexStar(Pool& pool, RankRange range, std::size_t largestLink)
 {
   // No entry is of the current vertex: all are far from Begin.
   std::fill_n(this->slots(), this->Count, ~std::uint32_t(0));
-}
-
-std::int64_t VertexStar::bytes(std::int64_t rangeSize, std::size_t largestLink)
-{
-  return rangeSize * std::int64_t(sizeof(std::uint32_t)) +
-         static_cast<std::int64_t>(largestLink * sizeof(Spoke));
 }
 
 /** Begins the list of neighbours with those outside the range, in ascending order, each once. */
@@ -224,12 +212,6 @@ VertexLinks::VertexLinks(
     begins[place] = sum;
     sum += link;
   }
-}
-
-std::int64_t VertexLinks::size(RankRange part) const
-{
-  const std::uint64_t* begins = this->begins() - this->Range.begin;
-  return static_cast<std::int64_t>(begins[part.end] - begins[part.begin]);
 }
 
 void VertexLinks::load(Workspace& workspace, const CellGroups& groups, int group)

@@ -6,6 +6,7 @@
 #include "IO/Order/Pages/OrderedVertices.h"
 #include "Solver/Memory/Buffer.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,7 +31,12 @@ public:
     std::int64_t memory);
 
   int groups() const { return this->Cells.buckets(); }
-  RankRange range(int group) const;
+  RankRange range(int group) const
+  {
+    const std::int64_t begin =
+      std::int64_t(this->Begin) + std::int64_t(group) * this->GroupVertices;
+    return { begin, std::min(begin + this->GroupVertices, std::int64_t(this->Begin) + this->Size) };
+  }
   std::int64_t cells(int group) const
   {
     return this->Cells.bytes(group) / std::int64_t(this->Corners * sizeof(std::uint32_t));
@@ -97,7 +103,11 @@ public:
   /** `largestLink`: the most ranks in a link; a larger one needs more memory. */
   VertexStar(Pool& pool, RankRange range, std::size_t largestLink);
   /** Its memory in bytes. */
-  static std::int64_t bytes(std::int64_t rangeSize, std::size_t largestLink);
+  static std::int64_t bytes(std::int64_t rangeSize, std::size_t largestLink)
+  {
+    return rangeSize * std::int64_t(sizeof(std::uint32_t)) +
+           static_cast<std::int64_t>(largestLink * sizeof(Spoke));
+  }
 
   /**
    * Finds the neighbours of a vertex, each once, not itself.
@@ -169,7 +179,11 @@ public:
   VertexLinks(Workspace& workspace, const CellGroups& groups, int group, std::size_t corners);
 
   /** The number of ranks in the links of the vertices of a part of the range. */
-  std::int64_t size(RankRange part) const;
+  std::int64_t size(RankRange part) const
+  {
+    const std::uint64_t* begins = this->begins() - this->Range.begin;
+    return static_cast<std::int64_t>(begins[part.end] - begins[part.begin]);
+  }
   std::int64_t size() const { return this->size(this->Range); }
   /** The number of ranks in the largest link. */
   std::size_t largest() const { return this->Largest; }

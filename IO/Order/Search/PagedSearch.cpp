@@ -159,11 +159,6 @@ PagedSearch::PagedSearch(
 {
 }
 
-std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueBytes)
-{
-  return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
-}
-
 /** The search itself, level by level. When a level begins, the sources that start with it are added
  * to the queue; if the queue is empty before all sources have started, the level jumps to the
  * start of the next one. */

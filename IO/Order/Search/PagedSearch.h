@@ -8,6 +8,7 @@
 #include "Solver/Files/CheckedFile.h"
 #include "Solver/Memory/Buffer.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -176,7 +177,10 @@ public:
   PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes);
 
   /** Bytes of memory of a search in addition to the cache. */
-  static std::int64_t memoryFor(const VertexPages& pages, std::size_t queueBytes);
+  static std::int64_t memoryFor(const VertexPages& pages, std::size_t queueBytes)
+  {
+    return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
+  }
   /** Another search in the same cache: see probeLoaded(). */
   std::unique_ptr<PagedSearch> another() const
   {
