@@ -4,9 +4,6 @@
 #include "IO/Arrays/AddedColumns.h"
 #include "smg/MeshSource.h"
 
-#include <utility>
-#include <vector>
-
 namespace smg
 {
 

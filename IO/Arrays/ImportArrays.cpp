@@ -5,7 +5,6 @@
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
-#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 
 #include <array>

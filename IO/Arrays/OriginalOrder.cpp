@@ -4,7 +4,6 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Import/Weld.h"
-#include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Mesh/VisitBlocks.h"
 #include "smg/VsmReader.h"

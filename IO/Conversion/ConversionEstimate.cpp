@@ -10,7 +10,6 @@
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Estimate/Costs.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

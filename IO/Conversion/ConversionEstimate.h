@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Import/RawMesh.h"
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
 #include "smg/Export.h"

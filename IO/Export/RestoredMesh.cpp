@@ -3,12 +3,10 @@
 
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Mesh/Columns.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 // A mesh stream brought back into the order of its original file. The corners of the stream are

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <string>
 
 // Sequences of bytes in one scratch file, appended to in any order, each read from first to last. A
 // bucket collects its bytes in a chunk and writes that when it is full, so the file is written from

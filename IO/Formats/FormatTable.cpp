@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <span>
-#include <system_error>
 #include <vector>
 
 namespace smg

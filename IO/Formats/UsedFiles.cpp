@@ -6,7 +6,6 @@
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 
-#include <algorithm>
 #include <sys/stat.h>
 #include <system_error>
 #include <utility>

@@ -8,7 +8,6 @@
 #include "smg/MeshSource.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>

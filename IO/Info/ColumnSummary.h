@@ -4,9 +4,7 @@
 #include "smg/Column.h"
 #include "smg/Describe.h"
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 namespace smg
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Info/StreamTopology.h"
 
-#include "Solver/Assembly/Elements.h"
-
 // How the cells of a stream fit together, in one pass. When a vertex gets no more cells, all that
 // is around it is known: for surfaces its triangles, hence its edges with their numbers of
 // triangles, and whether the triangles are connected across these. An edge is counted at its lower

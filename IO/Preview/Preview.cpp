@@ -2,7 +2,6 @@
 #include "smg/Preview.h"
 
 #include "IO/Files/PartialProgress.h"
-#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Import/ImportColumn.h"
 #include "IO/Order/Assembly/LayoutSource.h"
 #include "IO/Order/LayOut.h"
@@ -12,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 
 namespace smg
 {

@@ -3,7 +3,6 @@
 
 #include "IO/Mesh/Columns.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "smg/Error.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <string_view>
 #include <vector>
 

@@ -4,13 +4,11 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Results/SourcePrefetch.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <limits>

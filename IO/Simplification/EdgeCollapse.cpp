@@ -10,7 +10,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <utility>
 #include <vector>
 
 // Edge collapse by quadric error metrics (Garland and Heckbert 1997) in passes instead of by a

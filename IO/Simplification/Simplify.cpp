@@ -12,14 +12,11 @@
 #include "IO/Simplification/StreamSimplifier.h"
 #include "IO/Simplification/WindowSize.h"
 #include "Solver/Checkpoint/Checkpoint.h"
-#include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Mesh/StreamCheck.h"
-#include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
 #include <nlohmann/json.hpp>
@@ -28,9 +25,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <utility>
 
 // simplify(): a mesh file to a simplified surface, through a .vsm file. A .vsm result is written as
 // the parts come; any other format is written from a .vsm file in a scratch folder.

@@ -16,7 +16,6 @@
 #include <cstring>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace smg

@@ -14,7 +14,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 
 namespace smg
 {

@@ -10,7 +10,6 @@
 #include "Solver/Core/Vector.h"
 #include "smg/Error.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

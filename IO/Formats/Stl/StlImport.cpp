@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/External/ExternalSort.h"
 #include "IO/Files/BinaryInput.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Stl/StlFormat.h"

@@ -3,7 +3,6 @@
 
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Mesh/AddedColumn.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

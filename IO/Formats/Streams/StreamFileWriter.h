@@ -4,7 +4,6 @@
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Streams/StreamFile.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>

@@ -5,7 +5,6 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Mesh/Columns.h"
-#include "smg/Error.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "IO/Formats/Vsm/PieceReader.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <span>
 

@@ -5,7 +5,6 @@
 #include "IO/Mesh/Columns.h"
 
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 namespace smg

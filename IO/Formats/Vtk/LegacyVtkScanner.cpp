@@ -7,11 +7,9 @@
 #include "IO/Mesh/Format.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <optional>
-#include <utility>
 
 namespace smg
 {

@@ -13,9 +13,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace smg

@@ -2,7 +2,6 @@
 #include "IO/Order/Assembly/LayoutSource.h"
 
 #include "IO/Mesh/Columns.h"
-#include "Solver/Mesh/AddedColumn.h"
 
 #include <algorithm>
 #include <cstring>

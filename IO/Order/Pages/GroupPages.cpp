@@ -4,7 +4,6 @@
 #include "Solver/Core/Text.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Memory/Pool.h"
-#include "smg/Error.h"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,6 @@
 #include "IO/Order/Pages/VertexPages.h"
 #include "Solver/Memory/Buffer.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 

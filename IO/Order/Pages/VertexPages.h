@@ -12,7 +12,6 @@
 #include <cstring>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 namespace smg
 {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <utility>
 
 // What is around the vertices of a range, from the cells of a group: neighbours, and for surfaces
 // the edges and vertices that are on the boundary or not manifold.

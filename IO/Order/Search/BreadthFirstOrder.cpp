@@ -6,7 +6,6 @@
 #include "IO/Order/Search/SearchPlan.h"
 
 #include <algorithm>
-#include <cassert>
 
 // The order `bfs`: component by component, each by a breadth-first search from sources that a plan
 // has chosen (SearchPlan.h) if it is large, and otherwise from its end. One component after

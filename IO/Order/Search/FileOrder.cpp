@@ -4,7 +4,6 @@
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
 #include "IO/Order/Pages/RankedVertices.h"
-#include "Solver/Mesh/AddedColumn.h"
 
 #include <algorithm>
 #include <cstddef>

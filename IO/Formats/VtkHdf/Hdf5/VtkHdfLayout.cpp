@@ -9,7 +9,6 @@
 #include "Solver/Memory/Pool.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <utility>
