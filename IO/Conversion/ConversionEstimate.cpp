@@ -44,7 +44,7 @@ struct Counts : FileCounts
   std::int64_t inflatedBytes = 0; ///< of a compressed file
 };
 
-Counts guess(InputFile& file, bool compressed, const VertexShare& share)
+Counts guess(InputFile& file, bool compressed, const TypicalBytes& typical)
 {
   Counts counts;
   StreamInfo& mesh = counts.mesh;
@@ -54,9 +54,9 @@ Counts guess(InputFile& file, bool compressed, const VertexShare& share)
   }
   const auto bytes =
     counts.inflatedBytes > 0 ? counts.inflatedBytes : static_cast<std::int64_t>(file.size());
-  mesh.cellType = static_cast<CellType>(share.corners);
-  mesh.vertices = bytes / share.bytes;
-  mesh.cells = mesh.vertices * (share.corners == 3 ? 2 : 6);
+  mesh.cellType = static_cast<CellType>(typical.corners);
+  mesh.vertices = bytes / typical.bytes;
+  mesh.cells = mesh.vertices * (typical.corners == 3 ? 2 : 6);
   return counts;
 }
 
@@ -93,7 +93,7 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
       return { *counts, 0 };
     }
   }
-  return guess(file, compressed, format ? format->share : VertexShare{});
+  return guess(file, compressed, format ? format->typicalBytes : TypicalBytes{});
 }
 
 /** A mesh with the columns that a conversion adds; width and span are the usual ones. */

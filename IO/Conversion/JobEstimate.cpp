@@ -185,7 +185,7 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
   }
   const Format* const format = formatOfSuffix(suffix);
   const bool readsAgain = format && (format->writeVsm || !format->isStreamed() ||
-                                      format->turnOf(written.text) != format->turn);
+                                      format->writeOrderOf(written.text) != format->writeOrder);
   return normals + (readsAgain ? result.bytes(Codec::Lz4) : 0) +
          writerBytes(result.mesh, StreamOrderMemory, suffix, written.text);
 }

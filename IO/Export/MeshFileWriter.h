@@ -114,7 +114,7 @@ struct ElementChunk
 
 /**
  * Writes a mesh file of a format, in whatever order its vertices and elements come. The format says
- * in which turn it takes them (Format::turn). Without finish() no file is left.
+ * in which order it takes them (Format::writeOrder). Without finish() no file is left.
  */
 class MeshFileWriter
 {

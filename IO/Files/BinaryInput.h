@@ -69,9 +69,9 @@ public:
    * bytes that the rest of the file can hold, or negative. */
   void requireRoom(std::int64_t count, std::size_t minBytes, const char* what) const
   {
-    if (!hasRoom(count, minBytes, this->left()))
+    if (!fitsInFile(count, minBytes, this->left()))
     {
-      throw MeshError(sentenceOnRoom(count, what, this->left()));
+      throw MeshError(countError(count, what, this->left()));
     }
   }
 

@@ -64,7 +64,7 @@ void InputFile::fail(std::size_t offset, const std::string& sentence) const
   throw Error(this->Name + ", byte " + std::to_string(offset) + ": " + sentence);
 }
 
-std::string sentenceOnRoom(std::int64_t count, const std::string& what, std::size_t left)
+std::string countError(std::int64_t count, const std::string& what, std::size_t left)
 {
   return std::to_string(count) + " cannot be " + what + ": the file has " + std::to_string(left) +
          " more bytes, it is truncated or the number is wrong";

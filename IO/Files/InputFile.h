@@ -91,7 +91,7 @@ private:
 
 /** Whether `left` bytes of a file can hold `count` items of at least `minBytes` bytes. The last
  * item of a text needs no line end. */
-inline bool hasRoom(std::int64_t count, std::size_t minBytes, std::size_t left)
+inline bool fitsInFile(std::int64_t count, std::size_t minBytes, std::size_t left)
 {
   std::uint64_t bytes = 0;
   return count >= 0 &&
@@ -100,7 +100,7 @@ inline bool hasRoom(std::int64_t count, std::size_t minBytes, std::size_t left)
 }
 
 /** The sentence of an error for a count that is `what`, for which there is no room. */
-std::string sentenceOnRoom(std::int64_t count, const std::string& what, std::size_t left);
+std::string countError(std::int64_t count, const std::string& what, std::size_t left);
 
 /**
  * The file to which a mesh file in `folder` refers as `name`, if it is in this folder or below,

@@ -199,9 +199,9 @@ public:
   /** The same check of a count that has been read. */
   void requireRoom(std::int64_t count, std::size_t minBytes, const char* what) const
   {
-    if (!hasRoom(count, minBytes, this->left()))
+    if (!fitsInFile(count, minBytes, this->left()))
     {
-      this->fail(sentenceOnRoom(count, what, this->left()));
+      this->fail(countError(count, what, this->left()));
     }
   }
 

@@ -71,15 +71,15 @@ const Format* firstOf(Test&& test)
   return found == std::end(Formats) ? nullptr : *found;
 }
 
-const Format* formatOfSign(std::string_view start)
+const Format* formatByMagic(std::string_view start)
 {
-  return firstOf([&](const Format& format) { return format.hasSign && format.hasSign(start); });
+  return firstOf([&](const Format& format) { return format.hasMagic && format.hasMagic(start); });
 }
 
-const Format* formatLookingRight(std::string_view start, std::optional<std::uint64_t> size)
+const Format* formatByLook(std::string_view start, std::optional<std::uint64_t> size)
 {
   return firstOf(
-    [&](const Format& format) { return format.looksRight && format.looksRight(start, size); });
+    [&](const Format& format) { return format.looksLike && format.looksLike(start, size); });
 }
 
 bool canBeUsed(const Format& format, FormatUse use)
@@ -156,30 +156,30 @@ const Format* formatOfName(const std::filesystem::path& path)
 
 const Format* formatOfContent(const std::filesystem::path& path)
 {
-  return formatOfSign(startOf(path).bytes);
+  return formatByMagic(startOf(path).bytes);
 }
 
-const Format* formatOfForm(const std::filesystem::path& path)
+const Format* formatByContent(const std::filesystem::path& path)
 {
   const FileStart start = startOf(path);
-  return formatLookingRight(start.bytes, start.size);
+  return formatByLook(start.bytes, start.size);
 }
 
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path)
 {
-  if (const Format* format = formatOfSign(start))
+  if (const Format* format = formatByMagic(start))
   {
     return format;
   }
-  const Format* format = formatLookingRight(start, size);
+  const Format* format = formatByLook(start, size);
   format = format ? format : formatOfName(path);
   return format && format->kind == MeshFileKind::Indexed ? format : nullptr;
 }
 
 bool isKnownByContent(std::string_view start, std::optional<std::uint64_t> size)
 {
-  return formatOfSign(start) || formatLookingRight(start, size);
+  return formatByMagic(start) || formatByLook(start, size);
 }
 
 const Format* formatOfFile(const std::filesystem::path& path)

@@ -26,7 +26,7 @@ const Format* formatOfName(const std::filesystem::path& path);
  * TetGen. For a file compressed, the format of its content. */
 const Format* formatOfContent(const std::filesystem::path& path);
 /** The format without a signature that the first bytes look like; null if there is none. */
-const Format* formatOfForm(const std::filesystem::path& path);
+const Format* formatByContent(const std::filesystem::path& path);
 /** The format of an indexed mesh: by the signature of the file, else by the form of its first
  * bytes, else by its suffix; null if unknown. */
 SMG_EXPORT const Format* formatOfFile(const std::filesystem::path& path);

@@ -35,7 +35,7 @@ MeshFileKind kindOfContent(const std::filesystem::path& path)
     return MeshFileKind::Indexed;
   }
   const Resemblance stream = resemblanceToStream(path);
-  const Format* const indexed = formatOfForm(path);
+  const Format* const indexed = formatByContent(path);
   if (stream == Resemblance::None || !indexed)
   {
     const bool isStream = stream != Resemblance::None;

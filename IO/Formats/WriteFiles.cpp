@@ -84,7 +84,7 @@ WriteNotes writeParts(
       }
     } while (writer->needsElementsAgain());
   };
-  if (format.turn == PartTurn::ElementsFirst)
+  if (format.writeOrder == WriteOrder::ElementsFirst)
   {
     writeElements();
     writeVertices();
@@ -275,7 +275,7 @@ std::vector<std::string> writeMesh(
   checkForm(path, options.text);
   checkIsNotInput(options.isolatedFrom, path);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
-  if (format.turnOf(options.text) == PartTurn::AsTheyCome)
+  if (format.writeOrderOf(options.text) == WriteOrder::Interleaved)
   {
     return withoutIsolated(
       writeAsTheyCome(source, format, path, options.progress), format, options);
@@ -329,7 +329,7 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   options.isolatedFrom = vsm;
   options.isolatedFingerprint = reader.fingerprint();
   options.progress = progress;
-  return format.kind == MeshFileKind::Vsm || format.turnOf(text) == PartTurn::AsTheyCome
+  return format.kind == MeshFileKind::Vsm || format.writeOrderOf(text) == WriteOrder::Interleaved
            ? writeMesh(*reader.source(), path, options)
            : withoutIsolated(writeAgain(format, vsm, path, options), format, options);
 }

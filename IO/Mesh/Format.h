@@ -85,7 +85,7 @@ struct MeshToWrite
 };
 
 /** Bytes of a vertex in a file, with its share of cells: two triangles, six tetrahedra. */
-struct VertexShare
+struct TypicalBytes
 {
   std::int64_t bytes = 75;
   int corners = 3;
@@ -94,17 +94,17 @@ struct VertexShare
 /** A sentence for each difference between a written file and the mesh. */
 using WriteNotes = std::vector<std::string>;
 
-/** The turn in which the writer of a format takes a mesh. */
-enum class PartTurn
+/** The order in which the writer of a format takes the parts of a mesh. */
+enum class WriteOrder
 {
-  AsTheyCome, ///< as in a mesh stream, since each vertex and element has its place in the file
+  Interleaved, ///< as in a mesh stream, since each vertex and element has its place in the file
   VerticesFirst,
   ElementsFirst
 };
 
 /**
  * Begins a mesh file; see IO/Export/MeshFileWriter.h. The file is renamed when it is complete.
- * @param space for scratch files; may be null for PartTurn::AsTheyCome
+ * @param space for scratch files; may be null for WriteOrder::Interleaved
  */
 using MeshFileFunction = std::unique_ptr<MeshFileWriter>(
   const std::filesystem::path& path, const MeshFileInfo& info, Workspace* space);
@@ -135,17 +135,17 @@ struct Format
   bool isReadByVtk = false;
 
   /** Whether the first bytes of a file have the signature of this format. */
-  bool (*hasSign)(std::string_view start) = nullptr;
+  bool (*hasMagic)(std::string_view start) = nullptr;
   /** Whether all of its files have that signature. */
-  bool alwaysSigned = false;
+  bool alwaysHasMagic = false;
   /** The first character of all of its files, of a format whose signature may come after a long
    * comment; 0: none. */
   char firstCharacter = '\0';
   /**
-   * Whether the first bytes look like it, for a format without a sign.
+   * Whether the first bytes look like it, for a format without a signature.
    * @param size of the file, if it is known
    */
-  bool (*looksRight)(std::string_view start, std::optional<std::uint64_t> size) = nullptr;
+  bool (*looksLike)(std::string_view start, std::optional<std::uint64_t> size) = nullptr;
 
   /**
    * Parses a file as a stream and passes the mesh to the builder. Converts a MeshError of the
@@ -161,17 +161,18 @@ struct Format
   /** The times of the time steps of a file; empty: it has none. Null: no file of the format has. */
   std::vector<double> (*times)(const std::filesystem::path& path) = nullptr;
   /** Otherwise, the estimate from the size of the file. */
-  VertexShare share = {};
+  TypicalBytes typicalBytes = {};
 
   /** About the bytes of a file that is written, or of both files of TetGen. */
   std::int64_t (*bytes)(const MeshToWrite& written) = nullptr;
   /** Begins a file of an indexed mesh, in the order of its original file or of a mesh stream. */
   MeshFileFunction* writer = nullptr;
-  PartTurn turn = PartTurn::VerticesFirst;
-  /** The turn for text on request, whose numbers have no places that are known before. */
-  PartTurn turnOf(bool text) const
+  WriteOrder writeOrder = WriteOrder::VerticesFirst;
+  /** That for text on request, whose numbers have no places that are known before. */
+  WriteOrder writeOrderOf(bool text) const
   {
-    return text && this->turn == PartTurn::AsTheyCome ? PartTurn::VerticesFirst : this->turn;
+    return text && this->writeOrder == WriteOrder::Interleaved ? WriteOrder::VerticesFirst
+                                                               : this->writeOrder;
   }
   /** The scratch files of this writer in a workspace of `memory` bytes, bytes; null: it has none.
    */
@@ -181,7 +182,7 @@ struct Format
    * conversion (OriginalId ...). Other files are like an original: in its order if that is known,
    * and without these columns.
    */
-  bool isStreamed() const { return !this->writer || this->turn == PartTurn::AsTheyCome; }
+  bool isStreamed() const { return !this->writer || this->writeOrder == WriteOrder::Interleaved; }
   /** The most corners of a polygon in its files; larger ones become triangles. */
   std::int64_t maxCorners = std::numeric_limits<std::int64_t>::max();
   /** Writes the mesh of a .vsm file, instead of `writer`, for a format that wants more of it: the

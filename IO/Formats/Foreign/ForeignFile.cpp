@@ -122,7 +122,7 @@ void refuseForeign(const std::string& name, std::string_view start, const Format
 {
   refuseForeign(name, start, wanted ? kindOf(*wanted) : std::string("a mesh that is read"));
   const char first = wanted ? wanted->firstCharacter : '\0';
-  if (wanted && (wanted->alwaysSigned || (first != '\0' && !textStart(start).starts_with(first))))
+  if (wanted && (wanted->alwaysHasMagic || (first != '\0' && !textStart(start).starts_with(first))))
   {
     throw Error(
       name + ": is not " + kindOf(*wanted) + ": it begins with " + beginningOf(start) + '.');

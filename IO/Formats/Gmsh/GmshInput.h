@@ -74,9 +74,9 @@ public:
   void requireRoom(std::int64_t count, const char* what, std::size_t minBytes) const
   {
     const std::size_t left = this->InNumbers ? this->Numbers.left() : this->Scanner.left();
-    if (!hasRoom(count, minBytes, left))
+    if (!fitsInFile(count, minBytes, left))
     {
-      this->fail(sentenceOnRoom(count, what, left));
+      this->fail(countError(count, what, left));
     }
   }
 

@@ -233,10 +233,10 @@ const Format BinaryMeditFormat{
   .suffixes = BinaryMeditSuffixes,
   .description = "versions 1 to 4",
   .cells = "as Medit",
-  .hasSign = isBinaryMedit,
-  .alwaysSigned = true,
+  .hasMagic = isBinaryMedit,
+  .alwaysHasMagic = true,
   .parse = parseWith<importBinaryMedit>,
-  .share = { 130, 4 },
+  .typicalBytes = { 130, 4 },
 };
 
 } // namespace smg

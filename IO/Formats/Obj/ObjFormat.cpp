@@ -349,7 +349,7 @@ const Format ObjFormat{
   .cells = "polygons",
   .vertexColumns = ObjColumns,
   .isReadByVtk = true,
-  .looksRight = looksLikeObj,
+  .looksLike = looksLikeObj,
   .parse = parseWith<importObj>,
   .bytes = bytesOfObj,
   .writer = makeWriter<ObjWriter>,

@@ -260,7 +260,7 @@ const Format OffFormat{
   .description = "text and binary",
   .cells = "polygons",
   .vertexColumns = OffColumns,
-  .hasSign = isOff,
+  .hasMagic = isOff,
   .parse = parseWith<importOff>,
   .counts = countsOfOff,
   .bytes = bytesOfOff,

@@ -70,13 +70,13 @@ const Format PlyFormat{
   .cells = "triangles, polygons, strips",
   .holdsColumns = true,
   .isReadByVtk = true,
-  .hasSign = isPly,
-  .alwaysSigned = true,
+  .hasMagic = isPly,
+  .alwaysHasMagic = true,
   .parse = parseWith<importPly>,
   .counts = countsOfPly,
   .bytes = bytesOfPly,
   .writer = makePlyWriter,
-  .turn = PartTurn::AsTheyCome,
+  .writeOrder = WriteOrder::Interleaved,
 };
 
 } // namespace smg

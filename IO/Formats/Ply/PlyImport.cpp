@@ -257,10 +257,10 @@ void checkLength(const InputFile& file, const PlyHeader& header)
   for (const PlyElement& element : header.elements)
   {
     const std::size_t least = element.minBytes(header.encoding == PlyEncoding::Ascii);
-    if (!hasRoom(element.count, least, left))
+    if (!fitsInFile(element.count, least, left))
     {
       file.fail(
-        header.bodyOffset, sentenceOnRoom(element.count,
+        header.bodyOffset, countError(element.count,
                              "the number of records of element " + inQuotes(element.name), left));
     }
     left -= std::min(left, static_cast<std::size_t>(element.count) * least);

@@ -29,7 +29,7 @@ struct BadHeader
   /** In ascending priority: of a header that is valid in neither order, the highest is reported. */
   enum Kind
   {
-    Nonsense,
+    Inconsistent,
     Truncated, ///< tells something only in the order that the file says
     TooLong    ///< perhaps only since it has more comments than are read
   };
@@ -41,7 +41,7 @@ void require(bool makesSense)
 {
   if (!makesSense)
   {
-    throw BadHeader{ BadHeader::Nonsense, {} };
+    throw BadHeader{ BadHeader::Inconsistent, {} };
   }
 }
 
@@ -192,7 +192,7 @@ BinaryBegin readBegin(InputFile& file, StreamFormat format)
            " file goes on otherwise: this is another format, or the file is damaged.");
   }
   std::vector<BinaryBegin> candidates;
-  BadHeader told{ BadHeader::Nonsense,
+  BadHeader told{ BadHeader::Inconsistent,
     "byte 4: the header makes no sense in either byte order: the file is truncated or damaged." };
   for (const bool isBig : { flag == 1, flag == 0 })
   {

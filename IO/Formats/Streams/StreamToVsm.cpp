@@ -53,7 +53,7 @@ public:
     , VertexValues(scratch, memory / 8)
     , Queue(scratch, memory / 4)
     , CellValues(scratch, memory / 16)
-    , Until(scratch, memory / 16)
+    , LastUse(scratch, memory / 16)
   {
     const StreamInfo info = streamInfoOf(this->Header);
     this->Block.vertexColumns = emptyColumns(info.vertexColumns);
@@ -87,7 +87,7 @@ public:
     for (std::int64_t vertex = this->FirstFileVertex; this->AsideCount < this->isolatedVertices();
          vertex++)
     {
-      if (this->FileVertices.get(vertex).number == 0)
+      if (this->FileVertices.get(vertex).streamIndexPlus1 == 0)
       {
         this->setAside(vertex);
       }
@@ -105,8 +105,8 @@ private:
   {
     std::array<float, 3> position;
     std::uint32_t unused;
-    std::int64_t number; ///< its stream index + 1, or 0 if no delivered cell uses it
-    std::int64_t until;  ///< needed until this many cells are delivered, or always
+    std::int64_t streamIndexPlus1; ///< its stream index + 1, or 0 if no delivered cell uses it
+    std::int64_t lastUse;          ///< needed until this many cells are delivered, or always
   };
   static_assert(sizeof(Vertex) == 32);
 
@@ -132,7 +132,7 @@ private:
     {
       const std::int64_t vertex = event.corners[k];
       if (vertex < this->FirstFileVertex ||
-          (vertex < this->Vertices && this->FileVertices.get(vertex).until != Never))
+          (vertex < this->Vertices && this->FileVertices.get(vertex).lastUse != Never))
       {
         this->Reader.fail("the cell uses vertex " + std::to_string(vertex + 1) +
                           " of the file, which was final before.");
@@ -160,10 +160,10 @@ private:
       return;
     }
     Vertex& values = this->FileVertices.at(vertex);
-    values.until = std::min(values.until, this->Cells);
-    if (values.number > 0)
+    values.lastUse = std::min(values.lastUse, this->Cells);
+    if (values.streamIndexPlus1 > 0)
     {
-      this->Until.at(values.number - 1) = values.until;
+      this->LastUse.at(values.streamIndexPlus1 - 1) = values.lastUse;
     }
   }
 
@@ -190,7 +190,7 @@ private:
   {
     for (int k = 0; k < this->Corners; k++)
     {
-      const std::int64_t number = this->FileVertices.get(corners[k]).number;
+      const std::int64_t number = this->FileVertices.get(corners[k]).streamIndexPlus1;
       this->Block.corners.push_back(number > 0 ? number - 1 : this->introduce(corners[k]));
     }
     push(this->Block.cellColumns[0], this->Delivered);
@@ -211,8 +211,8 @@ private:
   {
     const std::int64_t id = this->Used++;
     Vertex& values = this->FileVertices.at(vertex);
-    values.number = id + 1;
-    this->Until.at(id) = values.until;
+    values.streamIndexPlus1 = id + 1;
+    this->LastUse.at(id) = values.lastUse;
     this->append(vertex, values.position, this->Block.positions, this->Block.vertexColumns);
     return id;
   }
@@ -237,18 +237,18 @@ private:
     while (this->FirstFileVertex < this->Vertices)
     {
       const Vertex vertex = this->FileVertices.get(this->FirstFileVertex);
-      if (vertex.until > this->Delivered)
+      if (vertex.lastUse > this->Delivered)
       {
         break;
       }
-      if (vertex.number == 0)
+      if (vertex.streamIndexPlus1 == 0)
       {
         this->setAside(this->FirstFileVertex);
       }
       this->FirstFileVertex++;
     }
     while (this->FirstStreamVertex < this->Used &&
-           this->Until.get(this->FirstStreamVertex) <= this->Delivered)
+           this->LastUse.get(this->FirstStreamVertex) <= this->Delivered)
     {
       this->FirstStreamVertex++;
     }
@@ -290,7 +290,7 @@ private:
     this->VertexValues.discardBelow(this->FirstFileVertex * this->Values);
     this->Queue.discardBelow(this->Delivered);
     this->CellValues.discardBelow(this->Delivered * this->Header.cellInts);
-    this->Until.discardBelow(this->FirstStreamVertex);
+    this->LastUse.discardBelow(this->FirstStreamVertex);
   }
 
   const StreamFileReader& Reader;
@@ -308,7 +308,7 @@ private:
   PagedArray<std::int32_t> VertexValues;         ///< further values of these, bits of floats too
   PagedArray<std::array<std::int64_t, 4>> Queue; ///< corners of the cells, by place in the file
   PagedArray<std::int32_t> CellValues;
-  PagedArray<std::int64_t> Until;   ///< like Vertex::until, by stream index
+  PagedArray<std::int64_t> LastUse; ///< like Vertex::lastUse, by stream index
   std::int64_t FirstFileVertex = 0; ///< earlier vertices are not needed any more
   std::int64_t FirstStreamVertex = 0;
 

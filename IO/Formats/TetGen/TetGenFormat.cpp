@@ -371,7 +371,7 @@ const Format TetGenFormat{
   .description = "two files in a folder, either of which may be named",
   .cells = "triangles, tetrahedra",
   .parse = parseWith<importTetGen>,
-  .share = { 200, 4 },
+  .typicalBytes = { 200, 4 },
   .bytes = bytesOfTetGen,
   .writer = makeWriter<TetGenWriter>,
   .maxCorners = 3,

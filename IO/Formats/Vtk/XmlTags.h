@@ -35,9 +35,8 @@ struct XmlTag
 };
 
 /**
- * Goes from tag to tag of an XML file, over text, comments and declarations. It is no parser of all
- * of XML and needs none of the file in memory but the tag, so that it also reads what precedes data
- * that are no XML.
+ * Goes from tag to tag of an XML file, over text, comments and declarations. Not a full XML
+ * parser: holds one tag in memory, and stops before raw appended data.
  */
 class XmlTags
 {

@@ -2,9 +2,9 @@
 #include "IO/Order/Pages/PageBuilder.h"
 
 #include "IO/External/Relabelling.h"
-#include "IO/Order/Pages/Contraction.h"
 #include "IO/Order/Pages/EdgeMetric.h"
 #include "IO/Order/Pages/GroupPages.h"
+#include "IO/Order/Pages/HashStarClustering.h"
 #include "IO/Order/Pages/RankedVertices.h"
 #include "IO/Order/Pages/VertexStar.h"
 
@@ -19,7 +19,7 @@
 // sorted by their keys on a Hilbert curve, which gives them ranks; the cells renumbered by ranks;
 // the cells collected in groups of pages; the pages of one group after another. If too many edges
 // leave their pages, as where coordinates are arbitrary, ranks come from repeated contraction of
-// the graph instead (Contraction.h).
+// the graph instead (HashStarClustering.h).
 //
 // Keys decide the order and ties go to the lower number, so the pages do not depend on threads;
 // they do depend on the memory, which chooses the size of pages. The workspace bounds the memory;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/Pages/Contraction.h"
+#include "IO/Order/Pages/HashStarClustering.h"
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
