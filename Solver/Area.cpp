@@ -7,6 +7,7 @@
 #include "Solver/Memory/Ring.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "Solver/Problem/Selection.h"
 #include "smg/Error.h"
@@ -98,7 +99,7 @@ private:
   void prepare(double end);
   void add(const MeshBlock& block);
   void select(const MeshBlock& block);
-  void addCell(const MeshBlock& block, const std::int64_t* corners);
+  void addCell(const MeshBlock& block, const std::int64_t* corners, std::size_t c);
   double tagOf(const MeshBlock& block, std::size_t cell) const;
   Sum& sumOf(double tag);
   void write(std::int64_t finalized);
@@ -196,8 +197,8 @@ void AreaPass::add(const MeshBlock& block)
     std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
   }
   this->select(block);
-  forCells(this->Mesh.info().cellType, block,
-    [&](const std::int64_t* corners) { this->addCell(block, corners); });
+  forUnflaggedCells(this->Mesh.info().cellType, block,
+    [&](const std::int64_t* corners, std::size_t c) { this->addCell(block, corners, c); });
 }
 
 /** Finds the cells that lie in one of the parts. */
@@ -208,8 +209,7 @@ void AreaPass::select(const MeshBlock& block)
     return;
   }
   this->All.startBlock(block);
-  const std::size_t cells =
-    block.corners.size() / static_cast<std::size_t>(cornersOf(this->Mesh.info().cellType));
+  const std::size_t cells = cellsOf(this->Mesh.info().cellType, block);
   this->Counts.assign(cells, 0);
   this->IsIn.resize(cells);
   for (const Selection* part : this->Parts)
@@ -223,15 +223,13 @@ void AreaPass::select(const MeshBlock& block)
   }
 }
 
-void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners)
+void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners, std::size_t c)
 {
-  const int count = cornersOf(this->Mesh.info().cellType);
-  const auto cell =
-    static_cast<std::size_t>(corners - block.corners.data()) / static_cast<std::size_t>(count);
-  if (!this->Parts.empty() && this->Counts[cell] == 0)
+  if (!this->Parts.empty() && this->Counts[c] == 0)
   {
     return;
   }
+  const int count = cornersOf(this->Mesh.info().cellType);
   std::array<const double*, 4> at{};
   for (int k = 0; k < count; ++k)
   {
@@ -254,9 +252,7 @@ void AreaPass::addCell(const MeshBlock& block, const std::int64_t* corners)
   this->Total.area += size;
   if (this->Tag)
   {
-    const auto cell =
-      static_cast<std::size_t>(corners - block.corners.data()) / static_cast<std::size_t>(count);
-    Sum& sum = this->sumOf(this->tagOf(block, cell));
+    Sum& sum = this->sumOf(this->tagOf(block, c));
     ++sum.cells;
     sum.area += size;
   }

@@ -9,6 +9,7 @@
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "Solver/Multigrid/Setup/SliverRows.h"
 #include "smg/CellWeights.h"
 #include "smg/VsmReader.h"
@@ -183,7 +184,7 @@ public:
     this->Measures.add(block);
     this->Topology.extend(this->Check.vertices());
     forAllCells(this->Info.cellType, block,
-      [this](const std::int64_t* corners, unsigned flags)
+      [this](const std::int64_t* corners, unsigned flags, std::size_t /*c*/)
       {
         this->Shapes.add(corners, flags, this->Measures);
         if (!hasRepeatedCorner(corners, cornersOf(this->Info.cellType)))

@@ -236,7 +236,7 @@ void Assembly::collectVertex(std::int64_t i)
   // a constraint later, and its sums are not used.
   const bool counts = root >= 0 && this->Parts.isFloating(root);
   made.vertices.push_back(
-    { end, rowSum, weight, this->Reach[i], this->Cells.policy.own() ? open.scale[i] : 1.0F,
+    { end, rowSum, weight, this->Reach[i], this->Cells.cells.hasData() ? open.scale[i] : 1.0F,
       root < 0 ? -1 : this->Cells.parts.label(i), counts });
 }
 

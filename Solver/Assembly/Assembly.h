@@ -81,8 +81,7 @@ public:
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }
-  /** The weighing of the cells and its counts. */
-  const StiffnessRules& weights() const { return this->Cells.policy; }
+  const CellCounts& cellCounts() const { return this->Cells.counts; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
   /** See SliverRows. */

@@ -13,25 +13,18 @@
 
 namespace smg
 {
-namespace
-{
-
-std::size_t cellsOf(const MeshBlock& block, CellType type)
-{
-  return block.corners.size() / static_cast<std::size_t>(cornersOf(type));
-}
-
-} // namespace
 
 CellAssembly::CellAssembly(Pool& pool, CellType type, Problem& problem, double& scale,
   Components& components, ComponentLabels& labels, Solution* solution)
-  : policy(type, problem, scale)
+  : cells(type, problem)
   , vertices(pool, problem, solution)
   , parts(pool, components, labels)
   , edges(pool, problem, type)
   , loads(pool, type, problem, this->vertices)
-  , Type(type)
+  , Scale(scale)
 {
+  this->counts.measures.areWeights =
+    !this->cells.hasData() && this->cells.kind() != Weights::Uniform;
 }
 
 void CellAssembly::add(const MeshBlock& block)
@@ -40,11 +33,11 @@ void CellAssembly::add(const MeshBlock& block)
   constexpr std::size_t Batch = 256;
   this->addVertices(block);
   this->extend(this->vertices.end());
-  const std::size_t cells = cellsOf(block, this->Type);
-  for (std::size_t begin = 0; begin < cells; begin += Batch)
+  const std::size_t count = cellsOf(this->cells.type(), block);
+  for (std::size_t begin = 0; begin < count; begin += Batch)
   {
     this->Weighed.clear();
-    this->weigh(block, begin, std::min(cells, begin + Batch), this->Weighed);
+    this->weigh(block, begin, std::min(count, begin + Batch), this->Weighed);
     this->connect(this->Weighed);
   }
   this->loads.addFacets(block);
@@ -59,9 +52,9 @@ void CellAssembly::reserve(std::int64_t vertices)
 void CellAssembly::weigh(const MeshBlock& block, ElementMatrices& to)
 {
   this->addVertices(block);
-  const std::size_t cells = cellsOf(block, this->Type);
-  to.cells.reserve(cells);
-  this->weigh(block, 0, cells, to.cells);
+  const std::size_t count = cellsOf(this->cells.type(), block);
+  to.cells.reserve(count);
+  this->weigh(block, 0, count, to.cells);
   to.vertices = this->vertices.end();
   to.finalized = block.finalized;
 }
@@ -89,41 +82,34 @@ void CellAssembly::extend(std::int64_t vertices)
 void CellAssembly::weigh(
   const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<ElementMatrix>& to)
 {
-  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
-  const Column* flags = block.flags();
-  for (std::size_t c = begin; c < end; ++c)
-  {
-    this->policy.prepare(block, c, this->vertices.points);
-    this->weigh(
-      block.corners.data() + c * corners, flags ? static_cast<unsigned>(flags->value(c)) : 0U, to);
-  }
+  this->cells.forRange(block, begin, end, this->vertices.points,
+    [&](const WeightedCell& cell) { this->weigh(cell, to); });
 }
 
-/** Weighs the prepared cell. */
-void CellAssembly::weigh(
-  const std::int64_t* corners, unsigned flags, std::vector<ElementMatrix>& to)
+void CellAssembly::weigh(const WeightedCell& cell, std::vector<ElementMatrix>& to)
 {
-  const double* points[4] = {};
-  const int count = cornersOf(this->Type);
-  for (int k = 0; k < count; ++k)
+  const CellType type = this->cells.type();
+  this->counts.add(type, cell);
+  const bool isWeighted = cell.weights.measure != 0.0;
+  if (isWeighted && cell.data && !this->Scaled && this->cells.kind() == Weights::Cotangent)
   {
-    points[k] = this->vertices.points.at(corners[k]);
+    // Of the first weighted cell of the stream, whatever the size of blocks.
+    this->Scale = cell.scale;
+    this->Scaled = true;
   }
-  const CellWeights weights = this->policy.weigh(corners, points, flags);
-  const bool degenerate = weights.measure == 0.0;
   // A flat cell that connects its corners is kept with weights of 0: its edges get the smallest
   // weight.
-  if (!degenerate || this->policy.connectsFlat(corners, flags))
+  if (cell.connects)
   {
-    ElementMatrix& cell = to.emplace_back();
-    std::copy_n(corners, count, cell.corners);
-    cell.weights = weights;
-    cell.scale = this->policy.scale();
+    ElementMatrix& matrix = to.emplace_back();
+    std::copy_n(cell.corners, cornersOf(type), matrix.corners);
+    matrix.weights = cell.stiffness();
+    matrix.scale = cell.scale;
   }
   // A cell without measure has no share of sources, screening or fields.
-  if (!degenerate && this->policy.own())
+  if (isWeighted && cell.data)
   {
-    this->loads.addCell(corners, points, *this->policy.own());
+    this->loads.addCell(cell);
   }
 }
 
@@ -138,7 +124,7 @@ void CellAssembly::connect(std::span<const ElementMatrix> cells)
 /** Adds the weights and the mass of a cell to its edges and corners, which become one component. */
 void CellAssembly::connect(const ElementMatrix& cell)
 {
-  const int count = cornersOf(this->Type);
+  const int count = cornersOf(this->cells.type());
   this->parts.join(cell.corners, count);
   // Lumping: each corner has the same share of the area or volume. The masses are written here
   // though weigh() extends their ring: reserve() has made room, so that it does not move meanwhile.
@@ -149,12 +135,12 @@ void CellAssembly::connect(const ElementMatrix& cell)
     this->vertices.mass[cell.corners[k]] += mass;
     points[k] = this->vertices.points.at(cell.corners[k]);
   }
-  if (this->policy.own() && cell.weights.measure > 0.0)
+  if (this->cells.hasData() && cell.weights.measure > 0.0)
   {
     this->LeastScale = this->LeastScale > 0.0 ? std::min(this->LeastScale, cell.scale) : cell.scale;
     this->MostScale = std::max(this->MostScale, cell.scale);
   }
-  for (int k = 0; this->policy.own() && k < count; ++k)
+  for (int k = 0; this->cells.hasData() && k < count; ++k)
   {
     // The largest scale at a vertex decides which weights of its row are usual; see
     // RowAssembly::addEdge().

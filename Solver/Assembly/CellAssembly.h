@@ -5,7 +5,7 @@
 #include "Solver/Assembly/Edges.h"
 #include "Solver/Assembly/Loads.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Assembly/ProblemCells.h"
+#include "Solver/Assembly/WeightedCells.h"
 #include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -23,7 +23,7 @@ struct ElementMatrix
 {
   std::int64_t corners[4]; ///< 3 of a triangle
   CellWeights weights;
-  double scale; ///< see StiffnessRules::scale()
+  double scale; ///< of these, see ProblemCells::scale()
 };
 
 /** Consecutive cells of a mesh stream that connect their corners. */
@@ -45,8 +45,8 @@ struct ElementMatrices
  * masses, loads and components. Assembly turns them into rows in stream order. */
 struct SMG_EXPORT CellAssembly
 {
-  /** `scale`: see StiffnessRules; `labels` receives the component of each closed vertex;
-   * `solution`: see Assembly. */
+  /** `scale` is set to the size of the weights of the problem, see AssembledRows::weightScale;
+   * `labels` receives the component of each closed vertex; `solution`: see Assembly. */
   CellAssembly(Pool& pool, CellType type, Problem& problem, double& scale, Components& components,
     ComponentLabels& labels, Solution* solution = nullptr);
 
@@ -74,7 +74,8 @@ struct SMG_EXPORT CellAssembly
     return this->LeastScale > 0.0 ? this->MostScale / this->LeastScale : 1.0;
   }
 
-  StiffnessRules policy;
+  WeightedCells cells;
+  CellCounts counts;
   OpenVertices vertices;
   OpenComponents parts;
   EdgeStiffness edges;
@@ -85,11 +86,12 @@ private:
   void extend(std::int64_t vertices);
   void weigh(
     const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<ElementMatrix>& to);
-  void weigh(const std::int64_t* corners, unsigned flags, std::vector<ElementMatrix>& to);
+  void weigh(const WeightedCell& cell, std::vector<ElementMatrix>& to);
   void connect(std::span<const ElementMatrix> cells);
   void connect(const ElementMatrix& cell);
 
-  CellType Type;
+  double& Scale;
+  bool Scaled = false;                      // Scale is known
   double LeastScale = 0.0, MostScale = 0.0; // of all cells
   std::vector<ElementMatrix> Weighed;       // a batch of add()
 };

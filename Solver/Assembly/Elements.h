@@ -43,25 +43,6 @@ private:
   std::array<Vector, 4> Of{};
 };
 
-/** Whether a cell uses a vertex twice. */
-inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
-{
-  for (int a = 1; a < count; ++a)
-  {
-    if (std::find(corners, corners + a, corners[a]) != corners + a)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/** Whether a cell with these flags (CellFlag) is no duplicate and has distinct corners. */
-inline bool isDistinctCell(const std::int64_t* corners, int count, unsigned flags)
-{
-  return (flags & DuplicateCell) == 0 && !hasRepeatedCorner(corners, count);
-}
-
 /** Whether two corners of a cell of several vertices lie at the same place, up to rounding. */
 SMG_EXPORT bool hasCoincidentCorners(const double* const* corners, int count);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/Facets.h"
 
-#include "Solver/Assembly/Elements.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -153,20 +153,11 @@ void OpenFacets::append(Hub& hub, std::int32_t slot)
  * first triangle runs along it. */
 void BoundaryFacets::addCells(const MeshBlock& block)
 {
-  const int corners = cornersOf(this->Type);
-  const std::size_t cells = block.corners.size() / static_cast<std::size_t>(corners);
-  const Column* flags = block.flags();
-  for (std::size_t c = 0; c < cells; ++c)
+  const auto addCell = [this](const std::int64_t* corners, std::size_t /*c*/)
   {
-    const std::int64_t* corner = block.corners.data() + c * static_cast<std::size_t>(corners);
-    const unsigned flag = flags ? static_cast<unsigned>(flags->value(c)) : 0;
-    if (!isDistinctCell(corner, corners, flag))
+    for (int k = 0; k < cornersOf(this->Type); ++k)
     {
-      continue;
-    }
-    for (int k = 0; k < corners; ++k)
-    {
-      const CellFacet facet = facetOf(this->Type, corner, k);
+      const CellFacet facet = facetOf(this->Type, corners, k);
       // Of an edge: 1 if the triangle runs along it from the lower vertex to the higher one,
       // else 2. The corners of edge 1 are 0 and 2, along which the triangle runs from 2 to 0.
       const std::int32_t direction = (facet.order[0] == 0) != (k == 1) ? 1 : 2;
@@ -182,7 +173,8 @@ void BoundaryFacets::addCells(const MeshBlock& block)
         this->MaybeTurned.erase({ facet.vertex[0], facet.vertex[1] });
       }
     }
-  }
+  };
+  forDistinctCells(this->Type, block, addCell);
 }
 
 } // namespace smg

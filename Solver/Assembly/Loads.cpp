@@ -45,25 +45,23 @@ void VertexLoads::release(std::int64_t first)
 
 /** The shares of a cell in the screening and sources at its corners, and the integrals of its
  * field. */
-void VertexLoads::add(
-  const std::int64_t* corners, const double* const* points, const ProblemCells& cells)
+void VertexLoads::add(const WeightedCell& cell)
 {
   const int count = cornersOf(this->Type);
-  const double measure = cells.weights().measure;
-  const double mass = measure / count;
-  const double screening = *cells.density(ScreeningDensity);
-  const double* source = cells.density(SourceDensity);
+  const double mass = cell.weights.measure / count;
+  const double screening = *cell.data->density(ScreeningDensity);
+  const double* source = cell.data->density(SourceDensity);
   double* loads[4] = {};
   for (int c = 0; c < count; ++c)
   {
-    this->RowSum[corners[c]] += mass * screening;
-    loads[c] = this->Load.at(corners[c]);
+    this->RowSum[cell.corners[c]] += mass * screening;
+    loads[c] = this->Load.at(cell.corners[c]);
     for (int k = 0; k < this->Columns; ++k)
     {
       loads[c][k] += mass * source[k];
     }
   }
-  addFieldLoads(cells, this->Type, points, this->Columns, loads);
+  addFieldLoads(cell, this->Type, this->Columns, loads);
 }
 
 void VertexLoads::add(const BoundaryFacet& facet, double area, const OpenVertices* solved)
@@ -96,8 +94,7 @@ void VertexLoads::add(const BoundaryFacet& facet, double area, const OpenVertice
 }
 
 RowLoads::RowLoads(Pool& pool, CellType type, Problem& problem, const OpenVertices& vertices)
-  : Type(type)
-  , Vertices(vertices)
+  : Vertices(vertices)
   , Load(static_cast<std::size_t>(problem.columns()))
 {
   if (problem.hasCells())
@@ -199,23 +196,8 @@ double RowLoads::close(std::int64_t i)
  */
 void RowLoads::addBoundary(std::int64_t i)
 {
-  this->Facets->take(i,
-    [this](const BoundaryFacet& facet)
-    {
-      // `Inner` has the facets whose second cell another process has.
-      const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
-      if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
-      {
-        return;
-      }
-      const double* points[3] = {};
-      for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
-      {
-        points[k] = this->Vertices.points.at(facet.corners[k]);
-      }
-      this->OfFacets->add(facet, facetArea(this->Type, points),
-        this->Vertices.isSolved() ? &this->Vertices : nullptr);
-    });
+  this->Facets->take(i, [this](const BoundaryFacet& facet, double area)
+    { this->OfFacets->add(facet, area, this->Vertices.isSolved() ? &this->Vertices : nullptr); });
 }
 
 } // namespace smg

@@ -3,8 +3,8 @@
 
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Assembly/ProblemCells.h"
 #include "Solver/Assembly/ProblemFacets.h"
+#include "Solver/Assembly/WeightedCells.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -29,8 +29,8 @@ public:
   void reserve(std::int64_t vertices);
   void release(std::int64_t first);
 
-  /** Adds screening, source and field of the prepared cell, which must have a measure. */
-  void add(const std::int64_t* corners, const double* const* points, const ProblemCells& cells);
+  /** Adds screening, source and field of a cell, which must have data and a measure. */
+  void add(const WeightedCell& cell);
   /** Adds flux and heat transfer of a facet with this length or area; with a solution
    * what that leaves of the heat transfer. */
   void add(const BoundaryFacet& facet, double area, const OpenVertices* solved = nullptr);
@@ -59,17 +59,14 @@ public:
   void reserve(std::int64_t vertices);
   /** Adds the facets of the cells of the block. */
   void addFacets(const MeshBlock& block);
-  /** Adds the data of the prepared cell, which must have a measure. */
-  void addCell(const std::int64_t* corners, const double* const* points, const ProblemCells& cells)
-  {
-    this->OfCells->add(corners, points, cells);
-  }
+  /** Adds the data of a cell, which must have some and a measure. */
+  void addCell(const WeightedCell& cell) { this->OfCells->add(cell); }
   void release(std::int64_t first);
 
   /** The facets so far; null if the problem has no data on facets. */
   const OpenFacets* facets() const { return this->Facets ? &this->Facets->open() : nullptr; }
-  /** Excludes interior facets of which the stream, a part of the mesh, has only one cell. */
-  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+  /** See ProblemFacets; the problem must have data on facets. */
+  void exclude(FacetSet facets) { this->Facets->exclude(std::move(facets)); }
 
   /** Sums all contributions to vertex i, the lowest open one. Returns the one to the diagonal. */
   double close(std::int64_t i);
@@ -79,10 +76,8 @@ public:
 private:
   void addBoundary(std::int64_t i);
 
-  CellType Type;
   const OpenVertices& Vertices;
   std::optional<ProblemFacets> Facets;
-  FacetSet Inner;
   // Separate sums: when a facet is known to be on the boundary depends on the blocks.
   std::optional<VertexLoads> OfCells, OfFacets;
   std::vector<double> Load;

@@ -3,20 +3,17 @@
 
 #include "Solver/Assembly/Elements.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-// The data of a problem in its cells, and the weights that a solve takes from them.
-//
-// The problem is asked for a batch of consecutive cells of a block in one call; its numbers are
-// checked here, where the cell can still be named. StiffnessRules chooses the weights of a cell:
-// those of finite elements or of the problem, scaled down where the cell is too flat (see
-// flatnessFactor()). All of this depends on one cell only, except for the scale of all weights,
-// which the first weighted cell of the stream determines; blocks, batches and threads change
-// nothing. The time per cell is constant; the memory holds one batch.
+// The data of a problem in its cells. The problem is asked for a batch of consecutive cells of a
+// block in one call; its numbers are checked here, where the cell can still be named. They depend
+// on one cell only: blocks, batches and threads change nothing. The time per cell is constant; the
+// memory holds one batch.
 
 namespace smg
 {
@@ -83,8 +80,7 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
 void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<double>& points)
 {
   const int corners = cornersOf(this->Type);
-  const std::size_t all = block.corners.size() / static_cast<std::size_t>(corners);
-  const std::size_t cells = std::min(BatchCells, all - first);
+  const std::size_t cells = std::min(BatchCells, cellsOf(this->Type, block) - first);
   this->Cells.resize(cells);
   this->Points.clear();
   this->Weight.clear();
@@ -105,6 +101,7 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
       this->Points.insert(this->Points.end(), point[k], point[k] + 3);
     }
     cell.weights = cellWeights(this->Type, point);
+    cell.scale = 1.0;
     // Of the geometry alone, before the problem changes the weights: so it does not depend on the
     // unit of a conductivity.
     cell.flatness =
@@ -190,144 +187,6 @@ void ProblemCells::requireValid(std::size_t k, const MeshBlock& block, std::size
     throw Error("the problem's part of " + nameOf(block, c) + " is " +
                 std::to_string(this->Part[k]) + ", of " + std::to_string(this->Parts));
   }
-}
-
-double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
-  const double* const* points, const CellWeights& cell)
-{
-  return kind != Weights::Cotangent ? 1.0
-         : own                      ? own->flatness()
-                                    : flatnessFactor(type, points, cell);
-}
-
-void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
-  double* const* load)
-{
-  const double* field = own.field();
-  // Without a field, the gradients are not needed.
-  if (std::all_of(field, field + 3 * columns, [](double q) { return q == 0.0; }))
-  {
-    return;
-  }
-  // The gradients are constant in a cell, so the integral is the product with its measure.
-  const double weight = own.flatness() * own.weights().measure;
-  const CellGradients gradients(type, points);
-  for (int c = 0; c < cornersOf(type); ++c)
-  {
-    for (int k = 0; k < columns; ++k)
-    {
-      load[c][k] +=
-        weight * dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
-    }
-  }
-}
-
-namespace
-{
-
-/** Products of four lengths must be numbers, and for tetrahedra, whose weights have the unit of
- * length, products and inverses in single precision. */
-constexpr double LargestLength = 1e70, LargestWeight = 1e25;
-
-bool isWithin(double size, double largest)
-{
-  return size >= 1.0 / largest && size <= largest;
-}
-
-} // namespace
-
-void MeasureRange::addLost(const double* const* corners, int count)
-{
-  double length = 0.0;
-  for (int k = 1; k < count; ++k)
-  {
-    for (int d = 0; d < 3; ++d)
-    {
-      length = std::max(length, std::fabs(corners[k][d] - corners[0][d]));
-    }
-  }
-  this->lost += length > 0.0 && !isWithin(length, LargestLength) ? 1 : 0;
-}
-
-void MeasureRange::check(CellType type) const
-{
-  const bool isSurface = type == CellType::Triangle;
-  const double length = isSurface ? std::sqrt(this->largest) : std::cbrt(this->largest);
-  const double most = this->areWeights && !isSurface ? LargestWeight : LargestLength;
-  if (this->largest > 0.0 ? !isWithin(length, most) : this->lost > 0)
-  {
-    throw Error(
-      std::string("the cells of the mesh are too small or too large for numbers of double "
-                  "precision: scale the mesh, so that their edges are within ") +
-      (isSurface ? "1e-70 to 1e70" : "1e-25 to 1e25"));
-  }
-}
-
-StiffnessRules::StiffnessRules(CellType type, Problem& problem, double& scale)
-  : Type(type)
-  , Kind(problem.weights())
-  , ConnectsFlat(problem.connectsFlatCells())
-  , Scale(scale)
-{
-  if (problem.hasCells())
-  {
-    this->Own.emplace(problem, type);
-  }
-  this->Measures.areWeights = !this->Own && this->Kind != Weights::Uniform;
-}
-
-/** The weights of the prepared cell, and the counts of cells without weight. Flagged cells and
- * those that use a vertex twice have none, whatever the problem sets. */
-CellWeights StiffnessRules::weigh(
-  const std::int64_t* corners, const double* const* points, unsigned flags)
-{
-  CellWeights cell;
-  const int count = cornersOf(this->Type);
-  if (flags == 0 && !hasRepeatedCorner(corners, count))
-  {
-    cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
-  }
-  if (cell.measure == 0.0)
-  {
-    ++this->Degenerate;
-    // Distinct vertices at one place: the mesh looks closed there and is not, which the report
-    // warns of.
-    const bool joins = isDistinctCell(corners, count, flags) && hasCoincidentCorners(points, count);
-    this->Coincident += joins ? 1 : 0;
-    this->Measures.addLost(points, count);
-    return cell;
-  }
-  this->Measures.largest = std::max(this->Measures.largest, cell.measure);
-  // The other kinds of weights are positive after EdgeStiffness, so nothing cancels in their rows.
-  if (this->Kind != Weights::Cotangent)
-  {
-    return cell;
-  }
-  // The first weighted cell of the stream, whatever the size of blocks.
-  if (this->Own && !this->Scaled)
-  {
-    this->Scale = this->Own->scale();
-    this->Scaled = true;
-  }
-  const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
-  return flatness < 1.0 ? this->limited(cell, flatness) : cell;
-}
-
-/** Scales all weights by the same factor, which keeps the stiffness positive semidefinite. */
-CellWeights StiffnessRules::limited(CellWeights cell, double flatness)
-{
-  ++this->Limited;
-  this->MinFlatness = std::min(this->MinFlatness, flatness);
-  for (double& weight : cell.weight)
-  {
-    weight *= flatness;
-  }
-  return cell;
-}
-
-bool StiffnessRules::connectsFlat(const std::int64_t* corners, unsigned flags) const
-{
-  return this->ConnectsFlat && isDistinctCell(corners, cornersOf(this->Type), flags);
 }
 
 } // namespace smg

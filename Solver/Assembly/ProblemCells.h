@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace smg
@@ -83,85 +82,6 @@ private:
   std::vector<double> Points, Weight, Measure, Field, Conductivity;
   std::vector<std::int32_t> Part;
   std::array<std::vector<double>, Densities.size()> Values; ///< in the order of Densities
-};
-
-/** The factor by which a solve with these weights scales a cell down, see flatnessFactor(). `own`:
- * the problem's data in its cells, if any, with this cell prepared. */
-double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
-  const double* const* points, const CellWeights& cell);
-
-/** Adds the integral of q . grad phi_c over the prepared cell, which has these corners, to
- * `load[c]`, `columns` numbers for each corner c; scaled like the stiffness of the cell, so that
- * the field K grad g yields g. */
-void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
-  double* const* load);
-
-/** The sizes of the cells of a mesh, for the question whether squares and inverses of them are
- * numbers. A few cells may be of any size, as cells that have collapsed are. */
-struct MeasureRange
-{
-  double largest = 0.0;    ///< area or volume; 0: no cell has one
-  std::int64_t lost = 0;   ///< cells whose measure is not a number or 0, since their edges are
-                           ///< beyond the range of lengths
-  bool areWeights = false; ///< the weights are those of finite elements, with no other factor
-
-  void addLost(const double* const* corners, int count);
-  /** Throws Error if all cells are too small or too large. */
-  void check(CellType type) const;
-};
-
-/**
- * The weights that a cell contributes to its edges: those of finite elements or of the problem,
- * with Weights::Cotangent scaled down if the cell is too flat. EdgeStiffness sums them over the
- * cells of each edge.
- */
-class StiffnessRules
-{
-public:
-  /** `scale` is set to the size of the weights of the problem, see AssembledRows::weightScale. */
-  StiffnessRules(CellType type, Problem& problem, double& scale);
-
-  /** Prepares cell `c` of the block; see ProblemCells::prepare(). */
-  void prepare(const MeshBlock& block, std::size_t c, const Ring<double>& points)
-  {
-    if (this->Own)
-    {
-      this->Own->prepare(block, c, points);
-    }
-  }
-
-  // Of the prepared cell:
-
-  /** Its weights; measure 0 if it has none. */
-  CellWeights weigh(const std::int64_t* corners, const double* const* points, unsigned flags);
-  /** Whether its corners are connected even if it is degenerate. */
-  bool connectsFlat(const std::int64_t* corners, unsigned flags) const;
-  /** The size of its weights; see ProblemCells::scale(). */
-  double scale() const { return this->Own ? this->Own->scale() : 1.0; }
-  /** The data of the problem in its cells, if any. */
-  const std::optional<ProblemCells>& own() const { return this->Own; }
-
-  std::int64_t degenerateCells() const { return this->Degenerate; }
-  /** Degenerate cells some of whose distinct corners lie at the same place. */
-  std::int64_t coincidentCells() const { return this->Coincident; }
-  /** With cotangent weights: the number of cells whose stiffness was scaled down, and the least
-   * factor. */
-  std::int64_t limitedCells() const { return this->Limited; }
-  double minFlatness() const { return this->MinFlatness; }
-  const MeasureRange& measures() const { return this->Measures; }
-
-private:
-  CellWeights limited(CellWeights cell, double flatness);
-
-  CellType Type;
-  Weights Kind;
-  bool ConnectsFlat;
-  std::optional<ProblemCells> Own;
-  double& Scale;
-  bool Scaled = false; // Scale is known
-  std::int64_t Degenerate = 0, Coincident = 0, Limited = 0;
-  double MinFlatness = 1.0;
-  MeasureRange Measures;
 };
 
 } // namespace smg

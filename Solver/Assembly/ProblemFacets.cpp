@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Assembly/ProblemFacets.h"
 
-#include "Solver/Assembly/Elements.h"
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Mesh/AddedColumn.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/CellWeights.h"
 #include "smg/Error.h"
 
@@ -41,8 +41,7 @@ ProblemFacets::ProblemFacets(
 
 void ProblemFacets::add(const MeshBlock& block)
 {
-  const std::size_t cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
-  const Column* flags = block.flags();
+  const std::size_t cells = cellsOf(this->Type, block);
   // Original indices of the cells, for messages: the block is gone when a facet is found to be on
   // the boundary.
   const std::ptrdiff_t ids = findColumn(block.cellColumns, OriginalCellIdSpec);
@@ -55,15 +54,15 @@ void ProblemFacets::add(const MeshBlock& block)
     {
       this->ask(block, first, count);
     }
-    for (std::size_t c = 0; c < count; ++c)
-    {
-      const unsigned flag = flags ? static_cast<unsigned>(flags->value(first + c)) : 0;
-      // A duplicate would turn the boundary facets of its original into interior ones.
-      if ((flag & DuplicateCell) == 0)
+    forCellRange(this->Type, block, first, first + count,
+      [&](const std::int64_t* corners, unsigned flags, std::size_t c)
       {
-        this->addCell(block, first, c);
-      }
-    }
+        // A duplicate would turn the boundary facets of its original into interior ones.
+        if (isDistinctCell(corners, cornersOf(this->Type), flags))
+        {
+          this->addCell(corners, block.firstCell + static_cast<std::int64_t>(c), c - first);
+        }
+      });
   }
 }
 
@@ -83,13 +82,11 @@ void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t c
   this->Given.facets(batch);
 }
 
-/** Adds the facets of cell c of the batch that begins with cell `first`. */
-void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size_t c)
+/** Adds the facets of a cell, number `c` of the batch. */
+void ProblemFacets::addCell(const std::int64_t* corner, std::int64_t cell, std::size_t c)
 {
   const int corners = cornersOf(this->Type);
-  const std::int64_t* corner =
-    block.corners.data() + (first + c) * static_cast<std::size_t>(corners);
-  if (hasRepeatedCorner(corner, corners) || !(this->Asks || this->mayHaveWanted(corner)))
+  if (!(this->Asks || this->mayHaveWanted(corner)))
   {
     return;
   }
@@ -102,8 +99,7 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
       continue;
     }
     const std::size_t facet = c * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k);
-    const std::int32_t data =
-      this->keep(sorted.order, facet, block.firstCell + static_cast<std::int64_t>(first + c));
+    const std::int32_t data = this->keep(sorted.order, facet, cell);
     const std::int32_t before =
       this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
     // A second cell has the facet: it is interior, and neither cell's data are needed. A third one
@@ -219,6 +215,22 @@ BoundaryFacet ProblemFacets::facet(
     this->require(facet, name);
   }
   return facet;
+}
+
+bool ProblemFacets::isInner(const BoundaryFacet& facet) const
+{
+  const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
+  return this->Inner.contains({ facet.corners[0], facet.corners[1], third });
+}
+
+double ProblemFacets::areaOf(const BoundaryFacet& facet) const
+{
+  const double* points[3] = {};
+  for (std::size_t k = 0; k < this->Corners; ++k)
+  {
+    points[k] = this->Vertices.points.at(facet.corners[k]);
+  }
+  return facetArea(this->Type, points);
 }
 
 } // namespace smg

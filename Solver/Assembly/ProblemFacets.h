@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -34,15 +35,23 @@ public:
   /** The facets so far. */
   const OpenFacets& open() const { return this->Open; }
 
-  /** Calls found(facet) for each boundary facet whose lowest corner is `vertex`, which is final;
-   * the pointers of the facet are valid during the call. Throws Error if a value is invalid. */
+  /** Excludes interior facets whose second cell belongs to another part of the mesh. */
+  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+
+  /** Calls found(facet, area) for each boundary facet whose lowest corner is `vertex`, which is
+   * final, with its length or area; the pointers of the facet are valid during the call. Throws
+   * Error if a value is invalid. */
   template <class Found>
   void take(std::int64_t vertex, Found&& found)
   {
     this->Open.take(vertex,
       [&](std::int64_t middle, std::int64_t high, std::int32_t data)
       {
-        found(this->facet(vertex, middle, high, data));
+        const BoundaryFacet facet = this->facet(vertex, middle, high, data);
+        if (!this->isInner(facet))
+        {
+          found(facet, this->areaOf(facet));
+        }
         this->forget(data);
       });
   }
@@ -51,13 +60,15 @@ private:
   static constexpr std::size_t BatchCells = 64;
 
   void ask(const MeshBlock& block, std::size_t first, std::size_t cells);
-  void addCell(const MeshBlock& block, std::size_t first, std::size_t c);
+  void addCell(const std::int64_t* corner, std::int64_t cell, std::size_t c);
   bool mayHaveWanted(const std::int64_t* corner) const;
   bool isWanted(const std::int64_t* vertex) const;
   std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
   void require(const BoundaryFacet& facet, std::int64_t name) const;
   BoundaryFacet facet(
     std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
+  bool isInner(const BoundaryFacet& facet) const;
+  double areaOf(const BoundaryFacet& facet) const;
   void forget(std::int32_t data)
   {
     if (data > 0)
@@ -73,6 +84,7 @@ private:
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
+  FacetSet Inner; ///< those that are excluded
   /** The data of a facet: its two conditions, its cell, fluxes, coefficients and ambient values.
    * The cell is given by its index in the original file, or as -1 minus its index in the stream. */
   Slots<double> Kept;

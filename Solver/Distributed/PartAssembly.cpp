@@ -5,9 +5,11 @@
 #include "Solver/Assembly/RowSums.h"
 #include "Solver/Distributed/CheckPart.h"
 #include "Solver/Distributed/SharedElements.h"
+#include "Solver/Mesh/VisitCells.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -80,7 +82,7 @@ PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
 void PartAssembly::joinScales()
 {
   this->Scales.assign(static_cast<std::size_t>(this->Vertices.vertices()), 1.0F);
-  if (!this->Cells.policy.own())
+  if (!this->Cells.cells.hasData())
   {
     return;
   }
@@ -388,37 +390,34 @@ void PartAssembly::add(
 void PartAssembly::count(PartSystem& system) const
 {
   Team& team = this->Vertices.team();
-  const StiffnessRules& policy = this->Cells.policy;
-  const auto cells = static_cast<std::int64_t>(this->Part.block.corners.size()) /
-                     cornersOf(this->Part.info.cellType);
-  const std::int64_t unknowns = std::ranges::count(this->IsUnknown, 1);
-  std::int64_t counts[] = { cells, this->Prescribed,
-    static_cast<std::int64_t>(system.undetermined.size()), this->Raised, policy.degenerateCells(),
-    this->Cells.edges.clamped(), policy.limitedCells(), unknowns, this->Entries + unknowns,
-    policy.coincidentCells(), policy.measures().lost, this->AnyTerm ? 1 : 0 };
-  team.sum(counts);
-  double flatness = policy.minFlatness();
-  team.least({ &flatness, 1 });
-  double measure = policy.measures().largest;
-  team.largest({ &measure, 1 });
-  team.sum(system.termSquares);
-  team.sum(system.roundingSquares);
   AssemblyCounts& all = system.counts;
+  CellCounts& ofCells = all.ofCells;
   all.type = this->Part.info.cellType;
   all.vertices = this->Part.info.vertices;
-  all.cells = counts[0];
-  all.prescribed = counts[1];
-  all.held = counts[2];
-  all.raisedRows = counts[3];
-  all.degenerateCells = counts[4];
-  all.coincidentCells = counts[9];
-  all.clampedWeights = counts[5];
-  all.limitedCells = counts[6];
-  all.minFlatness = flatness;
-  all.measures = { measure, counts[10], policy.measures().areWeights };
-  all.anyTerm = counts[11] > 0;
-  system.unknowns = counts[7];
-  system.nonzeros = counts[8];
+  all.cells = static_cast<std::int64_t>(cellsOf(all.type, this->Part.block));
+  all.prescribed = this->Prescribed;
+  all.held = static_cast<std::int64_t>(system.undetermined.size());
+  all.raisedRows = this->Raised;
+  all.clampedWeights = this->Cells.edges.clamped();
+  ofCells = this->Cells.counts;
+  system.unknowns = std::ranges::count(this->IsUnknown, 1);
+  system.nonzeros = this->Entries + system.unknowns;
+  std::int64_t withTerms = this->AnyTerm ? 1 : 0;
+  std::int64_t* const places[] = { &all.cells, &all.prescribed, &all.held, &all.raisedRows,
+    &all.clampedWeights, &ofCells.degenerate, &ofCells.coincident, &ofCells.limited,
+    &ofCells.measures.lost, &system.unknowns, &system.nonzeros, &withTerms };
+  std::int64_t sums[std::size(places)];
+  std::ranges::transform(places, sums, [](const std::int64_t* place) { return *place; });
+  team.sum(sums);
+  for (std::size_t k = 0; k < std::size(places); ++k)
+  {
+    *places[k] = sums[k];
+  }
+  all.anyTerm = withTerms > 0;
+  team.least({ &ofCells.minFlatness, 1 });
+  team.largest({ &ofCells.measures.largest, 1 });
+  team.sum(system.termSquares);
+  team.sum(system.roundingSquares);
   all.components = system.components->components();
   all.freeComponents = system.components->freeComponents();
   // Of the column with the largest terms.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/MeshSource.h"
 
 #include <cstddef>
@@ -50,9 +51,8 @@ public:
       return false;
     }
     Column column{ this->Spec, {} };
-    const auto corners = static_cast<std::size_t>(cornersOf(this->Info.cellType));
     column.resize(this->Place == Vertices ? static_cast<std::size_t>(block.vertices())
-                                          : block.corners.size() / corners);
+                                          : cellsOf(this->Info.cellType, block));
     this->FillColumn(block, column);
     columns.push_back(std::move(column));
     return true;

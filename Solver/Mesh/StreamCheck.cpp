@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Mesh/StreamCheck.h"
 
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ void StreamCheck::add(const MeshBlock& block)
   }
   if (const Column* flags = block.flags())
   {
-    const auto cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
+    const auto cells = cellsOf(this->Type, block);
     if (flags->spec.type != ScalarType::UInt8 || flags->spec.components != 1 ||
         flags->bytes.size() != cells)
     {

@@ -2,6 +2,7 @@
 #include "Solver/Problem/Selection.h"
 
 #include "Solver/Mesh/StreamCheck.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/BoundarySelection.h"
 #include "Solver/Problem/ColumnSelection.h"
 #include "Solver/Problem/NearestSelection.h"
@@ -170,8 +171,7 @@ void Selection::add(const MeshBlock& block, const std::filesystem::path& /*scrat
     return;
   }
   const CellRange cells{ block, 0, block.corners };
-  std::vector<std::uint8_t> selected(
-    block.corners.size() / static_cast<std::size_t>(cornersOf(this->Columns.cellType())));
+  std::vector<std::uint8_t> selected(cellsOf(this->Columns.cellType(), block));
   this->Place == DataPlace::Cells ? this->atCells(cells, selected)
                                   : this->atFacets(cells, selected);
   this->Count += std::ranges::count_if(selected, [](std::uint8_t bits) { return bits != 0; });

@@ -2,6 +2,7 @@
 #include "Solver/Jobs/Blending/BlendProblem.h"
 
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/CellWeights.h"
 
@@ -126,17 +127,16 @@ void PatchGradients::add(const MeshBlock& block, const PatchedValues& values)
   std::ranges::copy(block.positions, this->Points.append(block.vertices()).begin());
   std::ranges::fill(this->Sums.append(block.vertices()), 0.0);
   this->Vertices += block.vertices();
-  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
-  // Flagged cells have no weight, hence no share of a mean.
-  const Column* flags = block.flags();
-  for (std::size_t c = 0; corners * c < block.corners.size(); ++c)
-  {
-    const auto cell = std::span(block.corners).subspan(corners * c, corners);
-    if (values.inOnePatch(cell) && (!flags || flags->value(c) == 0))
+  forAllCells(this->Type, block,
+    [&](const std::int64_t* corners, unsigned flags, std::size_t /*c*/)
     {
-      this->addCell(cell, values);
-    }
-  }
+      const std::span cell(corners, static_cast<std::size_t>(cornersOf(this->Type)));
+      // Flagged cells have no weight, hence no share of a mean.
+      if (flags == 0 && values.inOnePatch(cell))
+      {
+        this->addCell(cell, values);
+      }
+    });
   this->append(block.finalized);
   // The file has the sums now.
   this->Points.release(block.finalized);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/ChunkedMesh.h"
 
-#include "Solver/Assembly/Elements.h"
 #include "Solver/Core/Vector.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -100,25 +100,18 @@ ChunkWriter::ChunkWriter(
 void ChunkWriter::add(const MeshBlock& block)
 {
   this->addVertices(block);
-  const auto corners = static_cast<std::size_t>(cornersOf(this->To.plan.cellType));
-  const Column* flags = block.flags();
-  const std::size_t cells = block.corners.size() / corners;
-  for (std::size_t c = 0; c < cells; ++c)
-  {
-    const std::int64_t* cell = block.corners.data() + c * corners;
-    // Cells without area or volume take part, since two parts of a surface may be joined by them
-    // alone.
-    const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
-    if (!isDistinctCell(cell, static_cast<int>(corners), flag))
+  const auto cells = static_cast<std::int64_t>(cellsOf(this->To.plan.cellType, block));
+  std::int64_t added = 0;
+  // Cells without area or volume take part, since two parts of a surface may be joined by them
+  // alone.
+  forDistinctCells(this->To.plan.cellType, block,
+    [&](const std::int64_t* corners, std::size_t /*c*/)
     {
-      ++this->Skipped;
-    }
-    else
-    {
-      this->addCell(cell);
-    }
-  }
-  this->Cells += static_cast<std::int64_t>(cells);
+      this->addCell(corners);
+      ++added;
+    });
+  this->Cells += cells;
+  this->Skipped += cells - added;
   const std::int64_t length = this->To.plan.length;
   while (this->To.firstOf(this->To.count()) + length <= block.finalized)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/WallPass.h"
 
-#include "Solver/Assembly/Elements.h"
 #include "Solver/Assembly/Facets.h"
+#include "Solver/Mesh/VisitCells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,26 +54,20 @@ void WallTriangles::addVertices(const MeshBlock& block)
 void WallTriangles::addCells(const MeshBlock& block)
 {
   constexpr int Corners = 4;
-  const Column* flags = block.flags();
   const std::span<const std::uint8_t> selected = this->From.facetsAt(block);
-  for (std::size_t c = 0; c < block.corners.size() / Corners; ++c)
-  {
-    const std::int64_t* corner = block.corners.data() + c * Corners;
-    const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
-    if (!isDistinctCell(corner, Corners, flag))
+  forDistinctCells(CellType::Tetrahedron, block,
+    [&](const std::int64_t* corners, std::size_t c)
     {
-      continue;
-    }
-    for (int k = 0; k < Corners; ++k)
-    {
-      const CellFacet facet = facetOf(CellType::Tetrahedron, corner, k);
-      // Both cells of an interior face are added, so that it is known as such, even if it is not
-      // selected. Boundary faces have one cell, whose selection is stored.
-      const bool isWall = this->Everywhere || (selected[c] >> k & 1U) != 0;
-      const std::int32_t group = this->From.group(Corners * c + static_cast<std::size_t>(k));
-      this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], isWall ? group + 1 : 0);
-    }
-  }
+      for (int k = 0; k < Corners; ++k)
+      {
+        const CellFacet facet = facetOf(CellType::Tetrahedron, corners, k);
+        // Both cells of an interior face are added, so that it is known as such, even if it is not
+        // selected. Boundary faces have one cell, whose selection is stored.
+        const bool isWall = this->Everywhere || (selected[c] >> k & 1U) != 0;
+        const std::int32_t group = this->From.group(Corners * c + static_cast<std::size_t>(k));
+        this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], isWall ? group + 1 : 0);
+      }
+    });
 }
 
 void WallTriangles::take(std::int64_t end)

@@ -3,6 +3,7 @@
 #include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Memory/Pool.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "smg/Report.h"
 
@@ -220,8 +221,8 @@ double MeshFairing::sweptVolume(Part part, double& distance)
       {
         normals->startBlock(block);
       }
-      forCells(CellType::Triangle, block,
-        [&](const std::int64_t* corners)
+      forUnflaggedCells(CellType::Triangle, block,
+        [&](const std::int64_t* corners, std::size_t /*c*/)
         {
           constexpr double None[3] = {};
           const double* x[3];

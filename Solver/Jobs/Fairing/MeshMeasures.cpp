@@ -34,7 +34,8 @@ void MeshMeasures::add(const MeshBlock& block)
     this->High[k % 3] = std::max(this->High[k % 3], block.positions[k]);
   }
   forAllCells(this->Type, block,
-    [this](const std::int64_t* corners, unsigned flags) { this->addCell(corners, flags); });
+    [this](const std::int64_t* corners, unsigned flags, std::size_t /*c*/)
+    { this->addCell(corners, flags); });
   this->Open.close(block.finalized, [this](const Body& body) { this->addBody(body); });
 }
 
@@ -125,8 +126,8 @@ void PointNormals::add(const MeshBlock& block, std::span<const std::uint8_t> hel
     // The fourth number tells held vertices.
     this->Sums.at(block.firstVertex + static_cast<std::int64_t>(i))[3] = held[i];
   }
-  forCells(
-    CellType::Triangle, block, [this](const std::int64_t* corners) { this->addCell(corners); });
+  forUnflaggedCells(CellType::Triangle, block,
+    [this](const std::int64_t* corners, std::size_t /*c*/) { this->addCell(corners); });
   this->write(block.finalized);
 }
 

@@ -6,6 +6,7 @@
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Mesh/OpenSets.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
@@ -165,32 +166,6 @@ private:
   VertexFile& Normals;
   std::vector<double> Units; ///< normals to be written
 };
-
-/** Calls visit(corners, flags) for each cell of a block; `flags` are bits of CellFlag. */
-template <class Visit>
-void forAllCells(CellType type, const MeshBlock& block, Visit&& visit)
-{
-  const auto corners = static_cast<std::size_t>(cornersOf(type));
-  const Column* flags = block.flags();
-  for (std::size_t c = 0; c < block.corners.size() / corners; ++c)
-  {
-    visit(block.corners.data() + c * corners, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
-  }
-}
-
-/** Calls visit(corners) for each cell of a block that has distinct corners and is not flagged. */
-template <class Visit>
-void forCells(CellType type, const MeshBlock& block, Visit&& visit)
-{
-  forAllCells(type, block,
-    [&](const std::int64_t* corner, unsigned flags)
-    {
-      if (flags == 0 && !hasRepeatedCorner(corner, cornersOf(type)))
-      {
-        visit(corner);
-      }
-    });
-}
 
 /**
  * The volume that triangles sweep when their corners move from x to y + c n along straight lines,

@@ -3,6 +3,7 @@
 
 #include "Solver/Assembly/Elements.h"
 #include "Solver/Core/Vector.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -88,12 +89,9 @@ void Orientation::add(const MeshBlock& block)
   this->Points.extendRaw(end);
   std::ranges::copy(block.positions, this->Points.at(block.firstVertex));
   this->OpenEdges.extend(end);
-  const Column* flags = block.flags();
-  for (std::size_t c = 0; c < block.corners.size() / 3; ++c)
-  {
-    this->addCell(
-      block.corners.data() + 3 * c, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
-  }
+  forAllCells(CellType::Triangle, block,
+    [this](const std::int64_t* corners, unsigned flags, std::size_t /*c*/)
+    { this->addCell(corners, flags); });
   this->finishVertices(block.finalized);
   this->closeCells(block.finalized, false);
 }

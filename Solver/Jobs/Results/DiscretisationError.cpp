@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Results/DiscretisationError.h"
 
-#include "Solver/Assembly/Elements.h"
-#include "Solver/Assembly/Facets.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -19,17 +16,13 @@ DiscretisationError::DiscretisationError(
   Pool& pool, const StreamInfo& info, Problem& problem, ReadValues readValues)
   : Type(info.cellType)
   , Columns(static_cast<std::size_t>(problem.columns()))
-  , Kind(problem.weights())
   , Read(std::move(readValues))
   , Check(info.cellType)
   , Vertices(pool, problem)
+  , Weighted(info.cellType, problem)
   , Facets(pool)
   , Terms(pool, problem.columns() + 2)
 {
-  if (problem.hasCells())
-  {
-    this->Own.emplace(problem, this->Type);
-  }
   if (problem.hasFacets())
   {
     this->Conditions.emplace(pool, problem, this->Type, this->Vertices);
@@ -40,7 +33,14 @@ void DiscretisationError::add(const MeshBlock& block)
 {
   this->Check.add(block);
   this->addVertices(block);
-  this->addCells(block);
+  this->Weighted.forEach(block, this->Vertices.points,
+    [this](const WeightedCell& cell)
+    {
+      if (cell.weights.measure > 0.0)
+      {
+        this->addCell(cell);
+      }
+    });
   if (this->Conditions)
   {
     this->Conditions->add(block);
@@ -65,45 +65,14 @@ void DiscretisationError::addVertices(const MeshBlock& block)
   std::ranges::copy(this->Values, this->Vertices.values.at(begin));
 }
 
-/** Cells have the weights of the solve: flagged ones have none, and flat ones are scaled down. */
-void DiscretisationError::addCells(const MeshBlock& block)
-{
-  const auto count = static_cast<std::size_t>(cornersOf(this->Type));
-  const Column* flags = block.flags();
-  for (std::size_t c = 0; c < block.corners.size() / count; ++c)
-  {
-    if (this->Own)
-    {
-      this->Own->prepare(block, c, this->Vertices.points);
-    }
-    const std::int64_t* corners = block.corners.data() + c * count;
-    if ((flags && flags->value(c) != 0.0) || hasRepeatedCorner(corners, cornersOf(this->Type)))
-    {
-      continue;
-    }
-    const double* points[4] = {};
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      points[k] = this->Vertices.points.at(corners[k]);
-    }
-    const CellWeights weights = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
-    if (weights.measure > 0.0)
-    {
-      this->addCell(
-        corners, points, weights, flatnessOf(this->Kind, this->Own, this->Type, points, weights));
-    }
-  }
-}
-
 /** Adds the energy in a cell, and its R and s to each of its facets. */
-void DiscretisationError::addCell(const std::int64_t* corners, const double* const* points,
-  const CellWeights& weights, double flatness)
+void DiscretisationError::addCell(const WeightedCell& cell)
 {
   const int count = cornersOf(this->Type);
   std::int32_t slots[4] = {};
   for (int k = 0; k < count; ++k)
   {
-    slots[k] = this->termsOf(facetOf(this->Type, corners, k).vertex);
+    slots[k] = this->termsOf(facetOf(this->Type, cell.corners, k).vertex);
   }
   // Pointers only now: each call of termsOf() may have moved the terms.
   double conductance[4] = {};
@@ -112,14 +81,15 @@ void DiscretisationError::addCell(const std::int64_t* corners, const double* con
   {
     terms[k] = this->Terms.at(slots[k]);
   }
+  const CellWeights stiffness = cell.stiffness();
   for (int e = 0; e < edgesOf(this->Type); ++e)
   {
     const int i = edgeCorners(this->Type, e)[0], j = edgeCorners(this->Type, e)[1];
-    const double weight = flatness * weights.weight[e];
+    const double weight = stiffness.weight[e];
     conductance[i] += weight;
     conductance[j] += weight;
-    const double* a = this->Vertices.values.at(corners[i]);
-    const double* b = this->Vertices.values.at(corners[j]);
+    const double* a = this->Vertices.values.at(cell.corners[i]);
+    const double* b = this->Vertices.values.at(cell.corners[j]);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       const double step = b[k] - a[k];
@@ -135,10 +105,10 @@ void DiscretisationError::addCell(const std::int64_t* corners, const double* con
     terms[k][this->Columns] += std::max(0.0, conductance[k]);
     terms[k][this->Columns + 1] += 1.0;
   }
-  if (this->Own)
+  if (cell.data)
   {
     // The flux is K grad u - q: the integral of q . grad phi_k is what q contributes to R_k.
-    addFieldLoads(*this->Own, this->Type, points, static_cast<int>(this->Columns), terms);
+    addFieldLoads(cell, this->Type, static_cast<int>(this->Columns), terms);
   }
 }
 
@@ -167,21 +137,16 @@ void DiscretisationError::addInflows(std::int64_t vertex)
 {
   const int count = BoundaryFacet::cornersOf(this->Type);
   this->Conditions->take(vertex,
-    [&](const BoundaryFacet& facet)
+    [&](const BoundaryFacet& facet, double area)
     {
       if (facet.flux < 0 && facet.robin < 0)
       {
         return;
       }
-      const double* points[3] = {};
-      for (int c = 0; c < count; ++c)
-      {
-        points[c] = this->Vertices.points.at(facet.corners[c]);
-      }
       double* terms = this->Terms.at(this->termsOf(facet.corners));
       // An equal share of the flow for each corner, over d, which is the number of corners of a
       // facet: the flux is d R.
-      const double share = facetArea(this->Type, points) / count / count;
+      const double share = area / count / count;
       for (int c = 0; c < count; ++c)
       {
         const double* u = this->Vertices.values.at(facet.corners[c]);

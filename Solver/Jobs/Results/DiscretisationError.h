@@ -3,8 +3,8 @@
 
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Assembly/ProblemCells.h"
 #include "Solver/Assembly/ProblemFacets.h"
+#include "Solver/Assembly/WeightedCells.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -65,9 +65,7 @@ public:
 
 private:
   void addVertices(const MeshBlock& block);
-  void addCells(const MeshBlock& block);
-  void addCell(const std::int64_t* corners, const double* const* points, const CellWeights& weights,
-    double flatness);
+  void addCell(const WeightedCell& cell);
   std::int32_t termsOf(const std::int64_t* corners);
   void finalize(std::int64_t end);
   void addInflows(std::int64_t vertex);
@@ -75,11 +73,10 @@ private:
 
   CellType Type;
   std::size_t Columns;
-  Weights Kind;
   ReadValues Read;
   StreamCheck Check;
-  OpenVertices Vertices; // their values are the solution
-  std::optional<ProblemCells> Own;
+  OpenVertices Vertices;  // their values are the solution
+  WeightedCells Weighted; // with the weights of the solve
   std::optional<ProblemFacets> Conditions;
   OpenFacets Facets;
   /** For each facet: the sum of R (`columns` numbers), the sum of s, and the number of cells. */

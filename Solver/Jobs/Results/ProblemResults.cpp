@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Results/ProblemResults.h"
 
-#include "Solver/Assembly/Elements.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -26,7 +25,6 @@ constexpr PoolUse ResultMemory{ "reading the results",
 ProblemResults::ProblemResults(
   const StreamInfo& info, Problem& problem, Solution& solution, const ResultOptions& options)
   : Type(info.cellType)
-  , Given(problem)
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Kind(problem.weights())
   , Check(info.cellType)
@@ -34,6 +32,7 @@ ProblemResults::ProblemResults(
   , Vertices(this->Memory, problem, &solution)
   , Reach(this->Memory)
   , Flows(this->Memory, problem.columns() + 1)
+  , Weighted(info.cellType, problem, options.flux || problem.conditionCounts().parts > 0)
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Parts(1, &this->Memory)
   , Labels(this->Memory, this->Parts, BodyFlows::mostLabels(problem.columns()))
@@ -56,7 +55,6 @@ ProblemResults::ProblemResults(
   }
   if (problem.hasCells())
   {
-    this->Own.emplace(problem, this->Type, options.flux || problem.conditionCounts().parts > 0);
     this->CellLoads.emplace(this->Memory, this->Type, problem.columns());
   }
   if (problem.hasFacets())
@@ -111,82 +109,51 @@ void ProblemResults::addVertices(const MeshBlock& block)
   }
 }
 
-/** The data of the problem in a cell are prepared before the cell is added, also if it has no
- * weight: they come in batches. */
 void ProblemResults::addCells(const MeshBlock& block)
 {
-  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
-  const std::size_t cells = block.corners.size() / corners;
-  const Column* flags = block.flags();
-  this->Cells.begin(cells);
-  for (std::size_t c = 0; c < cells; ++c)
-  {
-    if (this->Own)
-    {
-      this->Own->prepare(block, c, this->Vertices.points);
-    }
-    this->addCell(
-      c, block.corners.data() + c * corners, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
-  }
+  this->Cells.begin(cellsOf(this->Type, block));
+  this->Weighted.forEach(
+    block, this->Vertices.points, [this](const WeightedCell& cell) { this->addCell(cell); });
 }
 
-/** Adds a cell as the assembly does (StiffnessRules::weigh()): the same cells have no weight, and
- * the same ones connect their corners. */
-void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigned flags)
+/** Adds a cell as the assembly does: the same cells have no weight, and the same ones connect their
+ * corners. */
+void ProblemResults::addCell(const WeightedCell& cell)
 {
+  if (!cell.connects)
+  {
+    return;
+  }
   const int count = cornersOf(this->Type);
-  const double* points[4] = {};
+  this->Labels.join(cell.corners, count);
+  if (cell.weights.measure == 0.0)
+  {
+    this->connect(cell);
+    return;
+  }
   const double* values[4] = {};
   for (int k = 0; k < count; ++k)
   {
-    points[k] = this->Vertices.points.at(corners[k]);
-    values[k] = this->Vertices.values.at(corners[k]);
+    values[k] = this->Vertices.values.at(cell.corners[k]);
+    this->Vertices.mass[cell.corners[k]] += cell.weights.measure / count;
   }
-  CellWeights cell;
-  if (flags == 0 && !hasRepeatedCorner(corners, count))
-  {
-    cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
-  }
-  if (cell.measure == 0.0)
-  {
-    if (this->Given.connectsFlatCells() && isDistinctCell(corners, count, flags))
-    {
-      this->Labels.join(corners, count);
-      this->connect(corners, points, cell);
-    }
-    return;
-  }
-  this->Labels.join(corners, count);
-  const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
-  this->relateToFirst(corners, values);
-  this->Cells.add(c, points, values, cell, flatness,
-    this->Own ? this->Own->conductivity() : nullptr, this->Own ? this->Own->part() : -1);
+  this->relateToFirst(cell.corners, values);
+  this->Cells.add(cell, values);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    this->Sums.conditions.bodies.of(this->bodyOf(corners[0]), k).energy +=
+    this->Sums.conditions.bodies.of(this->bodyOf(cell.corners[0]), k).energy +=
       this->Cells.energyOfCell()[k];
   }
-  for (int k = 0; k < count; ++k)
+  if (cell.data)
   {
-    this->Vertices.mass[corners[k]] += cell.measure / count;
-  }
-  if (this->Own)
-  {
-    this->CellLoads->add(corners, points, *this->Own);
+    this->CellLoads->add(cell);
   }
   // The energy has been computed with the full weights; edges get the weights of the solve.
-  if (flatness < 1.0)
-  {
-    for (double& weight : cell.weight)
-    {
-      weight *= flatness;
-    }
-  }
   if (this->Kind == Weights::Cotangent)
   {
-    this->addFlows(corners, values, cell);
+    this->addFlows(cell.corners, values, cell.stiffness());
   }
-  this->connect(corners, points, cell);
+  this->connect(cell);
 }
 
 /** Only differences within a cell matter for its results: those to its first corner have all
@@ -207,20 +174,19 @@ void ProblemResults::relateToFirst(const std::int64_t* corners, const double** v
 /** Collects the weights, as in the solve, of the edges that carry a flow out of a condition. Most
  * cells have no such edge, which the comparison of their corners shows at once. What flows along
  * others is a sum over the cells, unless the weights of edges are no sums. */
-void ProblemResults::connect(
-  const std::int64_t* corners, const double* const* points, const CellWeights& cell)
+void ProblemResults::connect(const WeightedCell& cell)
 {
   const bool areSums = this->Kind == Weights::Cotangent;
   const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
-  const std::int32_t first = dirichlet[corners[0]];
+  const std::int32_t first = dirichlet[cell.corners[0]];
   bool same = areSums;
   for (int k = 1; k < cornersOf(this->Type); ++k)
   {
-    same = same && dirichlet[corners[k]] == first;
+    same = same && dirichlet[cell.corners[k]] == first;
   }
   if (!same)
   {
-    this->Edges.add(corners, points, cell, this->Own ? this->Own->scale() : 1.0,
+    this->Edges.add(cell.corners, cell.points, cell.stiffness(), cell.scale,
       [&](std::int64_t a, std::int64_t b) { return !areSums || dirichlet[a] != dirichlet[b]; });
   }
 }
@@ -289,19 +255,8 @@ void ProblemResults::finalize(std::int64_t end)
 void ProblemResults::addBoundary(std::int64_t i)
 {
   this->Facets.take(i,
-    [this](const BoundaryFacet& facet)
+    [this](const BoundaryFacet& facet, double area)
     {
-      const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
-      if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
-      {
-        return;
-      }
-      const double* points[3] = {};
-      for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
-      {
-        points[k] = this->Vertices.points.at(facet.corners[k]);
-      }
-      const double area = facetArea(this->Type, points);
       if (this->FacetLoads)
       {
         this->FacetLoads->add(facet, area);

@@ -7,8 +7,8 @@
 #include "Solver/Assembly/Loads.h"
 #include "Solver/Assembly/NeighbourReach.h"
 #include "Solver/Assembly/OpenVertices.h"
-#include "Solver/Assembly/ProblemCells.h"
 #include "Solver/Assembly/ProblemFacets.h"
+#include "Solver/Assembly/WeightedCells.h"
 #include "Solver/Jobs/Results/ResultSums.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/Export.h"
@@ -72,7 +72,7 @@ public:
   /** The facets and edges of the cells of the part. Before the terms are taken, facets that other
    * parts have as well are to be excluded, and edges joined with those of other parts. */
   const OpenFacets& facets() const { return this->Facets.open(); }
-  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+  void exclude(FacetSet facets) { this->Facets.exclude(std::move(facets)); }
   EdgeStiffness& edges() { return this->Edges; }
   /** What the part contributes to its vertices, VertexTerms::size() numbers each. */
   std::vector<double> takeTerms();
@@ -85,13 +85,13 @@ private:
   void addBlock(const MeshBlock& block);
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
-  void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
+  void addCell(const WeightedCell& cell);
   std::int32_t bodyOf(std::int64_t i) const
   {
     return this->IsPart ? 0 : std::max(0, this->Labels.label(i));
   }
   void relateToFirst(const std::int64_t* corners, const double** values);
-  void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
+  void connect(const WeightedCell& cell);
   void addFlows(const std::int64_t* corners, const double* const* values, const CellWeights& cell);
   void finalize(std::int64_t end);
   void addBoundary(std::int64_t i);
@@ -99,7 +99,6 @@ private:
   void addEdges(std::int64_t i, VertexTerms terms);
 
   CellType Type;
-  Problem& Given;
   std::size_t Columns;
   Weights Kind;
   StreamCheck Check;
@@ -108,17 +107,15 @@ private:
   // By open vertex.
   OpenVertices Vertices; // with the solution
   NeighbourReach Reach;
-  std::optional<ProblemCells> Own;
   std::optional<VertexLoads> CellLoads, FacetLoads;
   /** Along the edges of a vertex, per column, and the sum of the magnitudes of their weights, if
    * these are sums over cells. */
   Ring<double> Flows;
+  WeightedCells Weighted;
   ProblemFacets Facets;
   Components Parts;
   OpenLabels Labels;   // of the bodies of the mesh, of a part one label
   EdgeStiffness Edges; // from Dirichlet vertices to vertices outside the condition, or all
-
-  FacetSet Inner; // facets that other parts have as well
 
   CellResults Cells;
   ResultSums Sums;

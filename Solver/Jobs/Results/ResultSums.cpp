@@ -45,8 +45,7 @@ void CellResults::begin(std::size_t cells)
 
 /** Adds the energy of a cell by its weights, 1/2 the sum of w_ij (u_i - u_j)^2 over the edges,
  * which holds for any K; gradients are computed only if they are wanted. */
-void CellResults::add(std::size_t c, const double* const* points, const double* const* values,
-  const CellWeights& weights, double flatness, const double* K, std::int32_t part)
+void CellResults::add(const WeightedCell& cell, const double* const* values)
 {
   for (int k = 0; k < this->Columns; ++k)
   {
@@ -55,28 +54,30 @@ void CellResults::add(std::size_t c, const double* const* points, const double* 
     {
       const int* ends = edgeCorners(this->Type, e);
       const double step = values[ends[0]][k] - values[ends[1]][k];
-      twice += weights.weight[e] * step * step;
+      twice += cell.weights.weight[e] * step * step;
     }
     this->OfCell[static_cast<std::size_t>(k)] = 0.5 * twice;
     this->Energy[static_cast<std::size_t>(k)] += 0.5 * twice;
-    this->LeftOut[static_cast<std::size_t>(k)] += 0.5 * (1.0 - flatness) * twice;
+    this->LeftOut[static_cast<std::size_t>(k)] += 0.5 * (1.0 - cell.flatness) * twice;
   }
   if (!this->WantsGradient && !this->WantsFlux && this->Parts.empty())
   {
     return;
   }
+  const std::int32_t part = cell.data ? cell.data->part() : -1;
+  const double* K = cell.data ? cell.data->conductivity() : nullptr;
   PartSums* sums = this->Parts.empty() ? nullptr
                    : part >= 0         ? &this->Parts[static_cast<std::size_t>(part)]
                                        : &this->Parts.back();
   if (sums)
   {
-    sums->measure += weights.measure;
+    sums->measure += cell.weights.measure;
   }
-  const CellGradients gradients(this->Type, points);
+  const CellGradients gradients(this->Type, cell.points);
   for (int k = 0; k < this->Columns; ++k)
   {
     const std::size_t place =
-      3 * (c * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k));
+      3 * (cell.number * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k));
     const Vector gradient = gradients.of(this->Type, values, k);
     if (this->WantsGradient)
     {
@@ -94,8 +95,8 @@ void CellResults::add(std::size_t c, const double* const* points, const double* 
     for (std::size_t d = 0; sums && d < 3; ++d)
     {
       const std::size_t number = 3 * static_cast<std::size_t>(k) + d;
-      sums->gradient[number] += weights.measure * gradient[d];
-      sums->flux[number] += weights.measure * flux[d];
+      sums->gradient[number] += cell.weights.measure * gradient[d];
+      sums->flux[number] += cell.weights.measure * flux[d];
     }
   }
 }

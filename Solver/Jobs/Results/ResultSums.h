@@ -3,8 +3,8 @@
 
 #include "Solver/Assembly/Facets.h"
 #include "Solver/Assembly/OpenVertices.h"
+#include "Solver/Assembly/WeightedCells.h"
 #include "Solver/Jobs/Results/BodyFlows.h"
-#include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 #include "smg/Report.h"
@@ -34,11 +34,9 @@ public:
 
   /** Starts the next block, of this many cells. */
   void begin(std::size_t cells);
-  /** Adds cell c of the block: the positions of its corners, the values there (`columns` each), its
-   * weights, the factor by which the solve scaled these down, K (null: the identity) and its part
-   * (-1: none). */
-  void add(std::size_t c, const double* const* points, const double* const* values,
-    const CellWeights& weights, double flatness, const double* K, std::int32_t part);
+  /** Adds a cell of the block with the values at its corners, `columns` each. Without data of the
+   * problem K is the identity, and the cell is in no part. */
+  void add(const WeightedCell& cell, const double* const* values);
 
   /** grad u in the block: 3 * `columns` numbers per cell, 0 in cells without measure. */
   std::span<const double> gradient() const { return this->Gradient; }

@@ -58,17 +58,17 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   report.cells = counts.cells;
   report.prescribed = counts.prescribed;
   report.held = counts.held;
-  report.degenerate_cells = counts.degenerateCells;
-  report.coincident_cells = counts.coincidentCells;
+  report.degenerate_cells = counts.ofCells.degenerate;
+  report.coincident_cells = counts.ofCells.coincident;
   report.clamped_weights = counts.clampedWeights;
   noteUnwelded(counts.type, counts.vertices, counts.cells, report);
-  if (counts.limitedCells > 0)
+  if (counts.ofCells.limited > 0)
   {
-    noteOfPart(counts.limitedCells, counts.cells,
-      counted(counts.limitedCells, "cell is", "cells are") +
+    noteOfPart(counts.ofCells.limited, counts.cells,
+      counted(counts.ofCells.limited, "cell is", "cells are") +
         " so flat that rounding would drown the others: their "
         "stiffness was scaled down, by a factor of " +
-        scientific(counts.minFlatness) +
+        scientific(counts.ofCells.minFlatness) +
         " at the least; there the operator is not that of finite elements",
       report);
   }
@@ -84,7 +84,7 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   report.components = counts.components;
   report.free_components = counts.freeComponents;
   warnOfCoincidentPoints(counts, report);
-  counts.measures.check(counts.type);
+  counts.ofCells.measures.check(counts.type);
   checkSquares(counts.termSquares, counts.anyTerm);
 }
 
@@ -115,18 +115,14 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   counts.cells = assembly.cells();
   counts.prescribed = assembly.prescribed();
   counts.held = assembly.held();
-  counts.degenerateCells = assembly.weights().degenerateCells();
-  counts.coincidentCells = assembly.weights().coincidentCells();
+  counts.ofCells = assembly.cellCounts();
   counts.clampedWeights = assembly.clampedWeights();
-  counts.limitedCells = assembly.weights().limitedCells();
-  counts.minFlatness = assembly.weights().minFlatness();
   counts.raisedRows = assembly.raisedRows();
   counts.components = components.components();
   counts.freeComponents = components.freeComponents();
   counts.termSquares = assembly.residual().termSquares();
   // The residual that is to be corrected may be as small as it likes.
   counts.anyTerm = !assembly.corrects() && assembly.residual().anyTerm();
-  counts.measures = assembly.weights().measures();
   // A single body needs no search.
   counts.coincident =
     counts.components > 1 ? assembly.coincident().count(components) : CoincidentPoints::Count();

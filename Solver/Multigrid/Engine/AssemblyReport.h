@@ -16,14 +16,11 @@ struct AssemblyCounts
 {
   CellType type = CellType::Triangle;
   std::int64_t vertices = 0, cells = 0, prescribed = 0, held = 0;
-  std::int64_t degenerateCells = 0, coincidentCells = 0, clampedWeights = 0;
-  std::int64_t limitedCells = 0; ///< see StiffnessRules
-  double minFlatness = 1.0;      ///< the smallest factor by which one of these was scaled
-  std::int64_t raisedRows = 0;   ///< see Assembly
+  CellCounts ofCells;
+  std::int64_t clampedWeights = 0, raisedRows = 0; ///< see Assembly
   std::int64_t components = 0, freeComponents = 0;
-  double termSquares = 0.0; ///< see InitialResidual
-  bool anyTerm = false;     ///< see InitialResidual
-  MeasureRange measures;
+  double termSquares = 0.0;           ///< see InitialResidual
+  bool anyTerm = false;               ///< see InitialResidual
   CoincidentPoints::Count coincident; ///< of different components; 0 where nobody looked
 };
 
