@@ -6,11 +6,9 @@
 #include "Solver/Jobs/Values/VertexSolution.h"
 #include "Solver/Memory/Ring.h"
 #include "Solver/Mesh/StreamCheck.h"
-#include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "Solver/Problem/Selection.h"
-#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>
@@ -96,6 +94,8 @@ private:
   };
 
   void requireTag();
+  template <class Visit>
+  void read(ProgressPart part, const Visit& visit);
   void prepare(double end);
   void add(const MeshBlock& block);
   void select(const MeshBlock& block);
@@ -103,14 +103,14 @@ private:
   double tagOf(const MeshBlock& block, std::size_t cell) const;
   Sum& sumOf(double tag);
   void write(std::int64_t finalized);
-  void finishReport(const StreamCheck& check);
+  void finishReport();
 
   bool isSurface() const { return this->Mesh.info().cellType == CellType::Triangle; }
 
   const StoredMesh& Mesh;
   const AreaDescription& Asked;
-  SolveOptions Options;
   std::unique_ptr<VertexSolution> Result;
+  JobRun& Job; ///< of the result
   MeshColumns Columns;
   Selections All;
   std::vector<const Selection*> Parts; ///< null: everywhere
@@ -130,14 +130,14 @@ AreaPass::AreaPass(const StoredMesh& mesh, const AreaDescription& description,
   const SolveOptions& options, const std::string& name)
   : Mesh(mesh)
   , Asked(description)
-  , Options(options)
-  , Result(std::make_unique<VertexSolution>(options, 1, AreaMemory))
-  , Columns(mesh.info(), name, &this->Result->memory)
+  , Result(std::make_unique<VertexSolution>(options, 1, "areas", AreaMemory))
+  , Job(this->Result->job)
+  , Columns(mesh.info(), name, &this->Job.pool)
   , All(this->Columns)
-  , Points(this->Result->memory, 3)
-  , Shares(this->Result->memory)
+  , Points(this->Job.pool, 3)
+  , Shares(this->Job.pool)
   , Unit(unitOf(description, mesh.info()))
-  , Tags(this->Result->memory)
+  , Tags(this->Job.pool)
 {
   for (std::size_t k = 0; k < description.of.size(); ++k)
   {
@@ -166,22 +166,28 @@ void AreaPass::requireTag()
   this->Columns.requireCellIds();
 }
 
-/** Finds the parts, by a reading of the stream up to this share of the progress. */
-void AreaPass::prepare(double end)
+/** Reads the mesh, and counts its cells. */
+template <class Visit>
+void AreaPass::read(ProgressPart part, const Visit& visit)
 {
-  const std::filesystem::path folder =
-    this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch;
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
   StreamCheck check(this->Mesh.info().cellType);
-  visitBlocks(*source, this->Options.progress, 0.0, end,
+  this->Job.read(*source, part,
     [&](const MeshBlock& block)
     {
       check.add(block);
-      this->All.prepare(block, folder);
+      visit(block);
     });
   check.finish(this->Mesh.info());
+  this->Job.report.cells = check.cells();
+}
+
+/** Finds the parts, by a reading of the stream up to this share of the progress. */
+void AreaPass::prepare(double end)
+{
+  this->read({ 0.0, end },
+    [this](const MeshBlock& block) { this->All.prepare(block, this->Job.options.scratch); });
   this->All.endPreparing(nullptr);
-  ++this->Result->total.passes;
 }
 
 void AreaPass::add(const MeshBlock& block)
@@ -300,11 +306,10 @@ void AreaPass::write(std::int64_t finalized)
   this->Shares.release(finalized);
 }
 
-void AreaPass::finishReport(const StreamCheck& check)
+void AreaPass::finishReport()
 {
-  Report& report = this->Result->total;
+  Report& report = this->Job.report;
   report.vertices = this->Result->vertices();
-  report.cells = check.cells();
   report.converged = true;
   Report::Areas& areas = report.areas.emplace();
   areas.isVolume = !this->isSurface();
@@ -315,7 +320,7 @@ void AreaPass::finishReport(const StreamCheck& check)
   {
     areas.by_tag.push_back({ tag, sum.cells, sum.area });
   }
-  this->Result->finishReport("areas");
+  this->Job.finishReport();
 }
 
 std::unique_ptr<Solution> AreaPass::run()
@@ -326,22 +331,11 @@ std::unique_ptr<Solution> AreaPass::run()
   {
     this->prepare(PrepareShare);
   }
-  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
-  StreamCheck check(this->Mesh.info().cellType);
-  visitBlocks(*source, this->Options.progress, hasParts ? PrepareShare : 0.0, 1.0,
-    [&](const MeshBlock& block)
-    {
-      check.add(block);
-      this->add(block);
-    });
-  check.finish(this->Mesh.info());
+  this->read(
+    { hasParts ? PrepareShare : 0.0, 1.0 }, [this](const MeshBlock& block) { this->add(block); });
   this->write(this->Shares.end());
-  if (this->Options.progress && !this->Options.progress(1.0))
-  {
-    throw Cancelled();
-  }
-  ++this->Result->total.passes;
-  this->finishReport(check);
+  this->Job.endProgress();
+  this->finishReport();
   return std::move(this->Result);
 }
 
@@ -357,20 +351,11 @@ std::unique_ptr<Solution> area(const StoredMesh& mesh, const AreaDescription& de
   const SolveOptions& options, const std::string& name)
 {
   checkOptions(options);
-  if (!options.checkpoint.folder.empty())
-  {
-    throw Error("areas have no checkpoints: leave the folder out");
-  }
-  const double unit = unitOf(description, mesh.info());
-  if (!(description.scale > 0.0 && std::isnormal(unit)))
-  {
-    throw Error(name + ": scale: must be above 0, and such that areas are numbers in double "
-                       "precision.");
-  }
-  if (description.share == AreaShare::Voronoi && mesh.info().cellType != CellType::Triangle)
-  {
-    throw Error(name + ": share: voronoi is for triangles: share tetrahedra equally.");
-  }
+  refuseCheckpoint(options, "areas have");
+  require(description.scale > 0.0 && std::isnormal(unitOf(description, mesh.info())),
+    name + ": scale: must be above 0, and such that areas are numbers in double precision.");
+  require(description.share != AreaShare::Voronoi || mesh.info().cellType == CellType::Triangle,
+    name + ": share: voronoi is for triangles: share tetrahedra equally.");
   return AreaPass(mesh, description, options, name).run();
 }
 

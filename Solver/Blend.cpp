@@ -2,16 +2,12 @@
 #include "smg/Blend.h"
 
 #include "Solver/Core/Text.h"
-#include "Solver/Core/Timer.h"
-#include "Solver/Files/ScratchAccount.h"
 #include "Solver/Jobs/Blending/BlendProblem.h"
-#include "Solver/Jobs/Blending/BlendedValues.h"
-#include "Solver/Memory/Pool.h"
-#include "Solver/Mesh/VisitBlocks.h"
+#include "Solver/Jobs/Values/VertexSolution.h"
+#include "Solver/Mesh/VisitCells.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Problem/MeshColumns.h"
-#include "smg/Error.h"
 
 #include <algorithm>
 #include <optional>
@@ -27,6 +23,32 @@ namespace smg
 namespace
 {
 
+/** The result: the original values, and the correction that is added to them. */
+class BlendedValues final : public VertexSolution
+{
+public:
+  BlendedValues(const SolveOptions& options, int columns)
+    : VertexSolution(options, columns, "original")
+  {
+  }
+
+  void read(std::int64_t first, std::int64_t count, std::span<double> to) override
+  {
+    this->correction->read(first, count, to);
+    this->Start.resize(static_cast<std::size_t>(count * this->columns()));
+    this->values.read(first, count, this->Start.data());
+    for (std::size_t k = 0; k < this->Start.size(); ++k)
+    {
+      to[k] += this->Start[k];
+    }
+  }
+
+  std::unique_ptr<Solution> correction;
+
+private:
+  std::vector<double> Start;
+};
+
 /** Bytes that a blend needs beside the solver and the problem. In core these are the original
  * values and the gradients; otherwise both are on scratch files. */
 std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient seam, bool inCore)
@@ -41,48 +63,34 @@ std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient
 constexpr double Prepared = 0.08, Known = 0.12, Solved = 0.9;
 
 /** Solves for the correction, within what `own` bytes beside it leave of the memory limit. */
-void solveFor(BlendProblem& problem, MeshSource& mesh, std::int64_t own,
-  const SolveOptions& options, BlendedValues& blended)
+void solveFor(BlendProblem& problem, MeshSource& mesh, std::int64_t own, BlendedValues& blended)
 {
-  problem.keepIn(blended.originals);
-  SolveOptions solving = options;
-  solving.memoryLimit = std::max<std::int64_t>(options.memoryLimit - own, 1);
-  if (options.progress)
-  {
-    solving.progress = [&options](double done)
-    { return options.progress(Known + done * (Solved - Known)); };
-  }
-  try
-  {
-    blended.correction = solve(mesh, problem, solving);
-  }
-  catch (const MemoryLimitError& error)
-  {
-    // The message has to state the limit that the user knows.
-    throw error.inside(own, options.memoryLimit);
-  }
-  blended.total = blended.correction->report();
-  blended.total.pool_bytes_peak =
-    std::max(blended.total.pool_bytes_peak, problem.memory().peak()) + own;
+  problem.keepIn(blended.values);
+  blended.correction = blended.job.solve(mesh, problem, { Known, Solved }, own);
+  Report& report = blended.job.report;
+  const int readings = report.passes;
+  report = blended.correction->report();
+  report.passes += readings;
+  report.pool_bytes_peak = std::max(report.pool_bytes_peak, problem.memory().peak()) + own;
 }
 
 /** Finds the steps between patches in the blended values, in one more reading of the mesh. */
-SeamSteps stepsIn(Solution& blended, const std::vector<ColumnSpec>& columns, const StoredMesh& mesh,
-  PatchLabels& patches, const ProgressFunction& progress)
+SeamSteps stepsIn(BlendedValues& blended, const std::vector<ColumnSpec>& columns,
+  const StoredMesh& mesh, PatchLabels& patches)
 {
   SeamSteps steps(columns);
   PatchedValues open(patches, blended.columns());
   const auto source = mesh.source(patches.vertexColumns(), {});
-  const auto corners = static_cast<std::size_t>(cornersOf(mesh.info().cellType));
-  visitBlocks(*source, progress, Solved, 1.0,
+  const CellType type = mesh.info().cellType;
+  blended.job.read(*source, { Solved, 1.0 },
     [&](const MeshBlock& block)
     {
       blended.read(block.firstVertex, block.vertices(), open.startBlock(block));
-      for (std::size_t c = 0; c < block.corners.size(); c += corners)
-      {
-        // The same edges as before the blend, of all cells.
-        steps.add(std::span(block.corners).subspan(c, corners), open);
-      }
+      // The same edges as before the blend, of all cells.
+      forAllCells(type, block,
+        [&](const std::int64_t* corners, unsigned /*flags*/, std::size_t /*c*/) {
+          steps.add({ corners, static_cast<std::size_t>(cornersOf(type)) }, open);
+        });
     });
   return steps;
 }
@@ -117,13 +125,6 @@ void addNotes(const std::string& patch, const SeamSteps& steps, std::int64_t cel
   }
 }
 
-void addOriginalTraffic(const IoStatistics& traffic, Report& report)
-{
-  report.bytes_read += traffic.bytesRead;
-  report.bytes_written += traffic.bytesWritten;
-  report.bytes_by_kind.push_back({ "original", -1, traffic.bytesRead, traffic.bytesWritten });
-}
-
 } // namespace
 
 std::vector<ColumnSpec> blendedColumns(const StreamInfo& mesh, const BlendDescription& description)
@@ -134,64 +135,40 @@ std::vector<ColumnSpec> blendedColumns(const StreamInfo& mesh, const BlendDescri
 std::unique_ptr<Solution> blend(
   const StoredMesh& mesh, const BlendDescription& description, const SolveOptions& given)
 {
-  const Timer wall;
-  const double cpuAtStart = processSeconds();
   checkOptions(given);
   refuseAutomaticTolerance(given, "a blend");
-  if (!given.checkpoint.folder.empty())
-  {
-    throw Error("a blend has no checkpoints: leave the folder out");
-  }
+  refuseCheckpoint(given, "a blend has");
   BlendProblem problem(description, mesh.info());
   auto blended = std::make_unique<BlendedValues>(given, problem.columns());
-  SolveOptions options = given;
-  if (blended->scratch)
-  {
-    // The folder counts the files of the solve that are made in it, too, for one common limit.
-    options.scratch = blended->scratch->path();
-  }
+  JobRun& job = blended->job;
   // From here on, every part has what the others leave of the memory limit.
   const std::int64_t own =
-    ownBytes(mesh.info(), problem.columns(), description.seam, options.inCore);
+    ownBytes(mesh.info(), problem.columns(), description.seam, job.options.inCore);
   // What the problem keeps while it is prepared has the same limit as the solve later.
-  problem.memory().setLimit(std::max<std::int64_t>(options.memoryLimit - own, 1));
-  requireMemory(mesh.info(), problem.columns(), Weights::Cotangent, options);
+  problem.memory().setLimit(job.memoryBeside(own));
+  requireMemory(mesh.info(), problem.columns(), Weights::Cotangent, job.options);
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
-  visitBlocks(*source(), options.progress, 0.0, Prepared,
-    [&](const MeshBlock& block) { problem.prepare(block, options.scratch); });
+  job.read(*source(), { 0.0, Prepared },
+    [&](const MeshBlock& block) { problem.prepare(block, job.options.scratch); });
   problem.endPreparing();
 
   std::optional<PatchGradients> gradients;
   if (description.seam == SeamGradient::Average)
   {
-    gradients.emplace(
-      blended->storage(), problem.memory(), mesh.info().cellType, problem.columns());
-    visitBlocks(*source(), options.progress, Prepared, Known,
+    gradients.emplace(blended->storage, problem.memory(), mesh.info().cellType, problem.columns());
+    job.read(*source(), { Prepared, Known },
       [&](const MeshBlock& block) { problem.addTo(*gradients, block); });
     // The file is complete: from here on, the problem reads it.
     gradients->finish();
     problem.average(*gradients);
   }
-  solveFor(problem, *source(), own, options, *blended);
-  const SeamSteps after =
-    stepsIn(*blended, problem.specs(), mesh, problem.patches(), options.progress);
-
-  Report& report = blended->total;
-  // In addition to the passes of the solve: the patches, the steps that remain and, if they are
-  // averaged, the gradients.
-  report.passes += description.seam == SeamGradient::Average ? 3 : 2;
-  addSeams(problem, after, report);
-  countClipped(*blended, problem.specs(), report);
-  addOriginalTraffic(blended->traffic, report);
-  report.scratch_bytes_peak = blended->scratch ? blended->scratch->account().peak() : 0;
-  report.seconds.total = wall.seconds();
-  report.cpu_seconds = processSeconds() - cpuAtStart;
-  addNotes(description.patch, after, mesh.info().cells, report);
-  // The last step may cancel like any other.
-  if (options.progress && !options.progress(1.0))
-  {
-    throw Cancelled();
-  }
+  solveFor(problem, *source(), own, *blended);
+  const SeamSteps after = stepsIn(*blended, problem.specs(), mesh, problem.patches());
+  addSeams(problem, after, job.report);
+  countClipped(*blended, problem.specs(), job.report);
+  job.finishReport();
+  addNotes(description.patch, after, mesh.info().cells, job.report);
+  job.endProgress();
   return blended;
 }
 

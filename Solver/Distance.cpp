@@ -4,7 +4,7 @@
 #include "Solver/Jobs/Distance/DistanceRun.h"
 #include "Solver/Jobs/Distance/PathDistance.h"
 #include "Solver/Jobs/Distance/WallDistance.h"
-#include "smg/Error.h"
+#include "Solver/Multigrid/Engine/CheckOptions.h"
 
 #include <cmath>
 #include <utility>
@@ -14,20 +14,6 @@
 
 namespace smg
 {
-
-namespace
-{
-
-/** Throws Error with this sentence unless the condition holds. */
-void require(bool holds, const char* sentence)
-{
-  if (!holds)
-  {
-    throw Error(sentence);
-  }
-}
-
-} // namespace
 
 std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
 {

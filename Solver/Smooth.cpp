@@ -4,7 +4,6 @@
 #include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Extended.h"
-#include "smg/Error.h"
 
 #include <cmath>
 #include <string>
@@ -14,41 +13,28 @@
 
 namespace smg
 {
-namespace
-{
-
-void requireThat(bool holds, const std::string& sentence)
-{
-  if (!holds)
-  {
-    throw Error(sentence);
-  }
-}
-
-} // namespace
 
 void checkOptions(const Smoothing& options)
 {
-  requireThat(options.operators == Extended::name,
+  require(options.operators == Extended::name,
     "smoothing needs solutions, which the operator set " + options.operators +
       " does not give: use " + Extended::name);
   checkOptions(static_cast<const SolveOptions&>(options));
   refuseAutomaticTolerance(options, "smoothing");
-  requireThat(
-    options.checkpoint.folder.empty(), "smoothing has no checkpoints: leave the folder out");
+  refuseCheckpoint(options, "smoothing has");
   // Whether the size fits the mesh is known after the first reading: MeshFairing::setSize().
-  requireThat(std::isfinite(options.size.value) && options.size.value > 0.0,
+  require(std::isfinite(options.size.value) && options.size.value > 0.0,
     "the size of the details to smooth (option --size) must be a positive number");
-  requireThat(
+  require(
     options.steps >= 1 && options.steps <= 1000, "the number of steps must be from 1 to 1000");
-  requireThat(!options.keepEdges || (*options.keepEdges > 0.0 && *options.keepEdges < 180.0),
+  require(!options.keepEdges || (*options.keepEdges > 0.0 && *options.keepEdges < 180.0),
     "the angle of the edges to keep must lie between 0 and 180 degrees, both excluded");
-  requireThat(options.column.empty() || !options.keepEdges,
+  require(options.column.empty() || !options.keepEdges,
     "edges are kept when positions are smoothed: name no column, or keep no edges");
-  requireThat(options.column.empty() || !options.orient,
+  require(options.column.empty() || !options.orient,
     "triangles are turned when positions are smoothed: name no column, or turn no triangles");
   // Curves are smoothed by moving their vertices, which a column does not do.
-  requireThat(options.column.empty() || options.boundary != SmoothedBoundary::Smooth,
+  require(options.column.empty() || options.boundary != SmoothedBoundary::Smooth,
     "the boundary is smoothed as curves only with the positions: of a column, fix it or leave it "
     "free");
 }

@@ -9,7 +9,6 @@
 #include "Solver/Multigrid/Extended.h"
 #include "Solver/Problem/ComposeDescriptions.h"
 #include "smg/DescribedProblem.h"
-#include "smg/Error.h"
 #include "smg/SolveWith.h"
 
 #include <string>
@@ -21,19 +20,6 @@
 
 namespace smg
 {
-namespace
-{
-
-/** Throws Error with this sentence unless the condition holds. */
-void require(bool holds, const std::string& sentence)
-{
-  if (!holds)
-  {
-    throw Error(sentence);
-  }
-}
-
-} // namespace
 
 void checkOptions(const SolveOptions& options)
 {
@@ -61,6 +47,11 @@ void refuseAutomaticTolerance(const SolveOptions& options, const std::string& wh
 {
   require(options.tolerance != SolveOptions::AutomaticTolerance,
     what + " has no automatic tolerance: give one between 0 and 1, both excluded");
+}
+
+void refuseCheckpoint(const SolveOptions& options, const std::string& who)
+{
+  require(options.checkpoint.folder.empty(), who + " no checkpoints: leave the folder out");
 }
 
 void checkAutomaticTolerance(const SolveOptions& options, Weights weights)

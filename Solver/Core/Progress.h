@@ -5,9 +5,26 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 namespace smg
 {
+
+/** A part of an operation, for its progress. */
+struct ProgressPart
+{
+  double begin = 0.0, end = 1.0;
+
+  double at(double done) const { return this->begin + done * (this->end - this->begin); }
+  ProgressPart of(double from, double to) const { return { this->at(from), this->at(to) }; }
+  /** The function for the progress of the part alone, which calls that of the operation; empty if
+   * that is. */
+  ProgressFunction of(const ProgressFunction& whole) const
+  {
+    return whole ? [whole, *this](double done) { return whole(this->at(done)); }
+                 : ProgressFunction();
+  }
+};
 
 /** Keeps the fractions monotone and throws `Cancelled` if the callback returns false. */
 class Progress

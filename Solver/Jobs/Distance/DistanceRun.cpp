@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Distance/DistanceRun.h"
 
-#include "Solver/Files/ScratchAccount.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 
 #include <algorithm>
@@ -14,6 +13,28 @@
 namespace smg
 {
 
+namespace
+{
+
+SolveOptions jobOptions(const DistanceOptions& options)
+{
+  SolveOptions job;
+  job.memoryLimit = options.memoryLimit;
+  job.threads = options.threads;
+  job.scratch = options.scratch;
+  job.scratchLimit = options.scratchLimit;
+  return job;
+}
+
+} // namespace
+
+DistanceRun::DistanceRun(const DistanceOptions& options)
+  : JobRun(jobOptions(options), DistanceMemory)
+  , progress(options.progress)
+  , maxPasses(options.maxPasses)
+{
+}
+
 /** Reports a pass by the differences to the state at the end of the one before. */
 void DistanceRun::endPass(double unsettled)
 {
@@ -23,24 +44,11 @@ void DistanceRun::endPass(double unsettled)
   this->Before = now;
 }
 
-/** What all computations report: peaks, traffic and times. The time of the solve is what building
- * does not take. */
+/** The time of the solve is what building does not take. */
 void DistanceRun::finishReport()
 {
-  Report& r = this->report;
-  r.pool_bytes_peak = this->pool.peak();
-  r.rss_bytes_peak = peakResidentBytes();
-  r.scratch_bytes_peak = this->scratch.account().peak();
-  for (const auto& [name, level, statistics] : this->traffic.kinds())
-  {
-    r.bytes_by_kind.push_back({ name, level, statistics.bytesRead, statistics.bytesWritten });
-  }
-  r.bytes_read = this->traffic.bytesRead();
-  r.bytes_written = this->traffic.bytesWritten();
-  r.seconds.io_wait = this->traffic.waitSeconds();
-  r.seconds.total = this->Wall.seconds();
-  r.seconds.solve = r.seconds.total - r.seconds.build;
-  r.cpu_seconds = processSeconds() - this->CpuAtStart;
+  this->JobRun::finishReport();
+  this->report.seconds.solve = this->report.seconds.total - this->report.seconds.build;
 }
 
 /** In memory is one chunk: as it is stored, and as read() delivers it. */

@@ -2,12 +2,9 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
-#include "Solver/Core/Timer.h"
 #include "Solver/Files/BlockStore.h"
-#include "Solver/Files/IoStatistics.h"
-#include "Solver/Files/ScratchFolder.h"
+#include "Solver/Jobs/Values/JobRun.h"
 #include "Solver/Memory/Buffer.h"
-#include "Solver/Memory/Pool.h"
 #include "smg/Distance.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
@@ -24,15 +21,9 @@ inline constexpr PoolUse DistanceMemory{ "a distance",
   "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
 /** What all parts of a distance and its solution share. */
-struct DistanceRun
+struct DistanceRun : JobRun
 {
-  explicit DistanceRun(const DistanceOptions& distanceOptions)
-    : options(distanceOptions)
-    , progress(distanceOptions.progress)
-    , pool(distanceOptions.memoryLimit, DistanceMemory)
-    , scratch(distanceOptions.scratch, distanceOptions.scratchLimit)
-  {
-  }
+  explicit DistanceRun(const DistanceOptions& options);
 
   /** To be called before the first pass: what has been read and written until then belongs to none.
    */
@@ -43,12 +34,8 @@ struct DistanceRun
   /** Adds memory, scratch files and times to the report. */
   void finishReport();
 
-  DistanceOptions options;
   Progress progress;
-  Pool pool;
-  ScratchFolder scratch;
-  ScratchTraffic traffic;
-  Report report;
+  int maxPasses;
 
 private:
   /** Time, traffic and memory from the beginning until now, in the form of one pass. */
@@ -59,8 +46,6 @@ private:
   }
 
   Report::Pass Before;
-  Timer Wall;
-  double CpuAtStart = processSeconds();
 };
 
 /** A column of results in a scratch file of blocks of consecutive vertices. */

@@ -38,7 +38,7 @@ constexpr double FirstReading = 0.3;
 struct DistanceFiles
 {
   DistanceFiles(const ChunkPlan& plan, DistanceRun& run)
-    : chunks(plan, run.scratch.path(), run.traffic)
+    : chunks(plan, run.options.scratch, run.traffic)
   {
   }
   ChunkedMesh chunks;
@@ -188,12 +188,12 @@ void readMesh(const StoredMesh& mesh, DistanceSources& sources, SourceFacets* fa
 void prepareMesh(const StoredMesh& mesh, std::optional<DistanceSources>& sources,
   ChunkedMesh& chunks, DistanceRun& run)
 {
-  sources->prepare(mesh, run.scratch.path());
+  sources->prepare(mesh, run.options.scratch);
   std::optional<BlockStore> file;
   std::optional<SourceFacets> facets;
   if (chunks.plan.nearest)
   {
-    facets.emplace(file.emplace(run.scratch / "sources", run.traffic.add("sources")));
+    facets.emplace(file.emplace(run.options.scratch / "sources", run.traffic.add("sources")));
   }
   readMesh(mesh, *sources, facets ? &*facets : nullptr, chunks, run);
   // Gives its memory back before what follows.
@@ -233,7 +233,7 @@ std::vector<PathEnd> pathEnds(const StoredMesh& mesh, const DistanceDescription&
   }
   DistanceSources selected(
     description.to, DataPlace::Vertices, false, mesh.info(), name, run.pool, "to");
-  selected.prepare(mesh, run.scratch.path());
+  selected.prepare(mesh, run.options.scratch);
   const std::unique_ptr<MeshSource> source = selected.read(mesh);
   for (MeshBlock block; source->next(block);)
   {
@@ -292,7 +292,7 @@ void march(ChunkedMesh& chunks, bool isExact, const std::vector<PathEnd>& ends, 
   const std::unique_ptr<ChunkMarch> marching = marchOf(chunks, isExact, run.pool);
   Report& report = run.report;
   run.beginPasses();
-  report.passes = marching->run(run.options.maxPasses, run.progress, FirstReading,
+  report.passes = marching->run(run.maxPasses, run.progress, FirstReading,
     [&](std::int64_t unsettled)
     { run.endPass(static_cast<double>(unsettled) / static_cast<double>(chunks.vertices)); });
   report.peak_nodes = std::min(chunks.plan.window(), chunks.vertices);

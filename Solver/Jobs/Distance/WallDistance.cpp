@@ -31,8 +31,8 @@ namespace
 struct WallFiles
 {
   explicit WallFiles(DistanceRun& run)
-    : triangles(run.scratch / "wall", run.traffic.add("wall"))
-    , values(run.scratch / "distances", run.traffic.add("distances"))
+    : triangles(run.options.scratch / "wall", run.traffic.add("wall"))
+    , values(run.options.scratch / "distances", run.traffic.add("distances"))
   {
   }
   BlockStore triangles, values;
@@ -119,7 +119,7 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   Report& report = run->report;
   report.distance = Report::Distance{};
   const Timer building;
-  sources->prepare(mesh, run->scratch.path());
+  sources->prepare(mesh, run->options.scratch);
   const std::int64_t triangles =
     readWall(mesh, description, *sources, files->triangles, *run, name);
   // Gives its memory back to the triangles.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Files/ScratchAccount.h"
 #include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Memory/Pool.h"
@@ -91,7 +90,7 @@ void MeshFairing::findEdges(int k, Part part)
  * the mesh as it is given. */
 FairingProblem MeshFairing::problem(double t, const VertexFile* surface)
 {
-  FairingProblem problem(this->Result->memory, t, this->Result->values, this->Held,
+  FairingProblem problem(this->Job.pool, t, this->Result->values, this->Held,
     this->hasCurves() ? &*this->Curves : nullptr);
   if (surface)
   {
@@ -104,27 +103,12 @@ FairingProblem MeshFairing::problem(double t, const VertexFile* surface)
 void MeshFairing::solveStep(
   FairingProblem& problem, const std::string& name, Part part, VertexFile& to)
 {
-  SolveOptions options = this->Options;
-  // In use beside the solve. The problem has none of it so far, and reports its own
-  // (Problem::bytes()).
-  const std::int64_t own = this->Result->memory.used();
-  // The solve has its own pool: it gets what is left.
-  options.memoryLimit = std::max<std::int64_t>(this->Options.memoryLimit - own, 1);
-  if (this->Options.progress)
-  {
-    options.progress = [this, part](double done) { return this->Options.progress(part.at(done)); };
-  }
+  // In use beside the solve, which has its own pool. The problem has none of it so far, and reports
+  // its own (Problem::bytes()).
+  const std::int64_t own = this->Job.pool.used();
   const auto source =
     this->surface().source(this->Columns.vertexColumns(), this->Columns.cellColumns());
-  std::unique_ptr<Solution> solution;
-  try
-  {
-    solution = solve(*source, problem, options);
-  }
-  catch (const MemoryLimitError& error)
-  {
-    throw error.inside(own, this->Options.memoryLimit);
-  }
+  const std::unique_ptr<Solution> solution = this->Job.solve(*source, problem, part, own);
   // The solution goes to the file of the next values before its scratch files are removed with it.
   to.restart();
   for (std::int64_t first = 0; first < solution->vertices(); first += ChunkVertices)
@@ -136,7 +120,7 @@ void MeshFairing::solveStep(
   }
   Report report = solution->report();
   report.pool_bytes_peak += own;
-  addStep(this->Result->total, report, name);
+  addStep(this->Job.report, report, name);
 }
 
 /** Finds the normals at the vertices of the surface with these positions. Those of held vertices
@@ -144,7 +128,7 @@ void MeshFairing::solveStep(
 void MeshFairing::findNormals(const VertexFile& positions, bool ofHeld, Part part)
 {
   this->Normals->restart();
-  PointNormals normals(this->Result->memory, positions, *this->Normals);
+  PointNormals normals(this->Job.pool, positions, *this->Normals);
   std::vector<std::uint8_t> held;
   this->read(part,
     [&](const MeshBlock& block)
@@ -173,7 +157,7 @@ void MeshFairing::keepVolume(Part part)
     this->findNormals(this->Next, false, part.of(0.0, 0.5));
   }
   double distance = 0.0;
-  this->Result->total.volume->swept += this->sweptVolume(part.of(0.5, 1.0), distance);
+  this->Job.report.volume->swept += this->sweptVolume(part.of(0.5, 1.0), distance);
   if (distance == 0.0)
   {
     // Nothing to add: the files are exchanged.
@@ -205,12 +189,12 @@ void MeshFairing::keepVolume(Part part)
 double MeshFairing::sweptVolume(Part part, double& distance)
 {
   SweptVolume volume;
-  OpenTuples before(this->Result->memory, this->Result->values);
-  OpenTuples after(this->Result->memory, this->Next);
+  OpenTuples before(this->Job.pool, this->Result->values);
+  OpenTuples after(this->Job.pool, this->Next);
   std::optional<OpenTuples> normals;
   if (this->Options.keepVolume)
   {
-    normals.emplace(this->Result->memory, *this->Normals);
+    normals.emplace(this->Job.pool, *this->Normals);
   }
   this->read(part,
     [&](const MeshBlock& block)
@@ -243,10 +227,9 @@ double MeshFairing::sweptVolume(Part part, double& distance)
     const std::optional<double> root = volume.root(this->Size);
     distance = root.value_or(0.0);
     const char* note = "the volume could not be kept: no motion along the normals makes up for it";
-    if (!root &&
-        std::ranges::find(this->Result->total.notes, note) == this->Result->total.notes.end())
+    if (!root && std::ranges::find(this->Job.report.notes, note) == this->Job.report.notes.end())
     {
-      this->Result->total.notes.emplace_back(note);
+      this->Job.report.notes.emplace_back(note);
     }
   }
   return volume.at(distance);
@@ -255,7 +238,7 @@ double MeshFairing::sweptVolume(Part part, double& distance)
 /** Completes the report. The vertex files count as traffic of their own kind. */
 std::unique_ptr<Solution> MeshFairing::finish()
 {
-  Report& report = this->Result->total;
+  Report& report = this->Job.report;
   // NaN before, if the surface has a boundary, stays NaN.
   if (report.volume)
   {
@@ -271,7 +254,7 @@ std::unique_ptr<Solution> MeshFairing::finish()
     countClipped(*this->Result,
       { *std::ranges::find(specs, this->Options.column, &ColumnSpec::name) }, report);
   }
-  this->Result->finishReport("smoothed");
+  this->Job.finishReport();
   return std::move(this->Result);
 }
 

@@ -5,7 +5,6 @@
 #include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
-#include "Solver/Mesh/VisitBlocks.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/MemoryEstimate.h"
 #include "Solver/Problem/MeshColumns.h"
@@ -81,18 +80,14 @@ MeshFairing::MeshFairing(const StoredMesh& mesh, const Smoothing& options)
         (this->movesPoints() && boundaryOf(options) == SmoothedBoundary::Free),
       this->Columns)
   , Result(std::make_unique<FairedValues>(options, this->Column ? this->Column->components : 3))
+  , Job(this->Result->job)
   , Next(this->Result->storage, this->Result->columns())
 {
   this->Columns.memory().setLimit(options.memoryLimit);
-  if (this->Result->scratch)
-  {
-    // The folder counts the files of all solves that are made in it, too, for one common limit.
-    this->Options.scratch = this->Result->scratch->path();
-  }
   // What is not needed takes no memory and no files.
   if (boundaryOf(options) == SmoothedBoundary::Smooth)
   {
-    this->Curves.emplace(this->Result->memory);
+    this->Curves.emplace(this->Job.pool);
   }
   if (options.keepEdges)
   {
@@ -116,23 +111,17 @@ std::unique_ptr<Solution> MeshFairing::run()
     const double all = steps;
     this->step(k, Part{ surveyed, 1.0 }.of(k / all, (k + 1) / all));
   }
-  // The last step may cancel like any other; what is taken from the pool of the result must end
-  // before the result does.
-  if (this->Options.progress && !this->Options.progress(1.0))
-  {
-    throw Cancelled();
-  }
+  // What is taken from the pool of the result must end before the result does.
+  this->Job.endProgress();
   return this->finish();
 }
 
-/** Reads the mesh once, and counts the pass. */
+/** Reads the mesh once. */
 void MeshFairing::read(Part part, const Visit& visit)
 {
   const auto source =
     this->surface().source(this->Columns.vertexColumns(), this->Columns.cellColumns());
-  visitBlocks(*source, this->Options.progress, part.begin, part.end, visit);
-  // Passes of solves are added with their reports.
-  ++this->Result->total.passes;
+  this->Job.read(*source, part, visit);
 }
 
 /** The first reading: what is held, the values, the lengths that sizes refer to. */
@@ -140,13 +129,13 @@ void MeshFairing::survey(Part part)
 {
   const CellType type = this->Mesh.info().cellType;
   StreamCheck check(type);
-  MeshMeasures measures(this->Result->memory, type);
-  Reservation held(this->Result->memory);
+  MeshMeasures measures(this->Job.pool, type);
+  Reservation held(this->Job.pool);
   // Volumes need to know which triangles are wound against each other, which facets tell.
   std::optional<BoundaryFacets> facets;
   if (this->Curves || this->movesPoints())
   {
-    facets.emplace(this->Result->memory, type);
+    facets.emplace(this->Job.pool, type);
   }
   const auto addEdge = [this](std::int64_t low, std::int64_t high, std::int64_t /*none*/)
   {
@@ -160,7 +149,7 @@ void MeshFairing::survey(Part part)
     {
       check.add(block);
       measures.add(block);
-      this->Held.prepare(block, this->Options.scratch);
+      this->Held.prepare(block, this->Job.options.scratch);
       held.resize(this->Held.bytes());
       this->keepValues(block);
       if (facets)
@@ -188,8 +177,8 @@ void MeshFairing::survey(Part part)
   {
     // Without a closed surface there is no volume, only one that is swept.
     const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
-    this->Result->total.volume = Report::Volume{};
-    this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
+    this->Job.report.volume = Report::Volume{};
+    this->Job.report.volume->before = isClosed ? measures.volume() : std::nan("");
     if (this->Options.orient || facets->turnedEdges() > 0 ||
         (isClosed && measures.turnedVolume() > 0.0))
     {
@@ -202,8 +191,7 @@ void MeshFairing::survey(Part part)
  * the steps are those of the surface that is wound like that. */
 void MeshFairing::orient(Part part)
 {
-  Orientation& winding = this->Result->found.emplace(this->Result->memory,
-    this->Result->scratch ? this->Result->scratch->path() : this->Options.scratch);
+  Orientation& winding = this->Result->found.emplace(this->Job.pool, this->Job.options.scratch);
   double from = 0.0;
   winding.find(
     [this, part, &from](const Visit& visit)
@@ -211,7 +199,7 @@ void MeshFairing::orient(Part part)
       this->read(part.of(from, 0.5 + 0.5 * from), visit);
       from = 0.5;
     });
-  Report& report = this->Result->total;
+  Report& report = this->Job.report;
   if (winding.turned() > 0)
   {
     this->Oriented.emplace(this->Mesh, winding);
@@ -253,7 +241,7 @@ void MeshFairing::orient(Part part)
 /** Warns of cavities, whose volume counts as negative. */
 void MeshFairing::noteCavities(double inwards, double outwards)
 {
-  Report& report = this->Result->total;
+  Report& report = this->Job.report;
   constexpr double Little = 0.01;
   if (std::min(inwards, outwards) > Little * std::max(inwards, outwards))
   {
@@ -308,7 +296,7 @@ void MeshFairing::requireWelded(const StreamCheck& check)
   {
     throw Error(note + ": smoothed each for itself they would shrink.");
   }
-  noteUnwelded(type, check.vertices(), check.cells(), this->Result->total);
+  noteUnwelded(type, check.vertices(), check.cells(), this->Job.report);
 }
 
 /** Sets the size S in the unit of the mesh, and the time step t that follows from it. */
@@ -325,7 +313,7 @@ void MeshFairing::setSize(const MeshMeasures& measures)
       this->Size > measures.diagonal())
   {
     this->Size = Most * measures.diagonal();
-    this->Result->total.notes.push_back(
+    this->Job.report.notes.push_back(
       "The mesh is smaller than the size of the details to smooth in its mean edges: a quarter of "
       "its diagonal, " +
       scientific(this->Size) + ", was smoothed.");
@@ -361,7 +349,7 @@ void MeshFairing::setSize(const MeshMeasures& measures)
     {
       throw Error(sentence);
     }
-    this->Result->total.warn(sentence);
+    this->Job.report.warn(sentence);
   }
 }
 

@@ -29,7 +29,7 @@ class FairedValues final : public VertexSolution
 {
 public:
   FairedValues(const Smoothing& options, int columns)
-    : VertexSolution(options, columns)
+    : VertexSolution(options, columns, "smoothed")
     , orient(options.orient)
   {
   }
@@ -51,14 +51,7 @@ public:
   std::unique_ptr<Solution> run();
 
 private:
-  /** A part of the operation, for its progress. */
-  struct Part
-  {
-    double begin = 0.0, end = 1.0;
-
-    double at(double done) const { return this->begin + done * (this->end - this->begin); }
-    Part of(double from, double to) const { return { this->at(from), this->at(to) }; }
-  };
+  using Part = ProgressPart;
   using Visit = std::function<void(const MeshBlock& block)>;
 
   bool movesPoints() const { return this->Options.column.empty(); }
@@ -94,6 +87,7 @@ private:
   std::optional<NamedColumn> Column; ///< none: the positions
   FixedVertices Held;
   std::unique_ptr<FairedValues> Result; ///< with the current values
+  JobRun& Job;                          ///< of the result
   std::optional<BoundaryCurves> Curves;
   VertexFile Next; ///< the values after the current step
   std::optional<VertexFile> Presmoothed, Normals;

@@ -1,36 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Timer.h"
-#include "Solver/Files/ScratchAccount.h"
-#include "Solver/Files/ScratchFolder.h"
 #include "Solver/Files/VertexFile.h"
-#include "Solver/Memory/Pool.h"
+#include "Solver/Jobs/Values/JobRun.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <utility>
+#include <string>
 
 namespace smg
 {
 
-/** Values at the vertices as a solution, with the memory or scratch files that have them, and the
- * report. */
+/** Values at the vertices as a solution, with the job that has the memory or scratch files of
+ * these, and the report. */
 class VertexSolution : public Solution
 {
 public:
-  VertexSolution(const SolveOptions& options, int columns, const PoolUse& use = SolveMemory)
-    : memory(options.memoryLimit, use)
-    , scratch(options.inCore ? std::nullopt
-                             : std::optional<ScratchFolder>(
-                                 std::in_place, options.scratch, options.scratchLimit))
-    , storage{ this->memory, this->scratch ? &*this->scratch : nullptr, this->traffic }
+  /** `kind`: of the values, in the report of the traffic. */
+  VertexSolution(const SolveOptions& options, int columns, const std::string& kind,
+    const PoolUse& use = SolveMemory)
+    : job(options, use)
+    , storage{ this->job.pool, this->job.scratch ? &*this->job.scratch : nullptr,
+      this->job.traffic.add(kind) }
     , values(this->storage, columns)
   {
   }
@@ -43,33 +38,11 @@ public:
       first, count, to.size() / static_cast<std::size_t>(this->columns()), this->vertices());
     this->values.read(first, count, to.data());
   }
-  const Report& report() const override { return this->total; }
+  const Report& report() const override { return this->job.report; }
 
-  /** Adds to the report what the computation has cost; `kind` is that of the values on scratch
-   * files. */
-  void finishReport(const char* kind)
-  {
-    Report& r = this->total;
-    r.bytes_by_kind.push_back({ kind, -1, this->traffic.bytesRead, this->traffic.bytesWritten });
-    r.bytes_read += this->traffic.bytesRead;
-    r.bytes_written += this->traffic.bytesWritten;
-    r.pool_bytes_peak = std::max(r.pool_bytes_peak, this->memory.peak());
-    r.rss_bytes_peak = peakResidentBytes();
-    r.scratch_bytes_peak = this->scratch ? this->scratch->account().peak() : 0;
-    r.seconds.total = this->Wall.seconds();
-    r.cpu_seconds = processSeconds() - this->CpuAtStart;
-  }
-
-  Pool memory;
-  std::optional<ScratchFolder> scratch;
-  IoStatistics traffic;
+  JobRun job;
   VertexStorage storage; ///< for further values
   VertexFile values;
-  Report total;
-
-private:
-  Timer Wall;
-  double CpuAtStart = processSeconds();
 };
 
 } // namespace smg

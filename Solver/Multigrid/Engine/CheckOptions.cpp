@@ -8,6 +8,14 @@
 namespace smg
 {
 
+void require(bool holds, const std::string& sentence)
+{
+  if (!holds)
+  {
+    throw Error(sentence);
+  }
+}
+
 /** The difference vertices - count cannot overflow, as first + count could: both are at least 0
  * when it is formed. */
 void checkVertexRange(

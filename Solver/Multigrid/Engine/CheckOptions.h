@@ -13,6 +13,9 @@
 namespace smg
 {
 
+/** Throws Error with this sentence unless the condition holds. */
+void require(bool holds, const std::string& sentence);
+
 /** What smooth() is asked for. */
 struct Smoothing : SolveOptions, SmoothingDescription
 {
@@ -29,6 +32,9 @@ SMG_EXPORT void checkOptions(const Smoothing& smoothing);
 /** Throws Error, in a sentence that begins with `what`, if the tolerance is
  * SolveOptions::AutomaticTolerance. */
 SMG_EXPORT void refuseAutomaticTolerance(const SolveOptions& options, const std::string& what);
+/** Throws Error, in a sentence that begins with `who`, as "a blend has", if there is a folder for
+ * checkpoints. */
+void refuseCheckpoint(const SolveOptions& options, const std::string& who);
 /** Throws Error unless the library has the operator set of that name and it supports the other
  * options; solve() does so, too. */
 SMG_EXPORT void checkOperators(const SolveOptions& options);

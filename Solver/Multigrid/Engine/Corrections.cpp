@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/Corrections.h"
 
+#include "Solver/Core/Progress.h"
 #include "Solver/Multigrid/Engine/Convergence.h"
 #include "Solver/Multigrid/Engine/PoissonSolver.h"
 #include "smg/Error.h"
@@ -198,11 +199,7 @@ std::unique_ptr<Solution> corrected(const CompiledOperators& operators, Problem&
     }
     // Another one may follow.
     const double end = done + OfRest * (1.0 - done);
-    if (options.progress)
-    {
-      again.progress = [&options, done, end](double share)
-      { return options.progress(done + share * (end - done)); };
-    }
+    again.progress = ProgressPart{ done, end }.of(options.progress);
     done = end;
     PoissonSolver next(operators, problem.columns(), again);
     std::unique_ptr<Solution> correction;
