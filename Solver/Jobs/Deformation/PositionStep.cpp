@@ -125,36 +125,25 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
     [&](const auto& a, const BlockPart<double>& part)
     {
       const RowBlock::Header& h = part.header();
-      const auto closeRows = [&](const auto& arrays, BlockRange rows)
-      {
-        for (std::int64_t k = rows.begin; k < rows.end; ++k)
+      forRuns<double>(h, a, part.nodes,
+        [&](const auto& arrays, BlockRange nodes, auto /*isSpecial*/)
         {
-          this->closeRow(block, h, arrays, k);
-        }
-      };
-      for (NodeRuns runs(h, a, part.nodes); runs.next();)
-      {
-        if (!runs.special())
-        {
-          closeRows(a, runs.nodes());
-          continue;
-        }
-        visitSpecial<double>(
-          h, a, *runs.special(), [&](const auto& row) { closeRows(row, runs.nodes()); });
-      }
+          for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+          {
+            this->closeRow(block, h.first + k, RowView(h, arrays, k));
+          }
+        });
     });
   this->Done = end;
 }
 
-/** Computes right-hand side and first residual of node k of the block. */
-template <class Arrays>
-void PositionStep::closeRow(
-  const RestBlock& block, const RowBlock::Header& h, const Arrays& a, std::int64_t k)
+/** Computes right-hand side and first residual of vertex i, which has this row. */
+template <class Row>
+void PositionStep::closeRow(const RestBlock& block, std::int64_t i, const Row& row)
 {
-  const std::int64_t i = h.first + k;
-  const BlockRange row = entriesOf(h, a, k);
+  const std::int64_t k = i - block.first();
   const std::span<const RestBlock::Link> links = block.links();
-  if (row.begin == row.end && (this->NextLink == links.size() || links[this->NextLink].node != k))
+  if (row.size() == 0 && (this->NextLink == links.size() || links[this->NextLink].node != k))
   {
     // Held, or without a weighted cell: u stays 0.
     return;
@@ -168,16 +157,16 @@ void PositionStep::closeRow(
   // contains the held neighbours.
   for (int c = 0; c < Stride; ++c)
   {
-    rotation[c] = this->Window.up().b.at(i)[c] - a.diagonal[k] * x[c];
+    rotation[c] = this->Window.up().b.at(i)[c] - row.diagonal * x[c];
   }
-  for (std::int64_t e = row.begin; e < row.end; ++e)
+  for (std::int64_t e = 0; e < row.size(); ++e)
   {
-    const std::int64_t j = i + a.delta[e];
-    const double weight = a.weight[e];
+    const std::int64_t j = i + row.delta(e);
+    const double weight = row.weight(e);
     sums.add(weight, point, this->Points.at(j), this->Frames[j]);
     for (int c = 0; c < Stride; ++c)
     {
-      rotation[c] += weight * x[static_cast<std::int64_t>(a.delta[e]) * Stride + c];
+      rotation[c] += weight * x[row.delta(e) * Stride + c];
     }
   }
   for (; this->NextLink < links.size() && links[this->NextLink].node == k; ++this->NextLink)

@@ -61,8 +61,8 @@ public:
 private:
   void turn(std::int64_t end);
   void closeGroup(const RestBlock& block, std::int64_t end);
-  template <class Arrays>
-  void closeRow(const RestBlock& block, const RowBlock::Header& h, const Arrays& a, std::int64_t k);
+  template <class Row>
+  void closeRow(const RestBlock& block, std::int64_t i, const Row& row);
   void release();
 
   RestShape& Rest;

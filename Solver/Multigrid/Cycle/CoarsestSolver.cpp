@@ -31,21 +31,21 @@ CoarsestMatrix matrixOf(LevelWindow<float>& level)
         const std::int64_t i = part.header().first + k;
         // The row sum, recomputed from the diagonal: zero up to the rounding of this sum where no
         // constraint reaches, since the diagonal is the row sum plus the weights.
-        double sum = a.diagonal[k];
-        double terms = a.diagonal[k];
-        const BlockRange row = entriesOf(part.header(), a, k);
-        for (std::int64_t e = row.begin; e < row.end; ++e)
+        const RowView row(part.header(), a, k);
+        double sum = row.diagonal;
+        double terms = row.diagonal;
+        for (std::int64_t e = 0; e < row.size(); ++e)
         {
-          const double weight = a.weight[e];
+          const double weight = row.weight(e);
           sum -= weight;
           terms += std::fabs(weight);
           // The matrix is symmetric: one triangle suffices.
-          if (a.delta[e] < 0)
+          if (row.delta(e) < 0)
           {
-            matrix.lower.emplace_back(i, i + a.delta[e], -weight);
+            matrix.lower.emplace_back(i, i + row.delta(e), -weight);
           }
         }
-        matrix.diagonal.push_back(a.diagonal[k]);
+        matrix.diagonal.push_back(row.diagonal);
         // Row sums of a free component are exactly zero: what remains is the rounding of this sum,
         // relative to its terms. A sum that is not well above it would be wrong by a factor, with
         // which the V-cycles would not converge: the constant is then left to Components.

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <limits>
 
 namespace smg
 {
@@ -24,34 +25,19 @@ struct GaussSeidel
   {
     for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
     {
-      const BlockRange row = entriesOf(h, a, k);
+      const RowView row(h, a, k);
       Real* xk = x + k * stride;
-      // Two sums for even and odd entries: the additions of one need not wait for those of the
-      // other. The order is fixed, and with it the bits.
-      auto even = Vectors::load(b + k * stride);
-      typename Vectors::Vector odd{};
-      std::int64_t e = row.begin;
+      const auto bk = Vectors::load(b + k * stride);
+      typename Vectors::Vector sum{};
       if constexpr (LowerOnly)
       {
-        // Entries are sorted by column.
-        for (; e < row.end && a.delta[e] < 0; ++e)
-        {
-          even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
-        }
+        sum += row.template plusProductsBelow<Vectors>(0, bk, xk, stride);
       }
       else
       {
-        for (; e + 1 < row.end; e += 2)
-        {
-          even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
-          odd += static_cast<Real>(a.weight[e + 1]) * Vectors::load(xk + a.delta[e + 1] * stride);
-        }
-        if (e < row.end)
-        {
-          even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
-        }
+        sum = row.template plusProducts<Vectors>(bk, xk, stride);
       }
-      Vectors::store(xk, (even + odd) * static_cast<Real>(1.0 / a.diagonal[k]));
+      Vectors::store(xk, sum * static_cast<Real>(1.0 / row.diagonal));
     }
   }
 };
@@ -116,14 +102,8 @@ template <bool LowerOnly, class Vectors, class Real, class Arrays>
 [[gnu::always_inline]] inline typename Vectors::Vector neighbourSum(
   const RowBlock::Header& h, const Arrays& a, std::int64_t k, std::int64_t stride, const Real* x)
 {
-  const BlockRange row = entriesOf(h, a, k);
-  const Real* xk = x + k * stride;
-  typename Vectors::Vector sum{};
-  for (std::int64_t e = row.begin; e < row.end && !(LowerOnly && a.delta[e] > 0); ++e)
-  {
-    sum += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
-  }
-  return sum;
+  constexpr std::int64_t End = LowerOnly ? 0 : std::numeric_limits<std::int64_t>::max();
+  return RowView(h, a, k).template plusProductsBelow<Vectors>(End, {}, x + k * stride, stride);
 }
 
 static_assert(Relaxation<GaussSeidel>);

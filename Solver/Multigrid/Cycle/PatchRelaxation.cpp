@@ -19,14 +19,12 @@ template <class Vectors, class Real, class Arrays>
 typename Vectors::Vector residualBelow(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
   std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
 {
-  const BlockRange row = entriesOf(h, a, k);
-  auto sum = Vectors::load(b + k * stride);
-  for (std::int64_t e = row.begin; e < row.end && k + a.delta[e] < limit; ++e)
-  {
-    sum += static_cast<Real>(a.weight[e]) * Vectors::load(x + (k + a.delta[e]) * stride);
-  }
+  const RowView row(h, a, k);
+  const Real* xk = x + k * stride;
+  const auto sum =
+    row.template plusProductsBelow<Vectors>(limit - k, Vectors::load(b + k * stride), xk, stride);
   // In an overlapping patch it may have a value before its own patch is complete.
-  return k < limit ? sum - static_cast<Real>(a.diagonal[k]) * Vectors::load(x + k * stride) : sum;
+  return k < limit ? sum - static_cast<Real>(row.diagonal) * Vectors::load(xk) : sum;
 }
 
 /** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given their residuals and the inverse

@@ -336,6 +336,79 @@ inline BlockRange parentsOf(const RowBlock::Header& h, const Arrays& a, std::int
   return { start + (k % RowBlock::Group ? a.parentEnd[k - 1] : 0), start + a.parentEnd[k] };
 }
 
+/** The row of a node of a block: weights w_j of its neighbours, which are `delta` nodes away in
+ * ascending order, and the diagonal entry. */
+template <class Index, class Weight>
+class RowView
+{
+public:
+  /** What a weight is read as. */
+  using Number = std::conditional_t<std::is_same_v<Weight, double>, double, float>;
+
+  RowView(const RowBlock::Header& h, const RowBlock::Arrays<Index, Weight>& a, std::int64_t k)
+    : RowView(entriesOf(h, a, k), a, k)
+  {
+  }
+
+  std::int64_t size() const { return this->Size; }
+  Number weight(std::int64_t e) const { return static_cast<Number>(this->Weights[e]); }
+  std::int64_t delta(std::int64_t e) const { return this->Deltas[e]; }
+
+  /** `start` + sum_j w_j x_j, with x of the node at `x` and `stride` values per node. Two sums for
+   * even and odd entries: the additions of one need not wait for those of the other. The order is
+   * fixed, and with it the bits. */
+  template <class Vectors, class Real>
+  [[gnu::always_inline]] typename Vectors::Vector plusProducts(
+    typename Vectors::Vector start, const Real* x, std::int64_t stride) const
+  {
+    typename Vectors::Vector odd{};
+    std::int64_t e = 0;
+    for (; e + 1 < this->Size; e += 2)
+    {
+      start += this->product<Vectors>(e, x, stride);
+      odd += this->product<Vectors>(e + 1, x, stride);
+    }
+    if (e < this->Size)
+    {
+      start += this->product<Vectors>(e, x, stride);
+    }
+    return start + odd;
+  }
+  /** The same in one sum, of the neighbours that are less than `end` nodes away. */
+  template <class Vectors, class Real>
+  [[gnu::always_inline]] typename Vectors::Vector plusProductsBelow(
+    std::int64_t end, typename Vectors::Vector start, const Real* x, std::int64_t stride) const
+  {
+    for (std::int64_t e = 0; e < this->Size && this->Deltas[e] < end; ++e)
+    {
+      start += this->product<Vectors>(e, x, stride);
+    }
+    return start;
+  }
+
+  const double diagonal;
+
+private:
+  RowView(BlockRange entries, const RowBlock::Arrays<Index, Weight>& a, std::int64_t k)
+    : diagonal(a.diagonal[k])
+    , Weights(a.weight + entries.begin)
+    , Deltas(a.delta + entries.begin)
+    , Size(entries.end - entries.begin)
+  {
+  }
+
+  template <class Vectors, class Real>
+  [[gnu::always_inline]] typename Vectors::Vector product(
+    std::int64_t e, const Real* x, std::int64_t stride) const
+  {
+    return static_cast<Real>(this->Weights[e]) * Vectors::load(x + this->Deltas[e] * stride);
+  }
+
+  const Weight* Weights;
+  const Index* Deltas; // read in place
+  std::int64_t Size;
+};
+
 /** The nodes of a range that lie in one block, with their unknowns x and right-hand sides b: those
  * of the columns from `lane` on, of node 0 of the block. */
 template <class Real>
@@ -422,6 +495,25 @@ private:
   std::int64_t At, End;
   BlockRange Run{};
 };
+
+/** Calls f(arrays, nodes, isSpecial) for runs of nodes of a block with the arrays of their rows:
+ * special nodes come alone, with their weights in double precision if they have such. `isSpecial`
+ * is a constant. */
+template <class Real, class Arrays, class F>
+[[gnu::always_inline]] inline void forRuns(
+  const RowBlock::Header& h, const Arrays& a, BlockRange nodes, const F& f)
+{
+  for (NodeRuns runs(h, a, nodes); runs.next();)
+  {
+    if (!runs.special())
+    {
+      f(a, runs.nodes(), std::false_type());
+      continue;
+    }
+    visitSpecial<Real>(
+      h, a, *runs.special(), [&](const auto& row) { f(row, runs.nodes(), std::true_type()); });
+  }
+}
 
 template <class Index, class Weight>
 void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)

@@ -10,30 +10,7 @@
 
 namespace smg
 {
-namespace
-{
-
 static_assert(RowBlock::Nodes == static_cast<std::int64_t>(ComponentLabels::Block));
-
-/** A row of a block, for InitialResidual. */
-template <class Arrays>
-struct StoredRow
-{
-  const Arrays& arrays;
-  BlockRange entries;
-  double diagonal;
-
-  std::int64_t size() const { return this->entries.end - this->entries.begin; }
-  double weight(std::int64_t e) const
-  {
-    return static_cast<double>(this->arrays.weight[this->entries.begin + e]);
-  }
-  std::int64_t delta(std::int64_t e) const { return this->arrays.delta[this->entries.begin + e]; }
-};
-template <class Arrays>
-StoredRow(const Arrays&, BlockRange, double) -> StoredRow<Arrays>;
-
-} // namespace
 
 std::int64_t RightSides::Block::bytes() const
 {
@@ -147,7 +124,7 @@ void RightSides::addRows(const Arrays& rows, const BlockPart<double>& part, Init
     }
     const double* x = part.x + k * part.stride;
     const double* b = part.b + k * part.stride;
-    const StoredRow row{ arrays, entriesOf(h, arrays, k), arrays.diagonal[k] };
+    const RowView row(h, arrays, k);
     const double share = block.shares.empty() ? 1.0 : block.shares[static_cast<std::size_t>(k)];
     const std::span<const double> residual = sum.add(row, x, b, part.stride, share);
     if (run->label < 0)
@@ -162,17 +139,14 @@ void RightSides::addRows(const Arrays& rows, const BlockPart<double>& part, Init
       components.count(run->label, b, x, residual.data(), mass);
     }
   };
-  for (NodeRuns runs(h, rows, part.nodes); runs.next();)
-  {
-    const auto addAll = [&](const auto& arrays)
+  forRuns<double>(h, rows, part.nodes,
+    [&](const auto& arrays, BlockRange nodes, auto /*isSpecial*/)
     {
-      for (std::int64_t k = runs.nodes().begin; k < runs.nodes().end; ++k)
+      for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
       {
         add(arrays, k);
       }
-    };
-    runs.special() ? visitSpecial<double>(h, rows, *runs.special(), addAll) : addAll(rows);
-  }
+    });
 }
 
 } // namespace smg
