@@ -10,6 +10,9 @@
 namespace smg
 {
 
+class DeformationEngine;
+struct FirstResidual;
+
 /**
  * A deformation in memory with fast updates, for dragging handles: hierarchy and factor are kept as
  * long as the same vertices are held. Every result equals that of deform() with the same handles,
@@ -39,8 +42,12 @@ public:
   const Report& report() const override;
 
 private:
-  struct Implementation;
-  std::unique_ptr<Implementation> Self;
+  bool holdsTheSame(const VertexHandles& handles) const;
+  void take(const VertexHandles& handles);
+  FirstResidual findRightSide();
+
+  std::unique_ptr<DeformationEngine> Engine;
+  bool Broken = false; ///< an update ended with an exception
 };
 
 } // namespace smg

@@ -1,95 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
+#include "Solver/Jobs/Deformation/InteractiveDeformation.h"
 
 #include "Solver/Jobs/Deformation/DeformationEngine.h"
+#include "Solver/Jobs/Deformation/PositionStep.h"
 #include "Solver/Jobs/Deformation/RotationProblem.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Multigrid/Engine/Pass.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <span>
-#include <utility>
+#include <vector>
+
+// A deformation in core that is repeated with other motions of the same held vertices: only the
+// right-hand sides change, so that hierarchy and factorisation are kept. All values start anew.
 
 namespace smg
 {
-
-/** A deformation in core that can be repeated with other motions of the same held vertices: only
- * the right-hand sides change, so that hierarchy and factorisation are kept. All values start anew.
- */
-class InteractiveEngine
+namespace
 {
-public:
-  /** `options` must be those of a deformation in core. */
-  InteractiveEngine(CompiledOperators operators, const DeformOptions& options, CellType cells)
-    : First(std::move(operators), options, cells)
-  {
-  }
 
-  /** To be called once. */
-  void deform(MeshSource& mesh, Handles& handles) { this->First.deform(mesh, handles); }
-  /** After deform(). Returns false, without any change, if other vertices are held. */
-  bool deformAgain(const VertexHandles& handles);
-
-  const Report& report() { return this->First.run().report; }
-  /** The positions; see Solution. Throws Error after an aborted update. */
-  void read(std::int64_t first, std::int64_t count, std::span<double> values);
-
-private:
-  template <class F>
-  void forHeld(F&& f);
-  bool holdsTheSame(const VertexHandles& handles);
-  void take(const VertexHandles& handles);
-  FirstResidual findRightSide();
-
-  DeformationEngine First;
-  /** Whether an update ended with an exception. */
-  bool Broken = false;
-};
-
-inline bool InteractiveEngine::deformAgain(const VertexHandles& handles)
+/** The options of an interactive deformation, which are checked like others. */
+DeformOptions interactiveOptions(DeformOptions options)
 {
-  SolveContext& run = this->First.run();
-  checkSize(handles, run.report.vertices);
-  if (!this->holdsTheSame(handles))
-  {
-    return false;
-  }
-  this->forHeld([&](const RestBlock::Held&, std::size_t i)
-    { checkHeld(handles, i, static_cast<std::int64_t>(i)); });
-  this->Broken = true;
-  run.beginAgain();
-  this->take(handles);
-  this->First.steps().begin(false);
-  this->First.steps().solve(
-    [&]
-    {
-      const FirstResidual first = this->findRightSide();
-      Pass(run, this->First.levels()).begin();
-      return first;
-    });
-  this->Broken = false;
-  return true;
-}
-
-inline void InteractiveEngine::read(
-  std::int64_t first, std::int64_t count, std::span<double> values)
-{
-  if (this->Broken)
-  {
-    throw Error("the last update was broken off: there are no positions until one succeeds");
-  }
-  checkVertexRange(first, count, values.size() / PositionStep::Columns, this->report().vertices);
-  this->First.levels().window().readX(first, count, values.data());
-  this->First.rest().addStart(first, count, values.data());
+  // Updates access the values of all vertices in any order.
+  options.inCore = true;
+  checkOptions(options);
+  return options;
 }
 
 /** Calls f(held, index) for each held vertex. */
 template <class F>
-void InteractiveEngine::forHeld(F&& f)
+void forHeld(RestShape& rest, F&& f)
 {
-  for (const RestBlock& block : this->First.rest().blocks())
+  for (const RestBlock& block : rest.blocks())
   {
     for (RestBlock::Held& held : block.held())
     {
@@ -98,27 +44,84 @@ void InteractiveEngine::forHeld(F&& f)
   }
 }
 
-inline bool InteractiveEngine::holdsTheSame(const VertexHandles& handles)
+} // namespace
+
+InteractiveDeformation::InteractiveDeformation(
+  MeshSource& mesh, Handles& handles, const DeformOptions& options)
+  : Engine(std::make_unique<DeformationEngine>(interactiveOptions(options), mesh.info().cellType))
+{
+  this->Engine->deform(mesh, handles);
+}
+
+InteractiveDeformation::~InteractiveDeformation() = default;
+
+std::int64_t InteractiveDeformation::vertices() const
+{
+  return this->report().vertices;
+}
+
+const Report& InteractiveDeformation::report() const
+{
+  return this->Engine->run().report;
+}
+
+bool InteractiveDeformation::update(const VertexHandles& handles)
+{
+  SolveContext& run = this->Engine->run();
+  checkSize(handles, run.report.vertices);
+  if (!this->holdsTheSame(handles))
+  {
+    return false;
+  }
+  forHeld(this->Engine->rest(), [&](const RestBlock::Held&, std::size_t i)
+    { checkHeld(handles, i, static_cast<std::int64_t>(i)); });
+  this->Broken = true;
+  run.beginAgain();
+  this->take(handles);
+  this->Engine->steps().begin(false);
+  this->Engine->steps().solve(
+    [&]
+    {
+      const FirstResidual first = this->findRightSide();
+      Pass(run, this->Engine->levels()).begin();
+      return first;
+    });
+  this->Broken = false;
+  return true;
+}
+
+void InteractiveDeformation::read(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  if (this->Broken)
+  {
+    throw Error("the last update was broken off: there are no positions until one succeeds");
+  }
+  checkVertexRange(first, count, values.size() / PositionStep::Columns, this->report().vertices);
+  this->Engine->levels().window().readX(first, count, values.data());
+  this->Engine->rest().addStart(first, count, values.data());
+}
+
+bool InteractiveDeformation::holdsTheSame(const VertexHandles& handles)
 {
   const auto isHeld = [](std::uint8_t mask) { return mask != 0; };
   bool same =
     std::count_if(handles.mask.begin(), handles.mask.end(), isHeld) == this->report().prescribed;
-  this->forHeld(
+  forHeld(this->Engine->rest(),
     [&](const RestBlock::Held&, std::size_t i) { same = same && isHeld(handles.mask[i]); });
   return same;
 }
 
 /** Sets the targets of the held vertices, and their rotations and scales; all others begin with 0.
  */
-inline void InteractiveEngine::take(const VertexHandles& handles)
+void InteractiveDeformation::take(const VertexHandles& handles)
 {
-  LevelWindow<double>& window = this->First.levels().window();
+  LevelWindow<double>& window = this->Engine->levels().window();
   window.abandon();
   window.setColumns(RotationProblem::Columns);
   std::ranges::fill(window.x().range(0, window.nodes()), 0.0);
-  std::int64_t& shared = this->First.run().report.shared;
+  std::int64_t& shared = this->Engine->run().report.shared;
   shared = 0;
-  this->forHeld(
+  forHeld(this->Engine->rest(),
     [&](RestBlock::Held& held, std::size_t i)
     {
       std::copy_n(handles.target.data() + 3 * i, 3, held.target.data());
@@ -131,9 +134,9 @@ inline void InteractiveEngine::take(const VertexHandles& handles)
 
 /** Computes the right-hand side of the rotations as Assembly does. With initial values of 0, b - A
  * x is b at free vertices. */
-inline FirstResidual InteractiveEngine::findRightSide()
+FirstResidual InteractiveDeformation::findRightSide()
 {
-  LevelWindow<double>& window = this->First.levels().window();
+  LevelWindow<double>& window = this->Engine->levels().window();
   std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
   constexpr std::size_t Columns = RotationProblem::Columns;
   ColumnResiduals residual{ std::vector<double>(Columns), std::vector<double>(Columns), {} };
@@ -144,7 +147,7 @@ inline FirstResidual InteractiveEngine::findRightSide()
       residual.squares[c] += window.b().at(i)[c] * window.b().at(i)[c];
     }
   };
-  for (const RestBlock& block : this->First.rest().blocks())
+  for (const RestBlock& block : this->Engine->rest().blocks())
   {
     addKnownValues(block.first(), std::span<const RestBlock::Link>(block.links()),
       RotationProblem::Columns, window.x(), window.b(), addSquares);
