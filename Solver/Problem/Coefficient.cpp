@@ -298,11 +298,13 @@ void PiecewiseCoefficient::entryAtVertices(std::int32_t e, std::span<std::int32_
   }
 }
 
-/** Cells of a batch, not of the whole block: selections are asked for a range of cells. */
-void PiecewiseCoefficient::entriesAtCells(
-  const CellRange& cells, std::span<std::int32_t> entry) const
+/** Calls select(selection) for each entry, which sets `Selected`: a byte per cell with a bit for
+ * each of its `places`. Cells of a batch, not of the whole block: selections are asked for a range
+ * of cells. */
+void PiecewiseCoefficient::select(
+  std::span<std::int32_t> entry, std::size_t places, auto select) const
 {
-  this->Selected.resize(entry.size());
+  this->Selected.resize(entry.size() / places);
   for (std::int32_t e = 0; e < this->entries(); ++e)
   {
     const Selection* where = this->at(e).where;
@@ -311,38 +313,28 @@ void PiecewiseCoefficient::entriesAtCells(
       std::ranges::fill(entry, e);
       continue;
     }
-    where->atCells(cells, this->Selected);
-    for (std::size_t c = 0; c < entry.size(); ++c)
+    select(*where);
+    for (std::size_t c = 0; c < this->Selected.size(); ++c)
     {
-      entry[c] = this->Selected[c] ? e : entry[c];
+      for (std::size_t k = 0; k < places; ++k)
+      {
+        entry[c * places + k] = this->Selected[c] >> k & 1 ? e : entry[c * places + k];
+      }
     }
   }
 }
 
-/** As in cells, with as many numbers per cell as it has corners. */
+void PiecewiseCoefficient::entriesAtCells(
+  const CellRange& cells, std::span<std::int32_t> entry) const
+{
+  this->select(entry, 1, [&](const Selection& where) { where.atCells(cells, this->Selected); });
+}
+
 void PiecewiseCoefficient::entriesAtFacets(
   const CellRange& cells, std::span<std::int32_t> entry) const
 {
-  const auto facets = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
-  // One byte per cell, with a bit per facet.
-  this->Selected.resize(entry.size() / facets);
-  for (std::int32_t e = 0; e < this->entries(); ++e)
-  {
-    const Selection* where = this->at(e).where;
-    if (!where)
-    {
-      std::ranges::fill(entry, e);
-      continue;
-    }
-    where->atFacets(cells, this->Selected);
-    for (std::size_t c = 0; c < this->Selected.size(); ++c)
-    {
-      for (std::size_t k = 0; k < facets; ++k)
-      {
-        entry[c * facets + k] = this->Selected[c] >> k & 1 ? e : entry[c * facets + k];
-      }
-    }
-  }
+  this->select(entry, static_cast<std::size_t>(cornersOf(this->Columns->cellType())),
+    [&](const Selection& where) { where.atFacets(cells, this->Selected); });
 }
 
 /** Constants have been checked when the description was read. `where` makes the text only if there

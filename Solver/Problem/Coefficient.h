@@ -177,6 +177,7 @@ private:
     std::string key; ///< of the value
   };
 
+  void select(std::span<std::int32_t> entry, std::size_t places, auto select) const;
   /** Throws Error if the numbers of an entry violate the rules; `where` returns the place. */
   void require(const Entry& entry, const double* numbers, auto where) const;
   /** Calls `visit(entry, its values in the block, k)` for each k with an entry. */
@@ -191,7 +192,7 @@ private:
   DataPlace Place;
   ValueRules Rules;
   std::vector<Entry> Entries;
-  mutable std::vector<std::uint8_t> Selected; ///< of a range of cells
+  mutable std::vector<std::uint8_t> Selected; ///< of a range of cells, by select()
 };
 
 } // namespace smg

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Cycle/CoarsestFactor.h"
 
+#include "Solver/Core/DisjointSets.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 // The direct solve on the coarsest level. It has at most a thousand nodes (CoarsestNodes), or more
 // where coarsening stalled, so a sparse Cholesky factorisation is cheap; it is made once and used
@@ -28,43 +28,29 @@
 namespace smg
 {
 
-/** Finds the components by union-find over the edges; a component floats if none of its nodes is
- * anchored. */
+/** Finds the components; one floats if none of its nodes is anchored. */
 void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
 {
   const std::size_t nodes = matrix.diagonal.size();
-  std::vector<Eigen::Index> above(nodes);
-  std::iota(above.begin(), above.end(), 0);
-  const auto root = [&above](Eigen::Index i)
-  {
-    while (above[static_cast<std::size_t>(i)] != i)
-    {
-      // Path halving: the paths become shorter while they are followed.
-      Eigen::Index& next = above[static_cast<std::size_t>(i)];
-      i = next = above[static_cast<std::size_t>(next)];
-    }
-    return i;
-  };
+  DisjointSets<std::size_t> components(nodes);
   for (const auto& entry : matrix.lower)
   {
-    const Eigen::Index a = root(entry.row());
-    const Eigen::Index b = root(entry.col());
-    // The root is the first node of the component, which is the one to be pinned.
-    above[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    components.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(entry.col()));
   }
   std::vector<bool> anchored(nodes);
   for (std::size_t i = 0; i < nodes; ++i)
   {
     if (matrix.anchored[i])
     {
-      anchored[static_cast<std::size_t>(root(static_cast<Eigen::Index>(i)))] = true;
+      anchored[components.first(i)] = true;
     }
   }
   this->Floating.resize(nodes);
   for (std::size_t i = 0; i < nodes; ++i)
   {
-    const Eigen::Index first = root(static_cast<Eigen::Index>(i));
-    this->Floating[i] = anchored[static_cast<std::size_t>(first)] ? -1 : first;
+    // The first node of the component is the one to be pinned.
+    const std::size_t first = components.first(i);
+    this->Floating[i] = anchored[first] ? -1 : static_cast<Eigen::Index>(first);
   }
 }
 
