@@ -107,11 +107,11 @@ void VertexSetFile::finish()
   this->File.write(this->Block, this->Bits);
 }
 
-void VertexSetFile::read(std::span<std::uint8_t> selected)
+void VertexSetFile::read(std::int64_t first, std::span<std::uint8_t> selected)
 {
   for (std::uint8_t& bit : selected)
   {
-    bit = this->contains(this->Next++) ? 1 : 0;
+    bit = this->contains(first++) ? 1 : 0;
   }
 }
 

@@ -61,10 +61,8 @@ public:
   /** To be called after the last vertex. */
   void finish();
 
-  /** Restarts at the first vertex. */
-  void rewind() { this->Next = 0; }
-  /** Reads the values passed to append() for the next vertices. */
-  void read(std::span<std::uint8_t> selected);
+  /** Reads the values passed to append() for the vertices from `first` on. */
+  void read(std::int64_t first, std::span<std::uint8_t> selected);
   /** Whether the set has this vertex; fast if it is close to the vertex of the last call. */
   bool contains(std::int64_t vertex);
 
@@ -76,7 +74,7 @@ private:
   BlockStore File;
   std::vector<std::byte> Bits; ///< of the current block
   std::int64_t Block = 0;      ///< its number
-  std::int64_t Next = 0;       ///< the next vertex of append() or read()
+  std::int64_t Next = 0;       ///< the next vertex of append()
 };
 
 } // namespace smg

@@ -102,14 +102,9 @@ void BoundarySelection::endPreparing(MeshParts* parts)
   this->Selection::endPreparing(parts);
 }
 
-/** Reads the marks, in stream order. */
 void BoundarySelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)
 {
-  if (block.firstVertex == 0)
-  {
-    this->Vertices->rewind();
-  }
-  this->Vertices->read(selected);
+  this->Vertices->read(block.firstVertex, selected);
 }
 
 } // namespace smg

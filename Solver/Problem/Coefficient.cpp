@@ -149,15 +149,7 @@ void Coefficient::startBlock(const MeshBlock& block)
   {
     return;
   }
-  if (block.firstVertex == 0)
-  {
-    this->Open.restart();
-    this->Finalized = 0;
-  }
-  // The cells of the previous block may have used what it finalised; they are done.
-  this->Open.release(this->Finalized);
-  this->Finalized = block.finalized;
-  const std::span<double> values = this->Open.append(block.vertices());
+  const std::span<double> values = this->Open.startBlock(block);
   const InBlock given = this->in(block);
   for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
   {

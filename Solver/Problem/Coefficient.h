@@ -110,7 +110,6 @@ private:
   std::vector<double> Numbers;
   NamedColumn Values;
   OpenValues<double> Open; ///< of the vertices, for cells and facets
-  std::int64_t Finalized = 0;
 };
 
 /**

@@ -195,11 +195,7 @@ void CellSelection::select(const MeshBlock& block, std::span<std::uint8_t> selec
   // Without a file, cells or facets are selected, and the vertices are not asked for.
   if (this->Vertices)
   {
-    if (block.firstVertex == 0)
-    {
-      this->Vertices->rewind();
-    }
-    this->Vertices->read(selected);
+    this->Vertices->read(block.firstVertex, selected);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Memory/Buffer.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -64,6 +65,20 @@ public:
     return added;
   }
 
+  /** Starts the next block of a stream that may be read several times: returns zeroed values for
+   * its vertices, in the place of those that the block before was the last one to use. */
+  std::span<T> startBlock(const MeshBlock& block)
+  {
+    if (block.firstVertex == 0)
+    {
+      this->restart();
+      this->Finalized = 0;
+    }
+    this->release(this->Finalized);
+    this->Finalized = block.finalized;
+    return this->append(block.vertices());
+  }
+
   /** The values of an open vertex. */
   T* at(std::int64_t vertex) { return this->data() + this->place(vertex); }
   const T* at(std::int64_t vertex) const { return this->data() + this->place(vertex); }
@@ -79,6 +94,7 @@ private:
   std::size_t Lanes;
   Buffer Memory;
   std::int64_t First = 0, End = 0; ///< the vertices that have values
+  std::int64_t Finalized = 0;      ///< of the block before
 };
 
 } // namespace smg

@@ -112,15 +112,7 @@ std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
 void Selection::startBlock(const MeshBlock& block)
 {
   // The same object serves several readings: preparation, solve, results.
-  if (block.firstVertex == 0)
-  {
-    this->Open.restart();
-    this->Finalized = 0;
-  }
-  // Vertices that the previous block finalises could still be used by its own cells, until now.
-  this->Open.release(this->Finalized);
-  this->Finalized = block.finalized;
-  const std::span<std::uint8_t> current = this->Open.append(block.vertices());
+  const std::span<std::uint8_t> current = this->Open.startBlock(block);
   this->select(block, current);
   this->Current = current;
 }

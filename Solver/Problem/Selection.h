@@ -135,7 +135,6 @@ protected:
 
 private:
   OpenValues<std::uint8_t> Open;
-  std::int64_t Finalized = 0; ///< of the previous block
   bool MayBeEmpty = false;
   std::span<const std::uint8_t> Current;
 };

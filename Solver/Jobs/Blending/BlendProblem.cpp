@@ -199,17 +199,10 @@ void PatchGradients::finish()
 /** Reads the sums of the vertices of a block again; kept for the cells of later blocks. */
 void PatchGradients::startBlock(const MeshBlock& block)
 {
-  if (block.firstVertex == 0)
+  const std::span<double> known = this->Known.startBlock(block);
+  if (!known.empty())
   {
-    this->Known.restart();
-    this->Finalized = 0;
-  }
-  this->Known.release(this->Finalized);
-  this->Finalized = block.finalized;
-  if (block.vertices() > 0)
-  {
-    this->File.read(
-      block.firstVertex, block.vertices(), this->Known.append(block.vertices()).data());
+    this->File.read(block.firstVertex, block.vertices(), known.data());
   }
 }
 

@@ -78,7 +78,6 @@ private:
   OpenValues<double> Points, Sums;
   OpenValues<double> Known;               ///< sums from the file, in later readings
   std::int64_t Vertices = 0, Written = 0; ///< numbers of vertices: added, and in the file
-  std::int64_t Finalized = 0;             ///< of the previous block, in later readings
 };
 
 /** The largest step of each column: the largest difference, over its components, between the ends

@@ -119,12 +119,8 @@ void PatchLabels::read(const MeshBlock& block, std::span<double> labels)
     }
     return;
   }
-  if (block.firstVertex == 0)
-  {
-    this->Seam->rewind();
-  }
   this->Bits.resize(labels.size());
-  this->Seam->read(this->Bits);
+  this->Seam->read(block.firstVertex, this->Bits);
   std::ranges::transform(
     this->Bits, labels.begin(), [](std::uint8_t onSeam) { return onSeam ? NoPatch : 0.0; });
 }

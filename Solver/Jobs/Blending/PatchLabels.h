@@ -75,17 +75,8 @@ public:
    * vertices, which the caller sets. */
   std::span<double> startBlock(const MeshBlock& block)
   {
-    if (block.firstVertex == 0)
-    {
-      this->Labels.restart();
-      this->Values.restart();
-      this->Finalized = 0;
-    }
-    this->Labels.release(this->Finalized);
-    this->Values.release(this->Finalized);
-    this->Finalized = block.finalized;
-    this->Patches.read(block, this->Labels.append(block.vertices()));
-    return this->Values.append(block.vertices());
+    this->Patches.read(block, this->Labels.startBlock(block));
+    return this->Values.startBlock(block);
   }
 
   /** The values of an open vertex. */
@@ -109,7 +100,6 @@ public:
 private:
   PatchLabels& Patches;
   OpenValues<double> Labels, Values;
-  std::int64_t Finalized = 0; ///< of the previous block
 };
 
 } // namespace smg

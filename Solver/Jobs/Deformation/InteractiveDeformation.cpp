@@ -101,7 +101,7 @@ void InteractiveDeformation::read(std::int64_t first, std::int64_t count, std::s
   this->Engine->rest().addStart(first, count, values.data());
 }
 
-bool InteractiveDeformation::holdsTheSame(const VertexHandles& handles)
+bool InteractiveDeformation::holdsTheSame(const VertexHandles& handles) const
 {
   const auto isHeld = [](std::uint8_t mask) { return mask != 0; };
   bool same =

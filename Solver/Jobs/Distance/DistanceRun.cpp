@@ -146,8 +146,15 @@ void DistanceSolution::loadColumn(
                                              : copy(reinterpret_cast<const float*>(stored));
 }
 
-/** One reading of the distances, chunk by chunk in the order of the stream, which also fixes the
- * order of the sum. */
+void DistanceSolution::finish()
+{
+  this->summarize();
+  this->Run->progress.update(1.0);
+  this->Run->finishReport();
+}
+
+/** Adds maximum, mean and the number of unreached vertices to Report::distance. One reading of the
+ * distances, chunk by chunk in the order of the stream, which also fixes the order of the sum. */
 void DistanceSolution::summarize()
 {
   Report::Distance& summary = *this->Run->report.distance;

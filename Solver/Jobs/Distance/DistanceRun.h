@@ -80,10 +80,11 @@ public:
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
   const Report& report() const override { return this->Run->report; }
 
-  /** Adds maximum, mean and the number of unreached vertices to Report::distance. */
-  void summarize();
+  /** Completes the report of the run, which the solution owns. Throws Cancelled. */
+  void finish();
 
 private:
+  void summarize();
   void load(std::int64_t chunk);
   void loadColumn(const StoredColumn& column, std::int64_t chunk, std::int64_t count, int first);
 

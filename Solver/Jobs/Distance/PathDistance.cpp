@@ -454,13 +454,9 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   march(chunks, isExact, ends, *run);
   leaveOutFar(chunks);
   const std::vector<StoredColumn> columns = columnsOf(*files, description);
-  // The solution owns the run from here on; its report is completed after that.
-  DistanceRun& shared = *run;
   auto solution = std::make_unique<DistanceSolution>(
     std::move(run), std::move(files), columns, chunks.vertices, plan.length);
-  solution->summarize();
-  shared.progress.update(1.0);
-  shared.finishReport();
+  solution->finish();
   return solution;
 }
 

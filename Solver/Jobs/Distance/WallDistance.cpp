@@ -150,12 +150,9 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   }
   report.converged = true;
   report.distance->mesh_readings = report.passes;
-  DistanceRun& shared = *run;
   auto solution = std::make_unique<DistanceSolution>(std::move(run), files,
     columnsOf(files->values, description), report.vertices, WallValues::ChunkVertices);
-  solution->summarize();
-  shared.progress.update(1.0);
-  shared.finishReport();
+  solution->finish();
   return solution;
 }
 
