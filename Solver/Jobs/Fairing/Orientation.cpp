@@ -51,13 +51,8 @@ std::uint64_t hashOf(std::int64_t low, std::int64_t high)
 
 Orientation::Orientation(Pool& pool, const std::filesystem::path& folder)
   : Memory(pool)
-  , Points(pool, 3)
-  , OpenEdges(pool)
-  , Edges(pool)
-  , Members(pool)
   , Links(inFolder(folder, "links"), this->Traffic)
   , Marks(inFolder(folder, "turned"), this->Traffic)
-  , Kept(pool)
 {
 }
 

@@ -147,13 +147,13 @@ private:
   void readStates(std::int64_t first, std::span<std::uint8_t> states);
 
   Pool& Memory;
-  Ring<double> Points;
-  OpenFacets OpenEdges; ///< by their places in Edges
-  Slots<Edge> Edges;
-  Ring<Member> Members; ///< triangles
+  Ring<double> Points{ this->Memory, 3 };
+  OpenFacets OpenEdges{ this->Memory }; ///< by their places in Edges
+  Slots<Edge> Edges{ this->Memory };
+  Ring<Member> Members{ this->Memory }; ///< triangles
   BlockStore Links, Marks;
   IoStatistics Traffic;
-  Reservation Kept;
+  Reservation Kept{ this->Memory };
   std::vector<Link> Written; ///< of the current block
   std::vector<Body> Bodies;
   std::vector<std::int64_t> TurnedBodies; ///< representing cells of closed bodies, ascending

@@ -103,7 +103,8 @@ template <bool LowerOnly, class Vectors, class Real, class Arrays>
   const RowBlock::Header& h, const Arrays& a, std::int64_t k, std::int64_t stride, const Real* x)
 {
   constexpr std::int64_t End = LowerOnly ? 0 : std::numeric_limits<std::int64_t>::max();
-  return RowView(h, a, k).template plusProductsBelow<Vectors>(End, {}, x + k * stride, stride);
+  const typename Vectors::Vector zero{};
+  return RowView(h, a, k).template plusProductsBelow<Vectors>(End, zero, x + k * stride, stride);
 }
 
 static_assert(Relaxation<GaussSeidel>);

@@ -63,8 +63,7 @@ public:
     const RowView row(h, a, k);
     for (std::int64_t e = 0; e < row.size(); ++e)
     {
-      flow += magnitude(
-        static_cast<double>(row.weight(e)) * (Vectors::load(x + (k + row.delta(e)) * stride) - xk));
+      flow += magnitude(row.weight(e) * (Vectors::load(x + (k + row.delta(e)) * stride) - xk));
     }
     const double diagonal = row.diagonal, scale = share / diagonal;
     const auto addSquare = [lane](std::vector<double>& sums, const Vector& value)

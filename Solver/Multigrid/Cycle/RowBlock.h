@@ -342,71 +342,63 @@ template <class Index, class Weight>
 class RowView
 {
 public:
-  /** What a weight is read as. */
-  using Number = std::conditional_t<std::is_same_v<Weight, double>, double, float>;
-
   RowView(const RowBlock::Header& h, const RowBlock::Arrays<Index, Weight>& a, std::int64_t k)
-    : RowView(entriesOf(h, a, k), a, k)
+    : diagonal(a.diagonal[k])
+    , Arrays(a)
+    , Entries(entriesOf(h, a, k))
   {
   }
 
-  std::int64_t size() const { return this->Size; }
-  Number weight(std::int64_t e) const { return static_cast<Number>(this->Weights[e]); }
-  std::int64_t delta(std::int64_t e) const { return this->Deltas[e]; }
+  std::int64_t size() const { return this->Entries.end - this->Entries.begin; }
+  double weight(std::int64_t e) const { return this->Arrays.weight[this->Entries.begin + e]; }
+  std::int64_t delta(std::int64_t e) const { return this->Arrays.delta[this->Entries.begin + e]; }
 
-  /** `start` + sum_j w_j x_j, with x of the node at `x` and `stride` values per node. Two sums for
+  /** `sum` + sum_j w_j x_j, with x of the node at `x` and `stride` values per node. Two sums for
    * even and odd entries: the additions of one need not wait for those of the other. The order is
    * fixed, and with it the bits. */
   template <class Vectors, class Real>
   [[gnu::always_inline]] typename Vectors::Vector plusProducts(
-    typename Vectors::Vector start, const Real* x, std::int64_t stride) const
+    typename Vectors::Vector sum, const Real* x, std::int64_t stride) const
   {
     typename Vectors::Vector odd{};
-    std::int64_t e = 0;
-    for (; e + 1 < this->Size; e += 2)
+    std::int64_t e = this->Entries.begin;
+    for (; e + 1 < this->Entries.end; e += 2)
     {
-      start += this->product<Vectors>(e, x, stride);
+      sum += this->product<Vectors>(e, x, stride);
       odd += this->product<Vectors>(e + 1, x, stride);
     }
-    if (e < this->Size)
+    if (e < this->Entries.end)
     {
-      start += this->product<Vectors>(e, x, stride);
+      sum += this->product<Vectors>(e, x, stride);
     }
-    return start + odd;
+    return sum + odd;
   }
   /** The same in one sum, of the neighbours that are less than `end` nodes away. */
   template <class Vectors, class Real>
   [[gnu::always_inline]] typename Vectors::Vector plusProductsBelow(
-    std::int64_t end, typename Vectors::Vector start, const Real* x, std::int64_t stride) const
+    std::int64_t end, typename Vectors::Vector sum, const Real* x, std::int64_t stride) const
   {
-    for (std::int64_t e = 0; e < this->Size && this->Deltas[e] < end; ++e)
+    for (std::int64_t e = this->Entries.begin; e < this->Entries.end && this->Arrays.delta[e] < end;
+         ++e)
     {
-      start += this->product<Vectors>(e, x, stride);
+      sum += this->product<Vectors>(e, x, stride);
     }
-    return start;
+    return sum;
   }
 
   const double diagonal;
 
 private:
-  RowView(BlockRange entries, const RowBlock::Arrays<Index, Weight>& a, std::int64_t k)
-    : diagonal(a.diagonal[k])
-    , Weights(a.weight + entries.begin)
-    , Deltas(a.delta + entries.begin)
-    , Size(entries.end - entries.begin)
-  {
-  }
-
   template <class Vectors, class Real>
   [[gnu::always_inline]] typename Vectors::Vector product(
     std::int64_t e, const Real* x, std::int64_t stride) const
   {
-    return static_cast<Real>(this->Weights[e]) * Vectors::load(x + this->Deltas[e] * stride);
+    return static_cast<Real>(this->Arrays.weight[e]) *
+           Vectors::load(x + this->Arrays.delta[e] * stride);
   }
 
-  const Weight* Weights;
-  const Index* Deltas; // read in place
-  std::int64_t Size;
+  const RowBlock::Arrays<Index, Weight>& Arrays;
+  BlockRange Entries;
 };
 
 /** The nodes of a range that lie in one block, with their unknowns x and right-hand sides b: those

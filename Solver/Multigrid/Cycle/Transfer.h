@@ -66,7 +66,7 @@ double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t 
   double edges = 0.0;
   for (std::int64_t e = 0; e < row.size(); ++e)
   {
-    edges += std::fabs(static_cast<double>(row.weight(e)));
+    edges += std::fabs(row.weight(e));
   }
   return residualShare(commonShare(own, edges));
 }

@@ -142,39 +142,15 @@ private:
 struct CoarseningData
 {
   /** `apart`: whether the stages run on several threads and need slots of their own. */
-  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, SliverRows stiffRows = {},
-    bool apart = false)
-    : fine(fineRows)
+  CoarseningData(Pool& memory, LevelRows& fineRows, LevelRows& coarseRows,
+    SliverRows stiffRows = {}, bool apart = false)
+    : pool(memory)
+    , fine(fineRows)
     , coarse(coarseRows)
     , stiff(stiffRows)
-    , coarseIndex(pool)
-    , patches(pool)
-    , patchMatrices(pool)
-    , overlapping(pool)
-    , initial(pool)
-    , initialTotal(pool)
-    , relaxed(pool)
-    , interpolation(pool)
-    , rowQuanta(pool)
     , parentReach(pool, coarseRows.first() - 1)
     , settledReach(pool, fineRows.first() - 1)
-    , product(pool)
-    , productSum(pool)
     , finePoint(pool, fineRows.first() - 1)
-    , coarsePoint(pool, 3)
-    , firstChild(pool)
-    , lastChild(pool)
-    , raw(pool)
-    , rawAlpha(pool)
-    , rawStrongest(pool)
-    , rawDiagonal(pool)
-    , rawKept(pool)
-    , rawLower(pool)
-    , rawMirrored(pool)
-    , rawSettled(pool)
-    , rawLarge(pool)
-    , slots(pool)
-    , ownSlots{ SlotRing(pool), SlotRing(pool), SlotRing(pool) }
     , productSlots(apart ? ownSlots[0] : slots)
     , gatherSlots(apart ? ownSlots[1] : slots)
     , sparsifySlots(apart ? ownSlots[2] : slots)
@@ -187,6 +163,7 @@ struct CoarseningData
   CoarseningData(const CoarseningData&) = delete;
   CoarseningData& operator=(const CoarseningData&) = delete;
 
+  Pool& pool;
   LevelRows& fine;
   LevelRows& coarse;
   SliverRows stiff; ///< of the coarse level
@@ -204,7 +181,7 @@ struct CoarseningData
 
   // By fine node.
   /** The coarse node of a C-point, as coarseIndexOf() stores it, or FPoint. */
-  Ring<CoarseIndex> coarseIndex;
+  Ring<CoarseIndex> coarseIndex{ pool };
   static constexpr CoarseIndex FPoint = ~CoarseIndex(0);
   /** The low 31 bits of a coarse index, which are never FPoint. Entries store 24 bits, so these
    * suffice. */
@@ -212,53 +189,54 @@ struct CoarseningData
   {
     return static_cast<CoarseIndex>(coarse & INT32_MAX);
   }
-  Patches patches;
-  PatchMatrices patchMatrices;     ///< by patch
-  OverlappingPatches overlapping;  ///< empty unless `overlaps`
-  bool overlaps = false;           ///< whether the level has overlapping patches
-  RaggedRing<CoarseEntry> initial; ///< rows of P0
-  Ring<float> initialTotal;        ///< Z_i: row i of `initial` has the weights over Z_i
-  Ring<RelaxedRow> relaxed;
-  RaggedRing<InterpolationEntry> interpolation;
-  Ring<std::int16_t> rowQuanta; ///< sum of row i of P, in quanta
-  MonotoneRing parentReach;     ///< largest coarse index in rows 0 .. i of P, or -1
+  Patches patches{ pool };
+  PatchMatrices patchMatrices{ pool };     ///< by patch
+  OverlappingPatches overlapping{ pool };  ///< empty unless `overlaps`
+  bool overlaps = false;                   ///< whether the level has overlapping patches
+  RaggedRing<CoarseEntry> initial{ pool }; ///< rows of P0
+  Ring<float> initialTotal{ pool };        ///< Z_i: row i of `initial` has the weights over Z_i
+  Ring<RelaxedRow> relaxed{ pool };
+  RaggedRing<InterpolationEntry> interpolation{ pool };
+  Ring<std::int16_t> rowQuanta{ pool }; ///< sum of row i of P, in quanta
+  MonotoneRing parentReach;             ///< largest coarse index in rows 0 .. i of P, or -1
   /** The last node of the patches of all nodes that occur in rows 0 .. i: once a sweep has
    * passed it, it has relaxed all these nodes. */
   MonotoneRing settledReach;
-  RaggedRing<CoarseEntry> product; ///< rows of A P
-  Ring<float> productSum;          ///< sum of the row of A P
+  RaggedRing<CoarseEntry> product{ pool }; ///< rows of A P
+  Ring<float> productSum{ pool };          ///< sum of the row of A P
 
   // By coarse node.
-  MonotoneRing finePoint;                ///< its fine node
-  Ring<float> coarsePoint;               ///< its position, if the nodes have any
-  Ring<ChildLink> firstChild, lastChild; ///< of its column of P
+  MonotoneRing finePoint;                                ///< its fine node
+  Ring<float> coarsePoint{ pool, 3 };                    ///< its position, if the nodes have any
+  Ring<ChildLink> firstChild{ pool }, lastChild{ pool }; ///< of its column of P
   /** Rows of -P^T A P on their way to sparsify(): those made in this step, and those of the step
    * before, which sparsify() takes. */
   GatheredRows gathered, arrived;
   /** The off-diagonal entries of -P^T A P during sparsification. Each pair {c, k} has an entry
    * in both rows; the upper one, in row min(c, k), counts. */
-  RaggedRing<CoarseEntry> raw;
-  Ring<double> rawAlpha; ///< row sums
-  Ring<StrongestWeight> rawStrongest;
-  Ring<float> rawDiagonal;
+  RaggedRing<CoarseEntry> raw{ pool };
+  Ring<double> rawAlpha{ pool }; ///< row sums
+  Ring<StrongestWeight> rawStrongest{ pool };
+  Ring<float> rawDiagonal{ pool };
   /** Whether no entry of the row may be removed. */
-  Ring<std::uint8_t> rawKept;
-  Ring<std::int32_t> rawLower; ///< number of entries below the diagonal
+  Ring<std::uint8_t> rawKept{ pool };
+  Ring<std::int32_t> rawLower{ pool }; ///< number of entries below the diagonal
   /** The position in this row of the entry for the last row k that came and has an entry for
    * this one, that is, of the mirror of that entry. Rows come in ascending order, so a counter
    * finds the mirror without a search. */
-  Ring<std::int32_t> rawMirrored;
+  Ring<std::int32_t> rawMirrored{ pool };
   /** The number of entries below the diagonal that have their final weight; of the others only
    * the mirrored upper entry is valid. */
-  Ring<std::int32_t> rawSettled;
+  Ring<std::int32_t> rawSettled{ pool };
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
-  Ring<std::uint64_t> rawLarge;
+  Ring<std::uint64_t> rawLarge{ pool };
 
   /** Accumulators of the stages, by coarse node: `slots` of relaxInterpolation() and
    * interpolate() and, unless the stages run apart, also of productAP(), productPtAP() and
    * sparsify(). */
-  SlotRing slots;
-  std::array<SlotRing, 3> ownSlots; ///< empty unless the stages run apart
+  SlotRing slots{ pool };
+  std::array<SlotRing, 3> ownSlots{ SlotRing(pool), SlotRing(pool),
+    SlotRing(pool) }; ///< empty unless the stages run apart
   SlotRing &productSlots, &gatherSlots, &sparsifySlots;
   /** The ends of the coarse nodes that the stages know: from relaxInterpolation() on, and from
    * productAP() on. Stages store columns as distances from these. */

@@ -25,7 +25,7 @@ std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings)
 
 /** Whether row i, with this diagonal, has negative weights that count: the magnitudes of its
  * weights exceed the diagonal by more than 5 %. */
-bool cancels(const LevelRows& rows, std::int64_t i, double diagonal)
+static bool cancels(const LevelRows& rows, std::int64_t i, double diagonal)
 {
   constexpr double Least = 1.05;
   return static_cast<double>(rows.magnitudes(i)) > Least * diagonal;
