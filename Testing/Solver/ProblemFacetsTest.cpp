@@ -74,7 +74,7 @@ std::vector<Facet> boundaryOf(
     for (; final < to; ++final)
     {
       facets.take(final,
-        [&](const BoundaryFacet& facet)
+        [&](const BoundaryFacet& facet, double /*area*/)
         {
           found.emplace_back(facet.corners, facet.corners + count);
           for (int c = 0; c < count && facet.flux >= 0; ++c)
