@@ -65,7 +65,7 @@ private:
   void append(std::int64_t v, std::int64_t to, std::int64_t from);
 
   Ring<std::int32_t> Heads; ///< the last triangle of a vertex; 0: none
-  Slots<Entry> Triangles;
+  FreeList<Entry> Triangles;
   VertexStar Star;
   std::vector<std::uint32_t> Link, Neighbours;
   std::size_t Found = 0; ///< neighbours of the vertex that was taken last

@@ -41,7 +41,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Cells(pool, info.cellType, problem, this->WeightScale, components, labels, solution)
   , Reach(pool)
   , Targets(problem, this->Cells.vertices.points)
-  , ConnectsApart(this->Cells.mayConnectApart() && !this->Targets.any())
+  , IsPipelined(this->Cells.mayPipeline() && !this->Targets.any())
   , FinalMemory(pool)
   , Rows(info.cellType, this->Cells.vertices, problem, rows, components,
       stiffRows(info.cellType, problem.weights(), rows), listener)
@@ -64,16 +64,16 @@ void Assembly::finish()
   this->release();
 }
 
-void Assembly::beginApart(std::int64_t vertices)
+void Assembly::beginPipelined(std::int64_t vertices)
 {
-  std::swap(this->Collected, this->Arrived);
+  std::swap(this->Collected, this->ToClose);
   // Memory beyond what a usual block takes is not kept for the next one.
   if (accountedBytes(this->Collected.bytes()) > 0)
   {
     this->Collected = {};
   }
   // Collection goes on where the vertices end that closeRows() is about to complete.
-  this->Collected.clear(this->Arrived.end());
+  this->Collected.clear(this->ToClose.end());
   // weigh() fills what connect() emptied in the last step, and the other way round.
   std::swap(this->Weighed, this->Connected);
   this->Weighed.clear();
@@ -96,7 +96,7 @@ void Assembly::beginRows()
 void Assembly::weigh(const MeshBlock& block)
 {
   this->Check.add(block);
-  if (this->ConnectsApart)
+  if (this->IsPipelined)
   {
     this->Cells.weigh(block, this->Weighed);
     return;
@@ -110,7 +110,7 @@ void Assembly::weigh(const MeshBlock& block)
 void Assembly::weighRest()
 {
   this->Check.finish(this->Info);
-  if (this->ConnectsApart)
+  if (this->IsPipelined)
   {
     // A step later, connect() finds no cells and collects all vertices that are left.
     this->Weighed.vertices = this->Weighed.finalized = this->vertices();
@@ -121,23 +121,24 @@ void Assembly::weighRest()
 
 void Assembly::connect()
 {
-  if (this->ConnectsApart)
+  if (this->IsPipelined)
   {
     this->Cells.connect(this->Connected);
     this->collectBelow(this->Connected.finalized, true);
   }
 }
 
-/** Collects the vertices below `end`, and completes their rows unless another task does (`apart`).
+/** Collects the vertices below `end`, and completes their rows unless another task does
+ * (`pipelined`).
  */
-void Assembly::collectBelow(std::int64_t end, bool apart)
+void Assembly::collectBelow(std::int64_t end, bool pipelined)
 {
   while (this->Collected.end() < end)
   {
     this->collectBatch(std::min(end, this->Collected.end() + BatchRows));
     this->FinalMemory.resize(
-      accountedBytes(this->Collected.bytes()) + accountedBytes(this->Arrived.bytes()));
-    if (!apart)
+      accountedBytes(this->Collected.bytes()) + accountedBytes(this->ToClose.bytes()));
+    if (!pipelined)
     {
       // It changes only once, at the first weighted cell. Written only then, since the coarse
       // levels read it on other threads.
@@ -146,8 +147,8 @@ void Assembly::collectBelow(std::int64_t end, bool apart)
         this->Out.weightScale = this->WeightScale;
       }
       // The rows of a batch are completed at once, while its data are in the cache.
-      std::swap(this->Collected, this->Arrived);
-      this->Collected.clear(this->Arrived.end());
+      std::swap(this->Collected, this->ToClose);
+      this->Collected.clear(this->ToClose.end());
       this->closeRows();
     }
   }
@@ -244,7 +245,7 @@ void Assembly::collectVertex(std::int64_t i)
  * neighbours, some of which are still open. */
 void Assembly::closeRows()
 {
-  const FinalVertices& made = this->Arrived;
+  const FinalVertices& made = this->ToClose;
   for (std::size_t k = 0; k < made.vertices.size(); ++k)
   {
     this->Rows.close(made, k);
@@ -255,7 +256,7 @@ void Assembly::closeRows()
     }
   }
   this->Closed = made.end();
-  this->Arrived.clear(this->Closed);
+  this->ToClose.clear(this->Closed);
 }
 
 void Assembly::release()

@@ -50,12 +50,12 @@ public:
    */
   void finish();
 
-  // The same in steps on several threads: between beginApart() and release(), weigh() or
+  // The same in steps on several threads: between beginPipelined() and release(), weigh() or
   // weighRest(), connect() and closeRows() may run at the same time, each on what the stage before
   // it made in the previous step.
 
   /** Begins a step, which may weigh the cells of a block of up to this many vertices. */
-  void beginApart(std::int64_t vertices);
+  void beginPipelined(std::int64_t vertices);
   /** Adds the vertices of a block and weighs its cells, which asks the problem for their data. */
   void weigh(const MeshBlock& block);
   /** Instead of weigh() after the last block. */
@@ -91,7 +91,7 @@ public:
 
 private:
   void beginRows();
-  void collectBelow(std::int64_t end, bool apart);
+  void collectBelow(std::int64_t end, bool pipelined);
   void collectBatch(std::int64_t end);
   void collectVertex(std::int64_t i);
   void askTargets(std::int64_t begin, std::size_t edge);
@@ -111,9 +111,9 @@ private:
   NeighbourReach Reach;
 
   EdgeTargets Targets;
-  const bool ConnectsApart;
+  const bool IsPipelined;
   std::vector<std::size_t> RowEnds; // of a query for edge targets
-  FinalVertices Collected, Arrived; // closeRows() completes the arrived ones
+  FinalVertices Collected, ToClose; // closeRows() completes the arrived ones
   Reservation FinalMemory;          // of both
   RowAssembly Rows;
 

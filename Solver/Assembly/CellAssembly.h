@@ -59,7 +59,7 @@ struct SMG_EXPORT CellAssembly
   // data on facets: weighing would add facets while the other thread takes the facets of final
   // vertices.
 
-  bool mayConnectApart() const { return !this->loads.facets(); }
+  bool mayPipeline() const { return !this->loads.facets(); }
   /** Provides room for this many more vertices. */
   void reserve(std::int64_t vertices);
   /** Adds the vertices of a block and the loads of its cells. `to` receives the cells that connect

@@ -30,8 +30,8 @@ CellGradients::CellGradients(CellType type, const double* const* points)
     // round. Both lie in the plane of the triangle, being perpendicular to its normal.
     const Vector normal = cross(ab, ac);
     const double inverse = 1.0 / dot(normal, normal);
-    this->Of[1] = scaled(-inverse, cross(normal, ac));
-    this->Of[2] = scaled(inverse, cross(normal, ab));
+    this->Gradients[1] = scaled(-inverse, cross(normal, ac));
+    this->Gradients[2] = scaled(inverse, cross(normal, ab));
   }
   else
   {
@@ -40,14 +40,15 @@ CellGradients::CellGradients(CellType type, const double* const* points)
     const Vector ad = difference(points[3], points[0]);
     const Vector b = cross(ac, ad);
     const double inverse = 1.0 / dot(ab, b);
-    this->Of[1] = scaled(inverse, b);
-    this->Of[2] = scaled(inverse, cross(ad, ab));
-    this->Of[3] = scaled(inverse, cross(ab, ac));
+    this->Gradients[1] = scaled(inverse, b);
+    this->Gradients[2] = scaled(inverse, cross(ad, ab));
+    this->Gradients[3] = scaled(inverse, cross(ab, ac));
   }
   // The hat functions sum to 1, so their gradients sum to 0. Of[3] is 0 for a triangle.
   for (std::size_t d = 0; d < 3; ++d)
   {
-    this->Of[0][d] = -(this->Of[1][d] + this->Of[2][d] + this->Of[3][d]);
+    this->Gradients[0][d] =
+      -(this->Gradients[1][d] + this->Gradients[2][d] + this->Gradients[3][d]);
   }
 }
 

@@ -21,7 +21,7 @@ public:
   CellGradients(CellType type, const double* const* points);
 
   /** grad phi of corner k. */
-  const Vector& operator[](int k) const { return this->Of[static_cast<std::size_t>(k)]; }
+  const Vector& operator[](int k) const { return this->Gradients[static_cast<std::size_t>(k)]; }
 
   /** The gradient of the linear function with value[k][column] at corner k. */
   Vector of(CellType type, const double* const* value, int column) const
@@ -40,7 +40,7 @@ public:
   }
 
 private:
-  std::array<Vector, 4> Of{};
+  std::array<Vector, 4> Gradients{};
 };
 
 /** Whether two corners of a cell of several vertices lie at the same place, up to rounding. */

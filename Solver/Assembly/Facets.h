@@ -110,12 +110,12 @@ private:
 /** Items of `lanes` values of T that are created and released in any order. They are numbered from
  * 1; released slots are reused. */
 template <class T>
-class Slots
+class FreeList
 {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) >= sizeof(std::int32_t));
 
 public:
-  explicit Slots(Pool& pool, int lanes = 1)
+  explicit FreeList(Pool& pool, int lanes = 1)
     : Owner(&pool)
     , Lanes(lanes)
   {
@@ -286,7 +286,7 @@ private:
 
   Pool* Memory;
   Ring<std::int32_t> Heads; ///< the first facet of a vertex; 0: none
-  Slots<Facet> Facets;
+  FreeList<Facet> Facets;
   std::unordered_map<std::int64_t, Hub> Hubs; ///< by vertex
 };
 

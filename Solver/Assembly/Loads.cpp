@@ -126,7 +126,7 @@ void RowLoads::reserve(std::int64_t vertices)
   if (this->OfCells)
   {
     // Not the loads on facets: with these, no other thread takes part
-    // (CellAssembly::mayConnectApart()).
+    // (CellAssembly::mayPipeline()).
     this->OfCells->reserve(vertices);
   }
 }

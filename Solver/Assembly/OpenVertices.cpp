@@ -48,7 +48,7 @@ OpenVertices::OpenVertices(Pool& pool, Problem& problem, Solution* solution)
   , Given(problem)
   , Solved(solution)
   , HasRest(solution && solution->hasRest())
-  , Kept(pool)
+  , Reserved(pool)
   , Columns(problem.columns())
   , DirichletCount(problem.conditionCounts().dirichlet)
 {
@@ -125,7 +125,7 @@ void OpenVertices::ask(const MeshBlock& block)
     (given.*density.atVertices).assign(sizeOf(density), 0.0);
   }
   this->Given.conditions(block, given);
-  this->Kept.resize(this->Given.bytes());
+  this->Reserved.resize(this->Given.bytes());
   // A problem may resize the vectors that it fills; the copies in add() would then be out of range.
   const bool keepsSizes = given.dirichlet.size() == count && given.value.size() == values &&
                           std::ranges::all_of(Densities, [&](const Density& density)

@@ -102,7 +102,7 @@ private:
   Solution* Solved;
   bool HasRest;
   std::vector<double> Read; // of the solution
-  Reservation Kept;         ///< what the problem itself keeps of open vertices
+  Reservation Reserved;     ///< what the problem itself keeps of open vertices
   int Columns;
   int DirichletCount;
   VertexConditions Conditions;

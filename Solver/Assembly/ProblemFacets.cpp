@@ -35,7 +35,7 @@ ProblemFacets::ProblemFacets(
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
   , Open(pool)
-  , Kept(pool, static_cast<int>(2 + this->Corners * (1 + 2 * this->Columns)))
+  , Data(pool, static_cast<int>(2 + this->Corners * (1 + 2 * this->Columns)))
 {
 }
 
@@ -147,8 +147,8 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
     throw Error("a facet of cell " + std::to_string(cell) +
                 " names a condition that the problem does not have: see conditionCounts");
   }
-  const std::int32_t slot = this->Kept.take();
-  double* kept = this->Kept.at(slot);
+  const std::int32_t slot = this->Data.take();
+  double* kept = this->Data.at(slot);
   const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
   std::memcpy(kept++, conditions, sizeof(conditions));
   // A negative number distinguishes an index in the stream from one in the original file.
@@ -202,7 +202,7 @@ BoundaryFacet ProblemFacets::facet(
   BoundaryFacet facet{ { low, middle, high } };
   if (data > 0)
   {
-    const double* kept = this->Kept.at(data);
+    const double* kept = this->Data.at(data);
     std::int32_t conditions[2];
     std::memcpy(conditions, kept, sizeof(conditions));
     std::int64_t name = 0;

@@ -73,7 +73,7 @@ private:
   {
     if (data > 0)
     {
-      this->Kept.give(data);
+      this->Data.give(data);
     }
   }
 
@@ -87,7 +87,7 @@ private:
   FacetSet Inner; ///< those that are excluded
   /** The data of a facet: its two conditions, its cell, fluxes, coefficients and ambient values.
    * The cell is given by its index in the original file, or as -1 minus its index in the stream. */
-  Slots<double> Kept;
+  FreeList<double> Data;
   // The block.
   const Column* CellIds = nullptr;
   std::int64_t FirstCell = 0;

@@ -23,7 +23,7 @@
 // slivers cancel; such rows keep weights in double precision beside the entries (addEdge(),
 // sharpen()). The same sums give the initial residual, by which the convergence is measured.
 //
-// Rows are made in ascending order from edges in ascending order, so that their bits depend on
+// Rows are collected in ascending order from edges in ascending order, so that their bits depend on
 // neither blocks nor threads. The time is linear in the number of edges.
 
 namespace smg
@@ -66,11 +66,11 @@ RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& p
 
 /** Appends row, right-hand side and initial value of a vertex. The initial value comes first, since
  * a vertex that is not an unknown has one, too. */
-void RowAssembly::close(const FinalVertices& made, std::size_t k)
+void RowAssembly::close(const FinalVertices& collected, std::size_t k)
 {
-  const std::int64_t i = made.first + static_cast<std::int64_t>(k);
-  const FinalVertices::Vertex& vertex = made.vertices[k];
-  const std::size_t begin = made.begin(k);
+  const std::int64_t i = collected.first + static_cast<std::int64_t>(k);
+  const FinalVertices::Vertex& vertex = collected.vertices[k];
+  const std::size_t begin = collected.begin(k);
   const double* x = this->initial(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
   if (this->Out.placed)
@@ -82,13 +82,13 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
     this->closeKnown(i);
     return;
   }
-  const double* load = made.loads.data() + k * this->Columns;
+  const double* load = collected.loads.data() + k * this->Columns;
   std::copy_n(load, this->Columns, this->B.data());
   std::copy_n(load, this->Columns, this->Constraint.data());
   this->RowSum = vertex.rowSum;
   this->Scale = static_cast<double>(vertex.scale);
-  this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
-    made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
+  this->addNeighbours(i, std::span(collected.neighbours).subspan(begin, vertex.end - begin),
+    collected.targets.empty() ? nullptr : collected.targets.data() + begin * this->Columns);
   // Before the row is closed, since it changes the row sum and b; count() takes back what is not
   // part of the problem.
   this->regularise(i);

@@ -252,8 +252,8 @@ public:
     return dirichlet >= 0 || (neighbours == 0 && rowSum == 0.0);
   }
 
-  /** Adds the next row, of vertex number k of `made`. */
-  void close(const FinalVertices& made, std::size_t k);
+  /** Adds the next row, of vertex number k of `collected`. */
+  void close(const FinalVertices& collected, std::size_t k);
 
   std::int64_t prescribed() const { return this->Prescribed; }
   /** The number of vertices without any data that determine them. */

@@ -30,7 +30,7 @@ StateReader::StateReader(FileDescriptor file, std::int64_t offset, std::int64_t 
 {
   if (bytes < 0 || bytes != this->File.size() - offset)
   {
-    this->fail("it has not the size that it names");
+    this->fail("its size differs from that in its header");
   }
   // What the state holds goes to the memory of the computation: more than its limit cannot be
   // restored.

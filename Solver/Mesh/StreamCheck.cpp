@@ -52,7 +52,7 @@ void StreamCheck::add(const MeshBlock& block)
   {
     throw Error("the mesh stream is not valid: a block declares " +
                 std::to_string(block.finalized) + " vertices final but only " +
-                std::to_string(this->Vertices) + " have come");
+                std::to_string(this->Vertices) + " have been read");
   }
   // What was declared final stays final: windows have released it.
   if (block.finalized < this->Final)

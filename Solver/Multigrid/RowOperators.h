@@ -31,7 +31,7 @@ public:
     CoarseIndex coarse; ///< its coarse node, if it is a C-point
   };
 
-  /** `chosen`: the end of the nodes of which is known whether they are C-points. */
+  /** `chosen`: nodes below this one have been split into C-points and F-points. */
   FineRow(const CoarseningData& data, std::int64_t i, std::int64_t chosen)
     : Data(&data)
     , Row(i)

@@ -27,20 +27,20 @@ public:
     CompiledOperators operators = compiled(Extended::forCells(mesh.cellType));
     // Without positions rows stay as they are.
     operators.readsPositions = operators.readsPositions && linear;
-    FirstPass(this->Run, this->Levels, operators)(source, problem);
+    FirstPass(this->Run, this->Levels, operators).run(source, problem);
     this->Levels.startPass(false);
   }
 
-  int count() { return static_cast<int>(this->Levels.levels().sizes.size()); }
+  int count() { return static_cast<int>(this->Levels.storage().sizes.size()); }
   const Report::Level& size(int l)
   {
-    return this->Levels.levels().sizes[static_cast<std::size_t>(l)];
+    return this->Levels.storage().sizes[static_cast<std::size_t>(l)];
   }
   Level<double>& finest() { return this->Levels.finest(); }
   /** Level l, from 1 on. */
   Level<float>& coarse(int l)
   {
-    return *this->Levels.levels().coarse[static_cast<std::size_t>(l - 1)];
+    return *this->Levels.storage().coarse[static_cast<std::size_t>(l - 1)];
   }
 
   /** Calls f with level l. */

@@ -137,7 +137,7 @@ private:
         }
       });
     visit([&](std::size_t i, const RowBlock::Header& h, const auto& a, std::int64_t k)
-      { isHeld[bodies.first(i)] |= RowBlock::alphaOf(h, a, k) != 0.0 ? 1 : 0; });
+      { isHeld[bodies.first(i)] |= RowBlock::rowSumOf(h, a, k) != 0.0 ? 1 : 0; });
     for (std::size_t i = 0; i < error.size(); ++i)
     {
       error[i] = isHeld[bodies.first(i / stride)] ? error[i] : Real{};

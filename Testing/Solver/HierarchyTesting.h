@@ -213,7 +213,7 @@ struct CoarseningRecord
     {
       row.push_back({ entry->offset(c), entry->value() });
     }
-    this->raw.rowSum.push_back(data.rawAlpha[c]);
+    this->raw.rowSum.push_back(data.rawRowSum[c]);
     this->rawStiff.push_back(data.rawStrongest[c].stiff());
   }
 

@@ -70,9 +70,9 @@ void keepRows(const LevelRows& coarse, const FirstNodes& first, Made& made)
   }
 }
 
-/** Coarsens a level whose rows come in batches; `apart`: as on several threads. */
+/** Coarsens a level whose rows come in batches; `pipelined`: as on several threads. */
 Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended& operators,
-  std::int64_t batch, bool apart)
+  std::int64_t batch, bool pipelined)
 {
   constexpr std::int64_t BlockNodes = 96;
   Pool pool(std::int64_t(1) << 30);
@@ -80,7 +80,7 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
   LevelRows fine(pool), coarse(pool);
   fine.release(first.fine, first.fine);
   coarse.release(first.coarse, first.coarse);
-  Coarsening<Extended> step(pool, operators, fine, coarse, {}, apart);
+  Coarsening<Extended> step(pool, operators, fine, coarse, {}, pipelined);
   Made made;
   std::int64_t packed = first.fine;
   for (std::int64_t begin = 0; !coarse.Ended;)
@@ -89,9 +89,9 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
     level.append(fine, begin, end);
     fine.Ended = end == level.nodes();
     begin = end;
-    if (apart)
+    if (pipelined)
     {
-      step.beginApart(batch);
+      step.beginPipelined(batch);
       step.advanceCoarseRows();
       step.advanceGathering();
       step.advanceInterpolation();
@@ -132,9 +132,9 @@ TEST(LargeIndices, CoarseningMakesTheSameBits)
     ASSERT_GT(expected.coarse.nodes(), 3) << test.name;
     for (const FirstNodes& first : largeNodes)
     {
-      for (const bool apart : { false, true })
+      for (const bool pipelined : { false, true })
       {
-        const Made made = coarsenFrom(first, test.level, operators, 64, apart);
+        const Made made = coarsenFrom(first, test.level, operators, 64, pipelined);
         ASSERT_TRUE(sameLevels(made.coarse, expected.coarse)) << test.name << ", " << first.fine;
         EXPECT_EQ(made.childReach, expected.childReach) << test.name << ", " << first.fine;
         EXPECT_TRUE(made.blocks == expected.blocks) << test.name << ", " << first.fine;

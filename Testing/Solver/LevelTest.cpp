@@ -278,7 +278,7 @@ TEST(RowBlockPacker, WideBlocksKeepTheLargestDistancesOfParents)
     *entry = InterpolationEntry(static_cast<CoarseIndex>(Base + parents[i]), 10 - 20 * i);
     coarsening.interpolation.close(1);
     coarsening.parentReach.append(Base);
-    coarsening.settledReach.append(i);
+    coarsening.patchReach.append(i);
   }
   coarsening.parentReach.release(0); // the high bits of its values are those of the last one here
   const RowBlock block = packRows(buffers, rows, &coarsening, 0, 3, true);

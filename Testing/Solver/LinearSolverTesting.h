@@ -65,7 +65,7 @@ inline Sides sidesOf(const StreamMesh& mesh, ArrayProblem problem)
   Hierarchy levels(run, problem.Columns, set.relaxation);
   Loads loads(problem.Columns);
   MemorySource source(mesh);
-  FirstPass(run, levels, set)(source, problem, &loads);
+  FirstPass(run, levels, set).run(source, problem, &loads);
   sides.b = loads.sums();
   for (std::size_t i = 0; i < sides.b.size(); ++i)
   {

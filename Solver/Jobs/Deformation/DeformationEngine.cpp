@@ -27,23 +27,23 @@ void DeformationSteps::solve(const std::function<FirstResidual()>& build)
   {
     rotations.convergence = Convergence(this->stopping(), build());
     rotations.convergence.begin(this->Levels.residualNorm());
-    this->Run.endPass(1.0);
+    this->Context.endPass(1.0);
   }
   if (!rotated)
   {
-    rotations.iteration(true);
+    rotations.iteration.run(true);
     this->beginPositions(rotations, positions);
     rotated = true;
-    this->Run.endPass(rotations.convergence.residuals().back());
+    this->Context.endPass(rotations.convergence.residuals().back());
   }
-  positions.iteration(false);
-  Report& r = this->Run.report;
+  positions.iteration.run(false);
+  Report& r = this->Context.report;
   positions.convergence.addStep(r, "position", "position step: ");
   r.relative_to = MeshAtRest;
   r.converged = rotations.convergence.converged() && positions.convergence.converged();
-  r.seconds.solve = this->Run.seconds() - r.seconds.build;
+  r.seconds.solve = this->Context.seconds() - r.seconds.build;
   addDeformationNotes(r);
-  this->Run.finishReport();
+  this->Context.finishReport();
 }
 
 /** Continues from a checkpoint, if there is one, and provides for further ones, between passes. A
@@ -61,13 +61,13 @@ bool DeformationSteps::resume(Step& rotations, Step& positions, bool& rotated)
     state(this->Levels, this->Rest, rotated, rotations.convergence);
     if (rotated)
     {
-      this->Run.progress.begin(this->stopping(), Share, 1.0, false);
+      this->Context.progress.begin(this->stopping(), Share, 1.0, false);
     }
     rotated ? state(positions) : state(rotations.iteration);
   };
   const auto weights = std::to_string(static_cast<int>(this->EdgeWeights));
-  return this->Run.resume({ { "kind of task", "deformation" }, { "kind of weights", weights },
-                            { "number of V-cycles", std::to_string(this->Cycles) } },
+  return this->Context.resume({ { "kind of task", "deformation" }, { "kind of weights", weights },
+                                { "number of V-cycles", std::to_string(this->Cycles) } },
     { save, load });
 }
 
@@ -75,12 +75,12 @@ bool DeformationSteps::resume(Step& rotations, Step& positions, bool& rotated)
  * positions. */
 void DeformationSteps::beginPositions(Step& rotations, Step& positions)
 {
-  PositionStep step(this->Run.pool, this->Rest, this->Levels.window());
+  PositionStep step(this->Context.pool, this->Rest, this->Levels.window());
   const double norm = this->sharedPass(step);
   checkMotions(step.termSquares());
   rotations.convergence.add(std::sqrt(step.rotationSquares()));
-  rotations.convergence.addStep(this->Run.report, "rotation", "rotation step: ");
-  this->Run.progress.begin(this->stopping(), Share, 1.0, false);
+  rotations.convergence.addStep(this->Context.report, "rotation", "rotation step: ");
+  this->Context.progress.begin(this->stopping(), Share, 1.0, false);
   // The initial values are the mesh at rest.
   const double motion = std::sqrt(step.initialSquares());
   positions.convergence =
@@ -94,13 +94,13 @@ double DeformationSteps::sharedPass(PositionStep& step)
   auto& finest = this->Levels.finest();
   this->Levels.renew(PositionStep::Columns);
   step.startPass();
-  Pass(this->Run, this->Levels)(
-    this->positionScale(), { [&step] { step.load(); },
-                             [&step, &finest](bool follows)
-                             {
-                               step.advance(finest.finishedUp(step.turned(), follows));
-                               finest.setRenewed(step.done());
-                             } });
+  Pass(this->Context, this->Levels)
+    .run(this->positionScale(), { [&step] { step.load(); },
+                                  [&step, &finest](bool follows)
+                                  {
+                                    step.advance(finest.finishedUp(step.turned(), follows));
+                                    finest.setRenewed(step.done());
+                                  } });
   step.endPass();
   return this->Levels.residualNorm();
 }
@@ -150,39 +150,39 @@ private:
 /** The operators are those with the fastest V-cycles: a deformation makes few of them, often a
  * given number. */
 DeformationEngine::DeformationEngine(const DeformOptions& options, CellType cells)
-  : Set(compiled(Extended::forFewCycles(cells)))
+  : Operators(compiled(Extended::forFewCycles(cells)))
   , EdgeWeights(options.weights)
-  , Run(std::make_unique<SolveContext>(RotationProblem::Columns, options))
-  , Levels(*this->Run, RotationProblem::Columns, this->Set.relaxation)
-  , Rest(this->Run->pool)
-  , Steps(*this->Run, this->Levels, this->Rest, options, cells)
+  , Context(std::make_unique<SolveContext>(RotationProblem::Columns, options))
+  , Levels(*this->Context, RotationProblem::Columns, this->Operators.relaxation)
+  , Rest(this->Context->pool)
+  , Steps(*this->Context, this->Levels, this->Rest, options, cells)
 {
-  if (this->Run->scratch)
+  if (this->Context->scratch)
   {
-    this->Rest.useScratch(*this->Run->scratch, this->Run->traffic.add("rest"));
+    this->Rest.useScratch(*this->Context->scratch, this->Context->traffic.add("rest"));
   }
 }
 
 void DeformationEngine::deform(MeshSource& mesh, Handles& handles)
 {
-  SolveContext& run = *this->Run;
-  run.beginReport();
+  SolveContext& context = *this->Context;
+  context.beginReport();
   this->Steps.begin(true);
   this->Steps.solve(
     [&]
     {
       RotationProblem problem(handles, this->EdgeWeights,
         [this](std::int64_t vertex, const double* target) { this->Rest.hold(vertex, target); });
-      FirstPass build(run, this->Levels, this->Set);
+      FirstPass build(context, this->Levels, this->Operators);
       // Measured against the motion: rotations begin at 0.
       const FirstResidual first =
-        build(mesh, problem, &this->Rest, PositionStep::CoreBytes).alone();
+        build.run(mesh, problem, &this->Rest, PositionStep::CoreBytes).alone();
       this->Rest.finish();
-      checkAnyHeld(run.report);
-      run.report.shared = problem.shared();
+      checkAnyHeld(context.report);
+      context.report.shared = problem.shared();
       return first;
     });
-  if (run.report.resumed_passes > 0)
+  if (context.report.resumed_passes > 0)
   {
     ask(mesh, handles);
   }
@@ -203,12 +203,12 @@ void DeformationEngine::ask(MeshSource& mesh, Handles& handles)
 
 std::unique_ptr<Solution> DeformationEngine::takeSolution()
 {
-  SolveContext& run = *this->Run;
+  SolveContext& context = *this->Context;
   auto displacements =
-    std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
+    std::make_unique<StreamedSolution>(std::move(this->Context), this->Levels.takeWindow());
   auto solution =
     std::make_unique<DeformedPositions>(std::move(displacements), std::move(this->Rest));
-  run.progress.finish();
+  context.progress.finish();
   return solution;
 }
 

@@ -24,9 +24,9 @@ class PositionStep;
 class DeformationSteps
 {
 public:
-  DeformationSteps(SolveContext& run, Hierarchy& hierarchy, RestShape& rest,
+  DeformationSteps(SolveContext& context, Hierarchy& hierarchy, RestShape& rest,
     const DeformOptions& options, CellType cells)
-    : Run(run)
+    : Context(context)
     , Levels(hierarchy)
     , Rest(rest)
     , EdgeWeights(options.weights)
@@ -36,7 +36,7 @@ public:
   }
 
   /** Begins the progress. `builds`: the first pass is still to be made. */
-  void begin(bool builds) { this->Run.progress.begin(this->stopping(), 0.0, Share, builds); }
+  void begin(bool builds) { this->Context.progress.begin(this->stopping(), 0.0, Share, builds); }
   /** Performs both steps. `build` begins the first V-cycle of the rotations and returns their first
    * residual; if there is a checkpoint to continue from, it is not called. */
   void solve(const std::function<FirstResidual()>& build);
@@ -47,14 +47,14 @@ private:
 
   Stopping stopping() const
   {
-    return { this->Run.options.tolerance, this->Run.options.maxCycles, this->Cycles };
+    return { this->Context.options.tolerance, this->Context.options.maxCycles, this->Cycles };
   }
   /** What the passes of a step have in common. */
   struct Step
   {
     Step(DeformationSteps& steps, const std::string& what)
       : convergence(steps.stopping(), {})
-      , iteration(steps.Run, steps.Levels, convergence, what)
+      , iteration(steps.Context, steps.Levels, convergence, what)
     {
     }
 
@@ -73,7 +73,7 @@ private:
   double sharedPass(PositionStep& step);
   double positionScale() const;
 
-  SolveContext& Run;
+  SolveContext& Context;
   Hierarchy& Levels;
   RestShape& Rest;
   Weights EdgeWeights;
@@ -97,7 +97,7 @@ public:
 
   // The parts, for further deformations.
 
-  SolveContext& run() { return *this->Run; }
+  SolveContext& context() { return *this->Context; }
   Hierarchy& levels() { return this->Levels; }
   RestShape& rest() { return this->Rest; }
   DeformationSteps& steps() { return this->Steps; }
@@ -105,9 +105,9 @@ public:
 private:
   static void ask(MeshSource& mesh, Handles& handles);
 
-  CompiledOperators Set;
+  CompiledOperators Operators;
   Weights EdgeWeights;
-  std::unique_ptr<SolveContext> Run;
+  std::unique_ptr<SolveContext> Context;
   Hierarchy Levels;
   RestShape Rest;
   DeformationSteps Steps;

@@ -62,13 +62,13 @@ std::int64_t InteractiveDeformation::vertices() const
 
 const Report& InteractiveDeformation::report() const
 {
-  return this->Engine->run().report;
+  return this->Engine->context().report;
 }
 
 bool InteractiveDeformation::update(const VertexHandles& handles)
 {
-  SolveContext& run = this->Engine->run();
-  checkSize(handles, run.report.vertices);
+  SolveContext& context = this->Engine->context();
+  checkSize(handles, context.report.vertices);
   if (!this->holdsTheSame(handles))
   {
     return false;
@@ -76,14 +76,14 @@ bool InteractiveDeformation::update(const VertexHandles& handles)
   forHeld(this->Engine->rest(), [&](const RestBlock::Held&, std::size_t i)
     { checkHeld(handles, i, static_cast<std::int64_t>(i)); });
   this->Broken = true;
-  run.beginAgain();
+  context.beginAgain();
   this->take(handles);
   this->Engine->steps().begin(false);
   this->Engine->steps().solve(
     [&]
     {
       const FirstResidual first = this->findRightSide();
-      Pass(run, this->Engine->levels()).begin();
+      Pass(context, this->Engine->levels()).begin();
       return first;
     });
   this->Broken = false;
@@ -119,7 +119,7 @@ void InteractiveDeformation::take(const VertexHandles& handles)
   window.abandon();
   window.setColumns(RotationProblem::Columns);
   std::ranges::fill(window.x().range(0, window.nodes()), 0.0);
-  std::int64_t& shared = this->Engine->run().report.shared;
+  std::int64_t& shared = this->Engine->context().report.shared;
   shared = 0;
   forHeld(this->Engine->rest(),
     [&](RestBlock::Held& held, std::size_t i)

@@ -70,7 +70,7 @@ void Orientation::find(const std::function<void(const Visit& visit)>& read)
   this->Written = {};
   this->Bodies = {};
   this->Rays.reset();
-  this->Kept.resize(0);
+  this->Reserved.resize(0);
   this->Points = Ring<double>(this->Memory, 3);
 }
 
@@ -294,7 +294,7 @@ void Orientation::keepBody(std::int64_t cell, const Sums& sums)
     { cell, sums.volume, isClosed, sums.opposite == 0, sums.low, sums.high, sums.farthest });
   if (this->Bodies.size() % 1024 == 0)
   {
-    this->Kept.resize(static_cast<std::int64_t>(this->Bodies.capacity() * sizeof(Body)));
+    this->Reserved.resize(static_cast<std::int64_t>(this->Bodies.capacity() * sizeof(Body)));
   }
 }
 
@@ -322,7 +322,7 @@ void Orientation::finish()
     this->flush();
   }
   this->OpenEdges = OpenFacets(this->Memory);
-  this->Edges = Slots<Edge>(this->Memory);
+  this->Edges = FreeList<Edge>(this->Memory);
   this->Members = Ring<Member>(this->Memory);
 }
 
@@ -351,8 +351,8 @@ void Orientation::beginNesting()
     }
   }
   this->Rays->sort();
-  this->Kept.resize(static_cast<std::int64_t>(this->Bodies.capacity()) *
-                    (static_cast<std::int64_t>(sizeof(Body)) + WindingRays::RayBytes));
+  this->Reserved.resize(static_cast<std::int64_t>(this->Bodies.capacity()) *
+                        (static_cast<std::int64_t>(sizeof(Body)) + WindingRays::RayBytes));
   this->resolve();
   this->TurnedBodies.clear();
   this->Points = Ring<double>(this->Memory, 3);

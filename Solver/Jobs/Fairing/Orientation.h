@@ -149,11 +149,11 @@ private:
   Pool& Memory;
   Ring<double> Points{ this->Memory, 3 };
   OpenFacets OpenEdges{ this->Memory }; ///< by their places in Edges
-  Slots<Edge> Edges{ this->Memory };
+  FreeList<Edge> Edges{ this->Memory };
   Ring<Member> Members{ this->Memory }; ///< triangles
   BlockStore Links, Marks;
   IoStatistics Traffic;
-  Reservation Kept{ this->Memory };
+  Reservation Reserved{ this->Memory };
   std::vector<Link> Written; ///< of the current block
   std::vector<Body> Bodies;
   std::vector<std::int64_t> TurnedBodies; ///< representing cells of closed bodies, ascending

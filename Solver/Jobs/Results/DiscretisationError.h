@@ -80,7 +80,7 @@ private:
   std::optional<ProblemFacets> Conditions;
   OpenFacets Facets;
   /** For each facet: the sum of R (`columns` numbers), the sum of s, and the number of cells. */
-  Slots<double> Terms;
+  FreeList<double> Terms;
   std::vector<double> Values;
   EnergySquares Sums;
   std::int64_t Final = 0;

@@ -39,7 +39,7 @@ public:
 
   /** For a level whose nodes are all in memory. */
   CoreIteration(CoreLevel& level, Ending ending)
-    : Of(level)
+    : Core(level)
     , End(ending)
     , Size(static_cast<std::size_t>(level.window().x().range(0, level.window().nodes()).size()))
     , Lanes(static_cast<std::size_t>(level.window().stride()))
@@ -52,7 +52,7 @@ public:
   template <class Cycle>
   void operator()(Cycle&& cycle)
   {
-    LevelWindow<float>& window = this->Of.window();
+    LevelWindow<float>& window = this->Core.window();
     const std::span<float> z = window.x().range(0, window.nodes());
     const std::span<float> r = window.b().range(0, window.nodes());
     const std::span<float> sum = this->vector(0), direction = this->vector(1);
@@ -63,7 +63,7 @@ public:
     {
       // z = M^-1 r. A z comes from r minus the residual after the V-cycle, without another product.
       cycle();
-      this->Of.residualAll(residual.data());
+      this->Core.residualAll(residual.data());
       // Energies of the first iteration are 0, so that it has no conjugation.
       const std::vector<double> conjugation = this->ratios(this->dots(z, image), energy);
       for (std::size_t i = 0; i < this->Size; ++i)
@@ -129,7 +129,7 @@ private:
     return a;
   }
 
-  CoreLevel& Of;
+  CoreLevel& Core;
   Ending End;
   std::size_t Size;
   std::size_t Lanes;

@@ -59,7 +59,7 @@ public:
     using Vector = typename Vectors::Vector;
     const auto magnitude = [](const Vector& v) { return v < 0.0 ? -v : v; };
     const Vector xk = Vectors::load(x + k * stride);
-    Vector flow = magnitude(Vectors::load(b + k * stride) - RowBlock::alphaOf(h, a, k) * xk);
+    Vector flow = magnitude(Vectors::load(b + k * stride) - RowBlock::rowSumOf(h, a, k) * xk);
     const RowView row(h, a, k);
     for (std::int64_t e = 0; e < row.size(); ++e)
     {

@@ -126,7 +126,7 @@ public:
 
   /** The next prolongation adds nothing, since the coarse levels have another right-hand side:
    * setScale() then divides by infinity. */
-  void leaveOutCorrection() { this->Scale = std::numeric_limits<Real>::infinity(); }
+  void skipNextCorrection() { this->Scale = std::numeric_limits<Real>::infinity(); }
 
   /** On the finest level, in a pass after LevelWindow::renew(): the state of the downward part
    * is complete for nodes below `end`. */

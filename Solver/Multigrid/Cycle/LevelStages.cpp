@@ -160,7 +160,7 @@ std::int64_t Level<Real>::firstPreSweepEnd(bool follows)
     // upward part must have passed all neighbours, or, where another problem begins, the stage that
     // fills the new state.
     return this->First ? this->Window.loaded()
-           : this->Window.isApart()
+           : this->Window.isSeparate()
              ? this->At.renewed.seen(follows)
              : this->reachable(end, this->At.postSweep, this->At.postSweep.size() - 1, follows);
   }

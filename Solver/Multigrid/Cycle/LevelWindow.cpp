@@ -67,10 +67,10 @@ void LevelWindow<Real>::startPass(bool first)
 }
 
 template <class Real>
-void LevelWindow<Real>::renew(int columns, bool apart)
+void LevelWindow<Real>::renew(int columns, bool separate)
 {
   this->WrittenColumns = columns;
-  if (apart)
+  if (separate)
   {
     this->Next.emplace(*this->Owner, this->Stride);
   }

@@ -129,7 +129,7 @@ public:
   Ring<Real>& x() { return this->Now.x; }
   Ring<Real>& b() { return this->Now.b; }
   /** The states of the upward and of the downward part of a pass: the same one, except after
-   * renew() with `apart`. */
+   * renew() with `separate`. */
   State& up() { return this->Now; }
   State& down() { return this->Next ? *this->Next : this->Now; }
   int index() const { return this->Index; }
@@ -172,11 +172,11 @@ public:
   void endPass();
 
   /** Declares that the next pass is the last one of one problem and the first one of another
-   * with `columns` columns and the same stride. With `apart` (finest level) the downward part
+   * with `columns` columns and the same stride. With `separate` (finest level) the downward part
    * has a state of its own, which another stage must fill. */
-  void renew(int columns, bool apart);
+  void renew(int columns, bool separate);
   /** Whether the downward part of this pass has a separate state. */
-  bool isApart() const { return this->Next.has_value(); }
+  bool isSeparate() const { return this->Next.has_value(); }
   /** Without scratch files: discards the separate state of an aborted pass. */
   void abandon() { this->Next.reset(); }
   /** Without scratch files, between passes: sets the number of columns of the state. */
@@ -333,7 +333,7 @@ private:
   int WrittenColumns; // ... and of the state written
   int Stride;
   State Now;
-  std::optional<State> Next; // state of the downward part, in a pass after renew() with `apart`
+  std::optional<State> Next; // state of the downward part, in a pass after renew() with `separate`
   std::deque<RowBlock> Blocks;
   /** A released block whose x is still in memory: its end, and its largest neighbour, which must
    * pass the last stage before x can be released. */

@@ -38,7 +38,7 @@ struct ResidualOfDifferences
   {
     const RowView row(h, a, k);
     const auto xk = Vectors::load(x + k * stride);
-    auto sum = Vectors::load(b + k * stride) - static_cast<Real>(RowBlock::alphaOf(h, a, k)) * xk;
+    auto sum = Vectors::load(b + k * stride) - static_cast<Real>(RowBlock::rowSumOf(h, a, k)) * xk;
     for (std::int64_t e = 0; e < row.size(); ++e)
     {
       sum +=

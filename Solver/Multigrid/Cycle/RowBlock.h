@@ -229,7 +229,7 @@ public:
 
   /** The row sum of node k. */
   template <class Index, class Weight>
-  static double alphaOf(const Header& h, const Arrays<Index, Weight>& a, std::int64_t k)
+  static double rowSumOf(const Header& h, const Arrays<Index, Weight>& a, std::int64_t k)
   {
     const auto group = static_cast<unsigned>(k / Group);
     const unsigned before = h.rowSumGroups & ((1U << group) - 1);

@@ -152,7 +152,7 @@ Header measure(
     // Reaches are those of rows 0 .. i: assigned for each row, the last one of the group remains.
     h.neighbourReach[group] = rows.reach(i);
     h.patchReach[group] =
-      coarsening ? std::max(rows.reach(i), coarsening->settledReach[i]) : rows.reach(i);
+      coarsening ? std::max(rows.reach(i), coarsening->patchReach[i]) : rows.reach(i);
     h.childReach[group] = rows.childReach(i);
     h.parentReach[group] = -1;
     if (coarsening)

@@ -55,7 +55,7 @@ struct Prolongation
 template <class Arrays>
 double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
 {
-  const double own = RowBlock::alphaOf(h, a, k);
+  const double own = RowBlock::rowSumOf(h, a, k);
   // Nearly all rows return here: the rest of the diagonal is the sum of their weights, of which
   // the magnitudes sum to at least as much.
   if (own == 0.0 || residualShare(commonShare(own, a.diagonal[k] - own)) == 1.0)
@@ -132,7 +132,7 @@ private:
           if (this->energy)
           {
             this->energy->template add<Vectors>(
-              x, part.b + k * stride, residual, RowBlock::alphaOf(h, a, k), part.lane);
+              x, part.b + k * stride, residual, RowBlock::rowSumOf(h, a, k), part.lane);
           }
           if (this->flow)
           {

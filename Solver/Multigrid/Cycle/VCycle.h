@@ -95,12 +95,13 @@ public:
    * iterated. */
   void setLevels(std::vector<CoreLevel*> levels, std::int64_t finest)
   {
-    this->Levels = std::move(levels);
+    this->CoreLevels = std::move(levels);
     const auto isSmall = [finest](CoreLevel* level)
     { return level->window().nodes() <= finest / SmallShare; };
     this->Iterated = static_cast<std::size_t>(
-      std::find_if(this->Levels.begin(), this->Levels.end(), isSmall) - this->Levels.begin());
-    this->Coarsest.factorize(this->Levels.back()->window());
+      std::find_if(this->CoreLevels.begin(), this->CoreLevels.end(), isSmall) -
+      this->CoreLevels.begin());
+    this->Coarsest.factorize(this->CoreLevels.back()->window());
   }
 
   /** Computes x of the finest core level from its b, which may be overwritten. */
@@ -116,8 +117,8 @@ public:
     level.relaxDown();
     coarse.window().zeroB(0, coarse.window().nodes());
     level.restrictAll();
-    &coarse == this->Levels.back() ? this->Coarsest.solveSymmetric(coarse.window())
-                                   : this->symmetric(coarse);
+    &coarse == this->CoreLevels.back() ? this->Coarsest.solveSymmetric(coarse.window())
+                                       : this->symmetric(coarse);
     level.prolongAll();
     level.relaxUpBackward();
   }
@@ -129,13 +130,13 @@ private:
   /** Computes x of level l from its b. */
   void solve(std::size_t l)
   {
-    if (l + 1 == this->Levels.size())
+    if (l + 1 == this->CoreLevels.size())
     {
-      this->Coarsest.solve(this->Levels[l]->window());
+      this->Coarsest.solve(this->CoreLevels[l]->window());
     }
     else if (l == this->Iterated)
     {
-      CoreIteration iteration(*this->Levels[l], {});
+      CoreIteration iteration(*this->CoreLevels[l], {});
       iteration([this, l] { this->cycle(l); });
     }
     else
@@ -147,8 +148,8 @@ private:
   /** The same by a V-cycle, on a level that is not the coarsest one. */
   void cycle(std::size_t l)
   {
-    CoreLevel& level = *this->Levels[l];
-    CoreLevel& coarse = *this->Levels[l + 1];
+    CoreLevel& level = *this->CoreLevels[l];
+    CoreLevel& coarse = *this->CoreLevels[l + 1];
     level.relaxDown();
     coarse.window().zeroB(0, coarse.window().nodes());
     level.restrictAll();
@@ -157,7 +158,7 @@ private:
     level.relaxUp();
   }
 
-  std::vector<CoreLevel*> Levels;
+  std::vector<CoreLevel*> CoreLevels;
   std::size_t Iterated = 0; // index of the level that CoreIteration solves
   CoarsestSolver Coarsest;
 };

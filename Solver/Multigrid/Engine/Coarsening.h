@@ -18,11 +18,11 @@ template <OperatorSet Operators>
 class Coarsening final : public LevelCoarsening
 {
 public:
-  /** `stiff`: finds the stiff rows of the coarse level; `apart`: whether stages may run on
+  /** `stiff`: finds the stiff rows of the coarse level; `pipelined`: whether stages may run on
    * several threads. */
   Coarsening(Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse,
-    SliverRows stiff = {}, bool apart = false)
-    : LevelCoarsening(pool, fine, coarse, stiff, apart, patchRingsOf(operators))
+    SliverRows stiff = {}, bool pipelined = false)
+    : LevelCoarsening(pool, fine, coarse, stiff, pipelined, patchRingsOf(operators))
     , Set(std::move(operators))
     , Sweeps(this->Set.interpolationSweeps(), this->Begin)
   {
@@ -62,7 +62,8 @@ private:
     CoarseningData& d = this->Data;
     d.coarseIndex.extend(this->Rows);
     this->Limits.choose.run(
-      this->Chosen, this->Rows, [&](std::int64_t) { return !(this->Apart && d.patches.isFull()); },
+      this->Chosen, this->Rows,
+      [&](std::int64_t) { return !(this->Pipelined && d.patches.isFull()); },
       [&](std::int64_t i)
       {
         // First, since the choice needs the diagonal of the row.
@@ -95,9 +96,10 @@ private:
     CoarseningData& d = this->Data;
     this->Limits.initial.run(
       this->Initial, this->Chosen,
-      [&](std::int64_t i) {
+      [&](std::int64_t i)
+      {
         return d.fine.reach(i) < this->Chosen &&
-               (!this->Apart || d.initial.hasRoom(d.maxInitial(i)));
+               (!this->Pipelined || d.initial.hasRoom(d.maxInitial(i)));
       },
       [&](std::int64_t i)
       {
@@ -114,9 +116,10 @@ private:
     this->Sweeps.advance(this->Set, d, this->Initial.published());
     this->Limits.interpolate.run(
       this->Interpolated, this->Sweeps.settled(),
-      [&](std::int64_t) {
+      [&](std::int64_t)
+      {
         return !(
-          this->Apart && (d.patchMatrices.isFull() || (d.overlaps && d.overlapping.isFull())));
+          this->Pipelined && (d.patchMatrices.isFull() || (d.overlaps && d.overlapping.isFull())));
       },
       [&](std::int64_t i)
       {
@@ -138,19 +141,19 @@ private:
       [&](std::int64_t i)
       {
         return d.fine.reach(i) < this->Interpolated.published() &&
-               (!this->Apart || d.product.hasRoom(d.maxProducts(i)));
+               (!this->Pipelined || d.product.hasRoom(d.maxProducts(i)));
       },
       [&](std::int64_t i)
       {
         d.productSum.extendRaw(i + 1);
         this->Set.productAP(d, i);
-        d.settledReach.append(d.lastAround(i));
+        d.patchReach.append(d.lastAround(i));
         this->ProductEntries.add(d.product.size(i));
       });
   }
 
-  /** Products in the order of coarse nodes. On one thread each row is sparsified at once; apart,
-   * the rows of a step wait for the next one. */
+  /** Products in the order of coarse nodes. On one thread each row is sparsified at once;
+   * pipelined, the rows of a step wait for the next one. */
   void productPtAP()
   {
     CoarseningData& d = this->Data;
@@ -159,7 +162,7 @@ private:
       [&](std::int64_t c)
       {
         this->Set.productPtAP(d, c);
-        if (!this->Apart)
+        if (!this->Pipelined)
         {
           this->sparsify(d.gathered);
         }

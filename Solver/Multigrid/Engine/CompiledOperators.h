@@ -24,7 +24,7 @@ struct CompiledOperators
   bool readsPositions; ///< see readsPositionsOf()
   /** Makes the coarsening from a level to the next one; see Coarsening. */
   std::function<std::unique_ptr<LevelCoarsening>(
-    Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool apart)>
+    Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool pipelined)>
     coarsening;
 };
 
@@ -33,8 +33,9 @@ CompiledOperators compiled(const Operators& set)
 {
   return { compiledRelaxation<typename Operators::Relaxation>, canRunApart<Operators>,
     readsPositionsOf(set),
-    [set](Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool apart)
-    { return std::make_unique<Coarsening<Operators>>(pool, set, fine, coarse, stiff, apart); } };
+    [set](Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool pipelined) {
+      return std::make_unique<Coarsening<Operators>>(pool, set, fine, coarse, stiff, pipelined);
+    } };
 }
 
 /** As solve(), with these operators. */

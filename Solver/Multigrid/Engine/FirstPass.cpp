@@ -18,56 +18,56 @@
 namespace smg
 {
 
-ColumnResiduals FirstPass::operator()(
+ColumnResiduals FirstPass::run(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
   // What one thread is expected to need: more threads take more memory only where the limit leaves
   // room.
-  SolveOptions alone = this->Run.options;
+  SolveOptions alone = this->Context.options;
   alone.threads = 1;
-  this->Run.expectedBytes =
+  this->Context.expectedBytes =
     (mesh.info().span < 0 && !alone.inCore) || mesh.info().vertices <= 0
       ? 0
       : expectedMemory(mesh.info(), problem.columns(), problem.weights(), alone);
-  this->Run.isAmple = permitsTasks(mesh.info(), problem, this->Run.options);
+  this->Context.isAmple = permitsTasks(mesh.info(), problem, this->Context.options);
   try
   {
-    const ColumnResiduals residual = this->run(mesh, problem, listener, furtherCoreBytes);
-    this->Run.firstPassPeak = this->Run.pool.peak();
-    this->Run.valueNodes = this->Built.window().x().capacity();
+    const ColumnResiduals residual = this->perform(mesh, problem, listener, furtherCoreBytes);
+    this->Context.firstPassPeak = this->Context.pool.peak();
+    this->Context.valueNodes = this->Levels.window().x().capacity();
     return residual;
   }
   catch (const MemoryLimitError& error)
   {
-    throw this->Run.explained(error);
+    throw this->Context.explained(error);
   }
 }
 
-ColumnResiduals FirstPass::run(
+ColumnResiduals FirstPass::perform(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
   const Timer building;
-  const SolveOptions& options = this->Run.options;
+  const SolveOptions& options = this->Context.options;
   requireMemory(mesh.info(), problem.columns(), problem.weights(), options, furtherCoreBytes);
-  if (this->Run.scratch)
+  if (this->Context.scratch)
   {
-    this->Run.labels.useScratch(*this->Run.scratch, this->Run.traffic.add("labels"));
+    this->Context.labels.useScratch(*this->Context.scratch, this->Context.traffic.add("labels"));
   }
-  this->Built.open(mesh.info().vertices);
+  this->Levels.open(mesh.info().vertices);
   const ColumnResiduals residual = this->build(mesh, problem, listener);
-  project(this->Run, this->Built);
-  this->Run.report.seconds.build = building.seconds();
-  this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
+  project(this->Context, this->Levels);
+  this->Context.report.seconds.build = building.seconds();
+  this->Context.report.seconds.build_io_wait = this->Context.traffic.waitSeconds();
   return residual;
 }
 
-void FirstPass::project(SolveContext& run, Hierarchy& hierarchy)
+void FirstPass::project(SolveContext& context, Hierarchy& hierarchy)
 {
-  if (run.free.project(hierarchy.window(), run.report))
+  if (context.free.project(hierarchy.window(), context.report))
   {
     // The coarse levels were given the right-hand side before the projection, of a problem without
     // a solution: their correction is left out.
-    hierarchy.finest().leaveOutCorrection();
+    hierarchy.finest().skipNextCorrection();
   }
 }
 
@@ -97,33 +97,33 @@ ColumnResiduals FirstPass::build(MeshSource& mesh, Problem& problem, RowListener
 {
   const CellType type = mesh.info().cellType;
   // Only among the true finite elements there are weights that cancel.
-  const bool placed = this->Set.readsPositions && problem.weights() == Weights::Cotangent;
-  AssembledRows rows(this->Run.pool, problem.columns(), placed);
-  const bool apart = this->Run.threads.areConcurrent() && this->Run.isAmple;
-  CancelCheck check([this] { this->Run.progress.updateFirst(0.0); });
-  const AskingWhileAsleep asking(this->Run.threads.workers, check);
-  HierarchyBuilder builder(this->Run.pool, this->Set, this->Built.levels(), this->Built.firstCore(),
-    Assembly::stiffRows(type, problem.weights(), rows), apart, check);
-  Assembly assembly(this->Run.pool, mesh.info(), problem, rows, this->Run.components,
-    this->Run.labels, listener, this->Run.corrected);
-  this->Built.startPass(true);
-  MeshPrefetch blocks(mesh, this->Run.threads.areConcurrent());
+  const bool placed = this->Operators.readsPositions && problem.weights() == Weights::Cotangent;
+  AssembledRows rows(this->Context.pool, problem.columns(), placed);
+  const bool pipelined = this->Context.threads.areConcurrent() && this->Context.isAmple;
+  CancelCheck check([this] { this->Context.progress.updateFirst(0.0); });
+  const AskingWhileAsleep asking(this->Context.threads.workers, check);
+  HierarchyBuilder builder(this->Context.pool, this->Operators, this->Levels.storage(),
+    this->Levels.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), pipelined, check);
+  Assembly assembly(this->Context.pool, mesh.info(), problem, rows, this->Context.components,
+    this->Context.labels, listener, this->Context.corrected);
+  this->Levels.startPass(true);
+  MeshPrefetch blocks(mesh, this->Context.threads.areConcurrent());
   // The stages of the assembly run as tasks of their own only if the next block is read ahead: they
   // need the number of its vertices to reserve room.
-  this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
-  const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
+  this->readStream(blocks, pipelined && blocks.isAhead(), assembly, rows, builder);
+  const int coarsest = builder.finish([this](int l) { this->Levels.addCoreLevel(l); });
   check.end();
-  this->Built.endPass();
-  this->Built.close(coarsest);
+  this->Levels.endPass();
+  this->Levels.close(coarsest);
   return this->note(assembly);
 }
 
 /** Assembles the current block of the mesh, or at its end what is left; returns whether there was a
- * block. `apart`: only weighs its cells, of which the other stages make rows. */
-bool FirstPass::assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly)
+ * block. `pipelined`: only weighs its cells, of which the other stages make rows. */
+bool FirstPass::assembleNext(MeshPrefetch& blocks, bool pipelined, Assembly& assembly)
 {
   const MeshBlock* block = blocks.block();
-  if (apart)
+  if (pipelined)
   {
     block ? assembly.weigh(*block) : assembly.weighRest();
   }
@@ -136,25 +136,27 @@ bool FirstPass::assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembl
 
 /** In each step the next block of the mesh is assembled, every streamed level is coarsened, and
  * the downward part of the V-cycle advances, all as tasks that may run at the same time, each
- * on the data of earlier steps. With `apart`, the stages of the assembly are tasks of their own
+ * on the data of earlier steps. With `pipelined`, the stages of the assembly are tasks of their own
  * as well. */
-void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
+void FirstPass::readStream(MeshPrefetch& blocks, bool pipelined, Assembly& assembly,
   AssembledRows& rows, HierarchyBuilder& builder)
 {
-  auto& finest = this->Built.finest();
+  auto& finest = this->Levels.finest();
   bool more = true, waits = false;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, blocks.info().vertices));
-  if (StepRecorder* recorder = this->Run.threads.recorder)
+  if (StepRecorder* recorder = this->Context.threads.recorder)
   {
     recorder->startPass({});
   }
-  Schedule schedule(this->Run.trace());
+  Schedule schedule(this->Context.trace());
   // Task 0, which asks the problem, runs on the thread of the caller.
-  schedule.add({ apart ? "weigh cells" : "assemble rows", 0, 0.0,
-                 [&](bool) { more = more && (waits || assembleNext(blocks, apart, assembly)); } },
-    [&assembly, apart] { return assembly.vertices() - (apart ? 0 : assembly.openVertices()); });
-  if (apart)
+  schedule.add(
+    { pipelined ? "weigh cells" : "assemble rows", 0, 0.0,
+      [&](bool) { more = more && (waits || assembleNext(blocks, pipelined, assembly)); } },
+    [&assembly, pipelined]
+    { return assembly.vertices() - (pipelined ? 0 : assembly.openVertices()); });
+  if (pipelined)
   {
     schedule.startChain();
     schedule.add({ "connect edges", 0, 0.0, [&](bool) { waits ? void() : assembly.connect(); } });
@@ -171,7 +173,7 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
   schedule.addBeside([&blocks] { blocks.read(); });
   finest.addWriters(schedule);
   schedule.perform(
-    this->Run.threads,
+    this->Context.threads,
     [&]
     {
       if (builder.complete())
@@ -186,9 +188,9 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
       {
         blocks.advance();
       }
-      if (apart && !waits)
+      if (pipelined && !waits)
       {
-        assembly.beginApart(blocks.vertices());
+        assembly.beginPipelined(blocks.vertices());
       }
       finest.publish();
       return true;
@@ -196,7 +198,7 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
     [&]
     {
       finest.release();
-      if (apart)
+      if (pipelined)
       {
         assembly.release();
       }
@@ -205,19 +207,19 @@ void FirstPass::readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly,
       builder.finestRows().Ended = !more && assembly.isClosed();
       builder.handOver();
       // Vertices that wait for cells are in memory like nodes.
-      this->Run.resident.add(assembly.openVertices() - open);
+      this->Context.resident.add(assembly.openVertices() - open);
       open = assembly.openVertices();
-      this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
+      this->Context.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
     });
   schedule.advance(downward);
   finest.settle();
   schedule.trace().endStep();
-  this->Run.note(schedule, true);
+  this->Context.note(schedule, true);
   if (assembly.vertices() == 0)
   {
     throw Error("the mesh has no vertices");
   }
-  this->Run.labels.finish();
+  this->Context.labels.finish();
 }
 
 /** Adds the data of the assembly and of the levels to the report, and what later passes need to
@@ -228,12 +230,12 @@ ColumnResiduals FirstPass::note(const Assembly& assembly)
   constexpr std::int64_t StiffShare = 512;
   // Coefficients that differ less do not change what the tolerance means.
   constexpr double Contrasting = 100.0;
-  this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
-  Report& r = this->Run.report;
-  this->Run.components.anchorHeld();
-  reportAssembly(assembly, this->Run.components, r);
-  r.levels = this->Built.levels().sizes;
-  if (const std::int64_t frozen = this->Built.levels().frozen; frozen > 0)
+  this->Levels.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
+  Report& r = this->Context.report;
+  this->Context.components.anchorHeld();
+  reportAssembly(assembly, this->Context.components, r);
+  r.levels = this->Levels.storage().sizes;
+  if (const std::int64_t frozen = this->Levels.storage().frozen; frozen > 0)
   {
     r.notes.push_back(std::to_string(frozen) +
                       " nodes of coarse levels have weights that cancel and get no correction "
@@ -242,19 +244,19 @@ ColumnResiduals FirstPass::note(const Assembly& assembly)
   // Vertices with given values have an empty row, but are not unknowns.
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
-  if (this->Run.mayMeasureFlow && assembly.contrast() >= Contrasting)
+  if (this->Context.mayMeasureFlow && assembly.contrast() >= Contrasting)
   {
-    this->Built.measureFlow();
+    this->Levels.measureFlow();
     // Room that is not needed matters less than a correction for which there is none.
-    const SolveOptions& options = this->Run.options;
+    const SolveOptions& options = this->Context.options;
     const double contrast = 10.0 * assembly.contrast();
     if (options.again && correctionTolerance(contrast, options.tolerance) < 1.0)
     {
-      this->Run.progress.leaveRoom();
+      this->Context.progress.leaveRoom();
     }
   }
-  this->Run.keepReport();
-  return residualOf(assembly.residual(), this->Run.components);
+  this->Context.keepReport();
+  return residualOf(assembly.residual(), this->Context.components);
 }
 
 ColumnResiduals FirstPass::residualOf(const InitialResidual& residual, const Components& components)

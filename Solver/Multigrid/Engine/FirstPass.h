@@ -28,17 +28,17 @@ class FirstPass
 {
 public:
   /** Every level gets a copy of the operators. The hierarchy must have no levels yet. */
-  FirstPass(SolveContext& run, Hierarchy& hierarchy, const CompiledOperators& operators)
-    : Run(run)
-    , Built(hierarchy)
-    , Set(operators)
+  FirstPass(SolveContext& context, Hierarchy& hierarchy, const CompiledOperators& operators)
+    : Context(context)
+    , Levels(hierarchy)
+    , Operators(operators)
   {
   }
 
   /** Performs the pass and completes the hierarchy; returns the residual of the initial values.
    * `listener`: see Assembly; `furtherCoreBytes`: bytes per vertex that the caller will need in
    * core. */
-  ColumnResiduals operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
+  ColumnResiduals run(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
 
   // For a further problem in core, too:
@@ -47,20 +47,20 @@ public:
    * is free. */
   static ColumnResiduals residualOf(const InitialResidual& residual, const Components& components);
   /** Makes the right-hand sides of free components sum to zero, after they were restricted. */
-  static void project(SolveContext& run, Hierarchy& hierarchy);
+  static void project(SolveContext& context, Hierarchy& hierarchy);
 
 private:
-  ColumnResiduals run(
+  ColumnResiduals perform(
     MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);
   ColumnResiduals build(MeshSource& mesh, Problem& problem, RowListener* listener);
-  static bool assembleNext(MeshPrefetch& blocks, bool apart, Assembly& assembly);
-  void readStream(MeshPrefetch& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
+  static bool assembleNext(MeshPrefetch& blocks, bool pipelined, Assembly& assembly);
+  void readStream(MeshPrefetch& blocks, bool pipelined, Assembly& assembly, AssembledRows& rows,
     HierarchyBuilder& builder);
   ColumnResiduals note(const Assembly& assembly);
 
-  SolveContext& Run;
-  Hierarchy& Built;
-  const CompiledOperators& Set;
+  SolveContext& Context;
+  Hierarchy& Levels;
+  const CompiledOperators& Operators;
 };
 
 } // namespace smg

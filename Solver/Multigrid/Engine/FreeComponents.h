@@ -27,7 +27,7 @@ enum class UndeterminedValues
 {
   Stay,       ///< it keeps the initial value
   NotNumbers, ///< it becomes not a number
-  RightSide   ///< it is that of the right-hand side: its row is that of the identity
+  RightSide   ///< copied from the right-hand side: the row is that of the identity
 };
 
 /**

@@ -45,7 +45,7 @@ int Hierarchy::firstCoreLevel(std::int64_t vertices) const
   {
     return UnknownSize;
   }
-  const SolveOptions& options = this->Run.options;
+  const SolveOptions& options = this->Context.options;
   // Core levels shall take at most a third of the memory limit.
   const auto most =
     static_cast<double>(std::min(options.coreNodes, options.memoryLimit / 3 / BytesPerCoreNode));
@@ -60,31 +60,31 @@ int Hierarchy::firstCoreLevel(std::int64_t vertices) const
 
 void Hierarchy::addFinestLevel()
 {
-  this->Built.finest = std::make_unique<FineLevel>(this->Run.pool, this->Run.resident, 0,
-    this->Columns, this->Run.options.sweeps, this->Relaxation);
-  this->finest().setEnergy(this->Run.energy ? &*this->Run.energy : nullptr);
-  if (this->Run.scratch)
+  this->Storage.finest = std::make_unique<FineLevel>(this->Context.pool, this->Context.resident, 0,
+    this->Columns, this->Context.options.sweeps, this->Relaxation);
+  this->finest().setEnergy(this->Context.energy ? &*this->Context.energy : nullptr);
+  if (this->Context.scratch)
   {
-    this->window().useScratch(*this->Run.scratch, this->Run.traffic);
+    this->window().useScratch(*this->Context.scratch, this->Context.traffic);
   }
 }
 
 void Hierarchy::measureFlow()
 {
-  this->finest().setFlow(&this->Run.flow.emplace(this->Columns));
+  this->finest().setFlow(&this->Context.flow.emplace(this->Columns));
 }
 
 void Hierarchy::addCoarseLevel(int l, bool core)
 {
-  auto level = std::make_unique<CoarseLevel>(this->Run.pool, this->Run.resident, l, this->Columns,
-    this->Run.options.sweeps, this->Relaxation);
+  auto level = std::make_unique<CoarseLevel>(this->Context.pool, this->Context.resident, l,
+    this->Columns, this->Context.options.sweeps, this->Relaxation);
   if (core)
   {
     this->setCore(*level);
   }
-  else if (this->Run.scratch)
+  else if (this->Context.scratch)
   {
-    level->window().useScratch(*this->Run.scratch, this->Run.traffic);
+    level->window().useScratch(*this->Context.scratch, this->Context.traffic);
   }
   if (l == 1)
   {
@@ -93,19 +93,19 @@ void Hierarchy::addCoarseLevel(int l, bool core)
   }
   else
   {
-    CoarseLevel& fine = *this->Built.coarse.back();
+    CoarseLevel& fine = *this->Storage.coarse.back();
     level->setFine(&fine.cursors());
     fine.setCoarse(level.get());
   }
-  this->Built.coarse.push_back(std::move(level));
+  this->Storage.coarse.push_back(std::move(level));
 }
 
 void Hierarchy::setCore(CoarseLevel& level)
 {
   level.setCore();
-  if (this->Run.checkpoint)
+  if (this->Context.checkpoint)
   {
-    level.window().keepRows(*this->Run.scratch, this->Run.traffic);
+    level.window().keepRows(*this->Context.scratch, this->Context.traffic);
   }
 }
 
@@ -115,9 +115,9 @@ void Hierarchy::close(int coarsest)
   if (coarsest < this->FirstCore)
   {
     this->FirstCore = coarsest;
-    this->Built.coarse.resize(static_cast<std::size_t>(coarsest));
-    this->Built.coarse.back()->window().moveToMemory();
-    this->setCore(*this->Built.coarse.back());
+    this->Storage.coarse.resize(static_cast<std::size_t>(coarsest));
+    this->Storage.coarse.back()->window().moveToMemory();
+    this->setCore(*this->Storage.coarse.back());
   }
   this->factorize();
 }
@@ -126,19 +126,19 @@ void Hierarchy::factorize()
 {
   const Timer factorizing;
   std::vector<CoarseLevel*> core;
-  for (std::size_t l = static_cast<std::size_t>(this->FirstCore); l <= this->Built.coarse.size();
+  for (std::size_t l = static_cast<std::size_t>(this->FirstCore); l <= this->Storage.coarse.size();
        ++l)
   {
-    core.push_back(this->Built.coarse[l - 1].get());
+    core.push_back(this->Storage.coarse[l - 1].get());
   }
   this->Core.setLevels(std::move(core), this->window().nodes());
-  this->Run.report.seconds.coarse += factorizing.seconds();
+  this->Context.report.seconds.coarse += factorizing.seconds();
 }
 
 void Hierarchy::startPass(bool first)
 {
   this->finest().startPass(first);
-  for (auto& level : this->Built.coarse)
+  for (auto& level : this->Storage.coarse)
   {
     level->startPass(first);
   }
@@ -151,18 +151,18 @@ void Hierarchy::endPass()
     throw Error("a pass ended before all nodes were done: this is a fault of the program");
   }
   this->finest().endPass();
-  for (auto& level : this->Built.coarse)
+  for (auto& level : this->Storage.coarse)
   {
     level->endPass();
   }
-  ++this->Run.report.passes;
+  ++this->Context.report.passes;
 }
 
 void Hierarchy::runCore()
 {
   const Timer coarse;
   this->Core.run();
-  this->Run.report.seconds.coarse += coarse.seconds();
+  this->Context.report.seconds.coarse += coarse.seconds();
 }
 
 void Hierarchy::runSymmetric(double typical)
@@ -178,7 +178,7 @@ void Hierarchy::runSymmetric(double typical)
 /** For the first V-cycle of a further problem in core, which restricts onto them. */
 void Hierarchy::zeroCoarse()
 {
-  for (auto& level : this->Built.coarse)
+  for (auto& level : this->Storage.coarse)
   {
     level->window().zeroB(0, level->window().nodes());
   }
@@ -189,7 +189,7 @@ void Hierarchy::renew(int columns)
   // Only the finest level has two states in that pass: on coarse levels the downward part starts
   // from zero in any case.
   this->window().renew(columns, true);
-  for (auto& level : this->Built.coarse)
+  for (auto& level : this->Storage.coarse)
   {
     level->window().renew(columns, false);
   }
@@ -198,14 +198,14 @@ void Hierarchy::renew(int columns)
 void Hierarchy::save(StateWriter& state)
 {
   state.part("hierarchy");
-  const auto levels = static_cast<std::int32_t>(this->Built.coarse.size());
-  const bool measuresFlow = this->Run.flow.has_value();
-  state(levels, this->FirstCore, this->SlowestAtSlivers, *this->Built.finest, measuresFlow);
+  const auto levels = static_cast<std::int32_t>(this->Storage.coarse.size());
+  const bool measuresFlow = this->Context.flow.has_value();
+  state(levels, this->FirstCore, this->SlowestAtSlivers, *this->Storage.finest, measuresFlow);
   if (measuresFlow)
   {
-    state(*this->Run.flow);
+    state(*this->Context.flow);
   }
-  for (auto& level : this->Built.coarse)
+  for (auto& level : this->Storage.coarse)
   {
     state(*level);
   }
@@ -225,18 +225,18 @@ void Hierarchy::load(StateReader& state)
   if (measuresFlow)
   {
     this->measureFlow();
-    state(*this->Run.flow);
+    state(*this->Context.flow);
   }
-  const std::int64_t vertices = this->Run.report.vertices;
+  const std::int64_t vertices = this->Context.report.vertices;
   // The report comes first in a state; it has the finest level and at most these, see
   // noteWindows().
-  const auto reported = static_cast<std::int64_t>(this->Run.report.levels.size());
+  const auto reported = static_cast<std::int64_t>(this->Context.report.levels.size());
   state.require(reported >= 1 && reported <= levels + 1);
-  state.require(this->window().nodes() == vertices && this->Run.labels.vertices() == vertices);
+  state.require(this->window().nodes() == vertices && this->Context.labels.vertices() == vertices);
   for (int l = 1; l <= levels; ++l)
   {
     this->addCoarseLevel(l, l >= this->FirstCore);
-    state(*this->Built.coarse.back());
+    state(*this->Storage.coarse.back());
   }
   // The factor is not in the checkpoint: it is made again, with the same bits.
   this->factorize();
@@ -247,31 +247,31 @@ void Hierarchy::noteWindows()
   // The window of the mesh has prescribed vertices, too, which the report does not count as nodes.
   const auto note = [](Report::Level& level, auto& window)
   { level.window = std::min(level.nodes, window.x().capacity()); };
-  std::vector<Report::Level>& levels = this->Run.report.levels;
+  std::vector<Report::Level>& levels = this->Context.report.levels;
   note(levels.front(), this->window());
   for (std::size_t l = 1; l < levels.size(); ++l)
   {
-    note(levels[l], this->Built.coarse[l - 1]->window());
+    note(levels[l], this->Storage.coarse[l - 1]->window());
   }
 }
 
 double Hierarchy::residualNorm() const
 {
-  return std::sqrt(this->Run.scales.sum(this->Built.finest->squares()));
+  return std::sqrt(this->Context.scales.sum(this->Storage.finest->squares()));
 }
 
 double Hierarchy::roundingNorm() const
 {
-  return roundingOf(this->Run.scales.sum(this->Built.finest->termSquares()));
+  return roundingOf(this->Context.scales.sum(this->Storage.finest->termSquares()));
 }
 
 LevelWindow<double> Hierarchy::takeWindow()
 {
   this->Core = {};
-  this->Built.coarse.clear();
+  this->Storage.coarse.clear();
   this->window().keepSolution();
   LevelWindow<double> window = std::move(this->window());
-  this->Built.finest.reset();
+  this->Storage.finest.reset();
   return window;
 }
 

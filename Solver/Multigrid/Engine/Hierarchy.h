@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Multigrid/Cycle/VCycle.h"
-#include "Solver/Multigrid/Engine/Levels.h"
+#include "Solver/Multigrid/Engine/LevelStorage.h"
 #include "Solver/Multigrid/Engine/SolveContext.h"
 
 #include <cstdint>
@@ -19,8 +19,8 @@ public:
   using CoarseLevel = Level<float>;
 
   /** For a problem of `columns` columns; there are no levels yet. */
-  Hierarchy(SolveContext& run, int columns, const CompiledRelaxation& relaxation)
-    : Run(run)
+  Hierarchy(SolveContext& context, int columns, const CompiledRelaxation& relaxation)
+    : Context(context)
     , Columns(columns)
     , Relaxation(relaxation)
   {
@@ -33,7 +33,7 @@ public:
    * it follows from the usual sizes of levels. */
   void open(std::int64_t vertices);
   /** The levels, for adding rows. */
-  Levels& levels() { return this->Built; }
+  LevelStorage& storage() { return this->Storage; }
   /** Adds core level l. */
   void addCoreLevel(int l) { this->addCoarseLevel(l, true); }
   /** Completes the hierarchy after the last row: level `coarsest`, the coarsest one, is
@@ -46,7 +46,7 @@ public:
 
   // Afterwards.
 
-  FineLevel& finest() { return *this->Built.finest; }
+  FineLevel& finest() { return *this->Storage.finest; }
   LevelWindow<double>& window() { return this->finest().window(); }
   /** The finest core level; all coarser ones are in core, too. */
   int firstCore() const { return this->FirstCore; }
@@ -89,10 +89,10 @@ private:
   void addCoarseLevel(int l, bool core);
   void factorize();
 
-  SolveContext& Run;
+  SolveContext& Context;
   int Columns;
   const CompiledRelaxation& Relaxation;
-  Levels Built;
+  LevelStorage Storage;
   int FirstCore = 0;
   CoreVCycle Core;
   bool SlowestAtSlivers = false;

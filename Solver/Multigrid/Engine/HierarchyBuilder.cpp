@@ -14,17 +14,17 @@ namespace
 {
 
 /** The number of levels whose stages may be tasks of their own. */
-constexpr int MaxApart = 3;
+constexpr int MaxPipelined = 3;
 
 } // namespace
 
-HierarchyBuilder::HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels,
-  int firstCore, SliverRows stiff, bool apart, CancelCheck& check)
+HierarchyBuilder::HierarchyBuilder(Pool& pool, const CompiledOperators& operators,
+  LevelStorage& levels, int firstCore, SliverRows stiff, bool pipelined, CancelCheck& check)
   : Owner(pool)
-  , Set(operators)
-  , Built(levels)
+  , Operators(operators)
+  , Storage(levels)
   , FirstCore(firstCore)
-  , ApartLevels(operators.canRunApart && apart ? std::min(MaxApart, firstCore) : 0)
+  , PipelinedLevels(operators.canRunApart && pipelined ? std::min(MaxPipelined, firstCore) : 0)
   , Stiff(stiff)
   , Check(check)
 {
@@ -38,9 +38,9 @@ HierarchyBuilder::HierarchyBuilder(Pool& pool, const CompiledOperators& operator
 void HierarchyBuilder::begin()
 {
   std::int64_t nodes = StepNodes;
-  for (int l = 0; l < this->ApartLevels; ++l)
+  for (int l = 0; l < this->PipelinedLevels; ++l)
   {
-    nodes = this->Steps[static_cast<std::size_t>(l)]->beginApart(nodes);
+    nodes = this->Steps[static_cast<std::size_t>(l)]->beginPipelined(nodes);
   }
 }
 
@@ -64,10 +64,10 @@ void HierarchyBuilder::addStages(Schedule& schedule)
   {
     const auto k = static_cast<std::size_t>(l);
     Step* step = this->Steps[k].get();
-    const bool apart = l < this->ApartLevels;
+    const bool pipelined = l < this->PipelinedLevels;
     for (const Part part : Parts)
     {
-      if (apart)
+      if (pipelined)
       {
         schedule.startChain();
         schedule.add({ part.name, l, 0.0, [step, part](bool) { (step->*part.advance)(); } });
@@ -75,13 +75,13 @@ void HierarchyBuilder::addStages(Schedule& schedule)
       schedule.trace().addStage(part.name, l, std::bind_front(part.cursor, step));
     }
     schedule.startChain();
-    apart ? schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } })
-          : schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
+    pipelined ? schedule.add({ "pack rows", l, 0.0, [this, l](bool) { this->pack(l); } })
+              : schedule.add({ "coarsen", l, 0.0, [this, l](bool) { this->advanceLevel(l); } });
     schedule.trace().addStage("pack rows", l, [this, k] { return this->Packed[k]; });
     if (l > 0)
     {
       schedule.trace().addWindow(
-        l, [this, k] { return this->Built.coarse[k - 1]->window().first(); },
+        l, [this, k] { return this->Storage.coarse[k - 1]->window().first(); },
         [this, k] { return this->Rows[k]->end(); });
     }
   }
@@ -92,7 +92,7 @@ void HierarchyBuilder::handOver()
   for (int l = 0; l < this->FirstCore; ++l)
   {
     LevelCoarsening& step = *this->Steps[static_cast<std::size_t>(l)];
-    if (l < this->ApartLevels)
+    if (l < this->PipelinedLevels)
     {
       step.release();
     }
@@ -136,7 +136,7 @@ int HierarchyBuilder::finish(const std::function<void(int)>& addLevel)
       addLevel(l + 1);
     }
   }
-  this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
+  this->Storage.sizes.resize(static_cast<std::size_t>(l + 1));
   return l;
 }
 
@@ -171,7 +171,7 @@ void HierarchyBuilder::build(int l)
 std::int64_t HierarchyBuilder::nodes(int l) const
 {
   const auto k = static_cast<std::size_t>(l);
-  return k < this->Built.sizes.size() ? this->Built.sizes[k].nodes : this->Rows[k]->end();
+  return k < this->Storage.sizes.size() ? this->Storage.sizes[k].nodes : this->Rows[k]->end();
 }
 
 bool HierarchyBuilder::stalled(int l) const
@@ -183,8 +183,8 @@ bool HierarchyBuilder::stalled(int l) const
 void HierarchyBuilder::close(int l)
 {
   const auto k = static_cast<std::size_t>(l);
-  this->Built.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
-  this->Built.frozen += l > 0 ? this->Rows[k]->frozen() : 0;
+  this->Storage.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
+  this->Storage.frozen += l > 0 ? this->Rows[k]->frozen() : 0;
   if (k < this->Steps.size())
   {
     this->Steps[k].reset();
@@ -206,8 +206,8 @@ void HierarchyBuilder::addStep()
   this->Advanced.push_back(0);
   this->Packed.push_back(0);
   const std::size_t l = this->Steps.size();
-  this->Steps.push_back(this->Set.coarsening(this->Owner, *this->Rows[l], *this->Rows[l + 1],
-    this->Stiff, static_cast<int>(l) < this->ApartLevels));
+  this->Steps.push_back(this->Operators.coarsening(this->Owner, *this->Rows[l], *this->Rows[l + 1],
+    this->Stiff, static_cast<int>(l) < this->PipelinedLevels));
   this->Steps.back()->setCheck(this->Check);
 }
 
@@ -215,16 +215,16 @@ void HierarchyBuilder::append(int l)
 {
   if (l == 0)
   {
-    this->append(l, *this->Built.finest);
+    this->append(l, *this->Storage.finest);
   }
   else
   {
-    this->append(l, *this->Built.coarse[static_cast<std::size_t>(l - 1)]);
+    this->append(l, *this->Storage.coarse[static_cast<std::size_t>(l - 1)]);
   }
 }
 
-template <class Level>
-void HierarchyBuilder::append(int l, Level& level)
+template <class AnyLevel>
+void HierarchyBuilder::append(int l, AnyLevel& level)
 {
   std::vector<RowBlock>& ready = this->Ready[static_cast<std::size_t>(l)];
   for (RowBlock& block : ready)
@@ -250,7 +250,7 @@ void HierarchyBuilder::pack(int l)
       packRows(this->Buffers[k], rows, &step.data(), begin, nodes, l > 0 && !this->Stiff.any()));
     begin += nodes;
     step.packed(begin);
-    if (l >= this->ApartLevels)
+    if (l >= this->PipelinedLevels)
     {
       step.release();
     }

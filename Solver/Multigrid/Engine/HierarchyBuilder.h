@@ -3,7 +3,7 @@
 
 #include "Solver/Multigrid/Cycle/Level.h"
 #include "Solver/Multigrid/Engine/CompiledOperators.h"
-#include "Solver/Multigrid/Engine/Levels.h"
+#include "Solver/Multigrid/Engine/LevelStorage.h"
 #include "Solver/Multigrid/Schedule/Schedule.h"
 #include "smg/Report.h"
 
@@ -23,7 +23,7 @@ namespace smg
  * For each level it has a Coarsening, which makes the rows of the next level, and packs rows into
  * blocks of the window once the stages of the passes can use them. All levels advance by steps. In
  * a step each works on what the finer one handed over after the step before, so the levels, and
- * with `apart` even the stages of the three finest ones, are tasks that need not wait for each
+ * with `pipelined` even the stages of the three finest ones, are tasks that need not wait for each
  * other.
  */
 class HierarchyBuilder
@@ -37,11 +37,11 @@ public:
    * their own. */
   static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
 
-  /** `stiff` finds the stiff rows of each coarse level. `apart`: for several threads, the stages
-   * of each of the finest levels, where most of the work is, are tasks of their own. `check` ends
-   * the work between rows: a step with rows of very many entries takes seconds. */
-  HierarchyBuilder(Pool& pool, const CompiledOperators& operators, Levels& levels, int firstCore,
-    SliverRows stiff, bool apart, CancelCheck& check);
+  /** `stiff` finds the stiff rows of each coarse level. `pipelined`: for several threads, the
+   * stages of each of the finest levels, where most of the work is, are tasks of their own. `check`
+   * ends the work between rows: a step with rows of very many entries takes seconds. */
+  HierarchyBuilder(Pool& pool, const CompiledOperators& operators, LevelStorage& levels,
+    int firstCore, SliverRows stiff, bool pipelined, CancelCheck& check);
 
   /** The rows of the finest level, to which the assembly appends between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
@@ -49,7 +49,7 @@ public:
   /** Whether the finest level has enough rows for a step: more would only take memory. */
   bool isBusy() const
   {
-    return this->ApartLevels > 0 && this->Steps.front()->waiting() > StepNodes;
+    return this->PipelinedLevels > 0 && this->Steps.front()->waiting() > StepNodes;
   }
 
   /** Begins a step of all streamed levels. */
@@ -91,17 +91,17 @@ private:
   /** Passes the packed blocks of level l to its window, and takes the buffers of released ones
    * for reuse. */
   void append(int l);
-  template <class Level>
-  void append(int l, Level& level);
+  template <class AnyLevel>
+  void append(int l, AnyLevel& level);
   /** Packs the blocks of level l whose nodes are all final: interpolation, and the patches of
    * neighbours. The last block may be shorter. */
   void pack(int l);
 
   Pool& Owner;
-  const CompiledOperators& Set;
-  Levels& Built;
+  const CompiledOperators& Operators;
+  LevelStorage& Storage;
   int FirstCore;
-  int ApartLevels; // number of levels whose stages are tasks
+  int PipelinedLevels; // number of levels whose stages are tasks
   SliverRows Stiff;
   CancelCheck& Check;
   std::vector<std::unique_ptr<LevelRows>> Rows;

@@ -8,10 +8,10 @@
 namespace smg
 {
 
-void Iteration::operator()(bool spareLast)
+void Iteration::run(bool leaveLast)
 {
-  Pass pass(this->Run, this->Levels);
-  while (!this->StoppingRule.done() && !(spareLast && this->StoppingRule.isLast()))
+  Pass pass(this->Context, this->Levels);
+  while (!this->StoppingRule.done() && !(leaveLast && this->StoppingRule.isLast()))
   {
     const bool measures = this->measuresMemory();
     if (!measures)
@@ -24,30 +24,32 @@ void Iteration::operator()(bool spareLast)
       this->History->startPass(this->Accelerator.next(this->History->products()));
     }
     // The peak of this pass alone, should it be the one that measures.
-    this->Run.pool.restartPeak();
-    pass(
+    this->Context.pool.restartPeak();
+    pass.run(
       this->StoppingRule.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
     if (measures)
     {
-      this->Run.plainPassPeak = this->Run.pool.recentPeak();
-      this->Run.valueNodes = this->Levels.window().x().capacity();
+      this->Context.plainPassPeak = this->Context.pool.recentPeak();
+      this->Context.valueNodes = this->Levels.window().x().capacity();
     }
     this->StoppingRule.add(this->Levels.residualNorm(), this->Levels.roundingNorm(),
-      this->Run.shareOfTolerance(this->StoppingRule.reference()), this->Run.scaledResidual());
+      this->Context.shareOfTolerance(this->StoppingRule.reference()),
+      this->Context.scaledResidual());
     this->expect();
-    if (this->Balance && this->Balance->add(this->Run.energy->value(),
+    if (this->Balance && this->Balance->add(this->Context.energy->value(),
                            this->StoppingRule.residuals().back(), this->StoppingRule.factor()))
     {
       this->StoppingRule.end();
     }
-    this->Run.progress.endCycle(this->StoppingRule.cycles(), this->StoppingRule.residuals().back());
-    this->Run.endPass(this->StoppingRule.residuals().back());
+    this->Context.progress.endCycle(
+      this->StoppingRule.cycles(), this->StoppingRule.residuals().back());
+    this->Context.endPass(this->StoppingRule.residuals().back());
   }
   if (this->Accelerator.used() != std::string("none"))
   {
-    this->Run.report.acceleration = this->Accelerator.used();
+    this->Context.report.acceleration = this->Accelerator.used();
   }
-  this->Accelerator.addNotes(this->Run.report.notes, this->NotePrefix);
+  this->Accelerator.addNotes(this->Context.report.notes, this->NotePrefix);
   // Its memory is free for the results, or for the next problem.
   this->History.reset();
 }
@@ -60,7 +62,7 @@ void Iteration::operator()(bool spareLast)
  */
 bool Iteration::measuresMemory() const
 {
-  if (!this->Run.scratch || this->Run.checkpoint || this->Run.report.passes != 1)
+  if (!this->Context.scratch || this->Context.checkpoint || this->Context.report.passes != 1)
   {
     return false;
   }
@@ -110,19 +112,19 @@ void Iteration::emplaceHistoryWithRoom()
 bool Iteration::hasRoom(KeptResiduals residuals) const
 {
   constexpr std::int64_t Pages = std::int64_t(1) << 16; // rings grow by pages, and ahead of need
-  const Pool& pool = this->Run.pool;
+  const Pool& pool = this->Context.pool;
   const LevelWindow<double>& window = this->Levels.window();
   const std::int64_t nodes = window.nodes();
-  if (!this->Run.scratch)
+  if (!this->Context.scratch)
   {
     const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
     return pool.used() + need + need / 4 + Pages <= pool.limit();
   }
-  if (this->Run.isAmple && this->Run.expectedBytes > 0)
+  if (this->Context.isAmple && this->Context.expectedBytes > 0)
   {
     return true; // the limit is far above the need: permitsTasks()
   }
-  return this->Run.passBytes(window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
+  return this->Context.passBytes(window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
          pool.limit();
 }
 
@@ -130,10 +132,10 @@ void Iteration::emplaceHistory(KeptResiduals residuals)
 {
   LevelWindow<double>& window = this->Levels.window();
   this->ResidualStorage = residuals;
-  this->History.emplace(this->Run.pool, window.nodes(), window.columns(), residuals);
-  if (this->Run.scratch)
+  this->History.emplace(this->Context.pool, window.nodes(), window.columns(), residuals);
+  if (this->Context.scratch)
   {
-    this->History->useScratch(*this->Run.scratch, this->Run.traffic.add("history", 0));
+    this->History->useScratch(*this->Context.scratch, this->Context.traffic.add("history", 0));
   }
 }
 
@@ -142,7 +144,7 @@ void Iteration::expect()
   // A balance has a goal of its own, far above the least tolerance.
   if (!this->Balance)
   {
-    this->Run.progress.expect(this->StoppingRule.goal());
+    this->Context.progress.expect(this->StoppingRule.goal());
   }
 }
 
@@ -168,7 +170,7 @@ void Iteration::load(StateReader& state)
     state(*this->History);
   }
   this->expect();
-  this->Run.progress.repeat(this->StoppingRule.residuals());
+  this->Context.progress.repeat(this->StoppingRule.residuals());
 }
 
 } // namespace smg

@@ -25,20 +25,20 @@ class Iteration
 {
 public:
   /** Notes begin with `what`. If `balance` is not null, it may end the V-cycles, too. */
-  Iteration(SolveContext& run, Hierarchy& hierarchy, Convergence& convergence,
+  Iteration(SolveContext& context, Hierarchy& hierarchy, Convergence& convergence,
     std::string what = "", ErrorBalance* balance = nullptr)
-    : Run(run)
+    : Context(context)
     , Levels(hierarchy)
     , StoppingRule(convergence)
     , NotePrefix(std::move(what))
     , Balance(balance)
-    , Accelerator(run.options.acceleration, convergence)
+    , Accelerator(context.options.acceleration, convergence)
   {
   }
 
-  /** Performs V-cycles until convergence or, with `spareLast`, until only the last permitted one
+  /** Performs V-cycles until convergence or, with `leaveLast`, until only the last permitted one
    * is left, which shares its pass with the next problem. */
-  void operator()(bool spareLast);
+  void run(bool leaveLast);
 
   /** Between passes: saves and restores all that later passes need, except the hierarchy and the
    * convergence. */
@@ -54,7 +54,7 @@ private:
   bool hasRoom(KeptResiduals residuals) const;
   void emplaceHistory(KeptResiduals residuals);
 
-  SolveContext& Run;
+  SolveContext& Context;
   Hierarchy& Levels;
   Convergence& StoppingRule;
   std::string NotePrefix;

@@ -14,8 +14,8 @@ namespace smg
 {
 
 LevelCoarsening::LevelCoarsening(
-  Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool apart, int patchRings)
-  : Data(pool, fine, coarse, stiff, apart)
+  Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool pipelined, int patchRings)
+  : Data(pool, fine, coarse, stiff, pipelined)
   , Begin(fine.first())
   , CoarseBegin(coarse.first())
   , Final(pool)
@@ -37,7 +37,7 @@ void LevelCoarsening::advance(std::int64_t rows)
   this->release();
 }
 
-std::int64_t LevelCoarsening::beginApart(std::int64_t nodes)
+std::int64_t LevelCoarsening::beginPipelined(std::int64_t nodes)
 {
   assert(&this->Data.productSlots != &this->Data.slots); // made for several threads
   const std::int64_t coarse = this->usualCoarseRows(nodes);
@@ -49,7 +49,7 @@ std::int64_t LevelCoarsening::beginApart(std::int64_t nodes)
   this->publishInterpolation();
   this->publishInitial();
   this->reserve();
-  this->Apart = true;
+  this->Pipelined = true;
   return coarse;
 }
 void LevelCoarsening::handOver()
@@ -96,7 +96,7 @@ void LevelCoarsening::release()
     std::min({ this->ReachDone, this->ProductDone, this->Packed });
   d.interpolation.release(interpolationDone);
   d.rowQuanta.release(interpolationDone);
-  d.settledReach.release(this->Packed);
+  d.patchReach.release(this->Packed);
   d.parentReach.release(interpolationDone);
   const std::int64_t nextFine =
     this->Gathered < d.coarseNodes ? d.finePoint[this->Gathered] : this->Chosen;
@@ -207,7 +207,7 @@ void LevelCoarsening::reserveProducts()
   {
     d.product.reserve(rows, this->ProductEntries.of(rows) + d.maxProducts(this->Multiplied));
     d.productSum.reserve(this->Multiplied + rows - d.productSum.first());
-    d.settledReach.reserve(rows);
+    d.patchReach.reserve(rows);
   }
 }
 

@@ -132,8 +132,8 @@ struct StepLimits
 class SMG_EXPORT LevelCoarsening
 {
 public:
-  LevelCoarsening(
-    Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool apart, int patchRings);
+  LevelCoarsening(Pool& pool, LevelRows& fine, LevelRows& coarse, SliverRows stiff, bool pipelined,
+    int patchRings);
   virtual ~LevelCoarsening() = default;
   LevelCoarsening(const LevelCoarsening&) = delete;
   LevelCoarsening& operator=(const LevelCoarsening&) = delete;
@@ -159,14 +159,14 @@ public:
    * advance on different threads. */
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max());
 
-  // The same on five threads: between beginApart() and release(), the five functions below may run
-  // at the same time. Each works on what the one before it had done in earlier steps: beginApart()
-  // publishes the cursors, and reserves the room that the step will need, so that no ring moves
-  // while another thread reads it.
+  // The same on five threads: between beginPipelined() and release(), the five functions below may
+  // run at the same time. Each works on what the one before it had done in earlier steps:
+  // beginPipelined() publishes the cursors, and reserves the room that the step will need, so that
+  // no ring moves while another thread reads it.
 
   /** Begins a step in which each stage usually processes at most this number of nodes, see
    * StepLimit. Returns about how many coarse rows these become. */
-  std::int64_t beginApart(std::int64_t nodes);
+  std::int64_t beginPipelined(std::int64_t nodes);
   /** The number of rows that no stage has processed. */
   std::int64_t waiting() const { return this->Data.fine.end() - this->Chosen; }
 
@@ -199,7 +199,7 @@ protected:
 
   CoarseningData Data;
   StepLimits Limits;
-  bool Apart = false; // whether several threads advance the stages
+  bool Pipelined = false; // whether several threads advance the stages
 
   const std::int64_t Begin, CoarseBegin; // the first nodes
   std::int64_t Rows = Begin;             // end of the rows of the fine level that stages may read

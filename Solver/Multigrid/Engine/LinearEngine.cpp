@@ -38,23 +38,23 @@ void removeRepetitions(std::vector<std::string>& sentences)
 } // namespace
 
 LinearEngine::LinearEngine(CompiledOperators operators, int columns, const SolveOptions& options)
-  : Set(std::move(operators))
+  : Operators(std::move(operators))
   , Columns(columns)
-  , Run(columns, options)
-  , Levels(this->Run, columns, this->Set.relaxation)
-  , Given(this->Run.pool)
+  , Context(columns, options)
+  , Levels(this->Context, columns, this->Operators.relaxation)
+  , Given(this->Context.pool)
 {
 }
 
 void LinearEngine::build(MeshSource& mesh, Problem& problem)
 {
-  this->Run.beginReport();
-  this->Run.progress.beginFirst();
-  this->Run.mayMeasureFlow = true;
+  this->Context.beginReport();
+  this->Context.progress.beginFirst();
+  this->Context.mayMeasureFlow = true;
   this->VectorSize = problem.vectorSize();
-  FirstPass(this->Run, this->Levels, this->Set)(mesh, problem, &this->Given);
-  this->Run.finishReport();
-  this->Run.progress.finish();
+  FirstPass(this->Context, this->Levels, this->Operators).run(mesh, problem, &this->Given);
+  this->Context.finishReport();
+  this->Context.progress.finish();
 }
 
 std::string LinearEngine::Group::name() const
@@ -123,9 +123,9 @@ void LinearEngine::store(
 void LinearEngine::solve(std::span<const double> b, std::span<double> x, const Stopping& stopping,
   const ProgressFunction& progress)
 {
-  this->Run.progress = SolveProgress(progress);
-  this->Run.beginAgain();
-  Report& r = this->Run.report;
+  this->Context.progress = SolveProgress(progress);
+  this->Context.beginAgain();
+  Report& r = this->Context.report;
   r.converged = true;
   r.relative_to = BestConstant;
   std::vector<double> removed;
@@ -138,7 +138,7 @@ void LinearEngine::solve(std::span<const double> b, std::span<double> x, const S
       this->Given.setKnown(window);
       const auto share = [&](std::size_t columns)
       { return static_cast<double>(columns) / static_cast<double>(group.all); };
-      this->Run.progress.begin(
+      this->Context.progress.begin(
         stopping, share(group.first), share(group.first + group.count), false);
       this->solve(group, stopping);
       std::vector<double> taken = std::exchange(r.removed_source, {});
@@ -155,44 +155,44 @@ void LinearEngine::solve(std::span<const double> b, std::span<double> x, const S
   {
     r.steps.clear();
   }
-  r.seconds.solve = this->Run.seconds();
-  this->Run.finishReport();
+  r.seconds.solve = this->Context.seconds();
+  this->Context.finishReport();
   removeRepetitions(r.notes);
   removeRepetitions(r.warnings);
-  this->Run.progress.finish();
+  this->Context.progress.finish();
 }
 
 /** Solves for b and from x of the finest level. */
 void LinearEngine::solve(const Group& group, const Stopping& stopping)
 {
   Convergence convergence(stopping, {});
-  Iteration iteration(this->Run, this->Levels, convergence);
+  Iteration iteration(this->Context, this->Levels, convergence);
   const ColumnResiduals columns = this->begin();
-  this->Run.scales = ColumnScales(columns.references, this->VectorSize);
-  convergence = Convergence(stopping, this->Run.scales.of(columns));
+  this->Context.scales = ColumnScales(columns.references, this->VectorSize);
+  convergence = Convergence(stopping, this->Context.scales.of(columns));
   // As for a first pass: see PoissonSolver.
-  convergence.begin(this->Levels.residualNorm(), !this->Run.components.shiftsRightSide());
-  this->Run.endPass(convergence.initial());
-  iteration(false);
-  Report& r = this->Run.report;
+  convergence.begin(this->Levels.residualNorm(), !this->Context.components.shiftsRightSide());
+  this->Context.endPass(convergence.initial());
+  iteration.run(false);
+  Report& r = this->Context.report;
   const std::string name = group.name();
   convergence.addStep(r, name, group.count < group.all ? name + ": " : std::string());
   r.converged = r.converged && convergence.converged();
-  this->Run.free.fix(this->Levels.window(), r);
+  this->Context.free.fix(this->Levels.window(), r);
 }
 
 /** Does what a first pass does after assembly. Returns the residual of the initial values. */
 ColumnResiduals LinearEngine::begin()
 {
   LevelWindow<double>& window = this->Levels.window();
-  Components& components = this->Run.components;
+  Components& components = this->Context.components;
   this->Given.addKnown(window);
   components.restartCounts();
-  const InitialResidual residual = this->Given.residual(window, components, this->Run.labels);
+  const InitialResidual residual = this->Given.residual(window, components, this->Context.labels);
   components.settle();
   checkSquares(residual.termSquares(), residual.anyTerm());
-  Pass(this->Run, this->Levels).begin();
-  FirstPass::project(this->Run, this->Levels);
+  Pass(this->Context, this->Levels).begin();
+  FirstPass::project(this->Context, this->Levels);
   return FirstPass::residualOf(residual, components);
 }
 
@@ -201,7 +201,7 @@ void LinearEngine::read(const Group& group, std::span<double> x)
 {
   const Ring<double>& solved = this->Levels.window().x();
   std::vector<double> values(static_cast<std::size_t>(this->Columns));
-  if (this->Run.components.floatingComponents() == 0)
+  if (this->Context.components.floatingComponents() == 0)
   {
     this->store(solved, 1.0, group, x);
     return;
@@ -209,7 +209,7 @@ void LinearEngine::read(const Group& group, std::span<double> x)
   for (std::int64_t i = 0; i < this->vertices(); ++i)
   {
     std::copy_n(solved.at(i), values.size(), values.begin());
-    this->Run.free.complete(i, 1, values);
+    this->Context.free.complete(i, 1, values);
     std::copy_n(values.begin(), group.count,
       x.begin() +
         static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * group.all + group.first));

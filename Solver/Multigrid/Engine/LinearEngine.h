@@ -34,9 +34,9 @@ public:
   void precondition(std::span<const double> r, std::span<double> z);
   void multiply(std::span<const double> x, std::span<double> y);
 
-  std::int64_t vertices() const { return this->Run.report.vertices; }
+  std::int64_t vertices() const { return this->Context.report.vertices; }
   int columns() const { return this->Columns; }
-  const Report& report() const { return this->Run.report; }
+  const Report& report() const { return this->Context.report; }
 
 private:
   /** The columns of given vectors that are treated together. */
@@ -56,10 +56,10 @@ private:
   ColumnResiduals begin();
   void read(const Group& group, std::span<double> x);
 
-  CompiledOperators Set;
+  CompiledOperators Operators;
   int Columns;
   int VectorSize = 1;
-  SolveContext Run;
+  SolveContext Context;
   Hierarchy Levels;
   RightSides Given;
 };

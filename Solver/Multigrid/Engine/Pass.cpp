@@ -11,22 +11,22 @@
 namespace smg
 {
 
-void Pass::operator()(double scale, const Further& further)
+void Pass::run(double scale, const Options& options)
 try
 {
   this->Levels.runCore();
   this->Levels.startPass(false);
   auto& finest = this->Levels.finest();
   const std::int64_t nodes = finest.window().nodes();
-  finest.setHistory(further.history);
+  finest.setHistory(options.history);
   finest.setScale(scaleFor(scale / std::sqrt(static_cast<double>(nodes))));
 
   const SolveContext::Steps steps =
-    further.inOneChain
-      ? SolveContext::Steps{ this->Run.options.blockNodes, 1 }
-      : this->Run.stepsOf(nodes, finest.window().stride(),
-          further.history ? std::optional(further.history->sparseness()) : std::nullopt);
-  Schedule schedule = this->scheduleOf(further, steps.chains);
+    options.inOneChain
+      ? SolveContext::Steps{ this->Context.options.blockNodes, 1 }
+      : this->Context.stepsOf(nodes, finest.window().stride(),
+          options.history ? std::optional(options.history->sparseness()) : std::nullopt);
+  Schedule schedule = this->scheduleOf(options, steps.chains);
   std::int64_t end = 0;
   const auto prepare = [&]
   {
@@ -37,9 +37,9 @@ try
     end = std::min(nodes, end + steps.nodes);
     // Rings grow here only, when no task runs.
     finest.load(end - 1);
-    if (further.loaded)
+    if (options.loaded)
     {
-      further.loaded();
+      options.loaded();
     }
     // The cursors at the beginning of the step: also the tasks that write nodes use them.
     finest.publish();
@@ -48,9 +48,9 @@ try
   const auto settle = [&]
   {
     finest.release();
-    this->Run.progress.update(static_cast<double>(end - 1) / static_cast<double>(nodes));
+    this->Context.progress.update(static_cast<double>(end - 1) / static_cast<double>(nodes));
   };
-  schedule.perform(this->Run.threads, prepare, settle);
+  schedule.perform(this->Context.threads, prepare, settle);
   // All is loaded now. The upward part runs to its end; the downward part, which relies on
   // published cursors, follows in a second round.
   schedule.advance();
@@ -58,30 +58,30 @@ try
   schedule.advance();
   finest.settle();
   schedule.trace().endStep();
-  this->Run.note(schedule, false);
+  this->Context.note(schedule, false);
   this->Levels.noteWindows();
   this->Levels.endPass();
 }
 catch (const MemoryLimitError& error)
 {
-  throw this->Run.explained(error);
+  throw this->Context.explained(error);
 }
 
 /** The stages of the pass, cut into chains, and what reads and writes beside them. A recorder
  * measures each stage, so it gets a chain of each. */
-Schedule Pass::scheduleOf(const Further& further, int chains)
+Schedule Pass::scheduleOf(const Options& options, int chains)
 {
   auto& finest = this->Levels.finest();
-  Schedule schedule(this->Run.trace());
+  Schedule schedule(this->Context.trace());
   addUpward(finest, schedule);
-  if (further.beforeDown)
+  if (options.beforeDown)
   {
     schedule.add({ "begin the next problem", 0, static_cast<double>(this->Levels.window().nodes()),
-                   further.beforeDown },
+                   options.beforeDown },
       [&finest] { return std::int64_t(finest.cursors().renewed); });
   }
   addDownward(finest, schedule);
-  if (StepRecorder* recorder = this->Run.threads.recorder)
+  if (StepRecorder* recorder = this->Context.threads.recorder)
   {
     recorder->startPass(schedule.costs());
     schedule.cutAll();
@@ -102,7 +102,7 @@ void Pass::begin()
   this->Levels.startPass(true);
   auto& finest = this->Levels.finest();
   finest.setScale(1.0);
-  Schedule schedule(this->Run.trace());
+  Schedule schedule(this->Context.trace());
   addDownward(finest, schedule);
   finest.addWindows(schedule.trace());
   schedule.advance();

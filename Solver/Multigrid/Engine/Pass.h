@@ -24,7 +24,7 @@ class Pass
 {
 public:
   /** Optional further actions of a pass. */
-  struct Further
+  struct Options
   {
     /** Called in each step after the finest level was loaded. */
     std::function<void()> loaded;
@@ -36,24 +36,24 @@ public:
     bool inOneChain = false;
   };
 
-  Pass(SolveContext& run, Hierarchy& hierarchy)
-    : Run(run)
+  Pass(SolveContext& context, Hierarchy& hierarchy)
+    : Context(context)
     , Levels(hierarchy)
   {
   }
 
   /** Performs the part of the V-cycle on the core levels, then a pass; `scale` is the
    * approximate size of the residuals in it. */
-  void operator()(double scale, const Further& further);
+  void run(double scale, const Options& options);
 
   /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are
    * in the window of the finest level. */
   void begin();
 
 private:
-  Schedule scheduleOf(const Further& further, int chains);
+  Schedule scheduleOf(const Options& options, int chains);
 
-  SolveContext& Run;
+  SolveContext& Context;
   Hierarchy& Levels;
 };
 

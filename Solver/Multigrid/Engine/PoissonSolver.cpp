@@ -17,42 +17,43 @@ namespace smg
 
 std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& problem)
 {
-  SolveContext& run = *this->Run;
-  run.beginReport();
+  SolveContext& context = *this->Context;
+  context.beginReport();
   std::optional<ErrorBalance> balance;
-  if (run.options.tolerance == SolveOptions::AutomaticTolerance)
+  if (context.options.tolerance == SolveOptions::AutomaticTolerance)
   {
-    run.energy.emplace(problem.columns());
+    context.energy.emplace(problem.columns());
     balance.emplace([&] { return this->discretisation(problem); });
   }
-  run.mayMeasureFlow = !balance;
+  context.mayMeasureFlow = !balance;
   constexpr double Least = 1e-13; // the tolerance if it is automatic
-  const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
-  run.progress.begin(
+  const Stopping stopping{ balance ? Least : context.options.tolerance, context.options.maxCycles };
+  context.progress.begin(
     { balance ? ErrorBalance::UsualResidual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0,
     true);
   Convergence convergence(stopping, {});
-  Iteration iteration(run, this->Levels, convergence, "", balance ? &*balance : nullptr);
+  Iteration iteration(context, this->Levels, convergence, "", balance ? &*balance : nullptr);
   // What a checkpoint has of this solve, in the order in which it is saved and restored.
   const auto exchange = [&](auto& state)
   {
-    state(this->Levels, run.scales, convergence, iteration);
+    state(this->Levels, context.scales, convergence, iteration);
     if (balance)
     {
-      state(*run.energy, *balance);
+      state(*context.energy, *balance);
     }
   };
-  if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
+  if (!context.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
   {
-    const ColumnResiduals first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
+    const ColumnResiduals first =
+      FirstPass(context, this->Levels, this->Operators).run(mesh, problem);
     if (!problem.beginsAtRest())
     {
-      run.scales = ColumnScales(first.references, problem.vectorSize());
+      context.scales = ColumnScales(first.references, problem.vectorSize());
     }
     this->begin(
-      convergence, stopping, problem.beginsAtRest() ? first.alone() : run.scales.of(first));
+      convergence, stopping, problem.beginsAtRest() ? first.alone() : context.scales.of(first));
   }
-  iteration(false);
+  iteration.run(false);
   return this->finish(convergence, problem, balance ? &*balance : nullptr);
 }
 
@@ -61,19 +62,20 @@ std::unique_ptr<Solution> PoissonSolver::correct(
 {
   // At least this share of the residual is to go, whose digits a double has.
   constexpr double Most = 0.1, Least = 1e-12;
-  SolveContext& run = *this->Run;
-  run.beginReport();
-  run.corrected = &solution;
-  run.scales = scales;
-  run.progress.begin({ Least, run.options.maxCycles }, 0.0, 1.0, true);
-  FirstResidual first = scales.of(FirstPass(run, this->Levels, this->Set)(mesh, problem));
+  SolveContext& context = *this->Context;
+  context.beginReport();
+  context.corrected = &solution;
+  context.scales = scales;
+  context.progress.begin({ Least, context.options.maxCycles }, 0.0, 1.0, true);
+  FirstResidual first =
+    scales.of(FirstPass(context, this->Levels, this->Operators).run(mesh, problem));
   first.reference = first.norm; // it is measured against itself
   const Stopping stopping{ first.norm > 0.0 ? std::clamp(goal / first.norm, Least, Most) : Most,
-    run.options.maxCycles };
+    context.options.maxCycles };
   Convergence convergence(stopping, first);
-  Iteration iteration(run, this->Levels, convergence);
+  Iteration iteration(context, this->Levels, convergence);
   this->begin(convergence, stopping, first);
-  iteration(false);
+  iteration.run(false);
   return this->finish(convergence, problem, nullptr);
 }
 
@@ -83,20 +85,21 @@ std::unique_ptr<Solution> PoissonSolver::correct(
 void PoissonSolver::begin(
   Convergence& convergence, const Stopping& stopping, const FirstResidual& first)
 {
-  SolveContext& run = *this->Run;
+  SolveContext& context = *this->Context;
   convergence = Convergence(stopping, first);
-  convergence.begin(this->Levels.residualNorm(), !run.components.shiftsRightSide() && !run.flow);
-  run.endPass(convergence.initial());
+  convergence.begin(
+    this->Levels.residualNorm(), !context.components.shiftsRightSide() && !context.flow);
+  context.endPass(convergence.initial());
 }
 
 /** To be called after the last pass: makes the solution, with its report. */
 std::unique_ptr<Solution> PoissonSolver::finish(
   const Convergence& convergence, Problem& problem, const ErrorBalance* balance)
 {
-  SolveContext& run = *this->Run;
+  SolveContext& context = *this->Context;
   this->Norms = { convergence.reference(), convergence.norm(), convergence.rounding(),
-    run.flow ? run.flowNorm() : 0.0, run.scales };
-  Report& r = run.report;
+    context.flow ? context.flowNorm() : 0.0, context.scales };
+  Report& r = context.report;
   r.cycles = convergence.cycles();
   r.residuals = convergence.residuals();
   r.relative_to = problem.beginsAtRest() ? MeshAtRest : BestConstant;
@@ -106,15 +109,15 @@ std::unique_ptr<Solution> PoissonSolver::finish(
   {
     balance->report(r);
   }
-  run.free.fix(this->Levels.window(), problem, r);
-  r.seconds.solve = run.seconds() - r.seconds.build;
-  run.finishReport();
+  context.free.fix(this->Levels.window(), problem, r);
+  r.seconds.solve = context.seconds() - r.seconds.build;
+  context.finishReport();
   auto solution =
-    std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
-  run.progress.finish();
-  this->Done = run.progress.done();
-  this->Used = run.pool.used();
-  this->ScratchUsed = run.scratch ? run.scratch->account().used() : 0;
+    std::make_unique<StreamedSolution>(std::move(this->Context), this->Levels.takeWindow());
+  context.progress.finish();
+  this->Done = context.progress.done();
+  this->Used = context.pool.used();
+  this->ScratchUsed = context.scratch ? context.scratch->account().used() : 0;
   return solution;
 }
 
@@ -122,26 +125,26 @@ std::unique_ptr<Solution> PoissonSolver::finish(
  * pass. */
 EnergySquares PoissonSolver::discretisation(Problem& problem)
 {
-  const std::unique_ptr<MeshSource> mesh = this->Run->options.again();
-  this->Run->free.prepare();
+  const std::unique_ptr<MeshSource> mesh = this->Context->options.again();
+  this->Context->free.prepare();
   try
   {
-    DiscretisationError error(this->Run->pool, mesh->info(), problem,
+    DiscretisationError error(this->Context->pool, mesh->info(), problem,
       [this](std::int64_t first, std::int64_t count, std::span<double> values)
       {
         this->Levels.window().readX(first, count, values.data());
-        this->Run->free.complete(first, count, values);
+        this->Context->free.complete(first, count, values);
       });
     for (MeshBlock block; mesh->next(block);)
     {
       error.add(block);
-      this->Run->progress.update(1.0); // may cancel
+      this->Context->progress.update(1.0); // may cancel
     }
     return error.finish();
   }
   catch (const MemoryLimitError& error)
   {
-    throw this->Run->explained(error);
+    throw this->Context->explained(error);
   }
 }
 

@@ -23,9 +23,9 @@ class PoissonSolver
 public:
   /** Prepares for a problem of `columns` columns; nothing is read yet. */
   PoissonSolver(CompiledOperators operators, int columns, const SolveOptions& options)
-    : Set(std::move(operators))
-    , Run(std::make_unique<SolveContext>(columns, options))
-    , Levels(*this->Run, columns, this->Set.relaxation)
+    : Operators(std::move(operators))
+    , Context(std::make_unique<SolveContext>(columns, options))
+    , Levels(*this->Context, columns, this->Operators.relaxation)
   {
   }
 
@@ -39,7 +39,7 @@ public:
   std::unique_ptr<Solution> correct(MeshSource& mesh, Problem& problem, Solution& solution,
     double goal, const ColumnScales& scales);
 
-  SolveContext& run() { return *this->Run; }
+  SolveContext& context() { return *this->Context; }
 
   // Afterwards:
 
@@ -56,8 +56,8 @@ private:
   std::unique_ptr<Solution> finish(
     const Convergence& convergence, Problem& problem, const ErrorBalance* balance);
 
-  CompiledOperators Set;
-  std::unique_ptr<SolveContext> Run;
+  CompiledOperators Operators;
+  std::unique_ptr<SolveContext> Context;
   Hierarchy Levels;
   SolveNorms Norms;
   double Done = 1.0;

@@ -133,7 +133,7 @@ void RightSides::addRows(const Arrays& rows, const BlockPart<double>& part, Init
     }
     const bool floats = components.isFloating(components.root(run->label));
     const double mass = floats ? labels.block(number).masses[static_cast<std::size_t>(k)] : 0.0;
-    sum.varying.add(run->label, RowBlock::alphaOf(h, arrays, k), mass, b, share);
+    sum.varying.add(run->label, RowBlock::rowSumOf(h, arrays, k), mass, b, share);
     if (floats)
     {
       components.count(run->label, b, x, residual.data(), mass);

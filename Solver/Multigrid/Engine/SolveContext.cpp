@@ -58,7 +58,7 @@ void SolveContext::beginReport()
 /** What the assembly has found out about the mesh and the operator stays. */
 void SolveContext::beginAgain()
 {
-  this->report = this->Built;
+  this->report = this->BuildReport;
   this->report.passes = 0;
   this->report.seconds = {};
   this->report.stages.clear();

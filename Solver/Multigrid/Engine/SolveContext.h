@@ -35,8 +35,8 @@ struct SMG_EXPORT SolveContext
 
   /** Starts the times of the report. */
   void beginReport();
-  /** In the first pass: what the report has by now is that of the mesh and the hierarchy. */
-  void keepReport() { this->Built = this->report; }
+  /** So far the report describes the mesh and the hierarchy only: keeps it for later solves. */
+  void keepReport() { this->BuildReport = this->report; }
   /** Starts the report of a further solve on the same hierarchy. */
   void beginAgain();
   /** Seconds since the start, including those of the programs from whose checkpoint this one
@@ -136,7 +136,7 @@ private:
   double CpuAtStart = 0.0;
   double SecondsBefore = 0.0;
   Parts Kept;
-  Report Built;
+  Report BuildReport;
 };
 
 /** The part of a report that the passes of a solve set, for StateWriter and StateReader. The end

@@ -8,8 +8,9 @@
 namespace smg
 {
 
-StreamedSolution::StreamedSolution(std::unique_ptr<SolveContext> run, LevelWindow<double> window)
-  : Run(std::move(run))
+StreamedSolution::StreamedSolution(
+  std::unique_ptr<SolveContext> context, LevelWindow<double> window)
+  : Context(std::move(context))
   , Window(std::move(window))
 {
 }
@@ -21,14 +22,14 @@ void StreamedSolution::read(std::int64_t first, std::int64_t count, std::span<do
   // The values of the last iterate, and then what the equations leave open: means of free
   // components, undetermined values.
   this->Window.readX(first, count, values.data());
-  this->Run->free.complete(first, count, values);
+  this->Context->free.complete(first, count, values);
 }
 
 void StreamedSolution::removeCheckpoint()
 {
-  if (this->Run->checkpoint)
+  if (this->Context->checkpoint)
   {
-    this->Run->checkpoint->discard();
+    this->Context->checkpoint->discard();
   }
 }
 

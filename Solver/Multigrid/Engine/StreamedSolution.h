@@ -18,16 +18,16 @@ class SMG_EXPORT StreamedSolution final : public Solution
 {
 public:
   /** `window` belongs to `run` and has only the solution. */
-  StreamedSolution(std::unique_ptr<SolveContext> run, LevelWindow<double> window);
+  StreamedSolution(std::unique_ptr<SolveContext> context, LevelWindow<double> window);
 
-  std::int64_t vertices() const override { return this->Run->report.vertices; }
+  std::int64_t vertices() const override { return this->Context->report.vertices; }
   int columns() const override { return this->Window.columns(); }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
   void removeCheckpoint() override;
-  const Report& report() const override { return this->Run->report; }
+  const Report& report() const override { return this->Context->report; }
 
 private:
-  std::unique_ptr<SolveContext> Run; // outlives the window, whose memory it accounts for
+  std::unique_ptr<SolveContext> Context; // outlives the window, whose memory it accounts for
   LevelWindow<double> Window;
 };
 

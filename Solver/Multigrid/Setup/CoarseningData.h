@@ -141,19 +141,19 @@ private:
  * releases them. */
 struct CoarseningData
 {
-  /** `apart`: whether the stages run on several threads and need slots of their own. */
+  /** `pipelined`: whether the stages run on several threads and need slots of their own. */
   CoarseningData(Pool& memory, LevelRows& fineRows, LevelRows& coarseRows,
-    SliverRows stiffRows = {}, bool apart = false)
+    SliverRows stiffRows = {}, bool pipelined = false)
     : pool(memory)
     , fine(fineRows)
     , coarse(coarseRows)
     , stiff(stiffRows)
     , parentReach(pool, coarseRows.first() - 1)
-    , settledReach(pool, fineRows.first() - 1)
+    , patchReach(pool, fineRows.first() - 1)
     , finePoint(pool, fineRows.first() - 1)
-    , productSlots(apart ? ownSlots[0] : slots)
-    , gatherSlots(apart ? ownSlots[1] : slots)
-    , sparsifySlots(apart ? ownSlots[2] : slots)
+    , productSlots(pipelined ? ownSlots[0] : slots)
+    , gatherSlots(pipelined ? ownSlots[1] : slots)
+    , sparsifySlots(pipelined ? ownSlots[2] : slots)
     , publishedCoarse(coarseRows.first())
     , interpolatedCoarse(coarseRows.first())
     , coarseNodes(coarseRows.first())
@@ -201,7 +201,7 @@ struct CoarseningData
   MonotoneRing parentReach;             ///< largest coarse index in rows 0 .. i of P, or -1
   /** The last node of the patches of all nodes that occur in rows 0 .. i: once a sweep has
    * passed it, it has relaxed all these nodes. */
-  MonotoneRing settledReach;
+  MonotoneRing patchReach;
   RaggedRing<CoarseEntry> product{ pool }; ///< rows of A P
   Ring<float> productSum{ pool };          ///< sum of the row of A P
 
@@ -215,7 +215,7 @@ struct CoarseningData
   /** The off-diagonal entries of -P^T A P during sparsification. Each pair {c, k} has an entry
    * in both rows; the upper one, in row min(c, k), counts. */
   RaggedRing<CoarseEntry> raw{ pool };
-  Ring<double> rawAlpha{ pool }; ///< row sums
+  Ring<double> rawRowSum{ pool }; ///< row sums
   Ring<StrongestWeight> rawStrongest{ pool };
   Ring<float> rawDiagonal{ pool };
   /** Whether no entry of the row may be removed. */
@@ -232,11 +232,11 @@ struct CoarseningData
   Ring<std::uint64_t> rawLarge{ pool };
 
   /** Accumulators of the stages, by coarse node: `slots` of relaxInterpolation() and
-   * interpolate() and, unless the stages run apart, also of productAP(), productPtAP() and
+   * interpolate() and, unless the stages are pipelined, also of productAP(), productPtAP() and
    * sparsify(). */
   SlotRing slots{ pool };
   std::array<SlotRing, 3> ownSlots{ SlotRing(pool), SlotRing(pool),
-    SlotRing(pool) }; ///< empty unless the stages run apart
+    SlotRing(pool) }; ///< empty unless the stages are pipelined
   SlotRing &productSlots, &gatherSlots, &sparsifySlots;
   /** The ends of the coarse nodes that the stages know: from relaxInterpolation() on, and from
    * productAP() on. Stages store columns as distances from these. */
@@ -299,7 +299,7 @@ struct CoarseningData
   {
     std::copy_n(entries, row.size, this->raw.open(row.size));
     this->raw.close(row.size);
-    append(this->rawAlpha, c, row.rowSum);
+    append(this->rawRowSum, c, row.rowSum);
     append(this->rawStrongest, c, row.strongest);
     append(this->rawDiagonal, c, row.diagonal);
     append(this->rawKept, c, static_cast<std::uint8_t>(row.kept));
@@ -317,7 +317,7 @@ struct CoarseningData
   void releaseRaw(std::int64_t first)
   {
     this->raw.release(first);
-    this->rawAlpha.release(first);
+    this->rawRowSum.release(first);
     this->rawStrongest.release(first);
     this->rawDiagonal.release(first);
     this->rawKept.release(first);
@@ -360,7 +360,7 @@ private:
     this->interpolation.release(i);
     this->rowQuanta.release(i);
     this->parentReach.release(i);
-    this->settledReach.release(i);
+    this->patchReach.release(i);
     this->product.release(i);
     this->productSum.release(i);
     this->finePoint.release(c);

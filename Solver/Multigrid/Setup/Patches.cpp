@@ -120,10 +120,10 @@ void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
   }
   if (number == Alone)
   {
-    std::int64_t next = this->Of.end();
+    std::int64_t next = this->ByNumber.end();
     // Numbers are stored by their low 32 bits: skip the one that would look like Alone.
     next += static_cast<std::uint32_t>(next) == Alone ? 1 : 0;
-    this->Of.extend(next + 1);
+    this->ByNumber.extend(next + 1);
     number = static_cast<std::uint32_t>(next);
   }
   this->patch(number).setMembers({ members, static_cast<std::size_t>(size) });
@@ -137,16 +137,17 @@ void Patches::release(std::int64_t node)
 {
   if (node > this->Number.end())
   {
-    this->Of.release(node); // there are at least as many nodes as patches
+    this->ByNumber.release(node); // there are at least as many nodes as patches
   }
   this->Number.release(node);
   this->Diagonals.release(node);
   // Patches are released in the order of their numbers: one that is still needed keeps those after
   // it.
   const auto isDone = [node](const Patch& patch) { return patch.size == 0 || patch.last() < node; };
-  while (this->Of.first() < this->Of.end() && isDone(this->Of[this->Of.first()]))
+  while (
+    this->ByNumber.first() < this->ByNumber.end() && isDone(this->ByNumber[this->ByNumber.first()]))
   {
-    this->Of.release(this->Of.first() + 1);
+    this->ByNumber.release(this->ByNumber.first() + 1);
   }
 }
 

@@ -255,7 +255,7 @@ public:
 
   explicit Patches(Pool& pool)
     : Number(pool)
-    , Of(pool)
+    , ByNumber(pool)
     , Diagonals(pool)
   {
   }
@@ -269,10 +269,11 @@ public:
   {
     this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
     this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
-    this->Room = this->Of.end() + std::max(MinMorePatches, nodes / 4);
-    this->Of.reserve(this->Room + 1 - this->Of.first()); // one more, since a number may be skipped
+    this->Room = this->ByNumber.end() + std::max(MinMorePatches, nodes / 4);
+    this->ByNumber.reserve(
+      this->Room + 1 - this->ByNumber.first()); // one more, since a number may be skipped
   }
-  bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
+  bool isFull() const { return this->Room >= 0 && this->ByNumber.end() >= this->Room; }
 
   /** Sets the number of rings, 1 or 2, within which patches lie around their first node.
    * Clusters in solids need 2; on surfaces the second ring costs up to an eighth more memory
@@ -332,13 +333,13 @@ private:
    * memory. */
   Patch& patch(std::uint32_t number) const
   {
-    const std::int64_t first = this->Of.first();
-    return this->Of[first + (number - static_cast<std::uint32_t>(first))];
+    const std::int64_t first = this->ByNumber.first();
+    return this->ByNumber[first + (number - static_cast<std::uint32_t>(first))];
   }
   void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
 
   Ring<std::uint32_t> Number; // by node: low 32 bits of the number of its patch, or Alone
-  Ring<Patch> Of;             // by number; no number has the low 32 bits Alone
+  Ring<Patch> ByNumber;       // by number; no number has the low 32 bits Alone
   Ring<float> Diagonals;      // by node
   int Rings = 1;
   std::int64_t Room = -1; // end of the patches for which there is room; -1: without reserve()

@@ -29,7 +29,7 @@ void finishRow(CoarseningData& data, std::int64_t c, std::int64_t lastChild, Row
     entries[kept] = { raw[e].offset(c), raw[e].value() };
     kept += raw[e].removed() ? 0 : 1;
   }
-  out.close(kept, data.rawAlpha[c], lastChild, data.rawStrongest[c].stiff());
+  out.close(kept, data.rawRowSum[c], lastChild, data.rawStrongest[c].stiff());
 }
 
 } // namespace smg

@@ -16,7 +16,7 @@ inline constexpr std::int64_t CoarsestNodes = 1000;
 
 /** The levels of a multigrid hierarchy: the finest one in double, the others in single
  * precision, since they only precondition. */
-struct Levels
+struct LevelStorage
 {
   std::unique_ptr<Level<double>> finest;
   std::vector<std::unique_ptr<Level<float>>> coarse; ///< level 1, 2, ...
