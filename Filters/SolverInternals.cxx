@@ -209,7 +209,7 @@ void vtkStreamingSolver::Internals::solveOutOfCore(smg::Route route, const Inqui
   this->Summary = this->Streamed.summary();
   if (smg::isPreview(*inquiry.present) || inquiry.input.isPreviewed())
   {
-    this->Summary.fullPoints = this->Summary.vertices;
+    this->Summary.fullPoints = this->Summary.facts.vertices;
   }
 }
 
@@ -261,7 +261,7 @@ smg::SolveSummary vtkStreamingSolver::Internals::summaryOfNothing() const
   smg::SolveSummary summary = this->Summary;
   summary.error.clear();
   summary.columns = 3; // so many at most, of no points
-  summary.converged = summary.converged || summary.report.empty();
+  summary.facts.converged = summary.facts.converged || summary.report.empty();
   return summary;
 }
 
@@ -309,7 +309,7 @@ smg::SolveSummary vtkStreamingSolver::Internals::inPanelWords(smg::SolveSummary 
 {
   summary.error = this->Self.InPanelWords(summary.error);
   summary.notes = this->Self.InPanelWords(summary.notes);
-  for (std::string& warning : summary.warnings)
+  for (std::string& warning : summary.facts.warnings)
   {
     warning = this->Self.InPanelWords(warning);
   }

@@ -147,7 +147,8 @@ void vtkStreamingDistance::FillFurtherOutputs(
   const vtkNew<vtkCellArray> lines;
   const vtkNew<vtkTypeInt64Array> to, from;
   const vtkNew<vtkDoubleArray> length;
-  for (const smg::Report::Path& path : summary.paths)
+  const auto found = summary.facts.distance.value_or(smg::Report::Distance());
+  for (const smg::Report::Path& path : found.paths)
   {
     if (path.points.empty())
     {

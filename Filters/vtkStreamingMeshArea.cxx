@@ -81,7 +81,8 @@ void vtkStreamingMeshArea::Deliver(
 {
   output.ShallowCopy(&piece);
   const vtkNew<vtkDoubleArray> shares;
-  shares->SetName(this->GetSummary().areas.isVolume ? smg::VolumeName : smg::AreaName);
+  const smg::Report& report = this->GetSummary().facts;
+  shares->SetName(report.areas && report.areas->isVolume ? smg::VolumeName : smg::AreaName);
   shares->SetNumberOfTuples(this->GetSummary().columns == 0 ? 0 : piece.GetNumberOfPoints());
   for (vtkIdType i = 0; i < shares->GetNumberOfTuples(); ++i)
   {
@@ -99,7 +100,8 @@ void vtkStreamingMeshArea::FillFurtherOutputs(
   this->Superclass::FillFurtherOutputs(summary, outputVector);
   const vtkNew<vtkDoubleArray> tags, areas;
   const vtkNew<vtkIdTypeArray> cells;
-  for (const smg::Report::Area& part : summary.areas.by_tag)
+  const auto found = summary.facts.areas.value_or(smg::Report::Areas());
+  for (const smg::Report::Area& part : found.by_tag)
   {
     tags->InsertNextValue(part.tag);
     cells->InsertNextValue(static_cast<vtkIdType>(part.cells));
@@ -107,7 +109,7 @@ void vtkStreamingMeshArea::FillFurtherOutputs(
   }
   tags->SetName("Tag");
   cells->SetName("Cells");
-  areas->SetName(summary.areas.isVolume ? smg::VolumeName : smg::AreaName);
+  areas->SetName(found.isVolume ? smg::VolumeName : smg::AreaName);
   vtkTable& table = *vtkTable::GetData(&outputVector, AREAS);
   table.Initialize();
   table.AddColumn(tags);

@@ -227,7 +227,7 @@ vtkStreamingPoisson::~vtkStreamingPoisson() = default;
 
 int vtkStreamingPoisson::GetCycles()
 {
-  return this->GetPresentSummary().cycles;
+  return this->GetPresentSummary().facts.cycles;
 }
 
 vtkMTimeType vtkStreamingPoisson::GetMTime()
@@ -361,5 +361,5 @@ void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Flux: " << this->Flux << "\n";
   os << indent << "InCore: " << this->InCore << "\n";
   os << indent << "ResultArrayName: " << smg::textOrNone(this->ResultArrayName) << "\n";
-  os << indent << "Cycles: " << this->GetSummary().cycles << "\n";
+  os << indent << "Cycles: " << this->GetSummary().facts.cycles << "\n";
 }

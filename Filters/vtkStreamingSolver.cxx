@@ -55,22 +55,22 @@ const smg::SolveSummary& vtkStreamingSolver::GetPresentSummary() const
 
 double vtkStreamingSolver::GetResidual()
 {
-  return this->GetPresentSummary().residual;
+  return this->GetPresentSummary().facts.residual();
 }
 
 int vtkStreamingSolver::GetPasses()
 {
-  return this->GetPresentSummary().passes;
+  return this->GetPresentSummary().facts.passes;
 }
 
 vtkIdType vtkStreamingSolver::GetPeakMemory()
 {
-  return static_cast<vtkIdType>(this->GetPresentSummary().peakMemory);
+  return static_cast<vtkIdType>(this->GetPresentSummary().facts.pool_bytes_peak);
 }
 
 int vtkStreamingSolver::GetConverged()
 {
-  return this->GetPresentSummary().converged ? 1 : 0;
+  return this->GetPresentSummary().facts.converged ? 1 : 0;
 }
 
 const char* vtkStreamingSolver::GetOutcome()

@@ -2,6 +2,7 @@
 #include "Filters/Tasks/SolutionExchange.h"
 
 #include "Filters/Tasks/SolveSummary.h"
+#include "Solver/Core/ReportFields.h"
 #include "smg/Error.h"
 
 #include "vtkCommunicator.h"
@@ -120,23 +121,36 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   this->shareText(summary.report, from);
   this->shareText(summary.notes, from);
   this->shareText(summary.previewError, from);
-  this->shareText(summary.residualText, from);
-  double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
-    double(summary.passes), double(summary.converged), double(summary.peakMemory),
-    double(summary.isCancelled), double(summary.processes), double(summary.previewPoints),
-    double(summary.fullPoints), double(summary.areas.isVolume) };
-  this->Controller->Broadcast(numbers, 11, from);
+  std::string facts;
+  if (this->Rank == from)
+  {
+    // Tables, outputs and warnings of a solve are there once.
+    Report shared = summary.facts;
+    shared.by_pass.clear();
+    shared.warnings.clear();
+    if (shared.areas)
+    {
+      shared.areas->by_tag.clear();
+    }
+    if (shared.distance)
+    {
+      shared.distance->paths.clear();
+    }
+    const std::vector<std::uint8_t> bytes = packedReport(shared);
+    facts.assign(bytes.begin(), bytes.end());
+  }
+  this->shareText(facts, from);
+  vtkIdType numbers[] = { summary.columns, summary.isCancelled, summary.previewPoints,
+    summary.fullPoints };
+  this->Controller->Broadcast(numbers, 4, from);
+  if (this->Rank != from)
+  {
+    summary.facts = unpackedReport(std::vector<std::uint8_t>(facts.begin(), facts.end()));
+  }
   summary.columns = static_cast<int>(numbers[0]);
-  summary.residual = numbers[1];
-  summary.cycles = static_cast<int>(numbers[2]);
-  summary.passes = static_cast<int>(numbers[3]);
-  summary.converged = numbers[4] != 0.0;
-  summary.peakMemory = static_cast<std::int64_t>(numbers[5]);
-  summary.isCancelled = numbers[6] != 0.0;
-  summary.processes = static_cast<int>(numbers[7]);
-  summary.previewPoints = static_cast<std::int64_t>(numbers[8]);
-  summary.fullPoints = static_cast<std::int64_t>(numbers[9]);
-  summary.areas.isVolume = numbers[10] != 0.0;
+  summary.isCancelled = numbers[1] != 0;
+  summary.previewPoints = numbers[2];
+  summary.fullPoints = numbers[3];
 }
 
 std::vector<double> SolutionExchange::values(

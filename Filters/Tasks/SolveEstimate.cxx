@@ -183,7 +183,7 @@ void addColumn(vtkTable& table, const char* name, const SolveSummary& summary, V
   vtkNew<vtkDoubleArray> column;
   column->SetName(name);
   double number = 0.0;
-  for (const Report::Pass& pass : summary.byPass)
+  for (const Report::Pass& pass : summary.facts.by_pass)
   {
     number += 1.0;
     column->InsertNextValue(value(pass, number));

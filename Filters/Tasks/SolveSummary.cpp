@@ -21,19 +21,8 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   {
     summary.notes += (summary.notes.empty() ? "" : "\n") + note;
   }
-  summary.warnings = report.warnings;
-  summary.vertices = report.vertices;
-  summary.byPass = report.by_pass;
-  summary.areas = report.areas.value_or(Report::Areas());
-  summary.paths = report.distance ? report.distance->paths : std::vector<Report::Path>();
+  summary.facts = report;
   summary.columns = columns;
-  summary.residual = report.residual();
-  summary.residualText = report.residualText();
-  summary.cycles = report.cycles;
-  summary.passes = report.passes;
-  summary.processes = report.distributed ? report.distributed->processes : 0;
-  summary.converged = report.converged;
-  summary.peakMemory = report.pool_bytes_peak;
   return summary;
 }
 
@@ -58,27 +47,23 @@ std::string SolveSummary::outcome() const
   {
     return "";
   }
+  const Report& r = this->facts;
   std::ostringstream text;
   const std::string place = this->where();
-  text << place << (place.empty() ? "" : " ") << (this->converged ? "Converged" : "Not converged");
-  if (this->cycles > 0)
+  text << place << (place.empty() ? "" : " ") << (r.converged ? "Converged" : "Not converged");
+  if (r.cycles > 0)
   {
-    text << " after " << this->cycles << (this->processes > 0 ? " iteration" : " V-cycle")
-         << (this->cycles == 1 ? "" : "s");
+    text << " after "
+         << (r.distributed ? counted(r.cycles, "iteration", "iterations")
+                           : counted(r.cycles, "V-cycle", "V-cycles"));
   }
-  if (this->processes > 0)
+  text << (r.distributed ? " on " + counted(r.distributed->processes, "process, ", "processes, ")
+                         : " in " + counted(r.passes, "pass, ", "passes, "));
+  if (r.cycles > 0)
   {
-    text << " on " << this->processes << (this->processes == 1 ? " process, " : " processes, ");
+    text << r.residualText() << ", ";
   }
-  else
-  {
-    text << " in " << this->passes << (this->passes == 1 ? " pass, " : " passes, ");
-  }
-  if (this->cycles > 0)
-  {
-    text << this->residualText << ", ";
-  }
-  text << std::fixed << std::setprecision(1) << static_cast<double>(this->peakMemory) / MiB
+  text << std::fixed << std::setprecision(1) << static_cast<double>(r.pool_bytes_peak) / MiB
        << " MiB of memory";
   return text.str();
 }

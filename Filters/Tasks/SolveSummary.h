@@ -17,25 +17,15 @@ struct SolveSummary
 {
   std::string error;        ///< empty: the solve succeeded
   bool isCancelled = false; ///< whether the error is a requested cancellation
-  std::string report;
-  std::string notes;                 ///< of the report, one per line
-  std::vector<std::string> warnings; ///< those of the notes that a user must not miss
-  std::int64_t vertices = 0; ///< of the mesh that was solved on; known to the process that solved
+  std::string report;       ///< as JSON
+  std::string notes;        ///< of the report, one per line
+  Report facts; ///< without what only the process that solved tells: see SolutionExchange::share()
   /** Where a preview is shown: the points of the whole mesh; else 0. */
   std::int64_t fullPoints = 0;
   /** Of a solve on the preview: its points; 0 of others. */
   std::int64_t previewPoints = 0;
   std::string previewError; ///< of a solve on the preview: how far off it may be; "": unknown
-  std::vector<Report::Pass> byPass; ///< known to the process that solved
-  std::vector<Report::Path> paths;  ///< of a distance; known to the process that solved
-  Report::Areas areas;              ///< of areas; all but isVolume known to the process that solved
   int columns = 0;
-  double residual = 0.0;
-  std::string residualText; ///< see Report::residualText()
-  int cycles = 0, passes = 0;
-  int processes = 0; ///< of the distributed engine, whose iterations `cycles` counts; 0: none
-  bool converged = false;
-  std::int64_t peakMemory = 0;
 
   /** The summary of a successful solve, with `columns` values per vertex. */
   static SolveSummary of(const Report& report, int columns);

@@ -49,15 +49,16 @@ private:
  * miss. */
 inline void warnOf(vtkObject& object, const SolveSummary& summary, bool mustConverge)
 {
-  for (const std::string& warning : summary.warnings)
+  for (const std::string& warning : summary.facts.warnings)
   {
     vtkWarningWithObjectMacro(&object, << oneLine(warning) << '.');
   }
-  if (summary.error.empty() && !summary.converged && mustConverge)
+  if (summary.error.empty() && !summary.facts.converged && mustConverge)
   {
-    vtkWarningWithObjectMacro(&object, << "The solve did not converge: after " << summary.cycles
-                                       << " cycles the relative residual is " << summary.residual
-                                       << "; raise Maximum Cycles or Tolerance.");
+    vtkWarningWithObjectMacro(
+      &object, << "The solve did not converge: after " << summary.facts.cycles
+               << " cycles the relative residual is " << summary.facts.residual()
+               << "; raise Maximum Cycles or Tolerance.");
   }
 }
 

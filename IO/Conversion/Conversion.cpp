@@ -2,6 +2,7 @@
 #include "IO/Conversion/Conversion.h"
 
 #include "IO/Conversion/ConversionEstimate.h"
+#include "IO/Conversion/ConversionFields.h"
 #include "IO/Conversion/ConversionStages.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
@@ -11,13 +12,12 @@
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Import/Weld.h"
 #include "IO/Mesh/Columns.h"
+#include "Solver/Core/FieldsJson.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/WriteMesh.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -197,41 +197,35 @@ double Conversion::lap()
 
 std::string ConversionReport::json(int indent) const
 {
-  nlohmann::ordered_json json;
-  json["order"] = this->order;
-  json["time_steps"] = this->time_steps;
-  json["partitions"] = this->partitions;
-  json["vertices"] = this->vertices;
-  json["cells"] = this->cells;
-  json["isolated_vertices"] = this->isolated_vertices;
-  json["merged_points"] = this->merged_points;
-  json["degenerate_cells"] = this->degenerate_cells;
-  json["duplicate_cells"] = this->duplicate_cells;
-  json["dropped_cells"] = this->dropped_cells;
-  json["triangulated_polygons"] = this->triangulated_polygons;
-  json["split_cells"] = this->split_cells;
-  json["higher_order_cells"] = this->higher_order_cells;
-  json["inverted_cells"] = this->inverted_cells;
-  json["components"] = this->components;
-  json["boundary_edges"] = this->boundary_edges;
-  json["nonmanifold_edges"] = this->nonmanifold_edges;
-  json["nonmanifold_vertices"] = this->nonmanifold_vertices;
-  json["keeps_numbers"] = this->keeps_numbers;
-  json["width"] = this->width;
-  json["span"] = this->span;
-  json["mean_width"] = this->mean_width;
-  json["pool_bytes_peak"] = this->pool_bytes_peak;
-  json["rss_bytes_peak"] = this->rss_bytes_peak;
-  json["scratch_bytes_peak"] = this->scratch_bytes_peak;
-  json["scratch_bytes_read"] = this->scratch_bytes_read;
-  json["scratch_bytes_written"] = this->scratch_bytes_written;
-  json["pages"] = this->pages;
-  json["page_loads"] = this->page_loads;
-  json["cpu_seconds"] = this->cpu_seconds;
-  json["seconds"] = { { "import", this->seconds.import }, { "order", this->seconds.order },
-    { "write", this->seconds.write }, { "total", this->seconds.total } };
-  json["notes"] = this->notes;
-  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return jsonOf<false>(*this).dump(
+    indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::vector<std::string> ConversionReport::changes() const
+{
+  const struct
+  {
+    std::int64_t count;
+    const char *one, *several;
+  } counts[] = {
+    { this->dropped_cells, "cell of another type is left out.",
+      "cells of other types are left out." },
+    { this->higher_order_cells, "higher-order cell has its corners alone.",
+      "higher-order cells have their corners alone." },
+    { this->degenerate_cells, "cell is degenerate, without area or volume.",
+      "cells are degenerate, without area or volume." },
+    { this->duplicate_cells, "cell has the corners of an earlier one.",
+      "cells have the corners of an earlier one." },
+  };
+  std::vector<std::string> sentences;
+  for (const auto& [count, one, several] : counts)
+  {
+    if (count > 0)
+    {
+      sentences.push_back(groupedDigits(count) + ' ' + (count == 1 ? one : several));
+    }
+  }
+  return sentences;
 }
 
 bool isCompressedStream(const std::filesystem::path& path)

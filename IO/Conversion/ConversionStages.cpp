@@ -2,9 +2,11 @@
 #include "IO/Conversion/ConversionStages.h"
 
 #include "IO/Conversion/Conversion.h"
+#include "IO/Conversion/ConversionFields.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/External/Relabelling.h"
 #include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Core/FieldsJson.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
@@ -160,7 +162,7 @@ ConversionStages::ConversionStages(Conversion& conversion)
 template <class State>
 void ConversionStages::exchange(State& state, Stage& stage, RawMesh& mesh, StreamLayout& layout)
 {
-  ConversionReportState reported{ this->Owner.report() };
+  FieldsState<ConversionReport> reported{ this->Owner.report() };
   StageFiles<State> files(state, this->Owner.workspace(), *this->Owner.kept());
   state(stage, reported);
   files.exchange(mesh);
@@ -225,7 +227,7 @@ CheckpointedConversion convertInCheckpoint(
   Checkpoint states(folder, { { "mesh file", originOf(in, options) } }, StateName);
   Pool memory(StateMemory);
   CheckpointedConversion converted{ folder.pathOf(MeshName), folder.lock(), {} };
-  ConversionReportState reported{ converted.report };
+  FieldsState<ConversionReport> reported{ converted.report };
   std::string fingerprint;
   if (std::optional<StateReader> state = states.open(memory))
   {

@@ -2,6 +2,7 @@
 #include "IO/Conversion/JobEstimate.h"
 
 #include "IO/Conversion/ConversionEstimate.h"
+#include "IO/Conversion/ConversionFields.h"
 #include "IO/Export/RestoredMesh.h"
 #include "IO/External/ExternalSort.h"
 #include "IO/Files/FileNames.h"
@@ -11,12 +12,11 @@
 #include "IO/Formats/WriteFiles.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Mesh/Format.h"
+#include "Solver/Core/FieldsJson.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <sys/stat.h>
@@ -311,22 +311,7 @@ void JobEstimate::checkRoom(const std::filesystem::path& out,
 
 std::string JobEstimate::json(int indent) const
 {
-  nlohmann::ordered_json json;
-  json["vertices"] = this->vertices;
-  json["cells"] = this->cells;
-  json["counted"] = this->counted;
-  json["memory_bytes"] = this->memory_bytes;
-  json["memory_limit"] = this->memory_limit;
-  json["scratch_bytes"] = this->scratch_bytes;
-  json["scratch_free"] = this->scratch_free;
-  json["output_bytes"] = this->output_bytes;
-  json["output_free"] = this->output_free;
-  if (this->passes > 0)
-  {
-    json["passes"] = this->passes;
-  }
-  json["cpu_seconds"] = this->cpu_seconds;
-  return json.dump(indent);
+  return jsonOf<false>(*this).dump(indent);
 }
 
 } // namespace smg

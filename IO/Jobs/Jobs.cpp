@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/Jobs.h"
 
+#include "IO/Conversion/ConversionFields.h"
 #include "IO/Jobs/AreaJob.h"
 #include "IO/Jobs/BlendJob.h"
 #include "IO/Jobs/DeformJob.h"
@@ -9,12 +10,16 @@
 #include "IO/Jobs/SimplifyJob.h"
 #include "IO/Jobs/SmoothJob.h"
 #include "IO/Jobs/SolveJob.h"
+#include "IO/Simplification/SimplifyFields.h"
+#include "Solver/Core/FieldsJson.h"
+#include "Solver/Core/ReportFields.h"
+#include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -49,15 +54,9 @@ const JobKind& jobKind(std::string_view name)
   const auto found = std::ranges::find(Kinds, name, &JobKind::name);
   if (found == std::end(Kinds))
   {
-    std::string names;
-    for (std::size_t i = 0; i < std::size(Kinds); ++i)
-    {
-      names += (i == 0                       ? ""
-                 : i + 1 == std::size(Kinds) ? " and "
-                                             : ", ") +
-               std::string(Kinds[i].name);
-    }
-    throw Error('\'' + std::string(name) + "': the jobs are " + names + '.');
+    std::vector<std::string> names;
+    std::ranges::transform(Kinds, std::back_inserter(names), &JobKind::name);
+    throw Error('\'' + std::string(name) + "': the jobs are " + listed(names, "and") + '.');
   }
   return *found;
 }
@@ -69,12 +68,15 @@ std::unique_ptr<Job> makeJob(std::string_view kind)
 
 nlohmann::ordered_json describeAll()
 {
-  nlohmann::ordered_json jobs;
+  nlohmann::ordered_json all;
   for (const JobKind& kind : Kinds)
   {
-    jobs[kind.name] = describe(*kind.make());
+    all["jobs"][kind.name] = describe(*kind.make());
   }
-  return jobs;
+  all["report"] = describeFields<Report>();
+  all["simplify_report"] = describeFields<SimplifyReport>();
+  all["estimate"] = describeFields<JobEstimate>();
+  return all;
 }
 
 } // namespace smg

@@ -29,7 +29,8 @@ SMG_EXPORT const JobKind& jobKind(std::string_view name);
 /** A new job of a kind. Throws Error, which lists those that there are. */
 SMG_EXPORT std::unique_ptr<Job> makeJob(std::string_view kind);
 
-/** The options of all jobs: an object of what describe() says of each. */
+/** What describe() says of each of the `jobs`, and what describeFields() does of the entries of a
+ * `report`, of a `simplify_report` and of an `estimate`. */
 SMG_EXPORT nlohmann::ordered_json describeAll();
 
 } // namespace smg

@@ -9,17 +9,18 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Simplification/HeldMesh.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "IO/Simplification/SimplifyFields.h"
 #include "IO/Simplification/StreamSimplifier.h"
 #include "IO/Simplification/WindowSize.h"
 #include "Solver/Checkpoint/Checkpoint.h"
+#include "Solver/Core/FieldsJson.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Core/Workers.h"
 #include "Solver/Files/ScratchFolder.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/WriteMesh.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -368,20 +369,8 @@ void checkSimplifiedPath(const std::filesystem::path& path)
 
 std::string SimplifyReport::json(int indent) const
 {
-  nlohmann::ordered_json json;
-  json["vertices_before"] = this->vertices_before;
-  json["cells_before"] = this->cells_before;
-  json["vertices"] = this->vertices;
-  json["cells"] = this->cells;
-  json["error"] = this->error;
-  json["dropped_bodies"] = this->dropped_bodies;
-  json["merged_vertices"] = this->merged_vertices;
-  json["resumed_vertices"] = this->resumed_vertices;
-  json["pool_bytes_peak"] = this->pool_bytes_peak;
-  json["rss_bytes_peak"] = this->rss_bytes_peak;
-  json["cpu_seconds"] = this->cpu_seconds;
-  json["seconds"] = { { "total", this->seconds } };
-  json["notes"] = this->notes;
+  nlohmann::ordered_json json = jsonOf<false>(*this);
+  json["seconds"] = { { "total", this->seconds } }; // as those of other jobs
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -404,10 +393,12 @@ SimplifyReport simplify(const StoredMesh& mesh, const SimplifyTarget& target,
     }
     kept.emplace(KeptFolder(options.checkpoint));
   }
-  const ScratchFolder scratch(options.scratch);
+  const ScratchFolder scratch(options.scratch, options.scratchLimit);
   const std::filesystem::path vsm = isVsm ? path : scratch / "simplified.vsm";
+  SimplifyOptions inside = options;
+  inside.scratch = scratch.path();
   SimplifyReport report =
-    simplifyToVsm(mesh, target, vsm, options, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
+    simplifyToVsm(mesh, target, vsm, inside, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
   if (!isVsm)
   {
     const std::vector<std::string> notes =

@@ -180,7 +180,13 @@ smg_status smg_conversion(smg_mesh* mesh, const char** json)
       smg_mesh& given = smg::required(mesh, "mesh");
       const char*& text = smg::required(json, "json");
       const smg::ConversionReport* const conversion = given.shared->mesh().conversion();
-      given.text = conversion ? conversion->json() : "null";
+      nlohmann::ordered_json report;
+      if (conversion)
+      {
+        report = nlohmann::ordered_json::parse(conversion->json());
+        report["changes"] = conversion->changes();
+      }
+      given.text = report.dump();
       text = given.text.c_str();
     });
 }

@@ -138,8 +138,9 @@ extern "C"
     smg_mesh* mesh, int full, smg_progress progress, void* user, const char** json);
 
   /* The report of the conversion with which smg_open() or smg_open_arrays() has read the mesh: the
-   * JSON of `smg convert --report`, or "null" if there was none, as of a .vsm file. The text is
-   * valid until the next call with this mesh. */
+   * JSON of `smg convert --report`, with "changes", what is left out or counts for nothing, a
+   * sentence each, or "null" if there was none, as of a .vsm file. The text is valid until the next
+   * call with this mesh. */
   SMG_C_EXPORT smg_status smg_conversion(smg_mesh* mesh, const char** json);
 
   /* Marks the vertices of a part of the mesh with 1, others with 0: `selected` has room for all
@@ -166,10 +167,12 @@ extern "C"
    * the given one first. The text is valid until the next call on this thread. */
   SMG_C_EXPORT smg_status smg_files(const char* path, const char** json);
 
-  /* What jobs may be asked: a JSON object with a list for each of them, "solve", "deform",
-   * "smooth", "blend", "distance", "area" and "simplify", of its options in the order in which they
-   * are read: "key", "kind", "help", and as far as they have them "required", "default", "allowed",
-   * "unit", "choices". The text stays valid. */
+  /* What jobs may be asked, and what they report: a JSON object. "jobs" has a list for each of
+   * them, "solve", "deform", "smooth", "blend", "distance", "area" and "simplify", of its options
+   * in the order in which they are read: "key", "kind", "help", and as far as they have them
+   * "required", "default", "allowed", "unit", "choices". "report", "simplify_report" and "estimate"
+   * list the entries of these: "key", "kind", and "list" if there are several. The text stays
+   * valid. */
   SMG_C_EXPORT smg_status smg_describe(const char** json);
 
   /* What a job of smg_run(), or "simplify", is expected to cost, before it starts: the JSON of

@@ -41,12 +41,29 @@ _DESCRIPTIONS = {
 _OF_MESH = ("memory", "threads", "scratch", "scratch_limit")  # by default
 
 
+#: The types of the entries of reports by their kinds.
+_ENTRIES = {"count": "int", "number": "float", "flag": "bool", "text": "str", "entries": "Dict[str, Any]"}
+
+
 @functools.lru_cache(maxsize=None)
-def described() -> Dict[str, List[Dict[str, Any]]]:
-    """The options of all jobs, as the library describes them."""
+def _library_says() -> Dict[str, Any]:
     result = c_char_p()
     call("smg_describe", byref(result))
     return json.loads(result.value or b"{}")
+
+
+def described() -> Dict[str, List[Dict[str, Any]]]:
+    """The options of all jobs, as the library describes them."""
+    return _library_says()["jobs"]
+
+
+def entries_of(*reports: str) -> Dict[str, str]:
+    """The entries that these reports of the library may have, with their types."""
+    types: Dict[str, str] = {}
+    for entry in (entry for name in reports for entry in _library_says()[name]):
+        kind = _ENTRIES[entry["kind"]]
+        types.setdefault(entry["key"], "List[%s]" % kind if entry.get("list") else kind)
+    return types
 
 
 def name_of(option: Mapping[str, Any]) -> str:

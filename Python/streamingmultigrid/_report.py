@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List
 
 import numpy as np
 
 from ._arrays import counted
 from ._display import estimate_html, report_html
 from ._errors import NotConvergedWarning, ReportWarning, warn
+from ._options import entries_of
 
 
 class _Facts(dict):
@@ -62,63 +63,6 @@ class Report(_Facts):
     docs/solve.md describes all of them. Some are of some jobs alone; `to_dict` makes a plain dict.
     """
 
-    vertices: int
-    cells: int
-    levels: List[Dict[str, Any]]
-    passes: int
-    resumed_passes: int
-    cycles: int
-    residuals: List[float]
-    relative_to: str
-    by_pass: List[Dict[str, Any]]
-    stages: List[Dict[str, Any]]
-    acceleration: str
-    converged: bool
-    steps: List[Dict[str, Any]]
-    peak_nodes: int
-    pool_bytes_peak: int
-    rss_bytes_peak: int
-    scratch_bytes_peak: int
-    bytes_read: int
-    bytes_written: int
-    bytes_by_kind: List[Dict[str, Any]]
-    seconds: Dict[str, float]
-    cpu_seconds: float
-    threads: int
-    prescribed: int
-    shared: int
-    held: int
-    degenerate_cells: int
-    coincident_cells: int
-    clamped_weights: int
-    components: int
-    free_components: int
-    removed_source: List[float]
-    errors: Dict[str, Any]
-    conditions: List[Dict[str, Any]]
-    energy: List[float]
-    mean: List[float]
-    minimum: List[Dict[str, Any]]
-    parts: List[Dict[str, Any]]
-    maximum: List[Dict[str, Any]]
-    source: List[float]
-    screening: List[float]
-    balance: List[float]
-    volume: Dict[str, Any]
-    seams: List[Dict[str, Any]]
-    clipped: int
-    distance: Dict[str, Any]
-    areas: Dict[str, Any]
-    inverted: Dict[str, Any]
-    vertices_before: int
-    cells_before: int
-    error: Optional[float]
-    dropped_bodies: int
-    merged_vertices: int
-    resumed_vertices: int
-    notes: List[str]
-    warnings: List[str]
-
     def __repr__(self) -> str:
         return "\n".join(self._lines())
 
@@ -130,7 +74,9 @@ class Report(_Facts):
         if "converged" in self:
             residuals = self.get("residuals") or []
             outcome = "converged" if self["converged"] else "NOT CONVERGED"
-            if residuals:
+            if self["converged"] and not (residuals or "distance" in self or "areas" in self):
+                outcome += ", the values already are the solution"
+            elif residuals:
                 outcome += " after %s, residual %s" % (counted(self["cycles"], "V-cycle"), _residual(residuals[-1]))
                 outcome += " of that of %s" % self["relative_to"] if "relative_to" in self else ""
             lines.append("  %s, %s" % (outcome, counted(self.get("passes", 0), "pass", "passes")))
@@ -141,6 +87,9 @@ class Report(_Facts):
             "  %.3g s, %.3g s of CPU, %s of memory accounted"
             % (seconds, self.get("cpu_seconds", 0), in_bytes(self.get("pool_bytes_peak", 0)))
         )
+        if "areas" in self:
+            areas = self["areas"]
+            lines.append("  %s %.9g, of %s" % (areas["measure"], areas["total"], counted(areas["cells"], "cell")))
         for condition in self.get("conditions") or []:
             lines.append(
                 "  %s: mean %s, flux %s"
@@ -186,18 +135,6 @@ class Estimate(_Facts):
     are known; else they are estimated from the size of the file.
     """
 
-    vertices: int
-    cells: int
-    counted: bool
-    memory_bytes: int
-    memory_limit: int
-    scratch_bytes: int
-    scratch_free: int
-    output_bytes: int
-    output_free: int
-    passes: int
-    cpu_seconds: float
-
     def __repr__(self) -> str:
         about = "" if self.get("counted", True) else "about "
         return "\n".join(
@@ -230,6 +167,11 @@ class Estimate(_Facts):
         return estimate_html(self)
 
 
+# Those that the library lists.
+Report.__annotations__ = entries_of("report", "simplify_report")
+Estimate.__annotations__ = entries_of("estimate")
+
+
 def warn_of(report: Report, said: set) -> None:
     """Turns what a report warns of into warnings of Python, each sentence once."""
     converged = report.get("converged", True)
@@ -249,38 +191,15 @@ def warn_of_notes(report: Report) -> None:
         warn(sentence, ReportWarning)
 
 
-#: What the reader has left out or changed, by the name of its count in the report of a conversion.
-_CHANGED = {
-    "dropped_cells": (
-        "1 cell of another type is left out.",
-        "{:,} cells of other types are left out.",
-    ),
-    "higher_order_cells": (
-        "Of 1 higher-order cell only the corners are used.",
-        "Of {:,} higher-order cells only the corners are used.",
-    ),
-    "isolated_vertices": (
-        "1 vertex belongs to no cell: no job computes with it.",
-        "{:,} vertices belong to no cell: no job computes with them.",
-    ),
-    "degenerate_cells": (
-        "1 cell is degenerate, without area or volume.",
-        "{:,} cells are degenerate, without area or volume.",
-    ),
-    "duplicate_cells": (
-        "1 cell has the corners of an earlier one.",
-        "{:,} cells have the corners of an earlier one.",
-    ),
-}
-
-
 def sentences_of_conversion(conversion: Dict[str, Any]) -> List[str]:
     """What a conversion has left out or changed, and its notes."""
-    sentences = []
-    for name, (one, several) in _CHANGED.items():
-        count = conversion.get(name, 0)
-        if count > 0:
-            sentences.append(one if count == 1 else several.format(count))
+    sentences = list(conversion.get("changes") or [])
+    isolated = conversion.get("isolated_vertices", 0)
+    if isolated > 0:
+        sentences.append(
+            counted(isolated, "vertex belongs to no cell: no job computes with it.",
+                    "vertices belong to no cell: no job computes with them.")
+        )  # fmt: skip
     if conversion.get("keeps_numbers"):
         sentences.append(
             "The file has a column OriginalId or OriginalCellId of its own: rows are in the order of its numbers, or "

@@ -41,6 +41,27 @@ inline std::string counted(std::int64_t number, const std::string& one, const st
   return std::to_string(number) + ' ' + (number == 1 ? one : several);
 }
 
+/** "a, b or c" of texts or numbers. */
+inline std::string listed(const auto& words, const std::string& conjunction)
+{
+  std::string list;
+  const auto count = static_cast<std::size_t>(std::size(words));
+  for (std::size_t i = 0; const auto& word : words)
+  {
+    list += i == 0 ? "" : i + 1 < count ? ", " : ' ' + conjunction + ' ';
+    if constexpr (requires { std::to_string(word); })
+    {
+      list += std::to_string(word);
+    }
+    else
+    {
+      list += word;
+    }
+    ++i;
+  }
+  return list;
+}
+
 /** The shortest text that reads back exactly, as of the same type. */
 template <class Real>
 std::string shortest(Real number)

@@ -147,6 +147,8 @@ struct SMG_EXPORT ConversionReport
   Seconds seconds;                        ///< wall-clock times
   std::vector<std::string> notes;         ///< remarks for the user, a sentence each
 
+  /** What of the cells of the file is left out or counts for nothing, a sentence each. */
+  std::vector<std::string> changes() const;
   /**
    * The report as a JSON object with the names above.
    * @param indent spaces by which each level is indented; -1: all on one line

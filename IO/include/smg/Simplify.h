@@ -43,6 +43,8 @@ struct SimplifyOptions
   bool text = false; ///< of the result: see WriteMeshOptions
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch = {};
+  /** Most bytes of scratch files at once; 0: any number. */
+  std::int64_t scratchLimit = 0;
   /**
    * Folder from which the same simplification, with any number of threads, continues if it was
    * killed: it is made, or must be empty or have the checkpoint, and is removed when the result is

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Core/ReportFields.h"
 #include "Solver/Jobs/Fairing/MeshFairing.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Memory/Pool.h"
@@ -16,8 +17,8 @@
 namespace smg
 {
 
-/** Adds the report of a step to the report of all steps: work is summed, peaks are maxima, and what
- * describes the mesh is taken from the step. `name` is the name of the step in Report::steps. */
+/** Adds the report of a step to the report of all steps. `name` is the name of the step in
+ * Report::steps. */
 void addStep(Report& total, const Report& step, const std::string& name);
 
 // The steps of MeshFairing. In each, the boundary curves move first and become prescribed values of
@@ -258,73 +259,11 @@ std::unique_ptr<Solution> MeshFairing::finish()
   return std::move(this->Result);
 }
 
-namespace
-{
-
-void addTraffic(std::vector<Report::Traffic>& total, const Report::Traffic& more)
-{
-  const auto same = std::ranges::find_if(total,
-    [&more](const Report::Traffic& t) { return t.kind == more.kind && t.level == more.level; });
-  if (same == total.end())
-  {
-    total.push_back(more);
-    return;
-  }
-  same->read += more.read;
-  same->written += more.written;
-}
-
-/** Adds the notes that are not there yet: most steps give the same ones. */
-void addNotes(std::vector<std::string>& notes, const std::vector<std::string>& more)
-{
-  for (const std::string& note : more)
-  {
-    if (std::ranges::find(notes, note) == notes.end())
-    {
-      notes.push_back(note);
-    }
-  }
-}
-
-} // namespace
-
 void addStep(Report& total, const Report& step, const std::string& name)
 {
-  total.converged = (total.steps.empty() || total.converged) && step.converged;
+  total.converged = total.converged || total.steps.empty();
   total.steps.push_back({ name, step.cycles, step.residual(), step.converged });
-  total.vertices = step.vertices;
-  total.cells = step.cells;
-  total.levels = step.levels;
-  total.passes += step.passes;
-  total.cycles += step.cycles;
-  total.residuals.insert(total.residuals.end(), step.residuals.begin(), step.residuals.end());
-  total.relative_to = step.relative_to;
-  total.by_pass.insert(total.by_pass.end(), step.by_pass.begin(), step.by_pass.end());
-  total.acceleration = step.acceleration;
-  total.peak_nodes = std::max(total.peak_nodes, step.peak_nodes);
-  total.pool_bytes_peak = std::max(total.pool_bytes_peak, step.pool_bytes_peak);
-  total.rss_bytes_peak = std::max(total.rss_bytes_peak, step.rss_bytes_peak);
-  total.bytes_read += step.bytes_read;
-  total.bytes_written += step.bytes_written;
-  for (const Report::Traffic& traffic : step.bytes_by_kind)
-  {
-    addTraffic(total.bytes_by_kind, traffic);
-  }
-  total.seconds.build += step.seconds.build;
-  total.seconds.solve += step.seconds.solve;
-  total.seconds.coarse += step.seconds.coarse;
-  total.seconds.io_wait += step.seconds.io_wait;
-  total.seconds.build_io_wait += step.seconds.build_io_wait;
-  total.threads = step.threads;
-  total.prescribed = step.prescribed;
-  total.held = step.held;
-  total.degenerate_cells = step.degenerate_cells;
-  total.coincident_cells = step.coincident_cells;
-  total.clamped_weights = step.clamped_weights;
-  total.components = step.components;
-  total.free_components = step.free_components;
-  addNotes(total.notes, step.notes);
-  addNotes(total.warnings, step.warnings);
+  addFields(total, step);
 }
 
 } // namespace smg

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/SolveContext.h"
 
+#include "Solver/Core/FieldsJson.h"
+#include "Solver/Core/ReportFields.h"
 #include "Solver/Files/Checksum.h"
 #include "Solver/Files/ScratchAccount.h"
 #include "Solver/Multigrid/Engine/AssemblyReport.h"
@@ -228,7 +230,7 @@ void SolveContext::save(StateWriter& state)
   r.seconds.total = this->seconds();
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
   r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());
-  ReportState<StateWriter> reported{ r };
+  FieldsState<Report> reported{ r };
   const std::int64_t peak = this->pool.peak();
   state.part("run");
   state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
@@ -247,7 +249,7 @@ void SolveContext::save(StateWriter& state)
 
 void SolveContext::load(StateReader& state)
 {
-  ReportState<StateReader> reported{ this->report };
+  FieldsState<Report> reported{ this->report };
   std::int64_t peak = 0;
   // Files must exist before their places are restored.
   this->labels.useScratch(*this->scratch, this->traffic.add("labels"));

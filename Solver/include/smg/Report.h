@@ -62,8 +62,9 @@ struct SMG_EXPORT Report
   /** What a pass over the mesh cost. */
   struct Pass
   {
-    /** ||b - A x|| / ||b - A x_0|| of the step that the pass belongs to; of a distance the share of
-     * the vertices that have changes to pass on, or of the walls that are to come. */
+    /** ||b - A x|| / ||b - A x_0|| of the step that the pass belongs to, after the first pass that
+     * of the initial values; of a distance the share of the vertices that have changes to pass on,
+     * or of the walls that are to come. */
     double residual = 1;
     double seconds = 0;          ///< wall-clock time of the pass
     std::int64_t read = 0;       ///< bytes read from scratch files
@@ -227,7 +228,8 @@ struct SMG_EXPORT Report
   std::int64_t cells = 0;    ///< of the mesh
   std::vector<Level> levels; ///< from the finest to the coarsest
   int passes = 0;            ///< passes over the mesh
-  /** Of these, the passes of earlier programs whose checkpoint this one continued; 0: none. */
+  /** Of these, the passes of earlier programs whose checkpoint this one continued; 0: none. Of the
+   * times, `total` is that of the last program alone. */
   int resumed_passes = 0;
   int cycles = 0; ///< V-cycles, of all steps
   /** ||b - A x_k|| / ||b - A y|| after V-cycle k = 1, 2, ..., with y = relative_to; of several
@@ -250,16 +252,19 @@ struct SMG_EXPORT Report
   std::int64_t peak_nodes = 0;      ///< most nodes of all levels in memory at once
   std::int64_t pool_bytes_peak = 0; ///< most accounted memory at once, bytes
   std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes; 0: not known
-  std::int64_t scratch_bytes_peak = 0; ///< most bytes of scratch files at once
-  std::int64_t bytes_read = 0;         ///< read from scratch files
-  std::int64_t bytes_written = 0;      ///< written to scratch files
-  std::vector<Traffic> bytes_by_kind;  ///< the terms that bytes_read and bytes_written sum up
-  Seconds seconds;                     ///< wall-clock times
-  double cpu_seconds = 0;              ///< processor time of all threads of the process
-  int threads = 1;                     ///< compute threads
-  std::int64_t prescribed = 0;         ///< vertices with a Dirichlet value, or held by a handle
-  std::int64_t shared = 0;             ///< of a deformation: vertices that several handles hold
-  std::int64_t held = 0; ///< vertices that nothing determines: no cell there has a weight
+  /** Most bytes of scratch files at once; of a command, with its conversion and its writing. */
+  std::int64_t scratch_bytes_peak = 0;
+  std::int64_t bytes_read = 0;        ///< read from scratch files
+  std::int64_t bytes_written = 0;     ///< written to scratch files
+  std::vector<Traffic> bytes_by_kind; ///< the terms that bytes_read and bytes_written sum up
+  Seconds seconds;                    ///< wall-clock times
+  double cpu_seconds = 0;             ///< processor time of all threads of the process
+  int threads = 1;                    ///< compute threads
+  std::int64_t prescribed = 0;        ///< vertices with a Dirichlet value, or held by a handle
+  std::int64_t shared = 0;            ///< of a deformation: vertices that several handles hold
+  /** Vertices that nothing determines, since no cell there has a weight: a solution is NaN there,
+   * what is smoothed, moved or blended stays. */
+  std::int64_t held = 0;
   std::int64_t degenerate_cells = 0; ///< cells without weight
   /** Of these, cells of which corners coincide: the mesh is open there, unless they are merged. */
   std::int64_t coincident_cells = 0;
@@ -311,7 +316,8 @@ struct SMG_EXPORT Report
 
   /** The last of the residuals; 0 if no V-cycle was needed. */
   double residual() const { return this->residuals.empty() ? 0.0 : this->residuals.back(); }
-  /** For example "relative residual 1.2e-09, to that of the best constant". */
+  /** For example "relative residual 1.2e-09, to that of the best constant"; without V-cycles that
+   * none was needed. */
   std::string residualText() const;
 
   /**
