@@ -62,10 +62,12 @@ std::string infoText(const smg_mesh& mesh, bool full, const ProgressFunction& pr
   return meshInfo(own.stored(), options);
 }
 
-/** What a job is expected to cost. `fileOf` makes the file of its result. */
+/** What a job is expected to cost. `fileOf` makes the file of its result; `known`: what the mesh
+ * has, if that is known. */
 template <class FileOf>
 std::string estimateText(const EstimatedInput& in, const std::string& kind, const char* description,
-  const char* path, const ConversionOptions& options, const FileOf& fileOf)
+  const char* path, const ConversionOptions& options, const FileOf& fileOf,
+  const StreamInfo* known = nullptr)
 {
   const JobLimits limits = limitsOf(options);
   if (kind == "simplify")
@@ -74,6 +76,10 @@ std::string estimateText(const EstimatedInput& in, const std::string& kind, cons
     return simplifyEstimate(in, call.target, path ? path : "", call.options, options).json();
   }
   const std::unique_ptr<MeshJob> job = jobOf(kind, description, limits);
+  if (known)
+  {
+    argument([&] { job->checkOn(*known); });
+  }
   EstimatedResult result{ path ? path : "", job->addedTo(in.info) };
   result.memory = job->writerMemory();
   if (path)
@@ -93,9 +99,11 @@ std::string estimateText(
   apply(limitsOf(opened), options);
   EstimatedInput in(mesh.stored().file(), options);
   in.info = mesh.withoutArguments().stored().info();
-  return estimateText(in, kind, description, path, options,
+  return estimateText(
+    in, kind, description, path, options,
     [&](const MeshJob& job)
-    { return resultFile(*mesh.shared, mesh.added, &job, path, { limitsOf(opened) }); });
+    { return resultFile(*mesh.shared, mesh.added, &job, path, { limitsOf(opened) }); },
+    &mesh.stored().info());
 }
 
 std::string estimateFileText(const std::filesystem::path& file, const char* text,

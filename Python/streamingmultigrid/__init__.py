@@ -41,6 +41,7 @@ from ._mesh import Mesh
 from ._opening import mesh, open
 from ._problem import Handle, handle
 from ._regions import (
+    Placed,  # noqa: F401, of types
     Region,
     above,
     below,

@@ -33,10 +33,17 @@ def _read(field: Any) -> Any:
 def _on_arrays(job: str) -> Any:
     """The function that does a job whose result is a field on the mesh of two arrays."""
 
-    @jobs.with_arguments_of(job, ("points", "cells"))
-    def function(points: Any, cells: Any, *arguments: Any, **options: Any) -> Any:
+    @jobs.with_arguments_of(job)
+    def function(
+        points: npt.ArrayLike,
+        cells: npt.ArrayLike,
+        *arguments: Any,
+        progress: Optional[types.Progress] = None,
+        strict: bool = False,
+        **options: Any,
+    ) -> Any:
         with _opened(points, cells, options) as opened:
-            field = getattr(opened, job)(*arguments, **options)
+            field = getattr(opened, job)(*arguments, progress=progress, strict=strict, **options)
             if options.get("to") is None:
                 return _read(field)
             _ = field.report
@@ -59,35 +66,30 @@ _ARRAYS = """
 ON_ARRAYS: Dict[str, Any] = {job: _on_arrays(job) for job in jobs.OF_FIELDS}
 
 
+@jobs.with_arguments_of("simplify")
 def simplify(
     points: npt.ArrayLike,
     cells: npt.ArrayLike,
-    vertices: Optional[int] = None,
-    *,
-    error: Optional[float] = None,
-    hold: Optional[types.Places] = None,
-    memory: Optional[types.Size] = None,
-    threads: Optional[int] = None,
-    scratch: Optional[types.Path] = None,
+    *arguments: Any,
     progress: Optional[types.Progress] = None,
+    **options: Any,
 ) -> Tuple[np.ndarray, np.ndarray]:
     """A surface with fewer vertices, each of which is one of the surface.
 
     Args:
         points, cells: (n, 3) or (n, 2) numbers and (m, 3) integers.
-        vertices: the most vertices of the result, at least 4.
-        error, hold, memory, threads, scratch, progress: as of `Mesh.simplify`.
+        {arguments}
+        progress: as of `smg.solve`.
 
     Returns:
         Its points, (k, 3) float64, and triangles, (l, 3) int64.
     """
-    options: Dict[str, Any] = {"memory": memory, "threads": threads, "scratch": scratch}
     with _opened(points, cells, options) as opened:
-        with opened.simplify(vertices, error=error, hold=hold, progress=progress, **options) as small:
+        with opened.simplify(*arguments, progress=progress, **options) as small:
             return small.points, small.cells
 
 
-@jobs.with_arguments_of("solve", ("points", "cells"), (*jobs.OF_MATRIX, "scratch", "scratch_limit"))
+@jobs.with_arguments_of("solve", (*jobs.OF_MATRIX, "scratch", "scratch_limit"))
 def solver(
     points: npt.ArrayLike,
     cells: npt.ArrayLike,

@@ -7,6 +7,8 @@ What all jobs have alike is in _options.py; here is what a job does with its arg
 from __future__ import annotations
 
 import inspect
+import re
+import textwrap
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
@@ -68,9 +70,9 @@ class Job:
         parameters = [_options.parameter(self._options[each], each == lead) for each in first]
         count = len(leading)
         self.signature = inspect.Signature([*parameters[:count], *own, *parameters[count:]])
-        lines = [_options.documentation(self._options[each]) for each in first]
-        self.documentation = "%s\n    Args:\n%s%s\n%s\n    Returns:\n        %s\n    %s" % (
-            summary.strip(" "), documentation, "\n".join(lines), _REPORTING, result, raises
+        self.arguments = "\n".join(_options.documentation(self._options[each]) for each in first) + "\n"
+        self.documentation = "%s\n    Args:\n%s%s%s\n    Returns:\n        %s\n    %s" % (
+            summary.strip(" "), documentation, self.arguments, _REPORTING, result, raises
         )  # fmt: skip
 
     def bind(self, *arguments: Any, **options: Any) -> Dict[str, Any]:
@@ -100,9 +102,13 @@ class Job:
         if value is None:
             return None
         if kind == "where":
+            try:
+                regions = as_regions(value)
+            except InputError as error:
+                raise InputError("%s: %s" % (name, error)) from None
             if self.name == "simplify":
-                return [_where_of_file(added, each) for each in as_regions(value)]
-            return [each.where(added) or {"everywhere": True} for each in as_regions(value)]
+                return [_where_of_file(added, each) for each in regions]
+            return [each.where(added) or {"everywhere": True} for each in regions]
         if kind == "columns":
             return added.named(value, name, "Values")
         return value
@@ -144,20 +150,8 @@ def _blend(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -
 
 
 def _distance(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
-    wall, within = given["wall"], given["within"]
-    if given["sources"] is None and not wall:
+    if given["sources"] is None and not given["wall"]:
         raise InputError("distance: give the sources, a region or numbers of vertices, or wall=True.")
-    if within is not None and not within > 0:
-        raise InputError("distance: within: %r is no length: it must be positive." % (within,))
-    if wall and within is not None:
-        raise InputError("distance: within: the largest distance is one of paths: leave it out with wall=True.")
-    if given["to"] is not None and (wall or given["accuracy"] == "approximate"):
-        raise InputError(
-            "distance: to: shortest paths are those of exact distances on a surface: leave out %s."
-            % ("wall=True" if wall else "accuracy='approximate'")
-        )
-    if wall and added.mesh.n_corners == 3:
-        raise InputError("distance: wall: the distance to walls is that of tetrahedra; this mesh has triangles.")
     return ["Distance", *("Distance" + name.capitalize() for name in ("source", "group", "direction") if given[name])]
 
 
@@ -288,32 +282,28 @@ OF_MATRIX = (
 )  # fmt: skip
 
 
-def with_arguments_of(
-    job: str, before: Sequence[str], names: Optional[Sequence[str]] = None
-) -> Callable[[Callable], Callable]:
-    """Gives a function that passes its arguments on the signature and docstring of a job.
+def with_arguments_of(job: str, names: Optional[Sequence[str]] = None) -> Callable[[Callable], Callable]:
+    """Gives a function the arguments of a job, or those of these `names`, between its own, and its docstring.
 
-    `before` are its own first arguments; `progress` and `strict` come last. With `names`, it takes these
-    arguments and `progress` alone, and has its own docstring.
+    A docstring of its own has the lines on the arguments at {arguments}.
     """
     described = JOBS[job].signature.parameters
-    parameter = inspect.Parameter
 
     def give(function: Callable) -> Callable:
-        first = [parameter(name, parameter.POSITIONAL_OR_KEYWORD) for name in before]
-        last = [
-            parameter("progress", parameter.KEYWORD_ONLY, default=None, annotation="Optional[types.Progress]"),
-            parameter("strict", parameter.KEYWORD_ONLY, default=False, annotation="bool"),
-        ]
-        between = list(described.values())
-        if names is None:
-            function.__doc__ = JOBS[job].documentation
-        else:
-            between, last = [described[name] for name in names], last[:1]
         own = inspect.signature(function)
+        of_kind = {kind: [each for each in own.parameters.values() if each.kind is kind] for kind in _KINDS}
+        between = list(described.values()) if names is None else [described[name] for name in names]
         function.__signature__ = own.replace(  # type: ignore[attr-defined]
-            parameters=[*first, *between, *last]
+            parameters=[*of_kind[_KINDS[0]], *between, *of_kind[_KINDS[1]]]
         )
+        lines = JOBS[job].arguments
+        function.__doc__ = JOBS[job].documentation if function.__doc__ is None else re.sub(
+            r"( *) {8}\{arguments\}\n", lambda match: textwrap.indent(lines, str(match[1])), function.__doc__
+        )  # fmt: skip
         return function
 
     return give
+
+
+#: Of the arguments that a function has before those of a job, and of those that it has after them.
+_KINDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)

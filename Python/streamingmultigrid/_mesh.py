@@ -382,7 +382,7 @@ class Mesh:
             raise InputError("There is no job %r; there are %s." % (job, ", ".join(jobs.JOBS)))
         columns = Columns(self)
         described = jobs.JOBS[job](columns, *arguments, **options)[0]
-        description = json_text(self._with_defaults(job, described))
+        description = json_text(self._with_defaults(described))
         result = c_char_p()
         if self._opened is None:  # what is said of the job did not need it
             call(
@@ -393,10 +393,9 @@ class Mesh:
             call("smg_estimate", mesh, encoded(job), description, encoded(path), byref(result))
             return Estimate(parse(result))
 
-    def _with_defaults(self, job: str, description: Dict[str, Any]) -> Dict[str, Any]:
-        names = ["memory", "threads", "scratch"] + ["scratch_limit"] * (job != "simplify")
+    def _with_defaults(self, description: Dict[str, Any]) -> Dict[str, Any]:
         given = {key: value for key, value in description.items() if value is not None}
-        return {**self.defaults(*names), **given}
+        return {**self.defaults("memory", "threads", "scratch", "scratch_limit"), **given}
 
     @contextlib.contextmanager
     def with_columns(self, columns: Columns) -> Iterator[Any]:
@@ -431,7 +430,7 @@ class Mesh:
             opening = 0.0 if self._opened else 0.3
             self._handle(part(report, 0, opening))
             described, names = jobs.JOBS[job](columns, *arguments, **options)
-            description = json_text(self._with_defaults(job, described))
+            description = json_text(self._with_defaults(described))
             arrays = [*self._arrays(), *(column.values for column in columns.added)]
             handle = NativeHandle("field", *arrays)
             with self.with_columns(columns) as mesh:
@@ -448,45 +447,37 @@ class Mesh:
         warn_of(found, field._said)
         return field
 
+    @jobs.with_arguments_of("simplify")
     def simplify(
         self,
-        vertices: Optional[int] = None,
-        *,
-        error: Optional[float] = None,
-        hold: Optional[types.Places] = None,
+        *arguments: Any,
         path: Optional[types.Path] = None,
-        memory: Optional[types.Size] = None,
-        threads: Optional[int] = None,
-        scratch: Optional[types.Path] = None,
-        checkpoint: Optional[types.Path] = None,
         progress: Optional[types.Progress] = None,
+        **options: Any,
     ) -> "Mesh":
         """The surface with fewer vertices, out of core; see docs/simplify.md.
 
         Args:
-            vertices: the most vertices of the result, at least 4.
-            error: the largest error, in the unit of the mesh; with `vertices`, what comes first.
-            hold: what stays: a region, a mask (booleans, (n,)), numbers of vertices, or a list. All of
-                its vertices on the surface are in the result, also if they are more than `vertices`.
+            {arguments}
             path: where to write the result; default: a scratch file, removed with the new mesh.
-            memory, threads, scratch, progress: as of `solve`.
-            checkpoint: a folder from which the same simplification continues if it was killed.
+            progress: as of `solve`.
+
+        With `vertices` and `error`, what comes first ends it. All vertices of `hold` on the surface are
+        in the result, also if they are more than `vertices`.
 
         Returns:
             The simplified surface, whose column OriginalId has the numbers of its vertices in this
             mesh, or, if this one has such a column of a larger mesh, those in that one; each triangle has the columns of one of this mesh whose corners have moved. Its
             `report` says more.
         """
-        options = {"memory": memory, "threads": threads, "scratch": scratch, "checkpoint": checkpoint}
-        simplified = self._simplified(vertices, path, progress, {"error": error, "hold": hold, **options})
+        simplified = self._simplified(path, progress, arguments, options)
         assert simplified.report is not None
         warn_of(simplified.report, set())
         warn_of_notes(simplified.report)
         return simplified
 
-    def _simplified(self, vertices: Any, path: Any, progress: Any, options: Dict[str, Any]) -> "Mesh":
-        description = jobs.JOBS["simplify"](Columns(self), vertices, **options)[0]
-        description = self._with_defaults("simplify", description)
+    def _simplified(self, path: Any, progress: Any, arguments: tuple, options: Dict[str, Any]) -> "Mesh":
+        description = self._with_defaults(jobs.JOBS["simplify"](Columns(self), *arguments, **options)[0])
         folder = None
         if path is None:
             folder = _Folder(description.get("scratch"))
@@ -530,7 +521,7 @@ class Mesh:
             call_reporting("smg_select", (mesh, json_text(where)), report, pointer)
         return selected.view(bool)
 
-    @jobs.with_arguments_of("solve", ("self",), jobs.OF_MATRIX)
+    @jobs.with_arguments_of("solve", jobs.OF_MATRIX)
     def solver(self, *, progress: Optional[types.Progress] = None, **options: Any) -> Solver:
         """The equations of a problem with their hierarchy, in memory, for many right-hand sides.
 
@@ -566,7 +557,7 @@ class Mesh:
         try:
             if self.n_vertices > _PICTURE_VERTICES:
                 return ""
-            with self._simplified(1500, None, None, {}) as small:
+            with self._simplified(None, None, (1500,), {}) as small:
                 points, cells, ids = small.points, small.cells, small["OriginalId"]
         except Error:
             return ""
@@ -583,9 +574,9 @@ class Mesh:
 def _job(job: str) -> Any:
     """The method of a mesh that does a job whose result is a field."""
 
-    @jobs.with_arguments_of(job, ("self",))
+    @jobs.with_arguments_of(job)
     def method(
-        self: Mesh, *arguments: Any, progress: Any = None, strict: bool = False, **options: Any
+        self: Mesh, *arguments: Any, progress: Optional[types.Progress] = None, strict: bool = False, **options: Any
     ) -> Field:
         return self._run(job, progress, strict, arguments, options)
 

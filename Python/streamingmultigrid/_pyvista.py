@@ -8,12 +8,14 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import pyvista
 
 from . import _jobs as jobs
 from ._interop import from_pyvista
+from ._mesh import Mesh
 from ._opening import open as open_mesh
 
 
@@ -34,19 +36,14 @@ class Accessor:
         """The dataset as a mesh of Streaming Multigrid; see `smg.from_pyvista`."""
         return from_pyvista(self._dataset, **options)
 
-    def simplify(self, vertices: Any = None, **options: Any) -> Any:
-        """The surface with fewer vertices; see `smg.Mesh.simplify`."""
-        return self.mesh().simplify(vertices, **options).to_pyvista()
-
 
 def _method(job: str) -> Any:
-    @jobs.with_arguments_of(job, ("self",))
+    @functools.wraps(getattr(Mesh, job))
     def method(self: Accessor, *arguments: Any, **options: Any) -> Any:
         return getattr(self.mesh(), job)(*arguments, **options).to_pyvista()
 
-    method.__name__ = job
     return method
 
 
-for _job in jobs.OF_FIELDS:
+for _job in jobs.JOBS:
     setattr(Accessor, _job, _method(_job))

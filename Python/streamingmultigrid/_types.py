@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, S
 import numpy.typing as npt
 
 if TYPE_CHECKING:
-    from . import Handle, Placed, Region  # of the stub
+    from . import Handle, Placed, Region
 
 Path = Union[str, "os.PathLike[str]"]
 Size = Union[int, float, str]  # of memory: bytes, or a text with a unit

@@ -1,26 +1,27 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes streamingmultigrid/__init__.pyi, the public interface with the types of all arguments.
+"""Writes __init__.pyi of the package streamingmultigrid, its public interface with the types of all arguments.
 
-The jobs get their signatures when the package is loaded (_jobs.py), which type checkers and editors do
-not do. Run this with the package of a build in PYTHONPATH after a change of a signature:
+The jobs get their signatures from the library when the package is loaded (_jobs.py), which type checkers and
+editors do not do. A build runs this, with the folder that has the package:
 
-    PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Python/make_stubs.py
+    python3 make_stubs.py build/lib/python3/dist-packages
 """
 
 import inspect
 import os
 import re
+import sys
 import textwrap
 from typing import Generic
 
-import streamingmultigrid as smg
-
-_TREE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-STUB = os.path.join(_TREE, "Python", "streamingmultigrid", "__init__.pyi")
+FOLDER = sys.argv[1]
+sys.path.insert(0, FOLDER)
+sys.dont_write_bytecode = True
+import streamingmultigrid as smg  # noqa: E402
 
 HEAD = """# SPDX-License-Identifier: BSD-3-Clause
-# Written by Testing/Python/make_stubs.py, of the signatures of the package.
+# Written by Python/make_stubs.py, of the signatures of the package.
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Mapping, Optional
 from typing import Sequence, Tuple, Union
 
@@ -53,10 +54,8 @@ def _type(annotation):
 def _parameter(parameter):
     text = {parameter.VAR_POSITIONAL: "*", parameter.VAR_KEYWORD: "**"}.get(parameter.kind, "")
     text += parameter.name
-    if parameter.annotation is not parameter.empty:
+    if parameter.annotation is not parameter.empty and parameter.name != "self":
         text += ": " + _type(parameter.annotation)
-    elif parameter.name in ("points", "cells"):
-        text += ": npt.ArrayLike"
     if parameter.default is not parameter.empty:
         text += " = %r" % (parameter.default,)
     return text
@@ -144,6 +143,5 @@ def stubs():
     return HEAD + re.sub(r"\bnp\.ndarray\b", "npt.NDArray[Any]", text) + "\n"
 
 
-if __name__ == "__main__":
-    with open(STUB, "w", encoding="utf-8") as file:
-        file.write(stubs())
+with open(os.path.join(FOLDER, "streamingmultigrid", "__init__.pyi"), "w", encoding="utf-8") as file:
+    file.write(stubs())
