@@ -180,6 +180,8 @@ void CommonOptions::addNotes(const smg::OpenedMesh& mesh, std::vector<std::strin
 {
   if (const smg::ConversionReport* conversion = mesh.conversion())
   {
+    const std::vector<std::string> changes = conversion->changes();
+    notes.insert(notes.end(), changes.begin(), changes.end());
     notes.insert(notes.end(), conversion->notes.begin(), conversion->notes.end());
   }
 }

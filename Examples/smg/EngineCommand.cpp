@@ -68,13 +68,19 @@ void EngineCommand::addEngineTo(CLI::App& command)
     ->check(oneOf({ "streaming", "hypre" }))
     ->capture_default_str();
   this->MaxCycles = command.get_option("--max-cycles");
-  command.add_flag("--explain", this->Explain,
-    "Print the levels with their windows in memory, and the stages of the passes with their times");
+  // Nothing is solved, or nothing printed.
+  CLI::Option* const dryRun = command.get_option("--dry-run");
+  command
+    .add_flag("--explain", this->Explain,
+      "Print the levels with their windows in memory, and the stages of the passes with their "
+      "times")
+    ->excludes(dryRun, command.get_option("--quiet"));
   command
     .add_option("--trace", this->Trace,
       "Write a table (CSV) of how the passes move over the levels: the nodes that each stage "
       "passes in each step, and those in memory")
-    ->type_name("FILE");
+    ->type_name("FILE")
+    ->excludes(dryRun);
 }
 
 void EngineCommand::print(const smg::Report& report) const
@@ -153,7 +159,7 @@ void EngineCommand::compute()
 /** On this process, with a trace if one is requested. */
 void EngineCommand::computeTraced()
 {
-  if (this->Trace.empty() || this->isDryRun())
+  if (this->Trace.empty())
   {
     this->SolvingCommand::compute();
     return;
@@ -176,10 +182,11 @@ void EngineCommand::checkDistributed()
 {
   const smg::SolveOptions& options = this->solveOptions();
   if (options.inCore || !this->checkpoint.empty() || this->isDryRun() || !this->Trace.empty() ||
-      options.operators != "extended")
+      this->Explain || options.operators != "extended" || this->isGiven("acceleration") ||
+      this->isGiven("sweeps"))
   {
-    throw smg::Error("--engine hypre has no --in-core, --checkpoint, --dry-run, --trace or "
-                     "--operators: leave them out.");
+    throw smg::Error("--engine hypre has no --acceleration, --sweeps, --in-core, --checkpoint, "
+                     "--dry-run, --explain, --trace or --operators: leave them out.");
   }
   if (smg::kindOfInput(this->In) != smg::MeshFileKind::Vsm)
   {

@@ -126,6 +126,13 @@ std::string typeName(const smg::JobOption& option, const nlohmann::ordered_json&
                              : "SIZE";
 }
 
+/** The option of the command line with this key. */
+std::string nameOf(std::string key)
+{
+  std::ranges::replace(key, '_', '-');
+  return "--" + key;
+}
+
 /** A sentence on an option. */
 std::string helpOn(const nlohmann::ordered_json& row)
 {
@@ -166,20 +173,28 @@ void JobOptions::addTo(CLI::App& command, smg::Job& job)
     {
       continue;
     }
-    std::string hyphened = option.key;
-    std::ranges::replace(hyphened, '_', '-');
-    Entry& entry = this->Entries.emplace_back(Entry{ &option, "--" + hyphened, {} });
+    Entry& entry = this->Entries.emplace_back(Entry{ &option, nameOf(option.key), {} });
+    const auto exclude = [&](CLI::Option* added)
+    {
+      for (const char* const other : option.excludes)
+      {
+        if (other)
+        {
+          added->excludes(command.get_option(nameOf(other)));
+        }
+      }
+    };
     if (smg::isKind<smg::FlagOption>(option))
     {
       const bool isOn = rows[i].value("default", false);
-      command.add_flag_function(
-        entry.name + (isOn ? ",!--no-" + hyphened : ""),
+      exclude(command.add_flag_function(
+        entry.name + (isOn ? ",!--no-" + entry.name.substr(2) : ""),
         [&entry, &job](std::int64_t count)
         {
           entry.texts = { count > 0 ? "true" : "false" };
           set(*entry.option, entry.name, entry.texts, job);
         },
-        option.help + std::string(isOn ? " (default), or do not" : ""));
+        option.help + std::string(isOn ? " (default), or do not" : "")));
       continue;
     }
     CLI::Option* const added = command.add_option(entry.name, entry.texts, helpOn(rows[i]))
@@ -196,10 +211,7 @@ void JobOptions::addTo(CLI::App& command, smg::Job& job)
     {
       added->default_str(textOf(rows[i]["default"]));
     }
-    if (option.excludes)
-    {
-      added->excludes(command.get_option(std::string("--") + option.excludes));
-    }
+    exclude(added);
   }
 }
 

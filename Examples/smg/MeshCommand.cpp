@@ -59,6 +59,11 @@ smg::JobEstimate MeshCommand::estimate(const smg::ResultFile& out) const
   smg::ConversionOptions conversion = this->inputOptions();
   conversion.scratch = this->scratchPlace();
   const smg::EstimatedInput in(this->In, conversion);
+  // What computes has sentences of its own.
+  if (this->DryRun && smg::kindOfInput(this->In) == smg::MeshFileKind::Vsm)
+  {
+    this->job().checkOn(in.info);
+  }
   smg::JobEstimate estimate(in,
     { this->Out, this->job().addedTo(in.info), out.expectedOrder(in.info),
       this->job().writerMemory(), this->writesText },
@@ -181,8 +186,11 @@ void MeshCommand::compute()
     }
     if (this->Conversion)
     {
-      const std::vector<std::string> more = out.notesOn(*this->Conversion, this->job());
-      report.notes.insert(report.notes.end(), more.begin(), more.end());
+      for (const std::vector<std::string>& more :
+        { this->Conversion->changes(), out.notesOn(*this->Conversion, this->job()) })
+      {
+        report.notes.insert(report.notes.end(), more.begin(), more.end());
+      }
     }
     report.seconds.convert = convertSeconds;
     report.seconds.total = secondsSince(this->Start);

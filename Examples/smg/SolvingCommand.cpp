@@ -131,8 +131,12 @@ void SolvingCommand::print(const smg::Report& report) const
   }
   for (const smg::Report::Step& step : report.steps)
   {
-    std::printf("  %s: %d %s, relative residual %.3g\n", step.name.c_str(), step.cycles,
-      iterations(report, step.cycles), step.residual);
+    std::printf("  %s: %d %s", step.name.c_str(), step.cycles, iterations(report, step.cycles));
+    if (step.cycles > 0)
+    {
+      std::printf(", relative residual %.3g", step.residual);
+    }
+    std::printf("\n");
   }
   for (const smg::Report::Condition& condition : report.conditions)
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Description/ParseWhere.h"
 
+#include "Solver/Core/Text.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -40,19 +42,19 @@ Region verticesOf(const JsonNode& node)
 }
 
 /** The member of WhereKeys that the object has; null for none, if that is allowed. */
-const char* keyOf(const JsonNode& object, bool none)
+const char* keyOf(const JsonNode& object, bool none, bool listsEverywhere)
 {
   const auto given = [&object](const char* key) { return object.has(key); };
   const auto count = std::ranges::count_if(WhereKeys, given);
   if (count > 1 || (count == 0 && !none))
   {
-    std::string list;
-    for (std::size_t k = 0; k < WhereKeys.size(); ++k)
+    std::vector<std::string> keys(WhereKeys.begin(), WhereKeys.end());
+    if (listsEverywhere)
     {
-      list += k == 0 ? "" : k + 1 == WhereKeys.size() ? " and " : ", ";
-      list += WhereKeys[k];
+      keys.emplace_back("everywhere");
     }
-    object.fail((none ? "must have at most one of " : "must have exactly one of ") + list);
+    object.fail(
+      (none ? "must have at most one of " : "must have exactly one of ") + listed(keys, "and"));
   }
   return count == 0 ? nullptr : *std::ranges::find_if(WhereKeys, given);
 }
@@ -97,9 +99,9 @@ NearestVertices nearestOf(const JsonNode& node)
 
 } // namespace
 
-Where parseWhere(const JsonNode& object, bool everywhere)
+Where parseWhere(const JsonNode& object, bool everywhere, bool listsEverywhere)
 {
-  const char* given = keyOf(object, everywhere);
+  const char* given = keyOf(object, everywhere, listsEverywhere);
   if (!given)
   {
     return Everywhere{};

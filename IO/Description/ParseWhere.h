@@ -22,9 +22,10 @@ inline constexpr std::array WhereKeys{ "halfspace", "box", "sphere", "vertices",
  * Reads the one of these members that exists in the object: `halfspace` [nx, ny, nz, d], `box` [x0,
  * y0, z0, x1, y1, z1], `sphere` [x, y, z, r], `vertices` [original numbers], `tag` ["column",
  * value], `mask` "column", `nearest` [[x, y, z], ...] and `boundary` true. Throws Error if there is
- * more than one, or if it is invalid. `everywhere`: whether none is allowed.
+ * more than one, or if it is invalid. `everywhere`: whether none is allowed;
+ * `listsEverywhere`: whether it is a key that the caller takes.
  */
-Where parseWhere(const JsonNode& object, bool everywhere = false);
+Where parseWhere(const JsonNode& object, bool everywhere = false, bool listsEverywhere = false);
 
 /** Throws Error unless the value is an object with no other keys than WhereKeys and these. */
 void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> keys);

@@ -160,12 +160,16 @@ std::vector<Where> parsePlaces(const JsonNode& node)
   std::vector<Where> places;
   const std::vector<JsonNode> objects =
     node.value().is_array() ? node.elements() : std::vector{ node };
+  if (objects.empty())
+  {
+    node.fail("must have at least one place: leave it out for none");
+  }
   for (const JsonNode& object : objects)
   {
     requireWhereAnd(object, { "everywhere" });
     if (!object.has("everywhere"))
     {
-      places.push_back(parseWhere(object));
+      places.push_back(parseWhere(object, false, true));
       continue;
     }
     const bool hasOthers =

@@ -103,18 +103,6 @@ bool canBeUsed(const Format& format, FormatUse use)
   return false;
 }
 
-/** For example "a, b or c". */
-std::string listOf(const std::vector<std::string_view>& words, std::string_view conjunction)
-{
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i)
-  {
-    list += i == 0 ? "" : i + 1 < words.size() ? ", " : ' ' + std::string(conjunction) + ' ';
-    list += words[i];
-  }
-  return list;
-}
-
 template <class Test>
 std::string suffixesOf(std::span<const FormatUse> uses, std::string_view conjunction, Test&& test)
 {
@@ -130,7 +118,7 @@ std::string suffixesOf(std::span<const FormatUse> uses, std::string_view conjunc
       }
     }
   }
-  return listOf(suffixes, conjunction);
+  return listed(suffixes, std::string(conjunction));
 }
 
 } // namespace
@@ -213,7 +201,7 @@ std::string suffixList(const Format& format, std::string_view conjunction)
   {
     suffixes.push_back(suffix.text);
   }
-  return listOf(suffixes, conjunction);
+  return listed(suffixes, std::string(conjunction));
 }
 
 std::string suffixList(FormatUse use, std::string_view conjunction)

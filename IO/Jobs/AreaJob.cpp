@@ -3,6 +3,7 @@
 
 #include "IO/Jobs/JobOption.h"
 #include "Solver/Jobs/Estimate/Costs.h"
+#include "smg/Error.h"
 #include "smg/SolvedMesh.h"
 
 namespace smg
@@ -49,6 +50,15 @@ std::span<const JobOption> AreaJob::table() const
 std::vector<ColumnSpec> AreaJob::solutionColumns(const StreamInfo& info) const
 {
   return { areaColumn(info) };
+}
+
+void AreaJob::checkOn(const StreamInfo& info) const
+{
+  this->MeshJob::checkOn(info);
+  if (this->description.share == AreaShare::Voronoi && info.cellType == CellType::Tetrahedron)
+  {
+    throw Error("share: voronoi is for triangles: share tetrahedra equally.");
+  }
 }
 
 /** Points and shares of open vertices; a reading takes what it does in other jobs. */

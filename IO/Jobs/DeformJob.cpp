@@ -62,9 +62,10 @@ constexpr auto DeformTable = joined(
       .kind = CountOption{ DeformCycles, 1, 1000000 },
       .help = "V-cycles of each of the two steps, instead of a tolerance",
       .isAdvanced = true,
-      .excludes = "tolerance" },
+      .excludes = { "tolerance" } },
   },
-  NormalsOption<DeformJob>, SolverOptions, LimitOptions, ScratchLimitOption, CheckpointOption);
+  NormalsOption<DeformJob>, excluding(SolverOptions, "max_cycles", "cycles"), LimitOptions,
+  ScratchLimitOption, CheckpointOption);
 
 } // namespace
 
@@ -81,6 +82,11 @@ std::vector<ColumnSpec> DeformJob::solutionColumns(const StreamInfo& /*info*/) c
 bool DeformJob::keeps(const ColumnSpec& column, const StreamInfo& info) const
 {
   return keepsMoved(column, this->normals, info.cellType);
+}
+
+void DeformJob::checkOn(const StreamInfo& info) const
+{
+  const DescribedHandles handles(this->description, info, this->name);
 }
 
 Costs DeformJob::costsOn(const StreamInfo& info) const

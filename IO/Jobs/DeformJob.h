@@ -31,6 +31,7 @@ public:
   void check() const override {}
   std::string resultColumns() const override { return {}; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
+  void checkOn(const StreamInfo& info) const override;
   Costs costsOn(const StreamInfo& info) const override;
   AddedValues addedTo(const StreamInfo& /*info*/) const override { return { {}, {}, true }; }
   std::unique_ptr<Solution> solveOn(

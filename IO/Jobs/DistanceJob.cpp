@@ -3,6 +3,7 @@
 
 #include "IO/Jobs/JobOption.h"
 #include "Solver/Jobs/Estimate/Costs.h"
+#include "smg/Error.h"
 #include "smg/SolvedMesh.h"
 
 namespace smg
@@ -42,17 +43,20 @@ constexpr auto DistanceTable = joined(
     JobOption{ .key = "to",
       .kind = WhereOption{ DistanceMember<std::vector<Where>, &DistanceDescription::to> },
       .help = "Of exact distances on a surface: vertices whose shortest paths are wanted, at most "
-              "1,000" },
+              "1,000",
+      .excludes = { "wall" } },
     JobOption{ .key = "accuracy",
       .kind =
         ChoiceOption{ DistanceMember<std::size_t, &DistanceDescription::accuracy>, AccuracyNames },
       .help = "Of paths on a surface: exact (10 to 50 us a vertex of a scan, more on smooth ones), "
               "approximate (about 1 us, too long on long thin triangles), or auto: exact up to "
-              "1,000,000 vertices" },
+              "1,000,000 vertices",
+      .excludes = { "wall" } },
     JobOption{ .key = "within",
       .kind = NumberOption{ DistanceMember<double, &DistanceDescription::within>,
         { .least = 0.0, .isOpen = true }, "the unit of the mesh" },
-      .help = "Of paths: vertices farther than this are not reached" },
+      .help = "Of paths: vertices farther than this are not reached",
+      .excludes = { "wall" } },
     JobOption{ .key = "max_passes",
       .kind =
         CountOption{
@@ -60,6 +64,7 @@ constexpr auto DistanceTable = joined(
           1, 1000000 },
       .help = "Maximum number of passes over the mesh",
       .isAdvanced = true,
+      .excludes = { "wall" },
       .property = "MaximumPasses" },
   },
   LimitOptions, ScratchLimitOption);
@@ -90,6 +95,20 @@ void DistanceJob::setLimits(const JobLimits& limits)
 std::vector<ColumnSpec> DistanceJob::solutionColumns(const StreamInfo& /*info*/) const
 {
   return distanceColumns(this->description);
+}
+
+void DistanceJob::checkOn(const StreamInfo& info) const
+{
+  this->MeshJob::checkOn(info);
+  if (this->description.wall && info.cellType == CellType::Triangle)
+  {
+    throw Error(
+      "wall: the distance to walls is that of a tetrahedral mesh, but this one has triangles.");
+  }
+  if (!this->description.to.empty() && !isExactDistance(info, this->description))
+  {
+    throw Error("to: shortest paths are those of exact distances on a surface.");
+  }
 }
 
 Costs DistanceJob::costsOn(const StreamInfo& info) const

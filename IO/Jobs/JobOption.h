@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -116,8 +117,9 @@ struct JobOption
   const char* help; ///< a sentence without its end
   bool isRequired = false;
   bool isAdvanced = false;
-  bool isCommon = false;          ///< a command has it as all commands have
-  const char* excludes = nullptr; ///< the key of an earlier option that does not go with it
+  bool isCommon = false; ///< a command has it as all commands have
+  /** The keys of earlier options that do not go with it, as without effect beside it. */
+  std::array<const char*, 3> excludes = {};
   /** Of the filter in VTK, if it is not the key as SeveralWords; "": none, or one that is more than
    * its value. */
   const char* property = nullptr;
@@ -207,6 +209,18 @@ constexpr auto joined(const std::array<JobOption, Sizes>&... tables)
   return std::apply([](const auto&... rows)
     { return std::array<JobOption, (Sizes + ...)>{ rows... }; },
     std::tuple_cat(tables...));
+}
+
+/** A table in which the option of a key does not go with another one. */
+template <std::size_t Size>
+constexpr std::array<JobOption, Size> excluding(
+  std::array<JobOption, Size> table, std::string_view key, const char* other)
+{
+  for (JobOption& option : table)
+  {
+    option.excludes[0] = option.key == key ? other : option.excludes[0];
+  }
+  return table;
 }
 
 /** What a job may take. */

@@ -2,6 +2,7 @@
 #include "IO/Jobs/MeshJob.h"
 
 #include "IO/External/Workspace.h"
+#include "IO/Jobs/ReadOptions.h"
 
 #include <algorithm>
 #include <iterator>
@@ -13,6 +14,20 @@ std::int64_t MeshJob::writerMemory(std::int64_t memoryLimit)
 {
   constexpr std::int64_t MaxMemory = std::int64_t(64) << 20;
   return std::clamp(memoryLimit / 4, Workspace::MinMemory, MaxMemory);
+}
+
+void MeshJob::checkOn(const StreamInfo& info) const
+{
+  this->solutionColumns(info);
+  const auto has = [](const std::vector<ColumnSpec>& columns, const std::string& name)
+  { return std::ranges::find(columns, name, &ColumnSpec::name) != columns.end(); };
+  for (const std::string& name : columnsOf(*this))
+  {
+    if (!has(info.vertexColumns, name) && !has(info.cellColumns, name))
+    {
+      throw Error('\'' + name + "': the mesh has no column of this name.");
+    }
+  }
 }
 
 StreamInfo MeshJob::resultOn(const StreamInfo& info) const

@@ -39,6 +39,9 @@ public:
   /** The columns whose components are those of the solution, in order; of other positions the
    * column "Position". */
   virtual std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const = 0;
+  /** Throws Error for what such a mesh certainly does not have, as columns that are named, before
+   * it is read; solveOn() checks all. */
+  virtual void checkOn(const StreamInfo& info) const;
   /** What the computation is expected to cost on such a mesh. */
   virtual Costs costsOn(const StreamInfo& info) const = 0;
   /** The values that the result has besides the mesh, or in place of its own. */

@@ -97,9 +97,15 @@ void readOptions(const JsonNode& object, Job& job)
       continue;
     }
     const JsonNode value = object.member(option.key);
-    if (option.excludes && object.has(option.excludes))
+    for (const char* const other : option.excludes)
     {
-      value.fail(std::string("does not go with ") + option.excludes + ": leave one out");
+      // A flag that is not set is as one that is not given.
+      const auto isGiven = [&object](const char* key)
+      { return object.has(key) && object.member(key).value() != false; };
+      if (other && isGiven(option.key) && isGiven(other))
+      {
+        value.fail(std::string("does not go with ") + other + ": leave one out");
+      }
     }
     readOption(value, option, job);
   }
@@ -138,18 +144,8 @@ std::string allowedValues(const JobOption& option)
   {
     return "from " + groupedDigits(count->least) + " to " + groupedDigits(count->most);
   }
-  std::string names;
-  if (const auto* choice = std::get_if<ChoiceOption>(&option.kind))
-  {
-    for (std::size_t i = 0; i < choice->names.size(); ++i)
-    {
-      names += (i == 0                           ? ""
-                 : i + 1 == choice->names.size() ? " or "
-                                                 : ", ") +
-               std::string(choice->names[i]);
-    }
-  }
-  return names;
+  const auto* choice = std::get_if<ChoiceOption>(&option.kind);
+  return choice ? listed(choice->names, "or") : std::string();
 }
 
 namespace
@@ -243,9 +239,12 @@ nlohmann::ordered_json describe(const Job& job)
         row[key] = true;
       }
     }
-    if (option.excludes)
+    for (const char* const other : option.excludes)
     {
-      row["excludes"] = option.excludes;
+      if (other)
+      {
+        row["excludes"].push_back(other);
+      }
     }
     rows.push_back(std::move(row));
   }

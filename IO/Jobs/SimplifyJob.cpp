@@ -54,7 +54,7 @@ constexpr auto SimplifyTable = joined(
       .isCommon = true,
       .property = "" },
   },
-  LimitOptions);
+  LimitOptions, ScratchLimitOption);
 
 } // namespace
 
@@ -68,6 +68,7 @@ void SimplifyJob::setLimits(const JobLimits& given)
   this->options.memoryLimit = given.memory > 0 ? given.memory : this->options.memoryLimit;
   this->options.threads = given.threads;
   this->options.scratch = given.scratch;
+  this->options.scratchLimit = given.scratchLimit;
 }
 
 void SimplifyJob::check() const

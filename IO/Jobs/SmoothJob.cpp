@@ -55,9 +55,11 @@ constexpr auto SmoothTable = joined(
     JobOption{ .key = "column",
       .kind = ColumnOption{ SmoothMember<std::string, &Smoothing::column> },
       .help = "Smooth this column of the vertices instead of their positions",
+      .excludes = { "keep_edges", "keep_volume", "orient" },
       .property = "Array" },
   },
-  NormalsOption<SmoothJob>, ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
+  excluding(NormalsOption<SmoothJob>, "normals", "column"), ToleranceOptions, SolverOptions,
+  LimitOptions, ScratchLimitOption);
 
 } // namespace
 
@@ -95,6 +97,16 @@ std::vector<ColumnSpec> SmoothJob::solutionColumns(const StreamInfo& info) const
 bool SmoothJob::keeps(const ColumnSpec& column, const StreamInfo& info) const
 {
   return !this->smoothing.column.empty() || keepsMoved(column, this->normals, info.cellType);
+}
+
+void SmoothJob::checkOn(const StreamInfo& info) const
+{
+  this->MeshJob::checkOn(info);
+  if (this->smoothing.column.empty() && info.cellType == CellType::Tetrahedron)
+  {
+    throw Error("the positions of tetrahedra cannot be smoothed, only those of triangles: name a "
+                "column.");
+  }
 }
 
 Costs SmoothJob::costsOn(const StreamInfo& info) const

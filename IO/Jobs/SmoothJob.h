@@ -28,6 +28,7 @@ public:
   std::vector<std::string> changedColumns() const override;
   bool turnsCells() const override { return this->smoothing.orient; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
+  void checkOn(const StreamInfo& info) const override;
   Costs costsOn(const StreamInfo& info) const override;
   AddedValues addedTo(const StreamInfo& info) const override;
   std::unique_ptr<Solution> solveOn(

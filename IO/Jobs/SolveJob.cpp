@@ -72,6 +72,11 @@ bool SolveJob::keeps(const ColumnSpec& column, const StreamInfo& /*info*/) const
   return column.name != SolutionName && column.name != GradientName && column.name != FluxName;
 }
 
+void SolveJob::checkOn(const StreamInfo& info) const
+{
+  const DescribedProblem problem(this->description, info, this->name);
+}
+
 Costs SolveJob::costsOn(const StreamInfo& info) const
 {
   return solveCosts(info, this->description.columns, this->description.weights, this->solving,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/Coefficient.h"
 
+#include "Solver/Core/Text.h"
 #include "smg/CellWeights.h"
 
 #include <algorithm>
@@ -65,23 +66,6 @@ const char* ValueRules::complaint(const double* numbers, int count) const
   }
 }
 
-namespace
-{
-
-/** For example "1, 3 or 6". */
-std::string choiceOf(const std::vector<int>& numbers)
-{
-  std::string text;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    text += i == 0 ? "" : i + 1 == numbers.size() ? " or " : ", ";
-    text += std::to_string(numbers[i]);
-  }
-  return text;
-}
-
-} // namespace
-
 /** Resolves the value on the mesh: a name must belong to a column with an admissible number of
  * components. */
 Coefficient::Coefficient(const DataValue& value, DataPlace place, const ValueRules& rules,
@@ -129,7 +113,7 @@ void Coefficient::requireRules(const DataValue& value, const ValueRules& rules,
   if (std::ranges::find(rules.components, this->Components) == rules.components.end())
   {
     const std::string has =
-      std::to_string(this->Components) + ", but must have " + choiceOf(rules.components);
+      std::to_string(this->Components) + ", but must have " + listed(rules.components, "or");
     columns.fail(key, this->What == Constant
                         ? "the number of numbers is " + has
                         : "the components of the column '" + *value.column() + "' are " + has);

@@ -151,15 +151,6 @@ def test_errors():
         done = run("blend", "scan.ply", name, "--patch", "scan", "--columns", columns, code=1)
         assert "cannot hold these columns of vertices" in done.stderr, done.stderr
     run("blend", "scan.ply", "bad.ply", "--columns", "Colors", code=2)
-    done = run("blend", "scan.ply", "bad.ply", "--patch", "scan", "--columns", "Colors", "--hold", "{", code=2)
-    assert "--hold: " in done.stderr, done.stderr
-    for columns in ("", ",", "Colors,,height", "Colors,"):
-        done = run("blend", "scan.ply", "bad.ply", "--patch", "scan", "--columns", columns, code=2)
-        assert "must be the name of a column" in done.stderr or not columns, done.stderr
-    for anchor in ("-1", "inf", "nan", "1x", ""):
-        done = blend("scan.ply", "bad.ply", "--anchor", anchor, code=2)
-        assert "--anchor: must be " in done.stderr, done.stderr
-    assert "must be one of zero, average" in blend("scan.ply", "bad.ply", "--seam", "0", code=2).stderr
     done = blend("scan.ply", "bad.ply", "--memory", 8, code=1)
     assert "scan.ply: a conversion needs a memory limit of at least 16 MiB, but it is 8" in done.stderr
     assert "1 MiB" in blend("scan.vsm", "bad.ply", "--memory", 1, code=1).stderr

@@ -99,9 +99,6 @@ def test_sizes():
     smooth("torus.obj", "a.obj", "--size", "10%")
     smooth("torus.obj", "b.obj", "--size", repr(diagonal / 10))
     assert max(math.dist(a, b) for a, b in zip(points_of("a.obj"), points_of("b.obj"))) < 1e-3
-    for size in ("0", "-1", "nan", "inf", "1km", "%", "edges", ""):
-        error = smooth("torus.obj", "c.obj", "--size", size, code=2).stderr
-        assert "is not a size" in error or "--size" in error, error
 
 
 def test_what_is_held_does_not_move():
@@ -172,13 +169,9 @@ def test_errors():
     says("has no column 'x'", "torus.obj", "c.vsm", "--column", "x")
     says("'OriginalId' numbers the vertices", "torus.obj", "c.vsm", "--column", "OriginalId")
     says("name a column of the vertices", "solid.vsm", "c.vsm")
-    for angle in ("180", "-3"):
-        says("between 0 and 180", "torus.obj", "c.vsm", "--keep-edges", angle, code=2)
-    says("steps", "torus.obj", "c.vsm", "--steps", "0", code=2)
     says("hold[0]: no vertex", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9, 9, 1]}')
     says("--hold: sphere: must be", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9]}', code=2)
     says("cannot be opened", "torus.obj", "c.vsm", "--hold", "missing.json")
-    says("boundary", "torus.obj", "c.vsm", "--boundary", "none", code=2)
 
 
 def test_edges_are_kept():
@@ -215,8 +208,6 @@ def test_the_winding_is_mended():
                for normal, p in zip(arrays["Normals"], arrays["Points"])]
     assert min(outside) > 0 or max(outside) < 0, (min(outside), max(outside))
     assert smooth("o.vsm", "again.vsm", "--orient")["notes"] == smooth("o.vsm", "again.vsm")["notes"]
-    error = run("smooth", "wound.vsm", "c.vsm", "--orient", "--column", "x", code=2).stderr
-    assert "name no column, or turn no triangles" in error, error
 
 
 def centre_of(point):

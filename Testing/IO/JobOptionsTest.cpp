@@ -164,9 +164,10 @@ TEST(JobOptions, ATableRefusesWhatItDoesNotHave)
   };
   EXPECT_TRUE(contains(message("smooth", R"({"sise": 1})"), "smooth: sise: is not known here"));
   EXPECT_TRUE(contains(message("blend", R"({"patch": "p"})"), "blend: has no 'columns'"));
-  EXPECT_TRUE(contains(message("deform", R"({"handles": {"handles": [{"region":
-    {"sphere": [0, 0, 0, 1]}, "fixed": true}]}, "tolerance": 0.1, "cycles": 3})"),
-    "deform: cycles: does not go with tolerance: leave one out"));
+  EXPECT_TRUE(contains(
+    message("distance", R"({"from": []})"), "distance: from: must have at least one place"));
+  EXPECT_TRUE(contains(message("distance", R"({"from": [{}]})"), "boundary and everywhere"));
+  EXPECT_EQ(message("distance", R"({"from": {"boundary": true}, "wall": false, "within": 1})"), "");
   EXPECT_TRUE(contains(messageOf([] { makeJob("melt"); }), "'melt': the jobs are solve, deform"));
 }
 
