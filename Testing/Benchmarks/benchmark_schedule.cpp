@@ -62,7 +62,7 @@ std::vector<smg::StepRecorder::Pass> record(const Options& options)
   smg::PoissonSolver solver(
     compiled(smg::Extended::forCells(reader.info().cellType)), problem.columns(), solve);
   smg::StepRecorder recorder;
-  solver.run().threads.recorder = &recorder;
+  solver.context().threads.recorder = &recorder;
   // The recorder lives longer than the solution.
   const auto solution = solver.solve(*source, problem);
   return recorder.passes();

@@ -236,8 +236,8 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
   expect("no numeric array Missing of its points or cells (it has ",
     [&] { this->Smoothing->SetColumn("Missing"); });
   expect("Size is -1: set it to a number greater than 0", [&] { this->Smoothing->SetSize(-1.0); });
-  expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(0); });
-  expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(1001); });
+  expect("from 1 to 1,000", [&] { this->Smoothing->SetSteps(0); });
+  expect("from 1 to 1,000", [&] { this->Smoothing->SetSteps(1001); });
   this->Smoothing->SetSizeUnit(vtkStreamingMeshSmoothing::DIAGONAL);
   expect("the size of the details to smooth (property Size), ",
     [&] { this->Smoothing->SetSize(1e200); });

@@ -125,7 +125,7 @@ TEST_F(VtkStreamingPoissonErrors, WhatIsWrongFromTheStartIsToldBeforePulling)
   for (const double tolerance : { -1.0, 1.0, std::nan("") })
   {
     this->Poisson->SetTolerance(tolerance);
-    expectError("set it to a number from 0 to 1, both excluded, or to 0 (automatic)");
+    expectError("set it to a number between 0 and 1, both excluded, or to 0 (automatic)");
   }
   this->Poisson->SetTolerance(1e-6);
   const int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;

@@ -284,9 +284,9 @@ TEST_F(ProblemFile, PlacesStandAloneOrInAList)
   ASSERT_EQ(two.size(), 2U);
   EXPECT_EQ(std::get<ColumnTag>(two[0]).value, 3.0);
   EXPECT_TRUE(std::holds_alternative<Region>(two[1]));
-  EXPECT_TRUE(places("[]").empty());
   const auto error = [](const char* text)
   { return messageOf([text] { readPlacesText(text, "--hold"); }); };
+  EXPECT_CONTAINS(error("[]"), "--hold: must have at least one place: leave it out for none");
   EXPECT_CONTAINS(error("{}"), "--hold: must have exactly one of halfspace");
   const std::vector<Where> all = readPlacesText(R"([{"everywhere": true}])", "--hold");
   ASSERT_EQ(all.size(), 1U);
