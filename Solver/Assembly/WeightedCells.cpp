@@ -16,27 +16,23 @@ namespace smg
 {
 
 /** Flagged cells and those that use a vertex twice have no weights, whatever the problem sets. */
-WeightedCell WeightedCells::cell(
-  std::size_t c, const std::int64_t* corners, unsigned flags, const Ring<double>& points) const
+void WeightedCells::weigh(WeightedCell& cell, const Ring<double>& points) const
 {
-  WeightedCell cell{ c, corners, flags, {}, {}, 1.0, 1.0, true, nullptr };
   const int count = cornersOf(this->Type);
   for (int k = 0; k < count; ++k)
   {
-    cell.points[k] = points.at(corners[k]);
+    cell.points[k] = points.at(cell.corners[k]);
   }
-  if (this->Data)
-  {
-    cell.data = &*this->Data;
-    cell.scale = this->Data->scale();
-  }
-  if (flags == 0 && !hasRepeatedCorner(corners, count))
-  {
-    cell.weights = this->Data ? this->Data->weights() : cellWeights(this->Type, cell.points);
-  }
+  const bool hasWeights = cell.flags == 0 && !hasRepeatedCorner(cell.corners, count);
+  cell.weights = !hasWeights  ? CellWeights()
+                 : this->Data ? this->Data->weights()
+                              : cellWeights(this->Type, cell.points);
+  cell.scale = this->Data ? this->Data->scale() : 1.0;
+  cell.flatness = 1.0;
+  cell.connects = true;
   if (cell.weights.measure == 0.0)
   {
-    cell.connects = this->ConnectsFlat && isDistinctCell(corners, count, flags);
+    cell.connects = this->ConnectsFlat && isDistinctCell(cell.corners, count, cell.flags);
   }
   // The other kinds of weights are positive after EdgeStiffness, so nothing cancels in their rows.
   else if (this->Kind == Weights::Cotangent)
@@ -44,7 +40,6 @@ WeightedCell WeightedCells::cell(
     cell.flatness =
       this->Data ? this->Data->flatness() : flatnessFactor(this->Type, cell.points, cell.weights);
   }
-  return cell;
 }
 
 void CellCounts::add(CellType type, const WeightedCell& cell)

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace smg
 {
@@ -76,6 +77,8 @@ public:
   void forRange(const MeshBlock& block, std::size_t begin, std::size_t end,
     const Ring<double>& points, Visit&& visit)
   {
+    WeightedCell cell{};
+    cell.data = this->Data ? &*this->Data : nullptr;
     forCellRange(this->Type, block, begin, end,
       [&](const std::int64_t* corners, unsigned flags, std::size_t c)
       {
@@ -84,7 +87,11 @@ public:
         {
           this->Data->prepare(block, c, points);
         }
-        visit(this->cell(c, corners, flags, points));
+        cell.number = c;
+        cell.corners = corners;
+        cell.flags = flags;
+        this->weigh(cell, points);
+        visit(std::as_const(cell));
       });
   }
   /** The same for all cells of the block. */
@@ -95,8 +102,8 @@ public:
   }
 
 private:
-  WeightedCell cell(
-    std::size_t c, const std::int64_t* corners, unsigned flags, const Ring<double>& points) const;
+  /** Of a cell with its corners and flags, sets the rest. */
+  void weigh(WeightedCell& cell, const Ring<double>& points) const;
 
   CellType Type;
   Weights Kind;

@@ -60,12 +60,13 @@ public:
     const auto magnitude = [](const Vector& v) { return v < 0.0 ? -v : v; };
     const Vector xk = Vectors::load(x + k * stride);
     Vector flow = magnitude(Vectors::load(b + k * stride) - RowBlock::rowSumOf(h, a, k) * xk);
-    const RowView row(h, a, k);
-    for (std::int64_t e = 0; e < row.size(); ++e)
+    const BlockRange row = entriesOf(h, a, k);
+    for (std::int64_t e = row.begin; e < row.end; ++e)
     {
-      flow += magnitude(row.weight(e) * (Vectors::load(x + (k + row.delta(e)) * stride) - xk));
+      flow += magnitude(
+        static_cast<double>(a.weight[e]) * (Vectors::load(x + (k + a.delta[e]) * stride) - xk));
     }
-    const double diagonal = row.diagonal, scale = share / diagonal;
+    const double diagonal = static_cast<double>(a.diagonal[k]), scale = share / diagonal;
     const auto addSquare = [lane](std::vector<double>& sums, const Vector& value)
     {
       double* const sum = sums.data() + lane;

@@ -9,18 +9,30 @@
 namespace smg
 {
 
-/** b_k - A_kk x_k + sum_j w_kj x_j of node k of a block. */
+/** b_k - A_kk x_k + sum_j w_kj x_j of node k of a block. Sums even and odd entries separately,
+ * as GaussSeidel does. */
 struct PlainResidual
 {
   template <class Vectors, class Real, class Arrays>
-  static typename Vectors::Vector of(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
-    std::int64_t stride, const Real* x, const Real* b)
+  [[gnu::always_inline]] static typename Vectors::Vector of(const RowBlock::Header& h,
+    const Arrays& a, std::int64_t k, std::int64_t stride, const Real* x, const Real* b)
   {
-    const RowView row(h, a, k);
+    const BlockRange row = entriesOf(h, a, k);
     const Real* xk = x + k * stride;
-    return row.template plusProducts<Vectors>(
-      Vectors::load(b + k * stride) - static_cast<Real>(row.diagonal) * Vectors::load(xk), xk,
-      stride);
+    auto even =
+      Vectors::load(b + k * stride) - static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
+    typename Vectors::Vector odd{};
+    std::int64_t e = row.begin;
+    for (; e + 1 < row.end; e += 2)
+    {
+      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+      odd += static_cast<Real>(a.weight[e + 1]) * Vectors::load(xk + a.delta[e + 1] * stride);
+    }
+    if (e < row.end)
+    {
+      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+    }
+    return even + odd;
   }
 };
 
@@ -33,16 +45,15 @@ struct PlainResidual
 struct ResidualOfDifferences
 {
   template <class Vectors, class Real, class Arrays>
-  static typename Vectors::Vector of(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
-    std::int64_t stride, const Real* x, const Real* b)
+  [[gnu::always_inline]] static typename Vectors::Vector of(const RowBlock::Header& h,
+    const Arrays& a, std::int64_t k, std::int64_t stride, const Real* x, const Real* b)
   {
-    const RowView row(h, a, k);
+    const BlockRange row = entriesOf(h, a, k);
     const auto xk = Vectors::load(x + k * stride);
     auto sum = Vectors::load(b + k * stride) - static_cast<Real>(RowBlock::rowSumOf(h, a, k)) * xk;
-    for (std::int64_t e = 0; e < row.size(); ++e)
+    for (std::int64_t e = row.begin; e < row.end; ++e)
     {
-      sum +=
-        static_cast<Real>(row.weight(e)) * (Vectors::load(x + (k + row.delta(e)) * stride) - xk);
+      sum += static_cast<Real>(a.weight[e]) * (Vectors::load(x + (k + a.delta[e]) * stride) - xk);
     }
     return sum;
   }
@@ -57,19 +68,16 @@ template <class Real, class Arrays, class F>
 {
   if constexpr (std::is_same_v<Real, double>)
   {
-    forRuns<Real>(part.header(), a, part.nodes,
-      [&](const auto& rows, BlockRange nodes, auto isSpecial)
+    for (NodeRuns runs(part.header(), a, part.nodes); runs.next();)
+    {
+      if (!runs.special())
       {
-        if constexpr (!isSpecial)
-        {
-          if (!differs)
-          {
-            f(PlainResidual(), rows, nodes);
-            return;
-          }
-        }
-        f(ResidualOfDifferences(), rows, nodes);
-      });
+        differs ? f(ResidualOfDifferences(), a, runs.nodes()) : f(PlainResidual(), a, runs.nodes());
+        continue;
+      }
+      visitSpecial<Real>(part.header(), a, *runs.special(),
+        [&](const auto& row) { f(ResidualOfDifferences(), row, runs.nodes()); });
+    }
   }
   else
   {

@@ -62,11 +62,11 @@ double residualShareOf(const RowBlock::Header& h, const Arrays& a, std::int64_t 
   {
     return 1.0;
   }
-  const RowView row(h, a, k);
+  const BlockRange row = entriesOf(h, a, k);
   double edges = 0.0;
-  for (std::int64_t e = 0; e < row.size(); ++e)
+  for (std::int64_t e = row.begin; e < row.end; ++e)
   {
-    edges += std::fabs(row.weight(e));
+    edges += std::fabs(static_cast<double>(a.weight[e]));
   }
   return residualShare(commonShare(own, edges));
 }
@@ -121,13 +121,13 @@ private:
       keeper(k, residual);
       if constexpr (std::is_same_v<Real, double>)
       {
-        const RowView row(h, a, k);
+        const BlockRange row = entriesOf(h, a, k);
         const double share = residualShareOf(h, a, k);
         total += share == 1.0 ? residual * residual : share * residual * (share * residual);
-        if (row.size() > 0)
+        if (row.begin < row.end)
         {
           const Real* x = part.x + k * stride;
-          const auto term = row.diagonal * Vectors::load(x);
+          const auto term = static_cast<Real>(a.diagonal[k]) * Vectors::load(x);
           termTotal += share == 1.0 ? term * term : share * term * (share * term);
           if (this->energy)
           {
