@@ -184,7 +184,8 @@ void vtkStreamingSolver::Internals::solveOutOfCore(smg::Route route, const Inqui
     {
       const smg::StreamedSolve::PieceReading reading = this->reading(inquiry);
       smg::Progress progress(smg::progressOf(this->Self));
-      const std::unique_ptr<smg::JobTask> task = this->Self.MakeTask(*inquiry.present);
+      const std::unique_ptr<smg::JobTask> task =
+        this->Task ? std::move(this->Task) : this->Self.MakeTask(*inquiry.present);
       if (route == smg::Route::StreamedFile)
       {
         this->Streamed.solveFile(this->File.path, this->File.fingerprint, *task, reading, progress);

@@ -4,6 +4,7 @@
 #include "Filters/Pieces/CoarserPreview.h"
 #include "Filters/Pieces/PieceRequest.h"
 #include "Filters/RegionChain.h"
+#include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/SolutionExchange.h"
 #include "Filters/Tasks/SolveSummary.h"
 #include "Filters/Tasks/StreamedSolve.h"
@@ -17,6 +18,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -108,7 +110,10 @@ private:
   smg::SolveSummary inPanelWords(smg::SolveSummary summary) const;
 
   smg::StreamedSolve Streamed;
-  smg::StreamFile File; ///< of the reader, for Route::StreamedFile
+  // Of isForFile(), for the solve that follows: the file of Route::StreamedFile, and the task,
+  // which reads files and arrays when it is made.
+  smg::StreamFile File;
+  std::unique_ptr<smg::JobTask> Task;
   smg::KeptCoarserPreview Coarser;
   smg::InputStamp StreamStamp; ///< of an input that as a whole is a mesh stream
   smg::PieceSolve Pieces;

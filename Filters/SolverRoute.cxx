@@ -140,9 +140,11 @@ bool vtkStreamingSolver::Internals::isForFile(const Inquiry& inquiry)
   {
     return !this->File.path.empty();
   }
+  this->Task.reset();
   try
   {
-    this->File = smg::unchangedFile(this->Self, this->Self.MakeTask(*inquiry.present)->columns());
+    this->Task = this->Self.MakeTask(*inquiry.present);
+    this->File = smg::unchangedFile(this->Self, this->Task->columns());
   }
   catch (const smg::Error&)
   {
