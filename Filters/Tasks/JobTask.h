@@ -84,6 +84,7 @@ protected:
   /** Does the job. Throws Error and Cancelled. */
   virtual std::unique_ptr<Solution> run(const StoredMesh& mesh, const ProgressFunction& progress)
   {
+    this->job().prepareOn(mesh);
     return this->job().solveOn(mesh, progress);
   }
   /** Before a run in memory, from whose places() regions that a preview has no point of are gone.

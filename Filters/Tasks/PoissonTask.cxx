@@ -100,12 +100,6 @@ void PoissonTask::prepareFor(const StreamInfo& info)
   this->asked.text = textOf(this->asked.description);
 }
 
-std::unique_ptr<Solution> PoissonTask::run(const StoredMesh& mesh, const ProgressFunction& progress)
-{
-  this->asked.prepareOn(mesh);
-  return this->JobTask::run(mesh, progress);
-}
-
 void PoissonTask::complete(Result& result, const StoredMesh& mesh, const ProgressFunction& progress)
 {
   // Pieces get their cell arrays when they are delivered.

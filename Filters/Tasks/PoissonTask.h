@@ -40,7 +40,6 @@ protected:
   SolveJob& job() override { return this->asked; }
   std::set<std::string> required() const override;
   void prepareFor(const StreamInfo& info) override;
-  std::unique_ptr<Solution> run(const StoredMesh& mesh, const ProgressFunction& progress) override;
   void complete(Result& result, const StoredMesh& mesh, const ProgressFunction& progress) override;
 
 private:
