@@ -5,10 +5,13 @@
 #include "IO/Conversion/ConversionFields.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/External/Relabelling.h"
+#include "IO/Mesh/GroupsJson.h"
 #include "Solver/Checkpoint/Checkpoint.h"
 #include "Solver/Core/FieldsJson.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -49,16 +52,21 @@ public:
     this->exchange(mesh.elements.bytes());
     this->exchange(mesh.vertexColumns);
     this->exchange(mesh.elementColumns);
+    this->exchange(mesh.groups);
+    this->exchange(mesh.facets.corners.bytes());
+    this->exchange(mesh.facets.sets.bytes());
   }
 
   void exchange(StreamLayout& layout)
   {
     this->Exchanged.part("layout");
     this->Exchanged(layout.vertexCount, layout.cellCount, layout.degenerateCells,
-      layout.duplicateCells, layout.invertedCells);
+      layout.duplicateCells, layout.invertedCells, layout.facetsElsewhere);
+    this->exchange(layout.groups);
     this->exchange(layout.vertices);
     for (BucketFile* file : { &layout.corners.bytes(), &layout.elements.bytes(),
-           &layout.flags.bytes(), &layout.blockVertices.bytes(), &layout.blockFinalized.bytes() })
+           &layout.flags.bytes(), &layout.facetGroups.bytes(), &layout.blockVertices.bytes(),
+           &layout.blockFinalized.bytes() })
     {
       this->exchange(*file);
     }
@@ -86,6 +94,16 @@ private:
     else
     {
       file.load(this->Exchanged, path);
+    }
+  }
+
+  void exchange(MeshGroups& groups)
+  {
+    std::string text = jsonOf(groups).dump();
+    this->Exchanged(text);
+    if constexpr (!Saves)
+    {
+      groups = groupsOf(nlohmann::json::parse(text));
     }
   }
 

@@ -13,6 +13,7 @@
 #include "IO/Import/Polygons.h"
 #include "IO/Import/RawMesh.h"
 #include "IO/Import/RawMeshBuilder.h"
+#include "IO/Import/VertexGroups.h"
 #include "IO/Import/Weld.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Order/Assembly/CellFlagger.h"
@@ -175,6 +176,11 @@ void noteLayout(const LayOutCounts& counts, const StreamLayout& layout, Conversi
   report.degenerate_cells = layout.degenerateCells;
   report.duplicate_cells = layout.duplicateCells;
   report.notes.insert(report.notes.end(), counts.notes.begin(), counts.notes.end());
+  if (layout.facetsElsewhere > 0)
+  {
+    report.notes.push_back(counted(layout.facetsElsewhere, "element", "elements") +
+                           " of groups lie on no facet of the mesh, and are left out.");
+  }
 }
 
 void importInput(Conversion& conversion, RawMesh& mesh)
@@ -196,6 +202,7 @@ void importInput(Conversion& conversion, RawMesh& mesh)
   }
   // Merged points no longer belong to a cell.
   report.isolated_vertices -= merged;
+  addVertexGroups(mesh, space);
   freeNumberNames(mesh, conversion.options().numbering, report.notes);
   report.keeps_numbers = isNumbered(mesh);
   report.seconds.import = conversion.lap();

@@ -94,6 +94,12 @@ std::span<const std::byte> RowTable::read(std::int64_t first, std::int64_t most)
     static_cast<std::size_t>(rows) * this->RowBytes);
 }
 
+void RowTable::release()
+{
+  this->Rows = Buffer();
+  this->Loaded = -1;
+}
+
 std::vector<int> Relabelling::neededBuckets() const
 {
   std::vector<int> needed;
@@ -112,7 +118,7 @@ void Relabelling::applyChunks(
   const RecordFile<std::uint32_t>& file, std::size_t count, const TakeChunk& take)
 {
   const std::vector<int> buckets = this->neededBuckets();
-  RowTable table = std::move(this->Table); // whose memory is released afterwards
+  RowTable& table = this->Table;
   table.close();
   // The numbers that earlier passes have replaced; NoIndex elsewhere.
   std::optional<RecordFile<std::uint32_t>> done;
@@ -168,6 +174,7 @@ void Relabelling::applyChunks(
     before.reset();
     done.emplace(std::move(next));
   }
+  table.release();
 }
 
 } // namespace smg

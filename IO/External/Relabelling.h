@@ -36,6 +36,8 @@ public:
 
   /** Releases the write buffers; to be called after the last put(). */
   void close() { this->Buckets.close(); }
+  /** Releases the memory of the rows that were read last. */
+  void release();
 
   /** The number of rows of a bucket. */
   std::uint32_t range() const { return this->Range; }
@@ -88,7 +90,7 @@ public:
   int passes() const { return static_cast<int>(this->neededBuckets().size()); }
 
   /** Passes the replaced numbers of `file` to `take`, in records of `count` numbers, in the order
-   * of the file. Numbers without a pair become NoIndex. To be called once. */
+   * of the file. Numbers without a pair become NoIndex. */
   template <class Take>
   void apply(const RecordFile<std::uint32_t>& file, std::size_t count, Take&& take)
   {

@@ -63,6 +63,10 @@ void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
   {
     checkIsWhole(options.part, file.name());
   }
+  if (std::ranges::none_of(format->suffixes, &FileSuffix::tetrahedra))
+  {
+    builder.expectSurface();
+  }
   format->parse(file, builder, options.part, progress);
 }
 

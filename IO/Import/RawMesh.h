@@ -3,6 +3,7 @@
 
 #include "IO/External/BucketFile.h"
 #include "smg/Column.h"
+#include "smg/Groups.h"
 #include "smg/MeshSource.h"
 
 #include <algorithm>
@@ -52,6 +53,25 @@ inline std::vector<BucketFile::Reader> readersOf(
   return readers;
 }
 
+/** Elements of a file that are no cells of the mesh, but members of groups. */
+struct GroupedElements
+{
+  explicit GroupedElements(Workspace& workspace)
+    : corners(workspace)
+    , sets(workspace)
+  {
+  }
+
+  void close()
+  {
+    this->corners.close();
+    this->sets.close();
+  }
+
+  RecordFile<std::uint32_t> corners; ///< of each element as many vertices
+  RecordFile<GroupSet> sets;         ///< of the groups of each element
+};
+
 /**
  * The mesh of a file, in scratch files: any vertex order, any cell order, isolated vertices.
  * At most 2^32 - 2 vertices, cells and elements.
@@ -65,6 +85,8 @@ struct RawMesh
     : positions(workspace)
     , corners(workspace)
     , elements(workspace)
+    , facets(workspace)
+    , points(workspace)
   {
   }
 
@@ -79,7 +101,10 @@ struct RawMesh
   RecordFile<std::uint32_t> corners;     ///< cornersOf(cellType) per cell, each below `vertices`
   RecordFile<std::uint32_t> elements;    ///< the element of each cell; empty: cell c is element c
   std::vector<RawColumn> vertexColumns;  ///< a tuple per vertex
-  std::vector<RawColumn> elementColumns; ///< a tuple per element
+  std::vector<RawColumn> elementColumns; ///< a tuple per element; CellGroups is one of them
+  MeshGroups groups;
+  GroupedElements facets; ///< edges of triangles or faces of tetrahedra, as far as they are such
+  GroupedElements points; ///< one vertex each; a vertex may occur several times
   ImportCounts counts;
 
   std::size_t positionBytes() const

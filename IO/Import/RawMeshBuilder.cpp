@@ -22,6 +22,8 @@ RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice, Use use)
   , Choice(choice)
   , Used(use)
   , Mesh(workspace)
+  , ElementGroups(workspace)
+  , Lower{ GroupedElements(workspace), GroupedElements(workspace), GroupedElements(workspace) }
 {
   if (choice != CellChoice::Only)
   {
@@ -49,8 +51,9 @@ RawMeshBuilder::BuiltColumn* RawMeshBuilder::addColumn(ColumnOf of, const Column
   const bool isTaken = std::ranges::any_of(
     columns, [&spec](const BuiltColumn& column) { return column.spec.name == spec.name; });
   // Flags of cells are computed; those of a file might be wrong.
-  const bool isReserved =
-    isReservedColumn(spec.name) || (of == ColumnOf::Elements && spec.name == CellFlagsName);
+  const bool isReserved = isReservedColumn(spec.name) ||
+                          (of == ColumnOf::Elements && spec.name == CellFlagsName) ||
+                          (isGroupColumn(spec.name) && !this->HasGroupColumns);
   if (isReserved || isTaken || spec.components < 1)
   {
     this->Mesh.counts.droppedColumns.push_back(spec.name);
@@ -129,20 +132,25 @@ void RawMeshBuilder::vertex(double x, double y, double z)
 
 bool RawMeshBuilder::wants(CellType type)
 {
-  if (this->looks() && (!this->Kind || *this->Kind == type))
-  {
-    throw CellTypeFound{ type };
-  }
   if (!this->Kind)
   {
     this->Kind = this->Mesh.cellType = type;
   }
-  if (*this->Kind != type && this->Choice == CellChoice::Only)
+  const bool mayTurn = this->Choice == CellChoice::Only && !this->IsSurface;
+  if (*this->Kind == CellType::Triangle && type == CellType::Tetrahedron && mayTurn)
   {
-    throw MeshError("the file has both surface cells and volume cells: choose the ones to keep, "
-                    "triangles or tets (option --cells)");
+    this->makeTrianglesFacets();
+    this->Kind = this->Mesh.cellType = type;
   }
-  return *this->Kind == type;
+  if (!this->looks())
+  {
+    return *this->Kind == type;
+  }
+  if (*this->Kind == type && (type == CellType::Tetrahedron || !mayTurn))
+  {
+    throw CellTypeFound{ type };
+  }
+  return false;
 }
 
 void RawMeshBuilder::numberVertices(std::int64_t first, std::int64_t count, std::int64_t base)
@@ -152,28 +160,79 @@ void RawMeshBuilder::numberVertices(std::int64_t first, std::int64_t count, std:
   this->BaseVertex = base;
 }
 
+std::uint32_t RawMeshBuilder::vertexOf(std::int64_t corner)
+{
+  // Without overflow: numbers may be any.
+  const std::uint64_t place =
+    static_cast<std::uint64_t>(corner) - static_cast<std::uint64_t>(this->FirstNumber);
+  if (place >= static_cast<std::uint64_t>(this->NumberCount))
+  {
+    this->failAtCorner(corner, this->NumberCount, 0);
+  }
+  const std::int64_t vertex = this->BaseVertex + static_cast<std::int64_t>(place);
+  if (vertex > this->LargestCorner)
+  {
+    this->LargestCorner = vertex;
+    this->LineOfLargest = this->Line;
+  }
+  return static_cast<std::uint32_t>(vertex);
+}
+
 void RawMeshBuilder::cell(std::span<const std::int64_t> corners)
 {
   std::array<std::uint32_t, 4> vertices{};
   for (std::size_t k = 0; k < corners.size(); ++k)
   {
-    // Without overflow: numbers may be any.
-    const std::uint64_t place =
-      static_cast<std::uint64_t>(corners[k]) - static_cast<std::uint64_t>(this->FirstNumber);
-    if (place >= static_cast<std::uint64_t>(this->NumberCount))
-    {
-      this->failAtCorner(corners[k], this->NumberCount, 0);
-    }
-    const std::int64_t vertex = this->BaseVertex + static_cast<std::int64_t>(place);
-    if (vertex > this->LargestCorner)
-    {
-      this->LargestCorner = vertex;
-      this->LineOfLargest = this->Line;
-    }
-    vertices[k] = static_cast<std::uint32_t>(vertex);
+    vertices[k] = this->vertexOf(corners[k]);
   }
   this->Mesh.corners.put(std::span<const std::uint32_t>(vertices.data(), corners.size()));
   ++this->Mesh.cells;
+}
+
+bool RawMeshBuilder::keep(std::size_t dimension, std::span<const std::int64_t> corners)
+{
+  if (this->Current == GroupTable::None || this->looks())
+  {
+    return false;
+  }
+  GroupedElements& kept = this->Lower[dimension];
+  for (const std::int64_t corner : corners)
+  {
+    kept.corners.put(this->vertexOf(corner));
+  }
+  kept.sets.put(this->Current);
+  return true;
+}
+
+bool RawMeshBuilder::keepFacets(std::span<const std::int64_t> corners)
+{
+  if (this->Choice == CellChoice::Triangles || this->Current == GroupTable::None)
+  {
+    return false;
+  }
+  // From the least corner, as the faces of solids are split.
+  const std::size_t count = corners.size();
+  const auto first = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
+  bool kept = false;
+  for (std::size_t k = 2; k < count; ++k)
+  {
+    kept = this->keep(2,
+      std::array{ corners[first], corners[(first + k - 1) % count], corners[(first + k) % count] });
+  }
+  return kept;
+}
+
+/** A tetrahedron follows: the triangles so far are facets. */
+void RawMeshBuilder::makeTrianglesFacets()
+{
+  RawMesh& mesh = this->Mesh;
+  mesh.corners = RecordFile<std::uint32_t>(this->Space);
+  mesh.elements = RecordFile<std::uint32_t>(this->Space);
+  mesh.cells = 0;
+  mesh.counts.triangulatedPolygons = 0;
+  mesh.counts.droppedCells += this->CellElements - this->GroupedCells;
+  this->CellElements = this->GroupedCells = 0;
+  this->ElementIsCell = mesh.elementCount == 0;
 }
 
 void RawMeshBuilder::checkCorners() const
@@ -198,13 +257,13 @@ void RawMeshBuilder::failAtCorner(std::int64_t number, std::int64_t count, std::
 
 void RawMeshBuilder::take(CellType type, std::span<const std::int64_t> corners)
 {
-  if (!this->wants(type))
+  const bool isCell = this->wants(type);
+  const bool isFacet = type == CellType::Triangle && this->keepFacets(corners);
+  if (isCell)
   {
-    this->dropped();
-    return;
+    this->cell(corners);
   }
-  this->cell(corners);
-  this->endElement(1);
+  isCell || isFacet ? this->endElement(isCell ? 1 : 0) : this->dropped();
 }
 
 void RawMeshBuilder::endElement(std::int64_t cells)
@@ -213,6 +272,11 @@ void RawMeshBuilder::endElement(std::int64_t cells)
   {
     this->noteElements(cells);
   }
+  if (this->Current != GroupTable::None || this->ElementGroups.size() > 0)
+  {
+    this->noteGroups(cells);
+  }
+  this->CellElements += cells > 0 ? 1 : 0;
   ++this->Mesh.elementCount;
   if (std::max(this->Mesh.cells, this->Mesh.elementCount) > std::int64_t(NoIndex) - 1)
   {
@@ -237,8 +301,24 @@ void RawMeshBuilder::noteElements(std::int64_t cells)
   }
 }
 
+/** Stores the groups of the element, from the first element on that is in one. */
+void RawMeshBuilder::noteGroups(std::int64_t cells)
+{
+  if (this->looks())
+  {
+    return;
+  }
+  while (this->ElementGroups.size() < this->Mesh.elementCount)
+  {
+    this->ElementGroups.put(GroupTable::None);
+  }
+  this->ElementGroups.put(this->Current);
+  this->GroupedCells += cells > 0 && this->Current != GroupTable::None ? 1 : 0;
+}
+
 void RawMeshBuilder::polygon(std::span<const std::int64_t> corners)
 {
+  this->IsFacet = this->keepFacets(corners);
   for (const std::int64_t corner : corners)
   {
     this->fanCorner(corner);
@@ -259,9 +339,10 @@ void RawMeshBuilder::endTriangles()
 {
   this->Corners = 0;
   const std::int64_t triangles = std::exchange(this->Triangles, 0);
+  const bool isFacet = std::exchange(this->IsFacet, false);
   if (triangles == 0)
   {
-    this->dropped();
+    isFacet ? this->endElement(0) : this->dropped();
     return;
   }
   this->Mesh.counts.triangulatedPolygons += triangles > 1 ? 1 : 0;
@@ -292,8 +373,12 @@ void RawMeshBuilder::solid(std::span<const std::int64_t> corners)
 void RawMeshBuilder::element(int dimension, std::span<const std::int64_t> c, bool isHigherOrder)
 {
   const std::int64_t before = this->cells();
-  dimension < 2    ? this->dropped()
-  : c.size() == 3  ? this->triangle(c[0], c[1], c[2])
+  if (dimension < 2)
+  {
+    this->keep(static_cast<std::size_t>(dimension), c) ? this->endElement(0) : this->dropped();
+    return;
+  }
+  c.size() == 3    ? this->triangle(c[0], c[1], c[2])
   : dimension == 2 ? this->polygon(c)
   : c.size() == 4  ? this->tetrahedron(c[0], c[1], c[2], c[3])
   : c.size() == 6  ? this->solid(std::array{ c[0], c[2], c[1], c[3], c[5], c[4] })
@@ -307,6 +392,10 @@ void RawMeshBuilder::element(int dimension, std::span<const std::int64_t> c, boo
 RawMesh RawMeshBuilder::finish()
 {
   RawMesh& mesh = this->Mesh;
+  if (this->looks() && this->Kind && this->Choice == CellChoice::Only)
+  {
+    throw CellTypeFound{ *this->Kind };
+  }
   if (mesh.cells == 0)
   {
     throw MeshError(this->Choice == CellChoice::Only ? "the file has no triangles and no tetrahedra"
@@ -316,25 +405,9 @@ RawMesh RawMeshBuilder::finish()
   }
   this->checkCorners();
   mesh.corners.close();
-  if (this->Numbers)
-  {
-    RecordFile<std::uint32_t> corners(this->Space);
-    std::int64_t cell = 0;
-    this->Numbers->apply(mesh.corners, static_cast<std::size_t>(cornersOf(mesh.cellType)),
-      [&](std::span<const std::uint32_t> numbers)
-      {
-        if (std::ranges::find(numbers, NoIndex) != numbers.end())
-        {
-          throw MeshError("cell " + std::to_string(cell) +
-                          ", counted from 0, names a vertex that the file does not have");
-        }
-        ++cell;
-        corners.put(numbers);
-      });
-    this->Numbers.reset();
-    mesh.corners = std::move(corners);
-    mesh.corners.close();
-  }
+  this->renumber(mesh.corners, static_cast<std::size_t>(cornersOf(mesh.cellType)), "cell ");
+  this->finishGroups();
+  this->Numbers.reset();
   // Elements after the last cell need not be stored.
   mesh.positions.close();
   mesh.elements.close();
@@ -343,11 +416,89 @@ RawMesh RawMeshBuilder::finish()
   return std::move(mesh);
 }
 
+void RawMeshBuilder::renumber(
+  RecordFile<std::uint32_t>& corners, std::size_t count, const std::string& what)
+{
+  if (!this->Numbers || corners.size() == 0)
+  {
+    return;
+  }
+  RecordFile<std::uint32_t> renumbered(this->Space);
+  std::int64_t item = 0;
+  this->Numbers->apply(corners, count,
+    [&](std::span<const std::uint32_t> numbers)
+    {
+      if (std::ranges::find(numbers, NoIndex) != numbers.end())
+      {
+        throw MeshError(what + std::to_string(item) +
+                        ", counted from 0, names a vertex that the file does not have");
+      }
+      ++item;
+      renumbered.put(numbers);
+    });
+  corners = std::move(renumbered);
+  corners.close();
+}
+
+/** What elements below the cells are in the mesh: the next lower ones are facets, the vertices of
+ * the others belong to groups themselves. */
+void RawMeshBuilder::finishGroups()
+{
+  RawMesh& mesh = this->Mesh;
+  if (this->Groups.empty())
+  {
+    return;
+  }
+  mesh.groups = this->Groups.finish(mesh.cellType);
+  if (this->Groups.overflowed())
+  {
+    this->note(GroupSets::overflowNote());
+  }
+  const auto cells = static_cast<std::size_t>(cornersOf(mesh.cellType) - 1);
+  for (std::size_t dimension = 0; dimension < cells; ++dimension)
+  {
+    GroupedElements& lower = this->Lower[dimension];
+    lower.close();
+    this->renumber(lower.corners, dimension + 1, "facet or point ");
+    if (dimension == cells - 1)
+    {
+      mesh.facets = std::move(lower);
+      continue;
+    }
+    RecordFile<std::uint32_t>::Reader corners(lower.corners);
+    RecordFile<GroupSet>::Reader sets(lower.sets);
+    std::uint32_t vertex = 0;
+    for (GroupSet set = GroupTable::None; sets.next(set);)
+    {
+      for (std::size_t k = 0; k <= dimension && corners.next(vertex); ++k)
+      {
+        mesh.points.corners.put(vertex);
+        mesh.points.sets.put(set);
+      }
+    }
+  }
+  mesh.points.close();
+  if (this->GroupedCells > 0)
+  {
+    while (this->ElementGroups.size() < mesh.elementCount)
+    {
+      this->ElementGroups.put(GroupTable::None);
+    }
+    const ColumnSpec spec = MeshGroups::columnSpec(GroupOf::Cells, cornersOf(mesh.cellType));
+    this->HasGroupColumns = true;
+    if (BuiltColumn* column = this->addColumn(ColumnOf::Elements, spec))
+    {
+      column->tuples = std::move(this->ElementGroups.bytes());
+    }
+  }
+}
+
 RawMesh readStream(MeshSource& source, const std::string& name, Workspace& workspace)
 {
   const StreamInfo& info = source.info();
   const bool triangles = info.cellType == CellType::Triangle;
   RawMeshBuilder builder(workspace, CellChoice::Only);
+  builder.setGroups(info.groups);
   if (!info.doublePositions)
   {
     builder.useSinglePrecision();

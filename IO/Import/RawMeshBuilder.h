@@ -3,6 +3,7 @@
 
 #include "IO/External/Relabelling.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Import/GroupTable.h"
 #include "IO/Import/RawMesh.h"
 #include "smg/Convert.h"
 #include "smg/MeshSource.h"
@@ -13,12 +14,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg
 {
 
-/** Thrown by a builder that only looks at a file, at its first cell; see RawMeshBuilder::Look. */
+/** Thrown by a builder that only looks at a file, as soon as the type of its cells is known; see
+ * RawMeshBuilder::Look. */
 struct SMG_EXPORT CellTypeFound
 {
   CellType type;
@@ -35,6 +38,10 @@ enum class ColumnOf : std::uint8_t
  * Builds a raw mesh from a file during parsing, and converts all cells to triangles or tetrahedra.
  * Vertices and cells may come in any order; a cell may name later vertices.
  *
+ * The cells of the mesh are the elements of the highest dimension, unless the others are asked for.
+ * Lower ones count where they are in a group: triangles beside tetrahedra are facets then, and
+ * lines and points the vertices that they have.
+ *
  * Errors in the file are MeshErrors: the parser converts them to Errors with the position.
  */
 class RawMeshBuilder
@@ -46,8 +53,9 @@ public:
   enum Use : std::uint8_t
   {
     Keep,
-    /** Nothing is stored, and the first cell that the mesh would have ends the parser by
-     * CellTypeFound. Until then it declares the columns that it knows, and may skip vertices. */
+    /** Nothing is stored, and the first cell of the type that the mesh has ends the parser by
+     * CellTypeFound: tetrahedra, which may follow triangles. Until then it declares the columns
+     * that it knows, and may skip vertices. */
     Look
   };
 
@@ -55,6 +63,8 @@ public:
 
   Workspace& workspace() { return this->Space; }
   bool looks() const { return this->Used == Look; }
+  /** The file has no tetrahedra: the first triangle says what its cells are. */
+  void expectSurface() { this->IsSurface = true; }
   /** After CellTypeFound: the type, precision and columns; the counts are those of no mesh. */
   StreamInfo found(const CellTypeFound& cells) const;
 
@@ -69,6 +79,17 @@ public:
   /** Adds a column; null if its name is reserved or in use. For ImportColumn, through which columns
    * are filled. */
   BuiltColumn* addColumn(ColumnOf of, const ColumnSpec& spec);
+  /** The same of a mesh that has been converted, with its groups, instead of those of a file. */
+  void setGroups(MeshGroups groups)
+  {
+    this->HasGroupColumns = true;
+    this->Mesh.groups = std::move(groups);
+  }
+
+  /** The groups of the file. */
+  GroupTable& groups() { return this->Groups; }
+  /** The groups that the elements from now on are in. */
+  void setGroups(GroupSet set) { this->Current = set; }
 
   /** Adds a vertex. Throws MeshError if a coordinate is not finite (or beyond single precision). */
   void vertex(double x, double y, double z);
@@ -86,7 +107,7 @@ public:
   void checkCorners() const;
 
   // Add an element by its corners: numbers of vertices. Throw MeshError if a corner is not a
-  // vertex, or if the file has elements of another kind.
+  // vertex.
   void triangle(std::int64_t a, std::int64_t b, std::int64_t c)
   {
     const std::array<std::int64_t, 3> corners{ a, b, c };
@@ -141,12 +162,16 @@ public:
   /** Any of these, by its dimension and corners. The first triangle of a wedge faces inwards; that
    * of VTK's faces outwards. `isHigherOrder`: it has further points, which are not used. */
   void element(int dimension, std::span<const std::int64_t> corners, bool isHigherOrder = false);
-  /** A point, a line, or another element without triangles and tetrahedra. */
+  /** A point or a line that is in no group, or another element without triangles and tetrahedra. */
   void dropped()
   {
     ++this->Mesh.counts.droppedCells;
     this->endElement(0);
   }
+  /** A point, which is the vertex of this number. */
+  void point(std::int64_t corner) { this->element(0, std::span(&corner, 1)); }
+  /** A line, which is an edge of triangles or has two vertices. */
+  void line(std::int64_t a, std::int64_t b) { this->element(1, std::array{ a, b }); }
   /** Counts that the last element had points besides its corners, which are not used. */
   void noteHigherOrder() { ++this->Mesh.counts.higherOrderCells; }
   /** Counts points that the parser merged. */
@@ -172,8 +197,16 @@ public:
 
 private:
   void take(CellType type, std::span<const std::int64_t> corners);
-  /** Whether elements of this kind are requested. Throws MeshError if the kinds are mixed. */
+  /** Whether elements of this kind are cells of the mesh. The first tetrahedron makes triangles
+   * facets. */
   bool wants(CellType type);
+  /** Keeps an element of a lower dimension than the cells, if it is in a group. */
+  bool keep(std::size_t dimension, std::span<const std::int64_t> corners);
+  /** The same of a triangle or polygon: they may turn out to be facets. */
+  bool keepFacets(std::span<const std::int64_t> corners);
+  void makeTrianglesFacets();
+  std::uint32_t vertexOf(std::int64_t corner);
+  void finishGroups();
   void triangleOfElement(std::int64_t a, std::int64_t b, std::int64_t c)
   {
     if (this->wants(CellType::Triangle))
@@ -197,6 +230,9 @@ private:
   [[noreturn]] void failAtCorner(std::int64_t number, std::int64_t count, std::int64_t line) const;
   void endElement(std::int64_t cells);
   void noteElements(std::int64_t cells);
+  void noteGroups(std::int64_t cells);
+  /** Replaces the numbers of corners by those of their vertices. `what` has these corners. */
+  void renumber(RecordFile<std::uint32_t>& corners, std::size_t count, const std::string& what);
   std::vector<RawColumn> finishColumns(ColumnOf of, std::int64_t tuples);
 
   Workspace& Space;
@@ -204,6 +240,7 @@ private:
   Use Used;
   RawMesh Mesh;
   std::optional<CellType> Kind; ///< of the cells so far
+  bool IsSurface = false;       ///< see expectSurface()
   bool ElementIsCell = true;    ///< so far
 
   std::int64_t FirstNumber = 0, NumberCount = MaxVertices, BaseVertex = 0; ///< see numberVertices()
@@ -213,9 +250,16 @@ private:
   // The current fan or strip; of a strip, First is the corner before the last one.
   std::int64_t First = 0, Last = 0, Corners = 0;
   std::int64_t Triangles = 0; ///< of the current element
+  bool IsFacet = false; ///< whether the current element is kept for the case that it is a facet
   std::int64_t StripApex = 0; ///< the first corner of the first of them, if they are of strips
 
   std::array<std::deque<BuiltColumn>, 2> Columns; ///< by ColumnOf
+  GroupTable Groups;
+  bool HasGroupColumns = false; ///< whether columns of groups may come: they belong to the groups
+  GroupSet Current = GroupTable::None;
+  RecordFile<GroupSet> ElementGroups; ///< of each element, from the first one in a group on
+  std::int64_t CellElements = 0, GroupedCells = 0; ///< elements that are cells; those in groups
+  std::array<GroupedElements, 3> Lower;            ///< elements that are no cells, by dimension
   std::optional<Relabelling> Numbers;
 };
 

@@ -172,11 +172,15 @@ std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace)
   }
   if (merged > 0)
   {
-    RecordFile<std::uint32_t> corners(workspace);
-    kept.apply(
-      mesh.corners, 1, [&corners](std::span<const std::uint32_t> corner) { corners.put(corner); });
-    corners.close();
-    mesh.corners = std::move(corners);
+    for (RecordFile<std::uint32_t>* named :
+      { &mesh.corners, &mesh.facets.corners, &mesh.points.corners })
+    {
+      RecordFile<std::uint32_t> corners(workspace);
+      kept.apply(
+        *named, 1, [&corners](std::span<const std::uint32_t> corner) { corners.put(corner); });
+      corners.close();
+      *named = std::move(corners);
+    }
   }
   mesh.counts.mergedPoints += merged;
   return merged;

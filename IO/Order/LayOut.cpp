@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/LayOut.h"
 
+#include "IO/Order/Assembly/FacetGroups.h"
 #include "IO/Order/Search/AxisOrder.h"
 #include "IO/Order/Search/FileOrder.h"
 #include "IO/Order/Search/SpectralOrder.h"
@@ -81,8 +82,10 @@ StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace
     vertices.emplace(firstUseOrder(mesh, workspace));
   }
   workspace.beginPart(progressEnd, bytesFor(mesh, AssemblyBytes));
-  return assembleStream(
+  StreamLayout layout = assembleStream(
     mesh, std::move(*vertices), keep ? CellSequence::AsFiled : CellSequence::Sorted, workspace);
+  findFacetGroups(mesh, layout, workspace);
+  return layout;
 }
 
 StreamOrder streamOrder(std::string_view name)

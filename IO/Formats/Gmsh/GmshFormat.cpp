@@ -64,11 +64,19 @@ private:
       this->Input.endSection(end);
       return;
     }
-    const bool hasGroups = name == "$Entities" && this->Input.hasBlocks();
-    if (name == "$PartitionedEntities")
+    if (name == "$PhysicalNames")
+    {
+      this->Tags.readNames(this->Input);
+      this->Input.endSection(end);
+      return;
+    }
+    const bool areEntities = name == "$Entities" && this->Input.hasBlocks();
+    const bool areParts = name == "$PartitionedEntities" && this->Input.hasBlocks();
+    if (areParts && this->Input.isFourZero())
     {
       this->Builder.note("The mesh is partitioned: the physical groups of its parts are not read.");
     }
+    const bool hasGroups = areEntities || (areParts && !this->Input.isFourZero());
     const bool isParametric = name == "$ParametricNodes";
     const bool areNodes = name == "$Nodes" || name == "$NOD" || isParametric;
     if (!areNodes && name != "$Elements" && name != "$ELM" && !hasGroups)
@@ -88,7 +96,8 @@ private:
     }
     if (hasGroups)
     {
-      this->Tags.readEntities(this->Input);
+      areEntities ? this->Tags.readEntities(this->Input)
+                  : this->Tags.readPartitionedEntities(this->Input);
     }
     else
     {
@@ -258,7 +267,7 @@ private:
       this->Input.integer("the tag of an element");
       const GmshElementType type = this->readType();
       this->readTags(
-        this->Input.isFirstVersion() ? 2 : this->Input.count("the number of tags", 2, 4));
+        type, this->Input.isFirstVersion() ? 2 : this->Input.count("the number of tags", 2, 4));
       if (this->Input.isFirstVersion())
       {
         this->checkNodes(type, this->Input.integer("the number of nodes of an element"));
@@ -288,7 +297,7 @@ private:
       for (std::int64_t i = 0; i < group; ++i)
       {
         this->Input.integer("the tag of an element");
-        this->readTags(tags);
+        this->readTags(type, tags);
         this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
       }
       done += group;
@@ -305,13 +314,13 @@ private:
     for (std::int64_t block = 0; block < blocks; ++block)
     {
       const Entity entity = this->readEntity();
-      const std::int64_t group = this->Tags.groupOf(entity.dimension, entity.tag);
+      const GmshTags::Physicals groups = this->Tags.groupsOf(entity.dimension, entity.tag);
       const GmshElementType type = this->readType();
       const std::int64_t count = this->Input.count("the number of elements of a block", 4, 8);
       for (std::int64_t i = 0; i < count; ++i)
       {
         this->blockTag("the tag of an element");
-        this->Tags.add(group, entity.tag);
+        this->Tags.add(groups, entity.tag);
         this->readElement(type, [this] { return this->blockTag("a node of an element"); });
       }
     }
@@ -340,7 +349,7 @@ private:
   }
 
   /** The tags of an element of version 2: a physical group, an entity, and others. */
-  void readTags(std::int64_t tags)
+  void readTags(GmshElementType type, std::int64_t tags)
   {
     std::array<std::int64_t, 2> first{ GmshTags::NoGroup, GmshTags::FirstEntity };
     for (std::int64_t k = 0; k < tags; ++k)
@@ -351,7 +360,7 @@ private:
         first[static_cast<std::size_t>(k)] = tag;
       }
     }
-    this->Tags.add(first[0], first[1]);
+    this->Tags.add(type.dimension, first[0], first[1]);
   }
 
   void readElement(GmshElementType type, const auto& readTag)

@@ -121,6 +121,22 @@ std::int64_t GmshInput::lineCount(const char* what, std::size_t minText, std::si
   return *count;
 }
 
+GmshInput::PhysicalName GmshInput::physicalName()
+{
+  const std::int64_t dimension = this->Scanner.integer("the dimension of a physical group");
+  const std::int64_t group = this->Scanner.integer("the tag of a physical group");
+  const std::string_view rest = this->Scanner.restOfLine().value_or("");
+  const std::size_t begin = rest.find('"'), end = rest.rfind('"');
+  if (dimension < 0 || dimension > 3 || begin == std::string_view::npos || begin == end)
+  {
+    this->fail("a physical name must be a dimension, 0 to 3, a tag, and a name in quotation marks");
+  }
+  PhysicalName named{ static_cast<int>(dimension), group,
+    std::string(rest.substr(begin + 1, end - begin - 1)) };
+  this->Scanner.skipLine();
+  return named;
+}
+
 void GmshInput::beginNumbers()
 {
   if (this->Binary)

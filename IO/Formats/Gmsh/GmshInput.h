@@ -43,6 +43,15 @@ public:
   /** Skips everything up to and including this line. */
   void skipSection(const std::string& end);
 
+  /** A line of the section $PhysicalNames, which is text in a binary file, too. */
+  struct PhysicalName
+  {
+    int dimension;
+    std::int64_t group;
+    std::string name;
+  };
+  PhysicalName physicalName();
+
   /** A count in a line of text, of items of at least this many bytes. */
   std::int64_t lineCount(const char* what, std::size_t minText, std::size_t minBinary);
   /** To be called before numbers. */

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <initializer_list>
 #include <string>
 
@@ -30,38 +31,38 @@ constexpr std::size_t GmshTypes = 132;
  * without inner nodes. */
 constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
 {
-  constexpr GmshElementType None{}, Triangle{ 2, 3 }, Quadrilateral{ 2, 4 }, Tetrahedron{ 3, 4 },
-    Hexahedron{ 3, 8 }, Prism{ 3, 6 }, Pyramid{ 3, 5 };
+  constexpr GmshElementType Point{ 0, 1 }, Line{ 1, 2 }, Triangle{ 2, 3 }, Quadrilateral{ 2, 4 },
+    Tetrahedron{ 3, 4 }, Hexahedron{ 3, 8 }, Prism{ 3, 6 }, Pyramid{ 3, 5 };
   std::array<GmshElementType, GmshTypes> types{};
   for (const Run& run : {
-         Run{ 1, None, { 2 } },
+         Run{ 1, Line, { 2 } },
          Run{ 2, Triangle, { 3 } },
          Run{ 3, Quadrilateral, { 4 } },
          Run{ 4, Tetrahedron, { 4 } },
          Run{ 5, Hexahedron, { 8 } },
          Run{ 6, Prism, { 6 } },
          Run{ 7, Pyramid, { 5 } },
-         Run{ 8, None, { 3 } },
+         Run{ 8, Line, { 3 } },
          Run{ 9, Triangle, { 6 } },
          Run{ 10, Quadrilateral, { 9 } },
          Run{ 11, Tetrahedron, { 10 } },
          Run{ 12, Hexahedron, { 27 } },
          Run{ 13, Prism, { 18 } },
          Run{ 14, Pyramid, { 14 } },
-         Run{ 15, None, { 1 } },
+         Run{ 15, Point, { 1 } },
          Run{ 16, Quadrilateral, { 8 } },
          Run{ 17, Hexahedron, { 20 } },
          Run{ 18, Prism, { 15 } },
          Run{ 19, Pyramid, { 13 } },
          Run{ 20, Triangle, { 9, 10, 12, 15, 15, 21 } },
-         Run{ 26, None, { 4, 5, 6 } },
+         Run{ 26, Line, { 4, 5, 6 } },
          Run{ 29, Tetrahedron, { 20, 35, 56, 22, 28 } },
          Run{ 36, Quadrilateral, { 16, 25, 36, 12, 16, 20 } },
          Run{ 42, Triangle, { 28, 36, 45, 55, 66 } },
          Run{ 47, Quadrilateral, { 49, 64, 81, 100, 121 } },
          Run{ 52, Triangle, { 18, 21, 24, 27, 30 } },
          Run{ 57, Quadrilateral, { 24, 28, 32, 36, 40 } },
-         Run{ 62, None, { 7, 8, 9, 10, 11 } },
+         Run{ 62, Line, { 7, 8, 9, 10, 11 } },
          Run{ 71, Tetrahedron, { 84, 120, 165, 220, 286 } },
          Run{ 79, Tetrahedron, { 34, 40, 46, 52, 58 } },
          Run{ 90, Prism, { 40, 75 } },
@@ -160,10 +161,21 @@ void GmshNodes::number()
 }
 
 GmshTags::GmshTags(RawMeshBuilder& builder)
-  : Physical(builder, ColumnOf::Elements, PhysicalTagName, NoGroup)
+  : Builder(builder)
+  , Physical(builder, ColumnOf::Elements, PhysicalTagName, NoGroup)
   , Geometrical(builder, ColumnOf::Elements, GeometricalTagName, FirstEntity)
   , GroupMemory(builder.workspace().pool())
 {
+}
+
+void GmshTags::readNames(GmshInput& input)
+{
+  const std::int64_t names = input.lineCount("the number of names", 5, 5);
+  for (std::int64_t i = 0; i < names; ++i)
+  {
+    const GmshInput::PhysicalName named = input.physicalName();
+    this->Builder.groups().setName(named.dimension, named.group, named.name);
+  }
 }
 
 void GmshTags::readEntities(GmshInput& input)
@@ -178,49 +190,95 @@ void GmshTags::readEntities(GmshInput& input)
   {
     for (std::int64_t i = 0; i < counts[dimension]; ++i)
     {
-      const std::int64_t entity = input.integer("the tag of an entity");
-      // A point has a box, too, in version 4.0.
-      for (int bound = dimension == 0 && !input.isFourZero() ? 3 : 0; bound < 6; ++bound)
-      {
-        input.number("a bound of an entity");
-      }
-      const std::int64_t groups = input.count("the number of physical groups", 2, 4);
-      for (std::int64_t k = 0; k < groups; ++k)
-      {
-        const std::int64_t group = input.integer("the tag of a physical group");
-        this->setGroup(dimension, entity, group);
-      }
-      const std::int64_t bounding =
-        dimension == 0 ? 0 : input.count("the number of bounding entities", 2, 4);
-      for (std::int64_t k = 0; k < bounding; ++k)
-      {
-        input.integer("the tag of a bounding entity");
-      }
+      this->readEntity(input, dimension, false);
     }
   }
 }
 
-void GmshTags::setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group)
+void GmshTags::readPartitionedEntities(GmshInput& input)
 {
-  constexpr std::size_t Step = 1024;
-  constexpr std::int64_t NodeBytes = 64; // of a map
-  auto& groups = this->Groups[dimension];
-  const bool isNew = groups.emplace(entity, group).second; // the first one stays
-  if (isNew && groups.size() % Step == 1)
+  input.beginNumbers();
+  input.longInteger("the number of partitions");
+  const std::int64_t ghosts = input.count("the number of ghost entities", 4, 8);
+  for (std::int64_t i = 0; i < 2 * ghosts; ++i)
   {
-    this->GroupMemory.resize(this->GroupMemory.bytes() + std::int64_t(Step) * NodeBytes);
+    input.integer("a ghost entity or its partition");
+  }
+  std::array<std::int64_t, 4> counts{};
+  for (std::int64_t& count : counts)
+  {
+    count = input.count("the number of entities", 8, 32);
+  }
+  for (std::size_t dimension = 0; dimension < counts.size(); ++dimension)
+  {
+    for (std::int64_t i = 0; i < counts[dimension]; ++i)
+    {
+      this->readEntity(input, dimension, true);
+    }
   }
 }
 
-std::int64_t GmshTags::groupOf(std::int64_t dimension, std::int64_t entity) const
+void GmshTags::readEntity(GmshInput& input, std::size_t dimension, bool isPartitioned)
+{
+  const auto skipIntegers = [&input](const char* number, const char* what)
+  {
+    const std::int64_t count = input.count(number, 2, 4);
+    for (std::int64_t k = 0; k < count; ++k)
+    {
+      input.integer(what);
+    }
+  };
+  const std::int64_t entity = input.integer("the tag of an entity");
+  if (isPartitioned)
+  {
+    input.integer("the dimension of the entity that was cut");
+    input.integer("the tag of the entity that was cut");
+    skipIntegers("the number of partitions of an entity", "a partition");
+  }
+  // A point has a box, too, in version 4.0.
+  for (int bound = dimension == 0 && !input.isFourZero() ? 3 : 0; bound < 6; ++bound)
+  {
+    input.number("a bound of an entity");
+  }
+  const std::int64_t groups = input.count("the number of physical groups", 2, 4);
+  for (std::int64_t k = 0; k < groups; ++k)
+  {
+    this->addGroup(dimension, entity, input.integer("the tag of a physical group"));
+  }
+  if (dimension > 0)
+  {
+    skipIntegers("the number of bounding entities", "the tag of a bounding entity");
+  }
+}
+
+void GmshTags::addGroup(std::size_t dimension, std::int64_t entity, std::int64_t group)
+{
+  constexpr std::size_t Step = 1024;
+  constexpr std::int64_t NodeBytes = 64; // of a map
+  auto& entities = this->Groups[dimension];
+  const auto [found, isNew] = entities.try_emplace(entity);
+  if (isNew && entities.size() % Step == 1)
+  {
+    this->GroupMemory.resize(this->GroupMemory.bytes() + std::int64_t(Step) * NodeBytes);
+  }
+  Physicals& all = found->second;
+  // Gmsh negates the tag of a group in which an entity is turned.
+  group = group == INT64_MIN ? NoGroup : std::abs(group);
+  GroupTable& table = this->Builder.groups();
+  all.first = all.first == NoGroup ? group : all.first;
+  all.set = table.join(all.set,
+    group == NoGroup ? GroupTable::None : table.numbered(static_cast<int>(dimension), group));
+}
+
+GmshTags::Physicals GmshTags::groupsOf(std::int64_t dimension, std::int64_t entity) const
 {
   if (dimension < 0 || dimension >= std::int64_t(this->Groups.size()))
   {
-    return NoGroup;
+    return {};
   }
-  const auto& groups = this->Groups[static_cast<std::size_t>(dimension)];
-  const auto found = groups.find(entity);
-  return found == groups.end() ? NoGroup : found->second;
+  const auto& entities = this->Groups[static_cast<std::size_t>(dimension)];
+  const auto found = entities.find(entity);
+  return found == entities.end() ? Physicals{} : found->second;
 }
 
 } // namespace smg

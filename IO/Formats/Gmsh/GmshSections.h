@@ -18,8 +18,7 @@
 namespace smg
 {
 
-/** A type of elements: its dimension and corners, and its nodes, corners first. Without corners: a
- * point or a line, not a cell of a mesh. */
+/** A type of elements: its dimension and corners, and its nodes, corners first. */
 struct GmshElementType
 {
   std::uint8_t dimension = 0, corners = 0;
@@ -92,10 +91,10 @@ private:
 };
 
 /**
- * The tags of the elements as the cell columns `PhysicalTag` (the physical group, 0: none) and
- * `GeometricalTag` (the entity of the geometry). In version 2 each element has its own tags; in
- * version 4.1 it has those of its entity, with only the first physical group. A column without
- * information (no group, or entity 1, for all elements) is omitted.
+ * The tags of the elements: physical groups become groups of the mesh, with their names, and the
+ * cell column `PhysicalTag` (the first one, 0: none); the entity of the geometry is the column
+ * `GeometricalTag`. In version 2 each element has its own tags; from version 4 on it has those of
+ * its entity. A column without information (no group, or entity 1, for all elements) is omitted.
  */
 class GmshTags
 {
@@ -104,15 +103,35 @@ public:
 
   explicit GmshTags(RawMeshBuilder& builder);
 
-  /** Reads the section $Entities of version 4.1, after its first line. */
+  /** Reads the section $PhysicalNames, after its first line. */
+  void readNames(GmshInput& input);
+  /** Reads the section $Entities of version 4, after its first line. */
   void readEntities(GmshInput& input);
-  /** The physical group of an entity. */
-  std::int64_t groupOf(std::int64_t dimension, std::int64_t entity) const;
+  /** Reads the section $PartitionedEntities of version 4, after its first line: the parts into
+   * which entities were cut, with the physical groups of these. */
+  void readPartitionedEntities(GmshInput& input);
 
-  /** Appends the tags of the next element. */
-  void add(std::int64_t group, std::int64_t entity)
+  /** Physical groups. */
+  struct Physicals
   {
-    this->Physical.add(group);
+    std::int64_t first = NoGroup;
+    GroupSet set = GroupTable::None;
+  };
+  /** Those of an entity. */
+  Physicals groupsOf(std::int64_t dimension, std::int64_t entity) const;
+
+  /** Appends the tags of the next element, which has a group of its own; 0: none. */
+  void add(int dimension, std::int64_t group, std::int64_t entity)
+  {
+    this->add({ group, group == NoGroup ? GroupTable::None
+                                        : this->Builder.groups().numbered(dimension, group) },
+      entity);
+  }
+  /** Appends those of an element of an entity. */
+  void add(const Physicals& groups, std::int64_t entity)
+  {
+    this->Builder.setGroups(groups.set);
+    this->Physical.add(groups.first);
     this->Geometrical.add(entity);
   }
   /** After the last element. */
@@ -123,11 +142,13 @@ public:
   }
 
 private:
-  void setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group);
+  void readEntity(GmshInput& input, std::size_t dimension, bool isPartitioned);
+  void addGroup(std::size_t dimension, std::int64_t entity, std::int64_t group);
 
+  RawMeshBuilder& Builder;
   LabelColumn Physical, Geometrical;
   Reservation GroupMemory;
-  std::array<std::map<std::int64_t, std::int64_t>, 4> Groups; ///< by dimension and entity
+  std::array<std::map<std::int64_t, Physicals>, 4> Groups; ///< by dimension and entity
 };
 
 } // namespace smg

@@ -6,6 +6,7 @@
 #include "IO/Formats/Vsm/PackedIntegers.h"
 #include "IO/Formats/Vsm/VsmBuffers.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/GroupsJson.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Memory/Pool.h"
@@ -190,6 +191,10 @@ void VsmFile::readHeader()
       throw MeshError("says that its mean_width is " + header.at("mean_width").dump() +
                       ", not from 0 to its width");
     }
+    if (header.contains("groups"))
+    {
+      this->Info.groups = groupsOf(header);
+    }
   }
   catch (const MeshError& error)
   {
@@ -286,6 +291,7 @@ void VsmFile::checkColumns() const
                  std::to_string(VsmFormat::MaxColumns) + "; make it anew.");
     }
   }
+  this->checkGroups();
   if (std::any_of(this->Info.cellColumns.begin(), this->Info.cellColumns.end(),
         [](const ColumnSpec& column)
         {
@@ -294,6 +300,28 @@ void VsmFile::checkColumns() const
         }))
   {
     this->fail("has a column CellFlags that is not of one uint8 a cell; make it anew.");
+  }
+}
+
+/** Columns of groups go with the groups. */
+void VsmFile::checkGroups() const
+{
+  for (const auto* columns : { &this->Info.vertexColumns, &this->Info.cellColumns })
+  {
+    for (const ColumnSpec& column : *columns)
+    {
+      const bool ofVertices = columns == &this->Info.vertexColumns;
+      const GroupOf kind = ofVertices                       ? GroupOf::Vertices
+                           : column.name == FacetGroupsName ? GroupOf::Facets
+                                                            : GroupOf::Cells;
+      if (isGroupColumn(column.name) &&
+          (this->Info.groups.empty() ||
+            column != MeshGroups::columnSpec(kind, cornersOf(this->Info.cellType))))
+      {
+        this->fail(
+          "has a column '" + column.name + "' that does not go with its groups; make it anew.");
+      }
+    }
   }
 }
 

@@ -101,6 +101,7 @@ private:
   void readHeader();
   void readTables();
   void checkColumns() const;
+  void checkGroups() const;
   void checkBlocks() const;
   void readBlockTable();
   int find(const std::vector<ColumnSpec>& columns, const std::string& name, const char* kind) const;

@@ -4,6 +4,7 @@
 #include "IO/Formats/Vsm/PackedIntegers.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/GroupsJson.h"
 #include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
@@ -337,6 +338,10 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   if (!origin.empty())
   {
     header["origin"] = origin;
+  }
+  if (!this->Info.groups.empty())
+  {
+    header.update(jsonOf(this->Info.groups));
   }
   this->File.finish(header.dump());
   return info;

@@ -116,6 +116,7 @@ LayoutSource::LayoutSource(
   , Corners(layout.corners)
   , Elements(layout.elements)
   , Flags(layout.flags)
+  , FacetGroups(layout.facetGroups)
   , BlockVertices(layout.blockVertices)
   , BlockFinalized(layout.blockFinalized)
   , BlockCells(StreamLayout::blockCells(mesh))
@@ -127,6 +128,12 @@ LayoutSource::LayoutSource(
   this->AddIds = addSpecs(mesh.vertexColumns, OriginalIdSpec, true, this->Info.vertexColumns);
   this->AddElements = addSpecs(
     mesh.elementColumns, OriginalCellIdSpec, cellIds == WithCellIds, this->Info.cellColumns);
+  this->Info.groups = layout.groups;
+  if (this->FacetGroups.next(this->NextFacet))
+  {
+    this->Info.cellColumns.push_back(
+      MeshGroups::columnSpec(GroupOf::Facets, cornersOf(mesh.cellType)));
+  }
   if (layout.flags.size() > 0)
   {
     this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });
@@ -210,7 +217,7 @@ void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
   block.cellColumns.resize(this->Info.cellColumns.size());
   if (this->AddElements)
   {
-    // The columns of the mesh come first, then the numbers, then the flags.
+    // The columns of the mesh come first, then the numbers, the facets, and the flags.
     Column& column = block.cellColumns[this->Mesh.elementColumns.size()];
     column.spec = OriginalCellIdSpec;
     column.resize(static_cast<std::size_t>(rows));
@@ -222,6 +229,14 @@ void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
   {
     this->CellJoin->fill(rows, block.cellColumns);
   }
+  if (this->Layout.facetGroups.size() > 0)
+  {
+    const std::size_t behind = this->Layout.flags.size() > 0 ? 2 : 1;
+    Column& column = block.cellColumns[block.cellColumns.size() - behind];
+    column.spec = MeshGroups::columnSpec(GroupOf::Facets, cornersOf(this->Info.cellType));
+    column.bytes.assign(static_cast<std::size_t>(rows) * column.spec.tupleBytes(), std::byte(0));
+    this->fillFacetGroups(column, end);
+  }
   if (this->Layout.flags.size() > 0)
   {
     Column& column = block.cellColumns.back();
@@ -230,6 +245,21 @@ void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
     this->fillFlags(column, end);
   }
   this->NextCell = end;
+}
+
+void LayoutSource::fillFacetGroups(Column& column, std::int64_t end)
+{
+  const std::span<GroupSet> sets = column.as<GroupSet>();
+  while (this->NextFacet.cell < end)
+  {
+    const std::int64_t cell = this->NextFacet.cell - this->NextCell;
+    sets[static_cast<std::size_t>(cell * column.spec.components) + this->NextFacet.facet] =
+      this->NextFacet.set;
+    if (!this->FacetGroups.next(this->NextFacet))
+    {
+      this->NextFacet.cell = NoIndex;
+    }
+  }
 }
 
 void LayoutSource::fillFlags(Column& column, std::int64_t end)

@@ -52,8 +52,8 @@ private:
 };
 
 /** Delivers a layout as a mesh stream. It has the columns of the mesh, the indices of vertices and
- * cells in the file (OriginalId and OriginalCellId, unless the mesh already has them), and
- * CellFlags if any cell has a flag. */
+ * cells in the file (OriginalId and OriginalCellId, unless the mesh already has them),
+ * FacetGroups if any facet is in a group, and CellFlags if any cell has a flag. */
 class LayoutSource : public MeshSource
 {
 public:
@@ -74,6 +74,7 @@ private:
   void fillVertices(MeshBlock& block, std::int64_t end);
   void fillCells(MeshBlock& block, std::int64_t end);
   void fillFlags(Column& column, std::int64_t end);
+  void fillFacetGroups(Column& column, std::int64_t end);
 
   const RawMesh& Mesh;
   const StreamLayout& Layout;
@@ -84,9 +85,11 @@ private:
   OrderedVertexReader Vertices;
   RecordFile<std::uint32_t>::Reader Corners, Elements;
   RecordFile<FlaggedCell>::Reader Flags;
+  RecordFile<GroupedFacet>::Reader FacetGroups;
   RecordFile<std::int64_t>::Reader BlockVertices, BlockFinalized;
   std::int64_t BlockCells;
   FlaggedCell NextFlag{ NoIndex, 0 };
+  GroupedFacet NextFacet{ NoIndex, 0, 0 };
   std::int64_t NextVertex = 0;
   std::int64_t NextCell = 0;
   std::vector<std::uint32_t> Numbers;

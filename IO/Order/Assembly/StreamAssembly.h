@@ -30,6 +30,15 @@ struct FlaggedCell
   std::uint32_t flags;
 };
 
+/** A facet of a cell that is in a set of groups. */
+struct GroupedFacet
+{
+  std::uint32_t cell;  ///< number in the stream
+  std::uint16_t facet; ///< opposite to this corner
+  GroupSet set;
+  auto operator<=>(const GroupedFacet&) const = default;
+};
+
 /** A mesh as a compact stream, in scratch files. */
 struct StreamLayout
 {
@@ -38,6 +47,7 @@ struct StreamLayout
     , corners(workspace)
     , elements(workspace)
     , flags(workspace)
+    , facetGroups(workspace)
     , blockVertices(workspace)
     , blockFinalized(workspace)
   {
@@ -53,8 +63,12 @@ struct StreamLayout
   RecordFile<std::uint32_t> corners;       ///< stream indices, cornersOf(cellType) per cell
   RecordFile<std::uint32_t> elements;      ///< of the file, of each cell
   RecordFile<FlaggedCell> flags;           ///< by ascending cells
+  RecordFile<GroupedFacet> facetGroups;    ///< by ascending cells
   RecordFile<std::int64_t> blockVertices;  ///< number of vertices used up to the end of each block
   RecordFile<std::int64_t> blockFinalized; ///< as MeshBlock::finalized
+
+  MeshGroups groups;
+  std::int64_t facetsElsewhere = 0; ///< facets of groups that no cell has
 
   std::int64_t degenerateCells = 0;
   std::int64_t duplicateCells = 0;

@@ -3,6 +3,7 @@
 
 #include "smg/Column.h"
 #include "smg/Export.h"
+#include "smg/Groups.h"
 
 #include <algorithm>
 #include <array>
@@ -69,6 +70,7 @@ struct StreamInfo
   bool doublePositions = true;
   std::vector<ColumnSpec> vertexColumns; ///< columns of the vertices, in the order that blocks have
   std::vector<ColumnSpec> cellColumns;   ///< columns of the cells, in the order that blocks have
+  MeshGroups groups; ///< named parts of the mesh; the columns VertexGroups ... say where they are
 };
 
 /**

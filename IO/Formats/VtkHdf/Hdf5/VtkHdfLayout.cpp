@@ -397,7 +397,7 @@ private:
   std::map<std::string, Hdf5Shape> Shapes;
 };
 
-const std::string Group = VtkHdfRoot + "Steps";
+const std::string StepsGroup = VtkHdfRoot + "Steps";
 
 class DatasetBytes : public ByteSource
 {
@@ -440,7 +440,8 @@ VtkHdfStep::VtkHdfStep(const Hdf5File& file, std::int64_t step)
   : File(file)
   , Step(step)
 {
-  const std::int64_t said = file.exists(Group) ? file.integer(Group, "NSteps").value_or(0) : 0;
+  const std::int64_t said =
+    file.exists(StepsGroup) ? file.integer(StepsGroup, "NSteps").value_or(0) : 0;
   this->Steps = std::clamp<std::int64_t>(said, 0, VtkHdfMostRows);
   if (step < 0 || step >= std::max<std::int64_t>(this->Steps, 1))
   {
@@ -454,7 +455,7 @@ VtkHdfStep::VtkHdfStep(const Hdf5File& file, std::int64_t step)
 std::int64_t VtkHdfStep::number(
   const std::string& name, std::int64_t otherwise, std::size_t column, std::size_t columns) const
 {
-  const std::string dataset = Group + '/' + name;
+  const std::string dataset = StepsGroup + '/' + name;
   if (this->Steps == 0 || !this->File.exists(dataset))
   {
     return otherwise;
@@ -484,7 +485,7 @@ VtkHdfStep::Partitions VtkHdfStep::partitions(std::int64_t all) const
 /** The begin of the next time step's partitions after those of this one, or the end. */
 std::int64_t VtkHdfStep::nextPartition(std::int64_t first, std::int64_t all) const
 {
-  const std::string offsets = Group + "/PartOffsets";
+  const std::string offsets = StepsGroup + "/PartOffsets";
   std::int64_t next = all;
   if (this->Steps > 1 && this->File.exists(offsets))
   {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Groups.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace smg
+{
+
+/** Groups and sets as JSON: `{ "groups": [ { "of": "facets", "name": "inlet", "number": 3 } ],
+ * "sets": [ [0] ] }`, with the sets from 1 on. */
+nlohmann::json jsonOf(const MeshGroups& groups);
+
+/** The groups that jsonOf() has described. Throws MeshError if it is no such
+ * description. */
+MeshGroups groupsOf(const nlohmann::json& json);
+
+/** "vertices", "facets" or "cells". */
+const char* nameOf(GroupOf kind);
+
+} // namespace smg
