@@ -77,6 +77,30 @@ void printColumns(const char* of, const std::vector<smg::ColumnSpec>& specs,
   }
 }
 
+/** The groups; with a description also how large they are. */
+void printGroups(const smg::StreamInfo& info, const std::vector<smg::MeshDescription::Group>* sizes)
+{
+  const bool isSurface = info.cellType == smg::CellType::Triangle;
+  for (std::size_t k = 0; k < info.groups.groups.size(); ++k)
+  {
+    const smg::Group& group = info.groups.groups[k];
+    const std::size_t dimension = group.of == smg::GroupOf::Vertices
+                                    ? 0
+                                    : (isSurface ? 2U : 3U) - (group.of == smg::GroupOf::Facets);
+    constexpr const char* Kinds[] = { "vertices", "edges", "faces", "cells" };
+    constexpr const char* Measures[] = { "", ", length ", ", area ", ", volume " };
+    const char* kind = group.of == smg::GroupOf::Cells ? Kinds[3] : Kinds[dimension];
+    std::string line = "'" + smg::oneLine(group.label()) + "'";
+    line += group.number && !group.name.empty() ? " (" + std::to_string(*group.number) + ")" : "";
+    line += sizes ? ": " + html::count((*sizes)[k].count) + ' ' + kind : std::string(" of ") + kind;
+    if (sizes && dimension > 0)
+    {
+      line += Measures[dimension] + html::number((*sizes)[k].measure);
+    }
+    printLine("group", line);
+  }
+}
+
 /** With all digits of the positions: rounded ones would be those of other meshes. */
 std::string boundsText(const smg::StreamInfo& info)
 {
@@ -118,6 +142,7 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh, const order
     100.0 * static_cast<double>(info.span) / vertices);
   printColumns("vertex data", info.vertexColumns, described ? &described->vertex_columns : nullptr);
   printColumns("cell data  ", info.cellColumns, described ? &described->cell_columns : nullptr);
+  printGroups(info, described ? &described->groups : nullptr);
   if (const auto& conversion = mesh.conversion())
   {
     if (conversion->partitions > 0)

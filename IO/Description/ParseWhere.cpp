@@ -12,6 +12,8 @@ namespace smg
 namespace
 {
 
+Where placeOf(const JsonNode& object, bool everywhere, bool listsEverywhere, int depth);
+
 std::array<double, 3> pointOf(const JsonNode& node)
 {
   const std::vector<double> n = node.numbers(3);
@@ -97,9 +99,64 @@ NearestVertices nearestOf(const JsonNode& node)
   return nearest;
 }
 
+InGroup groupOf(const JsonNode& node)
+{
+  InGroup group;
+  for (const JsonNode& name :
+    node.value().is_array() ? node.elements() : std::vector<JsonNode>{ node })
+  {
+    const bool isNumber = name.value().is_number_integer();
+    group.names.push_back(
+      isNumber ? std::to_string(name.value().get<std::int64_t>()) : name.string());
+    if (group.names.back().empty())
+    {
+      name.fail("must be the name of a group, or its number");
+    }
+  }
+  if (group.names.empty())
+  {
+    node.fail("must name at least one group");
+  }
+  return group;
+}
+
+/** Places within places are few: a file of brackets alone must not take the stack. */
+constexpr int MostNested = 32;
+
+Combination combinationOf(const JsonNode& node, std::string_view key, int depth)
+{
+  if (depth > MostNested)
+  {
+    node.fail("has more than " + std::to_string(MostNested) + " places within each other");
+  }
+  const bool isNot = key == "not";
+  Combination combined{ isNot          ? Combination::Kind::Not
+                        : key == "all" ? Combination::Kind::All
+                                       : Combination::Kind::Any,
+    {} };
+  for (const JsonNode& part : isNot ? std::vector<JsonNode>{ node } : node.elements())
+  {
+    part.requireObject(WhereKeys);
+    combined.parts.push_back(placeOf(part, false, false, depth + 1));
+  }
+  if (combined.parts.empty())
+  {
+    node.fail("must have at least one place");
+  }
+  return combined;
+}
+
 } // namespace
 
 Where parseWhere(const JsonNode& object, bool everywhere, bool listsEverywhere)
+{
+  return placeOf(object, everywhere, listsEverywhere, 0);
+}
+
+namespace
+{
+
+Where placeOf(const JsonNode& object, bool everywhere, bool listsEverywhere, int depth)
 {
   const char* given = keyOf(object, everywhere, listsEverywhere);
   if (!given)
@@ -128,8 +185,18 @@ Where parseWhere(const JsonNode& object, bool everywhere, bool listsEverywhere)
     }
     return OnBoundary{};
   }
+  if (key == "group")
+  {
+    return groupOf(node);
+  }
+  if (key == "all" || key == "any" || key == "not")
+  {
+    return combinationOf(node, key, depth);
+  }
   return regionOf(object, key);
 }
+
+} // namespace
 
 void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> keys)
 {

@@ -16,14 +16,15 @@ namespace smg
 
 /** The keys of places. */
 inline constexpr std::array WhereKeys{ "halfspace", "box", "sphere", "vertices", "tag", "mask",
-  "nearest", "boundary" };
+  "nearest", "boundary", "group", "all", "any", "not" };
 
 /**
  * Reads the one of these members that exists in the object: `halfspace` [nx, ny, nz, d], `box` [x0,
  * y0, z0, x1, y1, z1], `sphere` [x, y, z, r], `vertices` [original numbers], `tag` ["column",
- * value], `mask` "column", `nearest` [[x, y, z], ...] and `boundary` true. Throws Error if there is
- * more than one, or if it is invalid. `everywhere`: whether none is allowed;
- * `listsEverywhere`: whether it is a key that the caller takes.
+ * value], `mask` "column", `nearest` [[x, y, z], ...], `boundary` true, `group` "name", a number or
+ * a list of these, `all` and `any` of a list of places, and `not` of a place. Throws Error if there
+ * is more than one, or if it is invalid. `everywhere`: whether none is allowed; `listsEverywhere`:
+ * whether it is a key that the caller takes.
  */
 Where parseWhere(const JsonNode& object, bool everywhere = false, bool listsEverywhere = false);
 

@@ -8,11 +8,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace smg
 {
+
+class GroupElements;
 
 /** What a file is to hold. */
 struct MeshFileInfo
@@ -45,6 +48,9 @@ struct MeshFileInfo
   std::vector<ColumnSpec> vertexColumns;
   std::vector<ColumnSpec> elementColumns;
   bool text = false; ///< whether a format that has either form is to write text
+  /** Facets and vertices in groups, for a format that has a place for them (Format::holdsGroups);
+   * null: there are no groups. The sets of cells are the column CellGroups. */
+  std::shared_ptr<const GroupElements> groups = nullptr;
 };
 
 /** Consecutive vertices of a mesh. */

@@ -42,7 +42,12 @@ std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
   std::vector<ColumnSpec> own;
   std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
     [](const ColumnSpec& spec)
-    { return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName; });
+    {
+      // Facets and vertices in groups are elements of their own: see GroupElements.
+      const bool isOfGroups = spec.name == FacetGroupsName || spec.name == VertexGroupsName;
+      return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName &&
+             !isOfGroups;
+    });
   return own;
 }
 

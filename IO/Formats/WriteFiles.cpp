@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/WriteFiles.h"
 
+#include "IO/Export/GroupElements.h"
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/RestoredMesh.h"
 #include "IO/External/Workspace.h"
@@ -55,16 +56,31 @@ WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileIn
                          ? "Polygons are written as triangles."
                          : "Polygons of more than four corners are written as triangles.");
   }
+  if (info.groups && !format.holdsGroups)
+  {
+    notes.push_back("The groups of the mesh are left out, since " +
+                    std::string(format.suffixes.front().text) + " files have no place for them.");
+  }
   return notes;
+}
+
+/** What of the groups of a .vsm file is not in its cells; null: it has none. */
+std::shared_ptr<const GroupElements> groupsOf(
+  const std::filesystem::path& vsm, bool restored, Workspace& space)
+{
+  return VsmReader(vsm).info().groups.empty()
+           ? nullptr
+           : std::make_shared<GroupElements>(vsm, restored, space.pool());
 }
 
 /** Writes vertices and elements apart, in the order in which `mesh` gives them. */
 template <class Mesh>
-WriteNotes writeParts(
-  Mesh& mesh, const Format& format, const std::filesystem::path& path, Workspace& space, bool text)
+WriteNotes writeParts(Mesh& mesh, const Format& format, const std::filesystem::path& path,
+  std::shared_ptr<const GroupElements> groups, Workspace& space, bool text)
 {
   MeshFileInfo info = mesh.info();
   info.text = text;
+  info.groups = std::move(groups);
   const std::unique_ptr<MeshFileWriter> writer = format.writer(path, info, &space);
   const auto writeVertices = [&]
   {
@@ -214,7 +230,7 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
   }
   Workspace space(options.scratch, StreamOrderMemory);
   StreamedMesh mesh(vsm, format.isStreamed(), options.progress);
-  return writeParts(mesh, format, path, space, options.text);
+  return writeParts(mesh, format, path, groupsOf(vsm, false, space), space, options.text);
 }
 
 /** Adds to the notes of a writer that this many vertices of no cell are not written. */
@@ -262,7 +278,8 @@ std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
   const Format& format = *formatOfName(out);
   RestoredMesh mesh(vsm, workspace, format.maxCorners);
   std::vector<std::string> notes = mesh.notes();
-  const WriteNotes more = writeParts(mesh, format, out, workspace, text);
+  const WriteNotes more =
+    writeParts(mesh, format, out, groupsOf(vsm, true, workspace), workspace, text);
   notes.insert(notes.end(), more.begin(), more.end());
   return withoutIsolated(
     std::move(notes), format, format.holdsVertices ? 0 : reader.isolatedVertices());

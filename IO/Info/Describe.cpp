@@ -2,6 +2,7 @@
 #include "smg/Describe.h"
 
 #include "IO/Info/ColumnSummary.h"
+#include "IO/Info/GroupSummary.h"
 #include "IO/Info/StreamTopology.h"
 #include "IO/Mesh/Columns.h"
 #include "Solver/Assembly/Elements.h"
@@ -173,6 +174,7 @@ public:
     , Measures(this->Memory, info.cellType, true)
     , Topology(this->Memory, info.cellType)
     , Shapes(info.cellType)
+    , Groups(info)
     , VertexColumns(info.vertexColumns.begin(), info.vertexColumns.end())
     , CellColumns(info.cellColumns.begin(), info.cellColumns.end())
   {
@@ -192,6 +194,7 @@ public:
           this->Topology.add(corners);
         }
       });
+    this->Groups.add(block, this->Measures);
     this->Topology.close(block.finalized, this->Measures);
     for (std::size_t k = 0; k < this->VertexColumns.size(); ++k)
     {
@@ -223,6 +226,7 @@ public:
     {
       description.cell_columns.push_back(column.result());
     }
+    description.groups = this->Groups.result();
     description.pool_bytes_peak = this->Memory.peak();
     if (std::string note =
           unweldedNote(this->Info.cellType, description.vertices, description.cells);
@@ -286,6 +290,7 @@ private:
   MeshMeasures Measures;
   StreamTopology Topology;
   ShapeSums Shapes;
+  GroupSummary Groups;
   std::vector<ColumnSummary> VertexColumns, CellColumns;
 };
 

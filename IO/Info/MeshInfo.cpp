@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Mesh/GroupsJson.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/Describe.h"
 #include "smg/VsmReader.h"
@@ -38,6 +39,40 @@ Json entriesOf(const std::vector<ColumnSpec>& specs)
     columns.push_back(entriesOf(spec));
   }
   return columns;
+}
+
+Json entriesOf(const Group& group)
+{
+  Json entries;
+  entries["name"] = group.label();
+  if (group.number)
+  {
+    entries["number"] = *group.number;
+  }
+  entries["of"] = nameOf(group.of);
+  return entries;
+}
+
+Json entriesOf(const std::vector<Group>& groups)
+{
+  Json list = Json::array();
+  for (const Group& group : groups)
+  {
+    list.push_back(entriesOf(group));
+  }
+  return list;
+}
+
+Json entriesOf(const std::vector<MeshDescription::Group>& groups)
+{
+  Json list = Json::array();
+  for (const MeshDescription::Group& group : groups)
+  {
+    Json& entries = list.emplace_back(entriesOf(group.group));
+    entries["count"] = group.count;
+    entries["measure"] = group.measure;
+  }
+  return list;
 }
 
 Json valueOf(const MeshDescription::Number& number)
@@ -148,6 +183,7 @@ Json entriesOf(const MeshDescription& mesh)
   addShape(mesh, json);
   json["columns"] = { { "vertices", entriesOf(mesh.vertex_columns) },
     { "cells", entriesOf(mesh.cell_columns) } };
+  json["groups"] = entriesOf(mesh.groups);
   json["pool_bytes_peak"] = mesh.pool_bytes_peak;
   json["notes"] = mesh.notes;
   return json;
@@ -191,6 +227,7 @@ std::string meshInfo(const StoredMesh& mesh, const MeshInfoOptions& options)
   json["mean_width"] = reader.meanWidth();
   json["columns"] = { { "vertices", entriesOf(info.vertexColumns) },
     { "cells", entriesOf(info.cellColumns) } };
+  json["groups"] = entriesOf(info.groups.groups);
   if (const ConversionReport* conversion = options.conversion)
   {
     json["time_steps"] = conversion->time_steps;

@@ -129,6 +129,7 @@ struct Format
    * they have only the corners of cells. */
   bool holdsVertices = true;
   bool holdsColumns = false; ///< every column of a mesh
+  bool holdsGroups = false;  ///< groups of vertices, facets and cells; see MeshFileInfo::groups
   /** Columns of vertices that its files have places for, of a format without all columns. */
   std::span<const std::string_view> vertexColumns = {};
   /** Whether VTK reads its files, too: ParaView opens those itself that fit into memory. */

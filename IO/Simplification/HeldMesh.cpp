@@ -93,6 +93,22 @@ void append(std::string& text, const OnBoundary& /*part*/)
   text += "boundary;";
 }
 
+void append(std::string& text, const InGroup& part)
+{
+  text += "group";
+  for (const std::string& name : part.names)
+  {
+    text += ' ' + std::to_string(name.size()) + ' ' + name;
+  }
+  text += ';';
+}
+
+void append(std::string& text, const Combination& part)
+{
+  text += "combined " + std::to_string(static_cast<int>(part.kind)) + ' ' +
+          std::to_string(part.parts.size()) + " (" + textOf(part.parts) + ')';
+}
+
 } // namespace
 
 std::string textOf(const std::vector<Where>& parts)

@@ -20,8 +20,8 @@
 
 Meshes: `open`, `mesh`, `from_pyvista`, which make a `Mesh` with the jobs `solve`, `deform`, `smooth`,
 `blend`, `distance`, `simplify` and `solver`; on arrays the functions of these names. Regions: `plane`,
-`above`, `below`, `halfspace`, `box`, `sphere`, `vertices`, `nearest`, `tag`, `mask`, `boundary`,
-`everywhere`, combined by ``|``, ``&`` and ``~``; ``region >> value`` pairs one with a value, and so do `dirichlet`, `neumann`, `robin`
+`above`, `below`, `halfspace`, `box`, `sphere`, `vertices`, `nearest`, `tag`, `mask`, `group`,
+`boundary`, `everywhere`, combined by ``|``, ``&`` and ``~``; ``region >> value`` pairs one with a value, and so do `dirichlet`, `neumann`, `robin`
 and `soft`. `of_vertices` and `of_cells` say what an array has rows for. Errors: `Error` and its subclasses. `progress` says how calls report how far they are.
 """
 
@@ -49,6 +49,7 @@ from ._regions import (
     box,
     dirichlet,
     everywhere,
+    group,
     halfspace,
     mask,
     nearest,
@@ -88,6 +89,7 @@ __all__ = [  # not `open`: import * would replace that of Python
     "dirichlet",
     "everywhere",
     "from_pyvista",
+    "group",
     "halfspace",
     "handle",
     "mask",

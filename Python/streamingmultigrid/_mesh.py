@@ -210,6 +210,15 @@ class Mesh:
         return tuple(self.info()["bounds"])
 
     @property
+    def groups(self) -> Dict[str, Dict[str, Any]]:
+        """What the mesher has named, for `group`: {name: {"of": "vertices", "facets" or "cells", "number"}};
+        of several groups of one name the first. How large they are says ``info(full=True)``."""
+        found: Dict[str, Dict[str, Any]] = {}
+        for entry in self.info()["groups"]:
+            found.setdefault(entry["name"], {key: entry.get(key) for key in ("of", "number")})
+        return found
+
+    @property
     def columns(self) -> Dict[str, Dict[str, Any]]:
         """The columns: {"vertices": {name: {"type", "components"}}, "cells": {...}}."""
         with self._handle() as mesh:

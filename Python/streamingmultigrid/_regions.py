@@ -192,11 +192,20 @@ def _read(mesh: Any, name: str) -> np.ndarray:
     return values
 
 
+class _Group(Region):
+    def __init__(self, names: List[Union[str, int]]) -> None:
+        super().__init__("group", names)
+
+    def __repr__(self) -> str:
+        return "smg.group(%s)" % ", ".join(map(repr, self._value))
+
+
 class _Combined(Region):
     """Regions that are combined by |, & or ~, vertex by vertex: a mask, which is made when it is used.
 
     Of regions by columns of the cells alone it is a mask of the cells; with others, a cell counts by
-    its vertices.
+    its vertices. With a group, whose facets no mask has, the job combines them as it reads the mesh:
+    vertex by vertex, facet by facet, cell by cell.
     """
 
     def __init__(self, operation: str, *parts: Region) -> None:
@@ -208,13 +217,26 @@ class _Combined(Region):
             return "~%r" % self._value
         return "(%s)" % (" %s " % self._operation).join(map(repr, self._value))
 
+    def _has_group(self) -> bool:
+        return any(
+            part._has_group() if isinstance(part, _Combined) else part._kind == "group"
+            for part in self._value
+        )
+
     def where(self, context: Any) -> Dict[str, Any]:
+        if self._has_group():
+            places = [part.where(context) for part in self._value]
+            if not all(places):
+                raise InputError("%r: smg.everywhere cannot be combined with groups." % self)
+            return {"not": places[0]} if self._operation == "~" else {"any" if self._operation == "|" else "all": places}
         mask, of_cells = self.selected(context.mesh)
         if not mask.any():
             raise InputError("%r: nothing is in this region." % self)
         return {"mask": context.add(mask, "mask", of_cells, (1,)).name}
 
     def selected(self, mesh: Any, progress: Any = None) -> Tuple[np.ndarray, bool]:
+        if self._has_group():
+            return Region.selected(self, mesh, progress)
         (first, of_cells), *others = [part.selected(mesh, progress) for part in self._value]
         if self._operation == "~":
             return ~first, of_cells
@@ -339,6 +361,21 @@ def tag(column: str, value: Union[float, npt.ArrayLike]) -> Region:
         raise InputError("tag: %r is neither a number nor a list of numbers." % (value,))
     regions = [Region("tag", [column, plain(each)]) for each in values.reshape(-1)]
     return functools.reduce(Region.__or__, regions)
+
+
+def group(*names: Union[str, int]) -> Region:
+    """What the mesher has named: the facets, vertices or cells of a group, as ``group("inlet")``.
+
+    Args:
+        names: names of groups, or their numbers; of several any counts, and ``*`` stands for any
+            characters: ``group("wall*")``. `Mesh.groups` lists them.
+
+    A value at vertices holds at the corners of the facets; fluxes act on exactly the facets,
+    conductivities in exactly the cells. An unknown name is an InputError that lists those there are.
+    """
+    if not names or not all(isinstance(name, (str, int, np.integer)) and name != "" for name in names):
+        raise InputError("group: names of groups are needed, or their numbers, as in smg.group('inlet').")
+    return _Group([name if isinstance(name, str) else int(name) for name in names])
 
 
 def mask(column_or_values: Union[str, npt.ArrayLike]) -> Region:

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 namespace smg
 {
@@ -121,26 +122,21 @@ std::vector<std::uint8_t> MeshGroups::setsWith(std::span<const std::uint32_t> wa
 std::string MeshGroups::listFor(const std::string& wanted) const
 {
   constexpr std::size_t Most = 10, LongestCompared = 64;
-  struct Known
-  {
-    std::size_t distance;
-    std::string label;
-    auto operator<=>(const Known&) const = default;
-  };
-  std::vector<Known> known;
+  std::vector<std::pair<std::size_t, std::string>> known; // by distance
   for (const Group& group : this->groups)
   {
     std::string label = group.label();
-    known.push_back({ distance(std::string_view(label).substr(0, LongestCompared),
-                        std::string_view(wanted).substr(0, LongestCompared)),
-      std::move(label) });
+    const std::size_t changes = distance(std::string_view(label).substr(0, LongestCompared),
+      std::string_view(wanted).substr(0, LongestCompared));
+    known.emplace_back(changes, std::move(label));
   }
-  std::ranges::sort(known);
+  std::ranges::sort(known, [](const auto& a, const auto& b)
+    { return a.first != b.first ? a.first < b.first : a.second.compare(b.second) < 0; });
   known.erase(std::unique(known.begin(), known.end()), known.end());
   std::vector<std::string> labels;
   for (std::size_t k = 0; k < std::min(Most, known.size()); ++k)
   {
-    labels.push_back('\'' + known[k].label + '\'');
+    labels.push_back('\'' + known[k].second + '\'');
   }
   const std::size_t others = known.size() - labels.size();
   if (others > 0)

@@ -115,16 +115,22 @@ void CellSelection::begin()
   this->IsPrepared = false;
 }
 
-/** Counts selected cells; if vertices are to be selected, marks their corners, and writes the marks
- * of vertices that no later cell uses. */
+/** Counts cells with selected facets, or that are selected; if vertices are to be selected, marks
+ * their corners, and writes the marks of vertices that no later cell uses. */
 void CellSelection::add(const MeshBlock& block, const std::filesystem::path& scratch)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns.cellType()));
   std::vector<std::uint8_t> selected(block.corners.size() / corners);
-  this->atCells({ block, 0, block.corners }, selected);
-  this->Count += std::ranges::count(selected, 1);
-  // Collects what the error would name if no cell is selected in the end.
-  this->Tags.add(this->Test.column.in(block), selected);
+  this->atFacets({ block, 0, block.corners }, selected);
+  this->Count += std::ranges::count_if(selected, [](std::uint8_t facets) { return facets != 0; });
+  if (this->Test.value)
+  {
+    // Collects what the error would name if no cell is selected in the end.
+    std::vector<std::uint8_t> cells(selected.size());
+    std::ranges::transform(
+      selected, cells.begin(), [](std::uint8_t facets) { return facets != 0 ? 1 : 0; });
+    this->Tags.add(this->Test.column.in(block), cells);
+  }
   if (this->Place != DataPlace::Vertices)
   {
     return;
@@ -138,9 +144,13 @@ void CellSelection::add(const MeshBlock& block, const std::filesystem::path& scr
   this->Marked += block.vertices();
   for (std::size_t c = 0; c < selected.size(); ++c)
   {
-    for (std::size_t k = c * corners; selected[c] && k < (c + 1) * corners; ++k)
+    for (std::size_t k = 0; selected[c] && k < corners; ++k)
     {
-      *this->Marks.at(block.corners[k]) = 1;
+      // A facet has all corners of its cell but the opposite one.
+      if ((selected[c] & ~(1U << k)) != 0)
+      {
+        *this->Marks.at(block.corners[c * corners + k]) = 1;
+      }
     }
   }
   this->Vertices->append({ this->Marks.at(this->Written), this->Marks.at(block.finalized) });
@@ -182,11 +192,26 @@ void CellSelection::atCells(const CellRange& cells, std::span<std::uint8_t> sele
   }
 }
 
-/** All facets of a selected cell. */
+/** All facets of a selected cell, or those that the column selects. */
 void CellSelection::atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const
 {
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Columns.cellType()));
+  if (this->selectsFacets())
+  {
+    std::vector<std::uint8_t> facets(selected.size() * corners);
+    this->Test.apply(this->Test.column.in(cells.block), cells.first * corners, facets);
+    for (std::size_t c = 0; c < selected.size(); ++c)
+    {
+      selected[c] = 0;
+      for (std::size_t k = 0; k < corners; ++k)
+      {
+        selected[c] |= static_cast<std::uint8_t>(facets[c * corners + k] << k);
+      }
+    }
+    return;
+  }
   this->atCells(cells, selected);
-  const auto all = static_cast<std::uint8_t>((1U << cornersOf(this->Columns.cellType())) - 1U);
+  const auto all = static_cast<std::uint8_t>((1U << corners) - 1U);
   std::ranges::for_each(selected, [all](std::uint8_t& bits) { bits = bits ? all : 0; });
 }
 

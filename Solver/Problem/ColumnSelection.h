@@ -18,17 +18,30 @@
 namespace smg
 {
 
-/** Tests a column of one number for a value, or for values other than 0. */
+/** Tests a column for a value, for values other than 0, or for sets of groups. The column has one
+ * component, or one for each facet of a cell. */
 struct ColumnTest
 {
   NamedColumn column;
   std::optional<double> value; ///< none: any value other than 0
+  /** For each set 1 if it has one of the groups that are asked for; empty: no groups are. */
+  std::vector<std::uint8_t> sets = {};
+  std::string groups = {}; ///< their names, for messages
 
-  /** Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0.
-   * Returns the index of the first NaN in a mask, or the size of `selected`. */
+  /** Sets `selected` to 1 where the numbers of `values` from `first` on are as asked for, else to
+   * 0. Returns the index of the first NaN in a mask, or the size of `selected`. */
   std::size_t apply(const Column& values, std::size_t first, std::span<std::uint8_t> selected) const
   {
     std::size_t valid = selected.size();
+    if (!this->sets.empty())
+    {
+      const std::span<const GroupSet> numbers = values.as<GroupSet>().subspan(first);
+      for (std::size_t i = 0; i < selected.size(); ++i)
+      {
+        selected[i] = numbers[i] < this->sets.size() ? this->sets[numbers[i]] : 0;
+      }
+      return valid;
+    }
     dispatch(values.spec.type,
       [&]<class T>(T)
       {
@@ -54,6 +67,10 @@ struct ColumnTest
   /** The predicate of a selected item, for messages. */
   std::string predicate() const
   {
+    if (!this->sets.empty())
+    {
+      return "is in " + this->groups;
+    }
     return (this->value ? "has this tag in '" : "has a value other than 0 in '") +
            this->column.name + "'";
   }
@@ -121,8 +138,9 @@ private:
   TagValues Tags; ///< during preparation
 };
 
-/** The selection by a column of the cells: cells, their vertices and their facets. Vertices precede
- * their cells in a stream, so that the selected ones are found by a reading beforehand. */
+/** The selection by a column of the cells: cells, their vertices and their facets; or, by a column
+ * with a component for each facet, facets and their corners. Vertices precede their cells in a
+ * stream, so that the selected ones are found by a reading beforehand. */
 class CellSelection : public Selection
 {
 public:
@@ -150,11 +168,16 @@ protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
   std::string predicate() const override
   {
-    return (this->Place == DataPlace::Cells ? "" : "is of a cell that ") + this->Test.predicate();
+    return (this->Place == DataPlace::Cells ? ""
+             : this->selectsFacets()        ? "is of a facet that "
+                                            : "is of a cell that ") +
+           this->Test.predicate();
   }
   std::string instead() const override { return this->Test.value ? this->Tags.text() : ""; }
 
 private:
+  bool selectsFacets() const { return this->Test.column.components > 1; }
+
   ColumnTest Test;
   TagValues Tags;                        ///< during preparation
   std::optional<VertexSetFile> Vertices; ///< of the selected cells, if requested

@@ -50,11 +50,22 @@ bool isGiven(const auto& member)
   return !member.empty();
 }
 
-/** Collects the columns that parts and values name. */
+/** Collects the columns that parts and values name; of a group all that may have it. */
 class ColumnNames
 {
 public:
-  void add(const Where& where) { this->add(columnOf(where)); }
+  void add(const Where& where)
+  {
+    if (std::holds_alternative<InGroup>(where))
+    {
+      this->names.insert({ VertexGroupsName, FacetGroupsName, CellGroupsName });
+    }
+    else if (const auto* combined = std::get_if<Combination>(&where))
+    {
+      std::ranges::for_each(combined->parts, [this](const Where& part) { this->add(part); });
+    }
+    this->add(columnOf(where));
+  }
   void add(const DataValue& value) { this->add(value.column()); }
   void add(const Datum& datum)
   {
@@ -210,6 +221,12 @@ private:
   void add(const ColumnTag& tag) { (*this)(tag.column, tag.value); }
   void add(const ColumnMask& mask) { this->add(mask.column); }
   void add(const NearestVertices& nearest) { this->add(nearest.points); }
+  void add(const InGroup& group) { this->add(group.names); }
+  void add(const Combination& combined)
+  {
+    this->add(static_cast<std::int64_t>(combined.kind));
+    this->add(combined.parts);
+  }
   void add(const Region& region) { this->add(region.shape()); }
   void add(const Region::HalfSpace& half) { (*this)(half.normal, half.distance); }
   void add(const Region::Box& box) { (*this)(box.low, box.high); }

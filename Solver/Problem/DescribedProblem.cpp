@@ -167,16 +167,15 @@ DescribedProblem::OnMesh::OnMesh(
 DataPlace DescribedProblem::OnMesh::placeOf(
   const DatumRow& row, const ProblemDescription& description) const
 {
-  const auto isOfCells = [this](const std::string* column, ColumnOwner owner)
-  { return column && this->mesh.isOfCells(*column, owner); };
   const bool inCells =
-    row.density &&
-    std::ranges::any_of((description.*row.member).entries,
-      [&](const PlacedValue& entry)
-      {
-        return isOfCells(columnOf(entry.where), ColumnOwner::Vertices) ||
-               isOfCells(entry.value.column(), ownerOf(entry.value, ColumnOwner::Vertices));
-      });
+    row.density && std::ranges::any_of((description.*row.member).entries,
+                     [&](const PlacedValue& entry)
+                     {
+                       const std::string* const column = entry.value.column();
+                       return isOfCells(entry.where, this->mesh) ||
+                              (column && this->mesh.isOfCells(
+                                           *column, ownerOf(entry.value, ColumnOwner::Vertices)));
+                     });
   return inCells ? DataPlace::Cells : row.place;
 }
 

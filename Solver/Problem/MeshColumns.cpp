@@ -112,6 +112,18 @@ NamedColumn MeshColumns::require(
   return { name, ofCells ? ColumnOwner::Cells : ColumnOwner::Vertices, spec->components };
 }
 
+bool MeshColumns::hasGroupColumn(GroupOf kind) const
+{
+  const auto& specs = kind == GroupOf::Vertices ? this->Info.vertexColumns : this->Info.cellColumns;
+  return findColumn(specs, MeshGroups::columnSpec(kind, cornersOf(this->Info.cellType))) >= 0;
+}
+
+NamedColumn MeshColumns::requireGroups(GroupOf kind)
+{
+  return this->require(MeshGroups::columnOf(kind),
+    kind == GroupOf::Vertices ? ColumnOwner::Vertices : ColumnOwner::Cells, "group");
+}
+
 /** Where columns are read, an error may name a vertex: then by its number in the original file. */
 std::vector<std::string> MeshColumns::vertexColumns() const
 {

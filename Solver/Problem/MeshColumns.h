@@ -66,6 +66,12 @@ public:
   /** Finds a column and requests its delivery. If there is none, throws Error, which names the
    * place `key` of the description and the existing columns. */
   NamedColumn require(const std::string& name, ColumnOwner preferred, const std::string& key);
+  /** The groups of the mesh. */
+  const MeshGroups& groups() const { return this->Info.groups; }
+  /** Whether anything of the mesh is in a group of this kind. */
+  bool hasGroupColumn(GroupOf kind) const;
+  /** Requests the column of the sets of groups of this kind, which the mesh must have. */
+  NamedColumn requireGroups(GroupOf kind);
   /** Requests the original indices of the vertices, if any. */
   void requireIds() { this->NeedsIds = true; }
   /** The same for the cells. */

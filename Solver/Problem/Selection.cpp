@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/Selection.h"
 
+#include "Solver/Core/Text.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "Solver/Mesh/VisitCells.h"
 #include "Solver/Problem/BoundarySelection.h"
 #include "Solver/Problem/ColumnSelection.h"
+#include "Solver/Problem/CombinedSelection.h"
 #include "Solver/Problem/NearestSelection.h"
 #include "smg/Region.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -38,6 +41,22 @@ std::size_t pointsOf(const Where& place)
   return nearest ? nearest->points.size() : 0;
 }
 
+bool isOfCells(const Where& where, const MeshColumns& columns)
+{
+  if (const auto* group = std::get_if<InGroup>(&where))
+  {
+    return std::ranges::any_of(group->names, [&](const std::string& name)
+      { return !columns.groups().find(name, GroupOf::Cells).empty(); });
+  }
+  if (const auto* combined = std::get_if<Combination>(&where))
+  {
+    return std::ranges::any_of(
+      combined->parts, [&](const Where& part) { return isOfCells(part, columns); });
+  }
+  const std::string* const column = columnOf(where);
+  return column && columns.isOfCells(*column, ColumnOwner::Vertices);
+}
+
 namespace
 {
 
@@ -56,6 +75,71 @@ void forCorners(
     }
     visit(c, bits);
   }
+}
+
+} // namespace
+
+namespace
+{
+
+/** The kinds of groups that a place may mean, the first of which that has the name counts. */
+std::vector<GroupOf> kindsAt(DataPlace place)
+{
+  if (place == DataPlace::Cells)
+  {
+    return { GroupOf::Cells, GroupOf::Vertices };
+  }
+  return { GroupOf::Facets, GroupOf::Vertices, GroupOf::Cells };
+}
+
+const char* pluralOf(GroupOf kind)
+{
+  return kind == GroupOf::Vertices ? "vertices" : kind == GroupOf::Facets ? "facets" : "cells";
+}
+
+/** The selection of the groups of these names: one for each kind that they have. */
+std::unique_ptr<Selection> selectionOf(
+  const InGroup& where, DataPlace place, const std::string& key, MeshColumns& columns)
+{
+  const MeshGroups& groups = columns.groups();
+  const std::vector<GroupOf> kinds = kindsAt(place);
+  std::map<GroupOf, std::vector<std::uint32_t>> wanted;
+  for (const std::string& name : where.names)
+  {
+    const auto named =
+      std::ranges::find_if(kinds, [&](GroupOf kind) { return !groups.find(name, kind).empty(); });
+    if (named == kinds.end())
+    {
+      const bool isFacets = !groups.find(name, GroupOf::Facets).empty();
+      columns.fail(key + ".group",
+        isFacets         ? "the group '" + name + "' is of facets, but cells are needed here"
+        : groups.empty() ? "the mesh has no groups, so none is called '" + name + "'"
+                         : "the mesh has no group '" + name + "'; it has " + groups.listFor(name));
+    }
+    for (const std::uint32_t group : groups.find(name, *named))
+    {
+      wanted[*named].push_back(group);
+    }
+  }
+  std::vector<std::unique_ptr<Selection>> parts;
+  const std::string names = (where.names.size() == 1 ? "the group '" : "one of the groups '") +
+                            listed(where.names, "and") + "'";
+  for (const auto& [kind, numbers] : wanted)
+  {
+    if (!columns.hasGroupColumn(kind))
+    {
+      columns.fail(key + ".group", names + " has no " + pluralOf(kind) + " of the mesh");
+    }
+    const ColumnTest test{ columns.requireGroups(kind), std::nullopt, groups.setsWith(numbers),
+      names };
+    parts.push_back(
+      kind == GroupOf::Vertices
+        ? std::unique_ptr<Selection>(std::make_unique<ColumnSelection>(test, place, key, columns))
+        : std::make_unique<CellSelection>(test, place, key, columns));
+  }
+  return parts.size() == 1 ? std::move(parts.front())
+                           : std::make_unique<CombinedSelection>(
+                               Combination::Kind::Any, std::move(parts), place, key, columns);
 }
 
 } // namespace
@@ -80,6 +164,25 @@ std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
   if (std::holds_alternative<OnBoundary>(where))
   {
     return std::make_unique<BoundarySelection>(place, key, columns);
+  }
+  if (const auto* group = std::get_if<InGroup>(&where))
+  {
+    return selectionOf(*group, place, key, columns);
+  }
+  if (const auto* combined = std::get_if<Combination>(&where))
+  {
+    std::vector<std::unique_ptr<Selection>> parts;
+    for (const Where& part : combined->parts)
+    {
+      std::unique_ptr<Selection> made = make(part, place, preferred, key, columns);
+      if (!made)
+      {
+        columns.fail(key, "everywhere cannot be combined with other parts");
+      }
+      parts.push_back(std::move(made));
+    }
+    return std::make_unique<CombinedSelection>(
+      combined->kind, std::move(parts), place, key, columns);
   }
   // Tag and mask: a column of the vertices and one of the cells are selected in different ways. If
   // both exist, `preferred` decides.

@@ -62,6 +62,10 @@ inline const std::string* columnOf(const Where& where)
   return tag ? &tag->column : mask ? &mask->column : nullptr;
 }
 
+/** Whether a part of the mesh is one of cells: by a column of theirs or by a group, or if any part
+ * is of which it consists. Columns of the vertices take precedence, groups of cells as well. */
+bool isOfCells(const Where& where, const MeshColumns& columns);
+
 /** A range of the cells of a block with their `corners`. */
 struct CellRange
 {

@@ -5,6 +5,7 @@
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
+#include "smg/Groups.h"
 #include "smg/MeshSource.h"
 
 #include <array>
@@ -55,6 +56,13 @@ struct SMG_EXPORT MeshDescription
     std::vector<Number> maximum; ///< greatest finite value of each component
     std::int64_t not_finite = 0; ///< values that are infinite or not a number
     std::vector<Tag> tags;       ///< ascending; empty: it has none
+  };
+  /** A group and how large it is. */
+  struct Group
+  {
+    smg::Group group;       ///< its name, number and kind
+    std::int64_t count = 0; ///< of its vertices, facets or cells; of cells those with weight
+    double measure = 0;     ///< their length, area or volume; 0 of vertices
   };
   /** The lengths of the edges, in the unit of the mesh; 0 without any. */
   struct EdgeLength
@@ -126,6 +134,7 @@ struct SMG_EXPORT MeshDescription
   Resolution resolution;              ///< of the coordinates
   std::vector<Column> vertex_columns; ///< in the order of the mesh
   std::vector<Column> cell_columns;   ///< in the order of the mesh
+  std::vector<Group> groups;          ///< in the order of the mesh
   std::int64_t pool_bytes_peak = 0;   ///< most accounted memory at once, bytes
   std::vector<std::string> notes;     ///< remarks for the user, a sentence each
 

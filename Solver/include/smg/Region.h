@@ -127,6 +127,20 @@ struct OnBoundary
 };
 
 /**
+ * What a mesher has named: groups of facets, vertices or cells (MeshGroups). A facet group is its
+ * facets and, for values at vertices, their corners. Where several kinds of groups have a name, a
+ * value at vertices or facets means facets, then vertices, then cells, and a value in cells means
+ * cells, then vertices.
+ */
+struct InGroup
+{
+  /** Names, or numbers as text, of which any counts; `*` stands for any characters. */
+  std::vector<std::string> names;
+};
+
+struct Combination;
+
+/**
  * A part of a mesh.
  *
  * A region, a column of the vertices, points and the boundary select vertices; cells and boundary
@@ -134,6 +148,21 @@ struct OnBoundary
  * and their facets. If vertices and cells have columns of the same name, conductivity and field
  * refer to that of the cells, everything else to that of the vertices.
  */
-using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices, OnBoundary>;
+using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices, OnBoundary,
+  InGroup, Combination>;
+
+/** Several parts together, vertex by vertex, cell by cell, facet by facet. */
+struct Combination
+{
+  /** How. */
+  enum class Kind
+  {
+    All, ///< what all of them select
+    Any, ///< what any of them selects
+    Not  ///< what the only one does not select
+  };
+  Kind kind = Kind::Any;    ///< how
+  std::vector<Where> parts; ///< at least one; of Kind::Not exactly one
+};
 
 } // namespace smg
