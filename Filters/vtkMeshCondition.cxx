@@ -79,6 +79,7 @@ int vtkMeshCondition::GetNumberOfValues()
 bool vtkMeshCondition::IsEvaluatedBySolver()
 {
   return this->Region == BOUNDARY || this->Region == MASK || this->Region == TAG ||
+         this->Region == GROUP ||
          (this->Region == EVERYWHERE && this->Internal->condition().mayHoldEverywhere());
 }
 
@@ -106,6 +107,10 @@ void vtkMeshCondition::Check()
   {
     this->RegionArray();
   }
+  if (this->Region == GROUP)
+  {
+    this->RegionGroup();
+  }
   this->Internal->condition().text();
 }
 
@@ -132,6 +137,10 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   else if (this->Region == MASK)
   {
     condition.mask = this->RegionArray();
+  }
+  else if (this->Region == GROUP)
+  {
+    condition.group = this->RegionGroup();
   }
   else if (this->Region == BOUNDARY)
   {

@@ -9,12 +9,14 @@
 #include "Filters/Regions/RegionPoints.h"
 #include "Filters/Tasks/WarnOnce.h"
 #include "IO/Vtk/Failures.h"
+#include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/ModeProperty.h"
 #include "IO/Vtk/OrdinaryMesh.h"
 #include "IO/Vtk/PieceInput.h"
 #include "IO/Vtk/PieceStream.h"
 #include "IO/Vtk/PropertyRange.h"
+#include "IO/Vtk/SingleBlock.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Jobs/Projection/PointProjection.h"
 #include "smg/Error.h"
@@ -22,9 +24,12 @@
 #include "vtkImplicitFunction.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkSelection.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -75,7 +80,11 @@ struct vtkRegionFilter::Internals
   smg::MarkedRegionSettings markedSettings() const
   {
     smg::MarkedRegionSettings settings;
-    if (this->Self.Region != BOUNDARY)
+    if (this->Self.Region == GROUP)
+    {
+      settings.group = this->Self.RegionGroup();
+    }
+    else if (this->Self.Region != BOUNDARY)
     {
       settings.array = this->Self.RegionArray();
     }
@@ -226,6 +235,7 @@ struct vtkRegionFilter::Internals
   smg::PointRegion Region;
   smg::KeptSelection Selected;
   smg::MarkedRegion Marked;
+  vtkNew<vtkStringArray> GroupNames;
 
   smg::HeldCount Count;
   std::int64_t PointsBehind = 0; ///< of a preview, whose points were counted
@@ -256,6 +266,32 @@ std::string vtkRegionFilter::RegionArray() const
   return name;
 }
 
+std::string vtkRegionFilter::RegionGroup() const
+{
+  if (!smg::namesArray(this->GroupName))
+  {
+    throw smg::Error("The region has no group: choose GroupName, or another Region.");
+  }
+  return this->GroupName;
+}
+
+vtkStringArray* vtkRegionFilter::GetGroupNames()
+{
+  vtkStringArray& names = *this->Internal->GroupNames;
+  names.Reset();
+  const bool isConnected = this->GetNumberOfInputConnections(0) > 0;
+  vtkDataObject* const input = isConnected ? this->GetInputDataObject(0, 0) : nullptr;
+  const vtkSmartPointer<vtkPointSet> mesh = input ? smg::meshOf(input) : nullptr;
+  if (mesh)
+  {
+    for (const smg::Group& group : smg::groupsIn(*mesh).groups)
+    {
+      names.InsertNextValue(group.label());
+    }
+  }
+  return &names;
+}
+
 void vtkRegionFilter::WarnOfReplaced(const std::string& sentence)
 {
   this->Internal->Replaced.warn(sentence);
@@ -276,6 +312,7 @@ std::string vtkRegionFilter::UnusedProperty()
     { "MaskArray", smg::namesArray(this->MaskArray), isChosen, "set Region to Mask" },
     { "TagArray", smg::namesArray(this->TagArray), isChosen, "set Region to Tag" },
     { "Tag", this->Tag != 0.0, isChosen, "set Region to Tag" },
+    { "GroupName", smg::namesArray(this->GroupName), isChosen, "set Region to Group" },
   });
 }
 
@@ -407,7 +444,7 @@ int vtkRegionFilter::RequestData(
     [&]
     {
       const smg::PieceRequest request(outputVector->GetInformationObject(0));
-      smg::requireInRange({ { "Region", this->Region, FUNCTION, MASK },
+      smg::requireInRange({ { "Region", this->Region, FUNCTION, GROUP },
         { "IdType", this->IdType, GLOBAL_IDS, ORIGINAL_IDS },
         { "Rings", this->Rings, 0, smg::PointProjection::MaximumRings },
         { "NumberOfPieces", this->NumberOfPieces, 0, smg::PieceCount::Most } });
@@ -441,6 +478,7 @@ void vtkRegionFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaskArray: " << smg::textOrNone(this->MaskArray) << "\n";
   os << indent << "TagArray: " << smg::textOrNone(this->TagArray) << "\n";
   os << indent << "Tag: " << this->Tag << "\n";
+  os << indent << "GroupName: " << smg::textOrNone(this->GroupName) << "\n";
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
   os << indent << "NumberOfHeldPoints: " << this->NumberOfHeldPoints << "\n";
 }

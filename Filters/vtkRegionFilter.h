@@ -12,6 +12,7 @@
  * - BOUNDARY: the points on boundary edges of a surface (those of exactly one triangle), or on
  *   boundary faces of a solid (those of exactly one cell);
  * - MASK: the points where MaskArray is not 0, or those of the cells where it is not 0;
+ * - GROUP: the points of a group that the mesher has named, of its facets or of its cells;
  * - TAG: the points where TagArray has the value Tag, or those of the cells where it has;
  * - EVERYWHERE: all points.
  *
@@ -25,12 +26,12 @@
  * point that is farther from the mesh than 1 % of the diagonal of its bounds causes a warning. On a
  * preview, Rings has no effect, and ids and positions hold the nearest points of the preview.
  *
- * An array of the points is evaluated on each piece. The boundary, and the points of marked cells,
- * cross pieces: when streamed pieces are requested, they are found in one pass over NumberOfPieces
- * pieces of the input, in a scratch file of one bit a point, and kept until the mesh is modified.
- * The boundary on a preview is that of the preview: its open edges, which follow those of the mesh;
- * of the surface preview of a solid all points. An array of the cells that a preview does not have
- * is evaluated on the mesh, whose points those of the preview are.
+ * An array of the points is evaluated on each piece. The boundary, and the points of marked cells
+ * and of groups, cross pieces: when streamed pieces are requested, they are found in one pass over
+ * NumberOfPieces pieces of the input, in a scratch file of one bit a point, and kept until the mesh
+ * is modified. The boundary on a preview is that of the preview: its open edges, which follow those
+ * of the mesh; of the surface preview of a solid all points. An array of the cells that a preview
+ * does not have is evaluated on the mesh, whose points those of the preview are.
  *
  * A property that is set but has no effect while Region is Function causes a warning, one out of
  * its range is an error of the update. An empty region is an error, reported when the whole mesh is
@@ -55,6 +56,7 @@
 
 class vtkImplicitFunction;
 class vtkPointSet;
+class vtkStringArray;
 
 namespace smg
 {
@@ -77,7 +79,8 @@ public:
     TAG = 4,
     EVERYWHERE = 5,
     BOUNDARY = 6,
-    MASK = 7
+    MASK = 7,
+    GROUP = 8
   };
 
   /** The meaning of Ids. */
@@ -143,6 +146,12 @@ public:
   smgProperty(Tag, double);
   ///@}
 
+  /** The name of the group of GROUP, or its number; * stands for any characters. GetGroupNames()
+   * has those of the input. Default: none. */
+  smgTextProperty(GroupName);
+  /** The groups of the mesh that the input delivered last. */
+  vtkStringArray* GetGroupNames();
+
   /** The number of pieces in which the input is requested to search it, 0 to 1,000,000. Default: 0
    * (at least 64, and pieces of at most 64 MiB). The held points do not depend on it. */
   smgProperty(NumberOfPieces, int);
@@ -195,6 +204,8 @@ protected:
 
   /** The name of the array of MASK or TAG. Throws smg::Error if there is none. */
   std::string RegionArray() const;
+  /** The same of GROUP. */
+  std::string RegionGroup() const;
 
   int Region = FUNCTION;
 
@@ -210,6 +221,7 @@ private:
   std::string MaskArray;
   std::string TagArray;
   double Tag = 0.0;
+  std::string GroupName;
   int NumberOfPieces = 0;
   vtkIdType NumberOfHeldPoints = 0;
   double HeldBounds[6] = {};

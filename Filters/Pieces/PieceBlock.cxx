@@ -2,6 +2,7 @@
 #include "Filters/Pieces/PieceBlock.h"
 
 #include "IO/Mesh/Columns.h"
+#include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/PieceCells.h"
 #include "IO/Vtk/PieceColumns.h"
 #include "IO/Vtk/PieceStream.h"
@@ -86,6 +87,7 @@ PieceBlock::PieceBlock(vtkPointSet& piece, std::set<std::string> names)
   piece.GetBounds(this->Info.bounds.data());
   this->Info.vertexColumns = specsOf(this->Block.vertexColumns);
   this->Info.cellColumns = specsOf(this->Block.cellColumns);
+  this->Info.groups = groupsIn(piece);
 }
 
 std::unique_ptr<MeshSource> PieceBlock::source() const

@@ -68,6 +68,10 @@ std::string Condition::text() const
     requireFinite({ this->tag }, "tag");
     entry["tag"] = { this->tagged, this->tag };
   }
+  else if (!this->group.empty())
+  {
+    entry["group"] = this->group;
+  }
   else if (this->isOnBoundary)
   {
     entry["boundary"] = true;

@@ -19,6 +19,8 @@ struct Condition
   /** ... of a point or cell array that has the value `tag` there; or ... */
   std::string tagged;
   double tag = 0.0;
+  /** ... the name of a group, see InGroup; or ... */
+  std::string group;
   /** ... the boundary. None of them: everywhere. */
   bool isOnBoundary = false;
 

@@ -41,10 +41,12 @@ void MarkedRegion::set(const MarkedRegionSettings& settings)
 
 bool MarkedRegion::isByItself(vtkPointSet& piece, const PieceRequest& request) const
 {
+  const bool isGroup = !this->Asked.group.empty();
   if (isPreview(piece))
   {
     // Previews lack the arrays of the cells; their points are points of the mesh.
-    return this->Asked.isBoundary() || piece.GetCellData()->HasArray(this->Asked.array.c_str());
+    return this->Asked.isBoundary() ||
+           (!isGroup && piece.GetCellData()->HasArray(this->Asked.array.c_str()));
   }
   const bool isWhole = !request.IsStreamed && request.Pieces == 1;
   if (!isWhole && lacksStreamNumbering(piece))
@@ -55,9 +57,10 @@ bool MarkedRegion::isByItself(vtkPointSet& piece, const PieceRequest& request) c
       throw Error("The pieces of the mesh have no GlobalIds, so that the region cannot extend "
                   "across them: save the mesh as .vsm and open that.");
     }
-    return true;
+    return !isGroup;
   }
-  return isWhole;
+  // The corners of facets are found by a stream.
+  return isWhole && !isGroup;
 }
 
 vtkPointSet& MarkedRegion::fetchPiece(
@@ -66,8 +69,9 @@ vtkPointSet& MarkedRegion::fetchPiece(
   const auto update = [&context, &request]
   { return vtkPointSet::SafeDownCast(request.update(context.input)); };
   vtkPointSet* piece = update();
-  vtkDataArray* ofPoints =
-    this->Asked.isBoundary() ? nullptr : piece->GetPointData()->GetArray(this->Asked.array.c_str());
+  vtkDataArray* ofPoints = this->Asked.array.empty()
+                             ? nullptr
+                             : piece->GetPointData()->GetArray(this->Asked.array.c_str());
   if (piece->GetNumberOfPoints() == 0)
   {
     held = {};
@@ -113,9 +117,13 @@ void MarkedRegion::find(const RegionContext& context)
   }
   this->OnMesh.reset();
   PieceColumns columns{ .all = false, .required = {}, .optional = { CellFlagsName } };
-  if (!this->Asked.isBoundary())
+  if (!this->Asked.array.empty())
   {
     columns.required.insert(this->Asked.array);
+  }
+  if (!this->Asked.group.empty())
+  {
+    columns.optional.insert({ VertexGroupsName, FacetGroupsName, CellGroupsName });
   }
   PieceStream stream(context.mesh, { .given = this->Asked.pieces }, columns);
   auto vertices =

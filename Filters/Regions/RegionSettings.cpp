@@ -39,6 +39,10 @@ Where MarkedRegionSettings::where() const
   {
     return OnBoundary{};
   }
+  if (!this->group.empty())
+  {
+    return InGroup{ { this->group } };
+  }
   if (this->tag)
   {
     return ColumnTag{ this->array, *this->tag };

@@ -20,16 +20,17 @@ namespace smg
 double meanEdgeLength(const MeshBlock& block, CellType cellType);
 
 /** The settings of a region that is defined by the mesh and its arrays: where an array has a value,
- * where it is not 0, or the boundary. */
+ * where it is not 0, a group, or the boundary. */
 struct MarkedRegionSettings
 {
-  std::string array;         ///< of points or cells, with one component; empty: the boundary
+  std::string array;         ///< of points or cells, with one component; empty: none
+  std::string group;         ///< see InGroup; empty, without an array: the boundary
   std::optional<double> tag; ///< the value of the array; none: any value but 0
   int pieces = 0;            ///< in which the input is requested; 0: chosen
 
   bool operator==(const MarkedRegionSettings&) const = default;
 
-  bool isBoundary() const { return this->array.empty(); }
+  bool isBoundary() const { return this->array.empty() && this->group.empty(); }
   /** The region in terms of a problem. */
   Where where() const;
   /** Whether `value`, of an array of float if `isFloat`, is that of the region: a tag of 0.1 is

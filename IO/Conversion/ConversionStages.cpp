@@ -11,8 +11,6 @@
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -99,11 +97,11 @@ private:
 
   void exchange(MeshGroups& groups)
   {
-    std::string text = jsonOf(groups).dump();
+    std::string text = textOf(groups);
     this->Exchanged(text);
     if constexpr (!Saves)
     {
-      groups = groupsOf(nlohmann::json::parse(text));
+      groups = groupsOfText(text);
     }
   }
 

@@ -90,4 +90,19 @@ MeshGroups groupsOf(const nlohmann::json& json)
   return result;
 }
 
+std::string textOf(const MeshGroups& groups)
+{
+  return jsonOf(groups).dump();
+}
+
+MeshGroups groupsOfText(const std::string& text)
+{
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded())
+  {
+    throw MeshError("has groups that are no JSON");
+  }
+  return groupsOf(json);
+}
+
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include "smg/Groups.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,6 +18,10 @@ nlohmann::json jsonOf(const MeshGroups& groups);
 /** The groups that jsonOf() has described. Throws MeshError if it is no such
  * description. */
 MeshGroups groupsOf(const nlohmann::json& json);
+
+/** The same as text. */
+SMG_EXPORT std::string textOf(const MeshGroups& groups);
+SMG_EXPORT MeshGroups groupsOfText(const std::string& text);
 
 /** "vertices", "facets" or "cells". */
 const char* nameOf(GroupOf kind);

@@ -63,7 +63,9 @@ void appendTuples(const std::byte* row, std::span<Column> columns)
 /** Whether triangles carry a column of cells. */
 bool isCarried(const ColumnSpec& spec)
 {
-  return spec.name != OriginalCellIdName && spec.name != CellFlagsName;
+  // Edges of groups are not those of the triangles that remain.
+  return spec.name != OriginalCellIdName && spec.name != CellFlagsName &&
+         spec.name != FacetGroupsName;
 }
 
 } // namespace

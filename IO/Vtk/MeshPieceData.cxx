@@ -3,6 +3,7 @@
 
 #include "IO/Mesh/Columns.h"
 #include "IO/Vtk/FieldMarks.h"
+#include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/PieceCells.h"
 #include "IO/Vtk/PieceColumns.h"
 
@@ -118,6 +119,7 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   {
     mesh.GetCellData()->AddArray(makeArray(column));
   }
+  addGroups(mesh, info.groups);
   if (!piece.ghostCells.empty())
   {
     const auto ghosts = arrayOf<vtkUnsignedCharArray>(GhostTypeName, 1, piece.ghostCells,

@@ -217,7 +217,8 @@ void requireArrays(vtkPointSet& mesh, const std::set<std::string>& names)
   }
   for (const std::string& name : names)
   {
-    if (!there.contains(name))
+    // A mesh has only those of the groups that it has.
+    if (!there.contains(name) && !isGroupColumn(name))
     {
       throw Error("The input has no numeric array " + name + " of its points or cells" +
                   (offered.empty() ? " (it has none)" : offered + ")") +

@@ -4,6 +4,7 @@
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Vtk/GroupData.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/PieceCells.h"
 #include "IO/Vtk/PieceColumns.h"
@@ -192,6 +193,7 @@ void PieceStream::learn(vtkPointSet& piece)
   this->Info.doublePositions = piece.GetPoints() && piece.GetPoints()->GetDataType() != VTK_FLOAT;
   this->Info.vertexColumns = columnSpecs(*piece.GetPointData());
   this->Info.cellColumns = columnSpecs(*piece.GetCellData());
+  this->Info.groups = groupsIn(piece);
   if (this->Columns.all)
   {
     return;

@@ -23,7 +23,8 @@
 namespace smg
 {
 
-/** A facet of exactly one cell with its conditions (see FacetBatch). */
+/** A facet of exactly one cell, or an inner one that has conditions, with these (see FacetBatch).
+ */
 struct BoundaryFacet
 {
   static constexpr int cornersOf(CellType type) { return smg::cornersOf(type) - 1; }
@@ -31,6 +32,7 @@ struct BoundaryFacet
   std::int64_t corners[3]; ///< stream indices, ascending; two for an edge
   std::int32_t flux = -1;  ///< index of its condition
   std::int32_t robin = -1;
+  bool isInner = false;
   // In the order of the corners; null without a condition.
   const double* fluxValue = nullptr;   ///< `columns` per corner
   const double* coefficient = nullptr; ///< one per corner

@@ -16,7 +16,8 @@
 // Whether a facet is on the boundary is known only when its lowest vertex is final, so its data are
 // stored until then. A second cell shows that the facet is interior, and releases its data at once:
 // what is stored are the facets of open vertices, and the data of those facets that have a
-// condition and only one cell so far.
+// condition and only one cell so far. Conditions that the problem states for a facet itself hold
+// on it between two cells, too, once: their data stay until its lowest vertex is final.
 //
 // Data are stored in ascending order of the corners, which is the same in both cells of a facet.
 // The boundary facets of a vertex are found in the order in which the stream first had them, so
@@ -35,7 +36,7 @@ ProblemFacets::ProblemFacets(
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
   , Open(pool)
-  , Data(pool, static_cast<int>(2 + this->Corners * (1 + 2 * this->Columns)))
+  , Data(pool, static_cast<int>(ValueLane + this->Corners * (1 + 2 * this->Columns)))
 {
 }
 
@@ -76,9 +77,10 @@ void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t c
   this->FluxValue.assign(facets * this->Corners * this->Columns, 0.0);
   this->Coefficient.assign(facets * this->Corners, 0.0);
   this->Ambient.assign(facets * this->Corners * this->Columns, 0.0);
+  this->Inside.assign(facets, 0);
   FacetBatch batch{ this->Type, block, first,
     std::span(block.corners).subspan(first * corners, cells * corners), this->Flux, this->FluxValue,
-    this->Robin, this->Coefficient, this->Ambient };
+    this->Robin, this->Coefficient, this->Ambient, this->Inside };
   this->Given.facets(batch);
 }
 
@@ -102,14 +104,39 @@ void ProblemFacets::addCell(const std::int64_t* corner, std::int64_t cell, std::
     const std::int32_t data = this->keep(sorted.order, facet, cell);
     const std::int32_t before =
       this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
-    // A second cell has the facet: it is interior, and neither cell's data are needed. A third one
-    // gets 0, for no data, from add().
-    if (before != OpenFacets::Fresh)
+    // A second cell has the facet: it is interior, and neither cell's data are needed, unless they
+    // hold there. A third one gets 0, for no data, from add().
+    for (const std::int32_t kept : { before, data })
     {
-      this->forget(before);
-      this->forget(data);
+      if (before != OpenFacets::Fresh)
+      {
+        this->holdsInside(kept) ? this->keepInside(sorted, kept) : this->forget(kept);
+      }
     }
   }
+}
+
+BoundaryFacet ProblemFacets::inside(BoundaryFacet facet, std::int32_t data) const
+{
+  const auto bits = static_cast<unsigned>(this->Data.at(data)[InsideLane]);
+  facet.isInner = true;
+  facet.flux = (bits & FacetBatch::InnerFlux) != 0 ? facet.flux : -1;
+  facet.robin = (bits & FacetBatch::InnerRobin) != 0 ? facet.robin : -1;
+  return facet;
+}
+
+/** Keeps the data of an inner facet, those that came first. */
+void ProblemFacets::keepInside(const CellFacet& facet, std::int32_t data)
+{
+  std::vector<InnerFacet>& ofVertex = this->Inner[facet.vertex[0]];
+  const bool isKnown = std::ranges::any_of(ofVertex, [&facet](const InnerFacet& known)
+    { return known.middle == facet.vertex[1] && known.high == facet.vertex[2]; });
+  if (isKnown)
+  {
+    this->forget(data);
+    return;
+  }
+  ofVertex.push_back({ facet.vertex[1], facet.vertex[2], data });
 }
 
 /** Whether enough corners of a cell are prescribed for one of its facets to be wanted: a quick
@@ -155,6 +182,7 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   const std::int64_t name =
     this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
   std::memcpy(kept++, &name, sizeof(name));
+  *kept++ = this->Inside[facet];
   const auto copy = [&](const std::vector<double>& values, std::size_t each)
   {
     for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
@@ -209,7 +237,7 @@ BoundaryFacet ProblemFacets::facet(
     std::memcpy(&name, kept + 1, sizeof(name));
     facet.flux = conditions[0];
     facet.robin = conditions[1];
-    facet.fluxValue = kept + 2;
+    facet.fluxValue = kept + ValueLane;
     facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
     facet.ambient = facet.coefficient + this->Corners;
     this->require(facet, name);
@@ -217,10 +245,10 @@ BoundaryFacet ProblemFacets::facet(
   return facet;
 }
 
-bool ProblemFacets::isInner(const BoundaryFacet& facet) const
+bool ProblemFacets::isExcluded(const BoundaryFacet& facet) const
 {
   const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
-  return this->Inner.contains({ facet.corners[0], facet.corners[1], third });
+  return this->Excluded.contains({ facet.corners[0], facet.corners[1], third });
 }
 
 double ProblemFacets::areaOf(const BoundaryFacet& facet) const

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -35,12 +36,13 @@ public:
   /** The facets so far. */
   const OpenFacets& open() const { return this->Open; }
 
-  /** Excludes interior facets whose second cell belongs to another part of the mesh. */
-  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+  /** Excludes interior facets whose second cell belongs to another part of the mesh, unless they
+   * have conditions of their own. */
+  void exclude(FacetSet facets) { this->Excluded = std::move(facets); }
 
   /** Calls found(facet, area) for each boundary facet whose lowest corner is `vertex`, which is
-   * final, with its length or area; the pointers of the facet are valid during the call. Throws
-   * Error if a value is invalid. */
+   * final, with its length or area, then for each inner one with conditions; the pointers of the
+   * facet are valid during the call. Throws Error if a value is invalid. */
   template <class Found>
   void take(std::int64_t vertex, Found&& found)
   {
@@ -48,12 +50,28 @@ public:
       [&](std::int64_t middle, std::int64_t high, std::int32_t data)
       {
         const BoundaryFacet facet = this->facet(vertex, middle, high, data);
-        if (!this->isInner(facet))
+        if (!this->isExcluded(facet))
         {
           found(facet, this->areaOf(facet));
         }
+        else if (this->holdsInside(data))
+        {
+          found(this->inside(facet, data), this->areaOf(facet));
+        }
         this->forget(data);
       });
+    const auto inner = this->Inner.find(vertex);
+    if (inner == this->Inner.end())
+    {
+      return;
+    }
+    for (const InnerFacet& kept : inner->second)
+    {
+      const BoundaryFacet facet = this->facet(vertex, kept.middle, kept.high, kept.data);
+      found(this->inside(facet, kept.data), this->areaOf(facet));
+      this->forget(kept.data);
+    }
+    this->Inner.erase(inner);
   }
 
 private:
@@ -67,7 +85,15 @@ private:
   void require(const BoundaryFacet& facet, std::int64_t name) const;
   BoundaryFacet facet(
     std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
-  bool isInner(const BoundaryFacet& facet) const;
+  bool isExcluded(const BoundaryFacet& facet) const;
+  /** Whether the data are those of conditions that hold between two cells, too. */
+  bool holdsInside(std::int32_t data) const
+  {
+    return data > 0 && this->Data.at(data)[InsideLane] != 0.0;
+  }
+  /** The facet with those of its conditions that hold between two cells. */
+  BoundaryFacet inside(BoundaryFacet facet, std::int32_t data) const;
+  void keepInside(const CellFacet& facet, std::int32_t data);
   double areaOf(const BoundaryFacet& facet) const;
   void forget(std::int32_t data)
   {
@@ -84,9 +110,18 @@ private:
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
-  FacetSet Inner; ///< those that are excluded
-  /** The data of a facet: its two conditions, its cell, fluxes, coefficients and ambient values.
-   * The cell is given by its index in the original file, or as -1 minus its index in the stream. */
+  FacetSet Excluded;
+  struct InnerFacet
+  {
+    std::int64_t middle, high;
+    std::int32_t data;
+  };
+  /** Facets of two cells or more with conditions, by their lowest corner, which is open. */
+  std::map<std::int64_t, std::vector<InnerFacet>> Inner;
+  static constexpr int InsideLane = 2, ValueLane = 3;
+  /** The data of a facet: its two conditions, its cell, whether they hold between two cells,
+   * fluxes, coefficients and ambient values. The cell is given by its index in the original file,
+   * or as -1 minus its index in the stream. */
   FreeList<double> Data;
   // The block.
   const Column* CellIds = nullptr;
@@ -94,6 +129,7 @@ private:
   // The batch.
   std::vector<std::int32_t> Flux, Robin;
   std::vector<double> FluxValue, Coefficient, Ambient;
+  std::vector<std::uint8_t> Inside;
 };
 
 } // namespace smg

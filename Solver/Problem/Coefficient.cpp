@@ -313,6 +313,27 @@ void PiecewiseCoefficient::entriesAtFacets(
     [&](const Selection& where) { where.atFacets(cells, this->Selected); });
 }
 
+void PiecewiseCoefficient::innerAtFacets(const CellRange& cells,
+  std::span<const std::int32_t> entry, std::span<std::uint8_t> inner, std::uint8_t bit) const
+{
+  const auto facets = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
+  this->Selected.resize(entry.size() / facets);
+  for (std::int32_t e = 0; e < this->entries(); ++e)
+  {
+    const Selection* const where = this->at(e).where;
+    if (!where)
+    {
+      continue;
+    }
+    where->atInnerFacets(cells, this->Selected);
+    for (std::size_t facet = 0; facet < entry.size(); ++facet)
+    {
+      const bool isSelected = (this->Selected[facet / facets] >> facet % facets & 1) != 0;
+      inner[facet] |= entry[facet] == e && isSelected ? bit : std::uint8_t(0);
+    }
+  }
+}
+
 /** Constants have been checked when the description was read. `where` makes the text only if there
  * is an error. */
 void PiecewiseCoefficient::require(const Entry& entry, const double* numbers, auto where) const

@@ -155,6 +155,10 @@ public:
   /** Likewise in cells of the block, and on their facets, as many per cell as corners. */
   void entriesAtCells(const CellRange& cells, std::span<std::int32_t> entry) const;
   void entriesAtFacets(const CellRange& cells, std::span<std::int32_t> entry) const;
+  /** Sets a bit of `inner` for facets whose entry, as entriesAtFacets() has found it, holds on them
+   * between two cells, too. */
+  void innerAtFacets(const CellRange& cells, std::span<const std::int32_t> entry,
+    std::span<std::uint8_t> inner, std::uint8_t bit) const;
 
   /** Copies the values of entries at the vertices of the block, `stride` numbers apart; -1: no
    * entry. Throws Error if a value violates the rules. */

@@ -161,6 +161,11 @@ public:
 
   void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const override;
   void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;
+  void atInnerFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override
+  {
+    this->selectsFacets() ? this->atFacets(cells, selected)
+                          : this->Selection::atInnerFacets(cells, selected);
+  }
 
 protected:
   void begin() override;

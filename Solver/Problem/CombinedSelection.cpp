@@ -193,6 +193,31 @@ void CombinedSelection::atFacets(const CellRange& cells, std::span<std::uint8_t>
     });
 }
 
+void CombinedSelection::atInnerFacets(
+  const CellRange& cells, std::span<std::uint8_t> selected) const
+{
+  std::vector<std::uint8_t> inner(selected.size());
+  std::ranges::fill(selected, std::uint8_t(0));
+  for (const Part& part : this->Parts)
+  {
+    part.selection->atInnerFacets(cells, inner);
+    for (std::size_t c = 0; c < inner.size(); ++c)
+    {
+      selected[c] |= inner[c];
+    }
+  }
+  if (this->How != Combination::Kind::Any)
+  {
+    // Of all parts: those that are facets of each; of what is not selected none are.
+    const bool isAll = this->How == Combination::Kind::All;
+    this->atFacets(cells, inner);
+    for (std::size_t c = 0; c < inner.size(); ++c)
+    {
+      selected[c] = isAll ? static_cast<std::uint8_t>(selected[c] & inner[c]) : std::uint8_t(0);
+    }
+  }
+}
+
 std::string CombinedSelection::predicate() const
 {
   return this->How == Combination::Kind::All   ? "is in all of these parts"

@@ -31,6 +31,8 @@ public:
 
   void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const override;
   void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;
+  /** Facets of a group are so with others, too; what is not selected is not stated as a facet. */
+  void atInnerFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;
 
 protected:
   void begin() override;

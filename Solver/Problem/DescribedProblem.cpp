@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedProblem.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Problem/ProblemData.h"
 #include "smg/Error.h"
 #include "smg/Problem.h"
@@ -97,11 +98,19 @@ struct DatumOnMesh
 {
   PiecewiseCoefficient value;
   std::vector<PiecewiseCoefficient> coefficients; ///< of conditions: one of each entry, or none
+  std::vector<std::string> groups = {};           ///< of each entry: see ConditionCounts
 };
 
 std::string keyOf(const char* list, std::size_t k)
 {
   return std::string(list) + '[' + std::to_string(k) + ']';
+}
+
+/** The names of the groups of a place; "": it is another. */
+std::string groupNames(const Where& where)
+{
+  const auto* group = std::get_if<InGroup>(&where);
+  return group ? listed(group->names, "and") : "";
 }
 
 } // namespace
@@ -187,8 +196,12 @@ DatumOnMesh& DescribedProblem::OnMesh::add(DataPlace place, const ValueRules& ru
 
 void DescribedProblem::OnMesh::add(const DatumRow& row, const ProblemDescription& description)
 {
-  this->add(this->placeOf(row, description), row.rules(description.columns))
-    .value.add(description.*row.member, row.key);
+  DatumOnMesh& datum = this->add(this->placeOf(row, description), row.rules(description.columns));
+  datum.value.add(description.*row.member, row.key);
+  for (const PlacedValue& entry : (description.*row.member).entries)
+  {
+    datum.groups.push_back(groupNames(entry.where));
+  }
 }
 
 void DescribedProblem::OnMesh::add(const ColumnRow& row, const ProblemDescription& description)
@@ -211,6 +224,7 @@ void DescribedProblem::OnMesh::add(
   {
     const std::string key = keyOf(row.key, k);
     datum.value.add(conditions[k].where, conditions[k].*row.value, key, key + '.' + row.valueKey);
+    datum.groups.push_back(groupNames(conditions[k].where));
     if (row.coefficient)
     {
       datum.coefficients
@@ -308,8 +322,16 @@ Weights DescribedProblem::weights() const
 ConditionCounts DescribedProblem::conditionCounts() const
 {
   const OnMesh& data = *this->Data;
-  return { data.valueOf(rowOf("dirichlet")).entries(), data.valueOf(rowOf("flux")).entries(),
-    data.valueOf(rowOf("robin")).entries(), data.valueOf(rowOf("conductivity")).entries() };
+  ConditionCounts counts{ data.valueOf(rowOf("dirichlet")).entries(),
+    data.valueOf(rowOf("flux")).entries(), data.valueOf(rowOf("robin")).entries(),
+    data.valueOf(rowOf("conductivity")).entries() };
+  for (const std::size_t row :
+    { rowOf("dirichlet"), rowOf("flux"), rowOf("robin"), rowOf("conductivity") })
+  {
+    const std::vector<std::string>& groups = data[row].groups;
+    counts.groups.insert(counts.groups.end(), groups.begin(), groups.end());
+  }
+  return counts;
 }
 
 bool DescribedProblem::hasCells() const
@@ -509,14 +531,17 @@ void DescribedProblem::facets(FacetBatch& batch)
   const CellRange cells{ batch.block, batch.first, batch.corners };
   const PiecewiseCoefficient& flux = this->Data->valueOf(rowOf("flux"));
   flux.entriesAtFacets(cells, batch.flux);
+  flux.innerAtFacets(cells, batch.flux, batch.inner, FacetBatch::InnerFlux);
   flux.valuesAtFacets(cells, batch.flux, batch.fluxValue.data(), this->Data->columns);
   this->Data->setRobin(cells, batch);
 }
 
 void DescribedProblem::OnMesh::setRobin(const CellRange& cells, FacetBatch& batch)
 {
-  const auto& [ambient, coefficients] = (*this)[rowOf("robin")];
+  const PiecewiseCoefficient& ambient = this->valueOf(rowOf("robin"));
+  const std::vector<PiecewiseCoefficient>& coefficients = (*this)[rowOf("robin")].coefficients;
   ambient.entriesAtFacets(cells, batch.robin);
+  ambient.innerAtFacets(cells, batch.robin, batch.inner, FacetBatch::InnerRobin);
   ambient.valuesAtFacets(cells, batch.robin, batch.ambient.data(), this->columns);
   for (std::size_t k = 0; k < coefficients.size(); ++k)
   {

@@ -88,17 +88,30 @@ void SelectedVertices::add(const MeshBlock& block)
 {
   // In the temporary folder of the system.
   this->All.prepare(block, {});
+  if (!this->Selected->needsPreparing())
+  {
+    if (!this->Own)
+    {
+      this->Own.emplace(std::filesystem::path());
+    }
+    this->Own->append(this->Selected->atVertices());
+  }
 }
 
 void SelectedVertices::finish()
 {
+  if (this->Own)
+  {
+    this->Own->finish();
+  }
   this->All.endPreparing(nullptr);
 }
 
 /** Any vertex in any order, from the bits that the preparation has stored. */
 bool SelectedVertices::contains(std::int64_t vertex) const
 {
-  return this->Selected->preparedVertices()->contains(vertex);
+  VertexSetFile& vertices = this->Own ? *this->Own : *this->Selected->preparedVertices();
+  return vertices.contains(vertex);
 }
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Problem/BoundarySelection.h"
 #include "Solver/Problem/MeshColumns.h"
 #include "Solver/Problem/Selection.h"
@@ -50,15 +51,15 @@ private:
 };
 
 /**
- * The vertices of the boundary, or of the cells with a tag or in a mask. They are found in one pass
- * over the mesh stream and can then be asked for in any order. An unnamed scratch file has one bit
- * for each vertex, of which 64 KiB are in memory.
+ * The vertices of the boundary, of a group, or of the cells with a tag or in a mask. They are found
+ * in one pass over the mesh stream and can then be asked for in any order. An unnamed scratch file
+ * has one bit for each vertex, of which 64 KiB are in memory.
  */
 class SMG_EXPORT SelectedVertices
 {
 public:
-  /** `where`: OnBoundary, or a ColumnTag or ColumnMask of the cells. `name` is that of the mesh in
-   * messages. Throws Error if the mesh has no such column. */
+  /** `where`: OnBoundary, InGroup, or a ColumnTag or ColumnMask of the cells. `name` is that of the
+   * mesh in messages. Throws Error if the mesh has no such column. */
   SelectedVertices(const Where& where, const StreamInfo& mesh, const std::string& name);
 
   /** Adds the next block of the stream, which must have that column and, if the mesh has them, the
@@ -74,6 +75,8 @@ private:
   MeshColumns Columns;
   Selections All;
   Selection* Selected;
+  /** Of a selection that needs no preparation: its vertices. */
+  mutable std::optional<VertexSetFile> Own;
 };
 
 } // namespace smg

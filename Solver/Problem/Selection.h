@@ -6,8 +6,10 @@
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Region.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -111,6 +113,13 @@ public:
   /** For the facets of cells: bit k of `selected` is 1 if the facet opposite to corner k is
    * selected. */
   virtual void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const;
+  /** The same for facets that are selected as such, also between two cells; of these one has it. */
+  virtual void atInnerFacets(const CellRange& cells, std::span<std::uint8_t> selected) const
+  {
+    std::ranges::fill(selected.first(static_cast<std::size_t>(std::ssize(cells.corners)) /
+                                     static_cast<std::size_t>(cornersOf(this->Columns.cellType()))),
+      std::uint8_t(0));
+  }
 
 protected:
   Selection(DataPlace place, std::string key, const MeshColumns& columns)

@@ -119,8 +119,8 @@ std::string gmshText(GroupedMesh& grouped, Random& random)
     grouped.vertices[{ v }].insert("probe");
   }
   // The ends of the mesh share no cell.
-  Entity far{ 0, mesh.vertices() - 1 };
-  isSurface ? void() : far.insert(far.begin(), mesh.vertices() / 2);
+  const Entity far = isSurface ? Entity{ 0, mesh.vertices() - 1 }
+                               : Entity{ 0, mesh.vertices() / 2, mesh.vertices() - 1 };
   element(corners - 1, 4, far);
   grouped.elsewhere = 1;
   for (std::size_t k = elements.size(); k > 1; --k)

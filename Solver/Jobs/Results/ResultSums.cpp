@@ -106,6 +106,7 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
   , Corners(BoundaryFacet::cornersOf(type))
   , Columns(static_cast<std::size_t>(columns))
   , Inflow(this->Columns)
+  , Groups(counts.groups)
 {
   const std::vector<double> zeros(this->Columns);
   const Sums none{ 0.0, zeros, zeros, zeros, 0.0 };
@@ -122,7 +123,7 @@ void ConditionSums::add(
   const double share = area / this->Corners;
   const std::int32_t first = vertices.dirichlet[facet.corners[0]];
   // A facet is part of a Dirichlet condition if all its corners are prescribed by it.
-  bool same = first >= 0;
+  bool same = first >= 0 && !facet.isInner;
   for (int c = 1; c < this->Corners; ++c)
   {
     same = same && vertices.dirichlet[facet.corners[c]] == first;
@@ -245,7 +246,23 @@ std::vector<Report::Condition> ConditionSums::conditions() const
   this->append("dirichlet", this->Dirichlet, conditions);
   this->append("flux", this->Flux, conditions);
   this->append("robin", this->Robin, conditions);
+  for (std::size_t c = 0; c < conditions.size(); ++c)
+  {
+    conditions[c].name += this->groupOf(c);
+  }
   return conditions;
+}
+
+std::string ConditionSums::groupOf(std::size_t place) const
+{
+  return place < this->Groups.size() && !this->Groups[place].empty()
+           ? " (" + this->Groups[place] + ')'
+           : "";
+}
+
+std::string ConditionSums::groupOfPart(std::size_t part) const
+{
+  return this->groupOf(this->Dirichlet.size() + this->Flux.size() + this->Robin.size() + part);
 }
 
 /** The means of a condition: over its facets if it has any, else over its vertices; NaN if it holds
@@ -452,7 +469,9 @@ void ResultSums::reportParts(Report& report) const
   {
     if (this->Parts[p].measure > 0.0 && this->Parts[p].measure < all.measure)
     {
-      add(p == last ? "elsewhere" : "conductivity[" + std::to_string(p) + ']', this->Parts[p]);
+      add(p == last ? "elsewhere"
+                    : "conductivity[" + std::to_string(p) + ']' + this->conditions.groupOfPart(p),
+        this->Parts[p]);
     }
   }
 }

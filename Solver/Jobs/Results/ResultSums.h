@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -80,6 +81,8 @@ public:
   void add(std::int32_t dirichlet, const double* value, const double* reaction, std::int32_t label);
 
   std::vector<Report::Condition> conditions() const;
+  /** The group of a part, as it follows its name. */
+  std::string groupOfPart(std::size_t part) const;
   /** Appends pointers to all sums, so that those of the parts of a mesh can be added up. */
   void appendNumbers(std::vector<double*>& numbers);
   /** Per column: the total inflow through all conditions. */
@@ -99,6 +102,8 @@ private:
   void addFlux(Sums& sums, std::size_t column, double flux, std::int32_t label);
   void addRobin(
     const BoundaryFacet& facet, double area, const OpenVertices& vertices, std::int32_t label);
+  /** The group of a condition or part, by its place among all. */
+  std::string groupOf(std::size_t place) const;
   void append(const char* kind, const std::vector<Sums>& all,
     std::vector<Report::Condition>& conditions) const;
 
@@ -106,6 +111,7 @@ private:
   std::size_t Columns;
   std::vector<Sums> Dirichlet, Flux, Robin;
   std::vector<double> Inflow;
+  std::vector<std::string> Groups; ///< see ConditionCounts
 };
 
 /** What the cells, boundary facets and edges of a vertex contribute to the results. All of these

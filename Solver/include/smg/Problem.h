@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -109,6 +110,11 @@ struct FacetBatch
   std::span<std::int32_t> robin;
   std::span<double> coefficient; ///< out, one a corner of a facet, at least 0
   std::span<double> ambient;     ///< out, `columns` a corner of a facet
+  /** Out, one a facet, at first 0: the bits InnerFlux and InnerRobin if its condition holds on it
+   * also between two cells. Either cell may say so; the condition acts once. */
+  std::span<std::uint8_t> inner;
+  static constexpr std::uint8_t InnerFlux = 1;  ///< bit of `inner`
+  static constexpr std::uint8_t InnerRobin = 2; ///< bit of `inner`
 
   /** Number of cells of the batch. */
   std::size_t cells() const
@@ -125,6 +131,9 @@ struct ConditionCounts
   int robin = 0;     ///< Robin conditions
   /** Parts of the mesh by their conductivity, each with an entry in Report::parts. */
   int parts = 0;
+  /** The names of the groups that Dirichlet, flux and Robin conditions and parts are stated for, in
+   * this order, for their names in the report; "": none. Empty: there are none. */
+  std::vector<std::string> groups = {};
 };
 
 /**

@@ -179,7 +179,9 @@ struct SMG_EXPORT Report
   /** A Dirichlet, flux or Robin condition and what the solution makes of it. */
   struct Condition
   {
-    std::string name; ///< "dirichlet[0]", "flux[0]" or "robin[0]", with its number in the problem
+    /** "dirichlet[0]", "flux[0]" or "robin[0]", with its number in the problem; of a group with its
+     * name, as "robin[0] (outlet)". */
+    std::string name;
     std::int64_t vertices = 0; ///< of a Dirichlet condition: vertices it prescribes; else 0
     /** Length (of open edges of a surface) or area of its boundary facets; of a Dirichlet condition
      * those whose corners it all prescribes. Without the shares of undetermined vertices. */
@@ -198,8 +200,8 @@ struct SMG_EXPORT Report
    */
   struct Part
   {
-    /** "conductivity[0]" with the number of its entry in the problem, "elsewhere", where none
-     * holds, or "all". */
+    /** "conductivity[0]" with the number of its entry in the problem and its group, as of a
+     * condition; "elsewhere", where none holds, or "all". */
     std::string name;
     double measure = 0;           ///< area or volume of its cells
     std::vector<double> gradient; ///< mean of grad u: 3 a column
