@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ExpandTables TEMPLATE.xml PROXIES.xml : writes the server-manager XML of a template, in which
-// properties and suffixes come from the tables of the library (IO/Jobs/JobOption.h,
-// IO/Formats/FormatTable.h):
+// ExpandTables TEMPLATE.xml PARTS.xml PROXIES.xml : writes the server-manager XML of a template, in
+// which properties and suffixes come from the tables of the library (IO/Jobs/JobOption.h,
+// IO/Formats/FormatTable.h), and what several proxies have alike from PARTS.xml:
 //
+//   <Part name="Solve" default="1"/>
+//     is the definition of this name, with the values of its attributes at {default} and the like.
 //   <Option job="blend" key="anchor"/>
 //     is the property of this option: name, label, command, default, range, choices, documentation.
 //     Attributes say what is to differ in a panel: `name`, of an option that the table gives none;
@@ -31,6 +33,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -274,16 +277,21 @@ Attributes attributesAt(const std::string& text, std::size_t& at)
   return found;
 }
 
-std::string withOptions(const std::string& text)
+/** What replaces an element with these attributes and this content. */
+using Replacement = std::function<std::string(Attributes given, std::string content)>;
+
+/** The text with all elements of this name, which do not contain each other, replaced. */
+std::string replacedElements(
+  const std::string& text, const std::string& name, const Replacement& replacement)
 {
-  constexpr std::string_view begin = "<Option ", end = "</Option>";
+  const std::string begin = '<' + name + ' ', end = "</" + name + '>';
   std::string result;
   std::size_t done = 0;
   for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, done))
   {
     result += text.substr(done, at - done);
     at += begin.size();
-    const Attributes given = attributesAt(text, at);
+    Attributes given = attributesAt(text, at);
     std::string content;
     done = at + 2;
     if (text[at] == '>')
@@ -292,9 +300,75 @@ std::string withOptions(const std::string& text)
       content = text.substr(at + 1, stop - at - 1);
       done = stop + end.size();
     }
-    result += propertyXml(given, std::move(content));
+    result += replacement(std::move(given), std::move(content));
   }
   return result + text.substr(done);
+}
+
+/** What parts stand for. */
+class Definitions
+{
+public:
+  explicit Definitions(const std::string& text)
+  {
+    replacedElements(text, "Definition",
+      [this](Attributes given, std::string content)
+      {
+        const std::string name = given.at("name");
+        this->Known.emplace(name, std::pair(std::move(given), std::move(content)));
+        return std::string();
+      });
+  }
+
+  std::string withParts(const std::string& text) const
+  {
+    return replacedElements(text, "Part",
+      [this](Attributes given, std::string content)
+      {
+        const auto found = this->Known.find(given.at("name"));
+        if (found == this->Known.end())
+        {
+          throw smg::Error("there is no part " + given.at("name"));
+        }
+        const auto& [defaults, body] = found->second;
+        given.emplace("content", std::move(content));
+        given.insert(defaults.begin(), defaults.end());
+        return this->withParts(filled(body, given));
+      });
+  }
+
+private:
+  /** With the values of attributes in place of their names in braces. */
+  static std::string filled(const std::string& body, const Attributes& values)
+  {
+    std::string result;
+    std::size_t done = 0;
+    for (std::size_t at = body.find('{'); at != std::string::npos; at = body.find('{', done))
+    {
+      const std::size_t end = body.find('}', at);
+      const std::string name = body.substr(at + 1, end - at - 1);
+      if (!values.contains(name))
+      {
+        throw smg::Error(values.at("name") + " needs the attribute " + name);
+      }
+      result += body.substr(done, at - done) + values.at(name);
+      done = end + 1;
+    }
+    return result + body.substr(done);
+  }
+
+  std::map<std::string, std::pair<Attributes, std::string>> Known;
+};
+
+std::string textOf(const char* path)
+{
+  std::ifstream in(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in)
+  {
+    throw smg::Error(std::string(path) + " cannot be read");
+  }
+  return text;
 }
 
 bool isIn(const smg::Format& format, const std::string& group)
@@ -364,18 +438,16 @@ int main(int argc, char** argv)
 {
   try
   {
-    if (argc != 3)
+    if (argc != 4)
     {
-      throw smg::Error("usage: ExpandTables TEMPLATE.xml PROXIES.xml");
+      throw smg::Error("usage: ExpandTables TEMPLATE.xml PARTS.xml PROXIES.xml");
     }
-    std::ifstream in(argv[1], std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    const std::string expanded = withSuffixes(withOptions(text));
-    std::ofstream out(argv[2], std::ios::binary);
-    out << expanded << std::flush;
-    if (!in || !out)
+    const std::string parts = Definitions(textOf(argv[2])).withParts(textOf(argv[1]));
+    std::ofstream out(argv[3], std::ios::binary);
+    out << withSuffixes(replacedElements(parts, "Option", propertyXml)) << std::flush;
+    if (!out)
     {
-      throw smg::Error("cannot be read, or its result not be written");
+      throw smg::Error("cannot be written");
     }
     return 0;
   }

@@ -218,9 +218,16 @@ class OptionsTest(unittest.TestCase):
 
     def test_paraview_has_them(self):
         found = {("simplify", "checkpoint")}  # a simplification in ParaView has none
+        with open(os.path.join(SOURCE, "ParaViewPlugin", "Tables", "Parts.xml"), encoding="utf-8") as file:
+            parts = file.read()
+        texts = [parts]
         for path in glob.glob(os.path.join(SOURCE, "ParaViewPlugin", "StreamingMultigrid", "*.xml")):
             with open(path, encoding="utf-8") as file:
-                found.update(re.findall(r'<Option job="(\w+)" key="(\w+)"', file.read()))
+                texts.append(file.read())
+        of_parts = re.findall(r'<Option job="\{job\}" key="(\w+)"', parts)
+        for text in texts:
+            found.update(re.findall(r'<Option job="(\w+)" key="(\w+)"', text))
+            found.update((job, key) for job in re.findall(r'<Part name="\w+" job="(\w+)"', text) for key in of_parts)
 
         def check(job, option):
             key = option["key"]
