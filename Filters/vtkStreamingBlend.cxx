@@ -2,11 +2,8 @@
 #include "Filters/vtkStreamingBlend.h"
 
 #include "Filters/Pieces/ReplacedArray.h"
-#include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/JobTask.h"
-#include "IO/Jobs/BlendJob.h"
 #include "IO/Jobs/JobProperties.h"
-#include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -15,39 +12,6 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingBlend);
-
-namespace
-{
-
-class BlendTask : public smg::JobTask
-{
-public:
-  smg::BlendJob asked;
-
-  BlendTask()
-    : JobTask("this is the blended preview", "blended")
-  {
-  }
-
-  void check() const override
-  {
-    this->JobTask::check();
-    if (this->asked.description.patch.empty())
-    {
-      throw smg::Error("Patch must name the array with the patch of each point or cell.");
-    }
-    if (this->asked.description.columns.empty())
-    {
-      throw smg::Error("Arrays must name at least one point array to blend.");
-    }
-  }
-
-protected:
-  smg::BlendJob& job() override { return this->asked; }
-  std::vector<smg::Where>& places() override { return this->asked.description.hold; }
-};
-
-} // namespace
 
 vtkStreamingBlend::vtkStreamingBlend()
   : vtkStreamingSolver("blend")
@@ -63,12 +27,8 @@ const std::vector<std::string>& vtkStreamingBlend::ChosenArrays() const
 
 std::unique_ptr<smg::JobTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
 {
-  auto task = std::make_unique<BlendTask>();
-  this->FillOptions(task->asked.solving);
-  task->setLimits(task->asked.solving);
-  this->Options->applyTo(task->asked);
-  task->asked.description.columns = this->ChosenArrays();
-  task->asked.description.hold = smg::placesOn(input, this->GetHold(), "Hold");
+  std::unique_ptr<smg::JobTask> task = this->Superclass::MakeTask(input);
+  task->setColumns(this->ChosenArrays());
   return task;
 }
 

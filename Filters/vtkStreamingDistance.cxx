@@ -2,7 +2,6 @@
 #include "Filters/vtkStreamingDistance.h"
 
 #include "Filters/Pieces/ReplacedArray.h"
-#include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/JobTask.h"
 #include "IO/Jobs/DistanceJob.h"
 #include "IO/Jobs/JobProperties.h"
@@ -10,7 +9,6 @@
 #include "IO/Vtk/PieceColumns.h"
 #include "Solver/Core/Text.h"
 #include "smg/Deform.h"
-#include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
 #include "vtkCellArray.h"
@@ -47,11 +45,12 @@ constexpr const char* HintOnPreview =
 class DistanceTask : public smg::JobTask
 {
 public:
-  smg::DistanceJob asked;
-  std::size_t regions = 0; ///< of places(), on the mesh
+  smg::DistanceJob& asked; ///< the job
+  std::size_t regions = 0; ///< to measure from, on the mesh
 
   DistanceTask()
-    : JobTask("these are distances on the preview", "measured")
+    : JobTask("distance")
+    , asked(static_cast<smg::DistanceJob&>(this->job()))
   {
   }
 
@@ -66,8 +65,7 @@ public:
   }
 
 protected:
-  smg::DistanceJob& job() override { return this->asked; }
-  std::vector<smg::Where>& places() override { return this->asked.description.from; }
+  std::string resultOnPreview() const override { return "these are distances on the preview"; }
 
   std::unique_ptr<smg::Solution> run(
     const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override
@@ -195,32 +193,20 @@ void vtkStreamingDistance::CheckRanges() const
 std::unique_ptr<smg::JobTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
 {
   auto task = std::make_unique<DistanceTask>();
-  smg::SolveOptions options;
-  this->FillOptions(options);
-  task->setLimits(options);
-  if (!options.checkpoint.folder.empty())
-  {
-    throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
-  }
+  this->FillTask(*task, input);
   if (this->GetWall() && this->GetWithin() > 0.0)
   {
     throw smg::Error(
       "Within is the largest length of paths, which distances to a wall are not: set "
       "Within to 0, or turn Wall off.");
   }
-  this->Options->applyTo(task->asked);
   smg::DistanceDescription& description = task->asked.description;
-  description.from = smg::placesOn(input, this->GetFrom(), "From");
   if (description.from.empty() && !description.wall &&
       input.GetPointData()->HasArray(smg::HandleMaskName))
   {
     description.from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
   }
   task->regions = description.from.size();
-  if (const std::string& to = this->Options->text("To"); !to.empty())
-  {
-    description.to = smg::readPlacesText(to, "To");
-  }
   return task;
 }
 

@@ -2,12 +2,8 @@
 #include "Filters/vtkStreamingMeshArea.h"
 
 #include "Filters/Pieces/ReplacedArray.h"
-#include "Filters/Regions/RegionArrays.h"
-#include "Filters/Tasks/JobTask.h"
-#include "IO/Jobs/AreaJob.h"
-#include "IO/Jobs/JobProperties.h"
-#include "Solver/Core/Text.h"
-#include "smg/Error.h"
+#include "Filters/Tasks/SolveSummary.h"
+#include "smg/Area.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -19,39 +15,9 @@
 #include "vtkTable.h"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingMeshArea);
-
-namespace
-{
-
-class AreaTask : public smg::JobTask
-{
-public:
-  smg::AreaJob asked;
-
-  AreaTask()
-    : JobTask("these are areas of the mesh in memory", "measured")
-  {
-  }
-
-protected:
-  smg::AreaJob& job() override { return this->asked; }
-  std::vector<smg::Where>& places() override { return this->asked.description.of; }
-
-  void complete(
-    Result& result, const smg::StoredMesh& /*mesh*/, const smg::ProgressFunction&) override
-  {
-    const smg::Report::Areas& areas = *result.report.areas;
-    result.report.notes.push_back((areas.isVolume ? "volume " : "area ") +
-                                  smg::shortest(areas.total) + " of " +
-                                  smg::counted(areas.cells, "cell", "cells"));
-  }
-};
-
-} // namespace
 
 vtkStreamingMeshArea::vtkStreamingMeshArea()
   : vtkStreamingSolver("area")
@@ -60,21 +26,6 @@ vtkStreamingMeshArea::vtkStreamingMeshArea()
 }
 
 vtkStreamingMeshArea::~vtkStreamingMeshArea() = default;
-
-std::unique_ptr<smg::JobTask> vtkStreamingMeshArea::MakeTask(vtkPointSet& input)
-{
-  auto task = std::make_unique<AreaTask>();
-  smg::SolveOptions& options = task->asked.running;
-  this->FillOptions(options);
-  task->setLimits(options);
-  if (!options.checkpoint.folder.empty())
-  {
-    throw smg::Error("areas have no checkpoints: leave CheckpointDirectory empty");
-  }
-  this->Options->applyTo(task->asked);
-  task->asked.description.of = smg::placesOn(input, this->GetOf(), "Of");
-  return task;
-}
 
 void vtkStreamingMeshArea::Deliver(
   vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)

@@ -64,7 +64,6 @@ protected:
   ~vtkStreamingMeshArea() override;
 
   bool IsForMemory(vtkPointSet& /*input*/, bool /*isWhole*/) override { return false; }
-  std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   void FillFurtherOutputs(
     const smg::SolveSummary& summary, vtkInformationVector& outputVector) override;

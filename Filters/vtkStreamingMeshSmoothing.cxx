@@ -2,7 +2,6 @@
 #include "Filters/vtkStreamingMeshSmoothing.h"
 
 #include "Filters/Pieces/ReplacedArray.h"
-#include "Filters/Regions/RegionArrays.h"
 #include "Filters/Tasks/DeformedVertices.h"
 #include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/MovedPiece.h"
@@ -32,18 +31,16 @@ namespace
 class SmoothingTask : public smg::JobTask
 {
 public:
-  smg::SmoothJob asked;
+  smg::SmoothJob& asked;     ///< the job
   bool needsNormals = false; ///< of the vertices; tetrahedra have none
 
   SmoothingTask()
-    : JobTask("this is the smoothed preview", "smoothed")
+    : JobTask("smooth")
+    , asked(static_cast<smg::SmoothJob&>(this->job()))
   {
   }
 
 protected:
-  smg::SmoothJob& job() override { return this->asked; }
-  std::vector<smg::Where>& places() override { return this->asked.smoothing.hold; }
-
   void complete(
     Result& result, const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override
   {
@@ -106,17 +103,14 @@ std::unique_ptr<smg::JobTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& i
 {
   auto task = std::make_unique<SmoothingTask>();
   smg::Smoothing& description = task->asked.smoothing;
-  this->FillOptions(description);
-  task->setLimits(description);
+  this->FillTask(*task, input);
   // Both enumerations have the same order.
   description.size = { this->Size, static_cast<smg::SmoothingSize::Unit>(this->SizeUnit) };
-  this->Options->applyTo(task->asked);
   description.column = this->SmoothedArray();
   if (this->KeepEdges)
   {
     description.keepEdges = this->EdgeAngle;
   }
-  description.hold = smg::placesOn(input, this->GetHold(), "Hold");
   const bool isSurface =
     vtkPolyData::SafeDownCast(&input) ||
     (smg::lacksStreamNumbering(input) && smg::countingCells(input) == smg::CellChoice::Triangles);

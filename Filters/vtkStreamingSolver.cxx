@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingSolver.h"
 
+#include "Filters/Regions/RegionArrays.h"
 #include "Filters/SolverInternals.h"
+#include "Filters/Tasks/JobTask.h"
 #include "Filters/Tasks/SolveEstimate.h"
+#include "IO/Jobs/JobOption.h"
 #include "IO/Jobs/JobProperties.h"
+#include "IO/Jobs/Jobs.h"
 #include "IO/Vtk/MeshPieceData.h"
 #include "IO/Vtk/PieceInput.h"
 #include "IO/Vtk/PieceStream.h"
 #include "IO/Vtk/PropertyNames.h"
 #include "IO/Vtk/PropertyRange.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/Error.h"
 
 #include "vtkDataObjectTypes.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -23,13 +29,17 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
 
 vtkStreamingSolver::vtkStreamingSolver(const char* job)
   : Options(new smg::JobProperties(job))
+  , Job(job)
   , Internal(new Internals(*this))
 {
   this->SetNumberOfOutputPorts(NUMBER_OF_OUTPUT_PORTS);
@@ -114,6 +124,44 @@ const char* vtkStreamingSolver::GetEstimate()
 std::string vtkStreamingSolver::InPanelWords(const std::string& text)
 {
   return smg::withProperties(text, *this);
+}
+
+std::unique_ptr<smg::JobTask> vtkStreamingSolver::MakeTask(vtkPointSet& input)
+{
+  auto task = std::make_unique<smg::JobTask>(this->Job);
+  this->FillTask(*task, input);
+  return task;
+}
+
+void vtkStreamingSolver::FillTask(smg::JobTask& task, vtkPointSet& input) const
+{
+  smg::MeshJob& job = task.job();
+  auto* const solving = dynamic_cast<smg::SolvingJob*>(&job);
+  smg::SolveOptions unused;
+  smg::SolveOptions& options = solving ? solving->options() : unused;
+  this->FillOptions(options);
+  task.setLimits(options);
+  const auto table = job.table();
+  if (!options.checkpoint.folder.empty() &&
+      std::ranges::find(table, std::string_view("checkpoint"), &smg::JobOption::key) == table.end())
+  {
+    throw smg::Error(std::string(smg::jobKind(this->Job).verb) +
+                     " has no checkpoints: leave CheckpointDirectory empty");
+  }
+  this->Options->applyTo(job);
+  bool isFirst = true;
+  for (const smg::JobOption& option : table)
+  {
+    if (const auto* where = std::get_if<smg::WhereOption>(&option.kind))
+    {
+      const std::string name = smg::propertyOf(option);
+      const std::string& text = this->Options->text(name);
+      where->member.set(job, std::exchange(isFirst, false)
+                               ? smg::placesOn(input, text.c_str(), name.c_str())
+                             : text.empty() ? std::vector<smg::Where>()
+                                            : smg::readPlacesText(text, name));
+    }
+  }
 }
 
 std::unique_ptr<smg::JobTask> vtkStreamingSolver::MakeEstimatedTask(vtkPointSet& input)

@@ -194,8 +194,12 @@ protected:
     vtkInformationVector* outputVector) override;
 
   /** Creates the task to compute on the whole mesh, of which `input` is some piece. Throws
-   * smg::Error if the properties or the arrays of the input do not allow it. */
-  virtual std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input) = 0;
+   * smg::Error if the properties or the arrays of the input do not allow it. Default: the job, as
+   * FillTask() fills it. */
+  virtual std::unique_ptr<smg::JobTask> MakeTask(vtkPointSet& input);
+  /** Sets limits, options and parts of the mesh, those of the regions of the input first, according
+   * to the properties. Throws smg::Error. */
+  void FillTask(smg::JobTask& task, vtkPointSet& input) const;
 
   /** Creates the task of GetEstimate() from what the input delivered last, which may have neither
    * points nor arrays. Default: MakeTask(). */
@@ -276,6 +280,7 @@ private:
 
   struct Internals;
 
+  const char* const Job; ///< its kind
   int Solve = AUTOMATIC_SOLVE;
   int Weights = COTANGENT;
   std::string Operators = "extended";

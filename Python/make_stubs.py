@@ -19,6 +19,7 @@ FOLDER = sys.argv[1]
 sys.path.insert(0, FOLDER)
 sys.dont_write_bytecode = True
 import streamingmultigrid as smg  # noqa: E402
+from streamingmultigrid._jobs import JOBS  # noqa: E402
 
 HEAD = """# SPDX-License-Identifier: BSD-3-Clause
 # Written by Python/make_stubs.py, of the signatures of the package.
@@ -48,6 +49,7 @@ _INTERNAL = {
 
 def _type(annotation):
     text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", str(annotation))
+    text = text.replace("types.Job", "Literal[%s]" % ", ".join(map(repr, JOBS)))
     return text.strip("\"'").replace("\"Placed\"", "Placed")
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Area.h"
 
+#include "Solver/Core/Text.h"
 #include "Solver/Core/Vector.h"
 #include "Solver/Jobs/Fairing/MeshMeasures.h"
 #include "Solver/Jobs/Values/VertexSolution.h"
@@ -320,6 +321,8 @@ void AreaPass::finishReport()
   {
     areas.by_tag.push_back({ tag, sum.cells, sum.area });
   }
+  report.notes.push_back((areas.isVolume ? "volume " : "area ") + shortest(areas.total) + " of " +
+                         counted(areas.cells, "cell", "cells"));
   this->Job.finishReport();
 }
 

@@ -121,12 +121,12 @@ inline double inMebibytes(std::int64_t bytes)
 /** Runs the selected command; returns its exit code. */
 using Action = std::function<int()>;
 
-/** Adds a command with options, which sets `action` when it is selected. */
+/** Adds a command with options, which is made of `more` and sets `action` when it is selected. */
 template <class Command>
-void addCommand(
-  CLI::App& program, Action& action, const std::string& name, const std::string& description)
+void addCommand(CLI::App& program, Action& action, const std::string& name,
+  const std::string& description, const auto&... more)
 {
-  const auto command = std::make_shared<Command>();
+  const auto command = std::make_shared<Command>(more...);
   CLI::App* added = program.add_subcommand(name, description);
   command->addOptions(*added);
   added->callback(

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineCommand.h"
 
-#include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/DeformJob.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
@@ -14,18 +13,11 @@ namespace
 class DeformCommand : public EngineCommand
 {
 public:
-  DeformCommand()
-    : EngineCommand("deforming")
-  {
-  }
+  using EngineCommand::EngineCommand;
 
-  void addOptions(CLI::App& command)
+  void addOptions(CLI::App& command) override
   {
-    this->addSolverOptions(command,
-      "The deformed mesh: " + smg::suffixList(smg::FormatUse::Write, "or") +
-        " in stream order; of a mesh file IN, " + smg::suffixList(smg::FormatUse::Restore, "and") +
-        " in the order of IN, unless that has a column OriginalId or points are welded. From .vsm, "
-        "and from a streaming format to a streaming format, the order is kept");
+    this->EngineCommand::addOptions(command);
     this->addEngineTo(command);
     command.add_option("--handles", this->File, "The handles, a JSON file")
       ->required()
@@ -44,29 +36,30 @@ protected:
     deformation.read = [this]
     {
       this->readJob();
-      this->Job.description.weights = this->Job.deforming.weights;
-      this->Job.description.tolerance = this->Job.deforming.tolerance;
-      return this->Job.description;
+      this->asked().description.weights = this->asked().deforming.weights;
+      this->asked().description.tolerance = this->asked().deforming.tolerance;
+      return this->asked().description;
     };
-    deformation.normals = this->Job.normals;
+    deformation.normals = this->asked().normals;
     return engine.deform(job, deformation);
   }
 
   void checkForProcesses() const override
   {
-    if (this->Job.deforming.cycles > 0)
+    if (this->asked().deforming.cycles > 0)
     {
       throw smg::Error("--engine hypre has no V-cycles to count: give a tolerance, in " +
                        this->File.string() + " or by --tolerance, instead of cycles.");
     }
   }
 
-  smg::DeformJob& job() override { return this->Job; }
+  smg::DeformJob& asked() { return static_cast<smg::DeformJob&>(this->job()); }
+  const smg::DeformJob& asked() const { return static_cast<const smg::DeformJob&>(this->job()); }
 
   void readTask() override
   {
-    this->Job.description = smg::readHandleText(this->readText(), this->File.string());
-    this->Job.description.applyTo(this->Job.deforming);
+    this->asked().description = smg::readHandleText(this->readText(), this->File.string());
+    this->asked().description.applyTo(this->asked().deforming);
     this->announceCheckpoint("pass");
   }
 
@@ -85,16 +78,13 @@ protected:
 
   double tolerance() const override
   {
-    return this->Job.deforming.cycles > 0 ? 0.0 : this->Job.deforming.tolerance;
+    return this->asked().deforming.cycles > 0 ? 0.0 : this->asked().deforming.tolerance;
   }
-
-private:
-  smg::DeformJob Job;
 };
 
 } // namespace
 
-void addDeformCommand(CLI::App& program, Action& action)
+void addDeformCommand(CLI::App& program, Action& action, const smg::JobKind& kind)
 {
-  addJobCommand<DeformCommand>(program, action, "deform");
+  addCommand<DeformCommand>(program, action, kind.name, kind.help, kind);
 }

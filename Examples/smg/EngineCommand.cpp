@@ -85,7 +85,7 @@ void EngineCommand::addEngineTo(CLI::App& command)
 
 void EngineCommand::print(const smg::Report& report) const
 {
-  this->SolvingCommand::print(report);
+  this->MeshCommand::print(report);
   if (!this->Explain || report.stages.empty())
   {
     return;
@@ -115,7 +115,7 @@ std::unique_ptr<smg::Solution> EngineCommand::solveOn(
 {
   if (!this->Whole)
   {
-    return this->SolvingCommand::solveOn(mesh, progress);
+    return this->MeshCommand::solveOn(mesh, progress);
   }
   this->job().prepareOn(mesh);
   return std::make_unique<BorrowedSolution>(*this->Whole);
@@ -137,7 +137,8 @@ void EngineCommand::compute()
   job.task = this->File.string();
   job.text = &this->text();
   job.scratch = this->scratch;
-  job.maxIterations = this->MaxCycles->count() > 0 ? this->solveOptions().maxCycles : MaxIterations;
+  job.maxIterations =
+    this->MaxCycles->count() > 0 ? this->solving()->options().maxCycles : MaxIterations;
   job.memoryLimit = this->memoryBytes(INT64_MAX);
   job.progress = bar->function();
   job.check = [this] { this->checkDistributed(); };
@@ -145,7 +146,7 @@ void EngineCommand::compute()
   {
     bar.reset();
     this->Whole = &solution;
-    this->SolvingCommand::compute();
+    this->MeshCommand::compute();
   };
   job.report = [this, &bar](smg::Report& report)
   {
@@ -161,26 +162,26 @@ void EngineCommand::computeTraced()
 {
   if (this->Trace.empty())
   {
-    this->SolvingCommand::compute();
+    this->MeshCommand::compute();
     return;
   }
   this->checkFiles(this->files());
   smg::TextOutput table(this->Trace);
   table << "pass,step,level,stage,first,end\n";
-  this->job().options().trace = [&table](const smg::TraceEntry& entry)
+  this->solving()->options().trace = [&table](const smg::TraceEntry& entry)
   {
     table << entry.pass << ',' << entry.step << ',' << entry.level << ",\"" << entry.stage << "\","
           << entry.first << ',' << entry.end << '\n';
   };
-  this->SolvingCommand::compute();
-  this->job().options().trace = nullptr;
+  this->MeshCommand::compute();
+  this->solving()->options().trace = nullptr;
   table.finish();
 }
 
 /** Reports foreseeable failures. */
 void EngineCommand::checkDistributed()
 {
-  const smg::SolveOptions& options = this->solveOptions();
+  const smg::SolveOptions& options = this->solving()->options();
   if (options.inCore || !this->checkpoint.empty() || this->isDryRun() || !this->Trace.empty() ||
       this->Explain || options.operators != "extended" || this->isGiven("acceleration") ||
       this->isGiven("sweeps"))

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "DistributedEngine.h"
-#include "SolvingCommand.h"
+#include "MeshCommand.h"
 
 #include <filesystem>
 #include <memory>
@@ -10,12 +10,12 @@
 
 /** Base of the commands that two engines have: one process streams, or the processes of mpiexec
  * solve together. */
-class EngineCommand : public SolvingCommand
+class EngineCommand : public MeshCommand
 {
 protected:
-  using SolvingCommand::SolvingCommand;
+  using MeshCommand::MeshCommand;
 
-  /** Adds the options --engine, --explain and --trace; addSolverOptions() comes first. */
+  /** Adds the options --engine, --explain and --trace; addOptions() comes first. */
   void addEngineTo(CLI::App& command);
   bool isForProcesses() const override { return this->Engine == "hypre"; }
   void compute() override;
@@ -30,14 +30,14 @@ protected:
   /** Those of the other engine are past when this one's result is written. */
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
-    return this->Whole ? smg::Costs{} : this->SolvingCommand::costsOn(info);
+    return this->Whole ? smg::Costs{} : this->MeshCommand::costsOn(info);
   }
   std::unique_ptr<smg::Solution> solveOn(
     const smg::StoredMesh& mesh, const smg::ProgressFunction& progress) override;
 
   smg::UsedFiles files() const override
   {
-    smg::UsedFiles files = this->SolvingCommand::files();
+    smg::UsedFiles files = this->MeshCommand::files();
     files.write(this->Trace, "trace");
     return files;
   }

@@ -5,7 +5,6 @@
 
 #include "IO/Formats/UsedFiles.h"
 #include "IO/Jobs/JobOption.h"
-#include "IO/Jobs/Jobs.h"
 
 #include <CLI/CLI.hpp>
 
@@ -41,10 +40,3 @@ private:
 
   std::deque<Entry> Entries; ///< at fixed addresses, which the parser has
 };
-
-/** Adds the command of a job, as addCommand(). */
-template <class Command>
-void addJobCommand(CLI::App& program, Action& action, const char* job)
-{
-  addCommand<Command>(program, action, job, smg::jobKind(job).help);
-}

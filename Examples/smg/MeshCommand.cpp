@@ -3,7 +3,9 @@
 
 #include "DrawMesh.h"
 #include "ProgressBar.h"
+#include "SolveText.h"
 
+#include "IO/Description/JsonNode.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/MeshFile.h"
@@ -38,20 +40,58 @@ void printCosts(const smg::Report& report)
 
 } // namespace
 
-void MeshCommand::addFiles(CLI::App& command, const std::string& result)
+MeshCommand::MeshCommand(const smg::JobKind& kind)
+  : Kind(kind)
+  , Job(smg::makeMeshJob(kind.name))
 {
-  command.add_option("IN", this->In, "The mesh, preferably a .vsm file")->required();
-  command.add_option("OUT", this->Out, result)->required();
+  const auto solves = [this]
+  {
+    return std::ranges::count(this->Job->table(), std::string_view("sweeps"), &smg::JobOption::key);
+  };
+  this->Solving = solves() ? dynamic_cast<smg::SolvingJob*>(this->Job.get()) : nullptr;
 }
 
-void MeshCommand::addInputAndCommon(CLI::App& command)
+void MeshCommand::addOptions(CLI::App& command)
 {
+  command.add_option("IN", this->In, "The mesh, preferably a .vsm file")->required();
+  command.add_option("OUT", this->Out, this->job().resultHelp())->required();
+  this->Options.addTo(command, this->job());
+  if (this->solving())
+  {
+    smg::SolveOptions& options = this->solving()->options();
+    // checkOperators() says where shi2006, which there was, is found.
+    command.add_option("--operators", options.operators, "Operator set")
+      ->check([](const std::string& name)
+        { return name == "shi2006" ? std::string() : oneOf({ "extended" })(name); })
+      ->capture_default_str();
+    // For experiments and tests: they affect the speed, not the result.
+    command.add_option("--block-nodes", options.blockNodes)->group("");
+    command.add_option("--core-nodes", options.coreNodes)->group("");
+  }
   this->addTextTo(command);
   this->addInputTo(command);
   this->addTo(command, std::to_string(this->job().memoryLimit() >> 20),
     "; without it, 256 MiB to convert IN");
   this->addThreadsTo(command);
   command.add_flag("--dry-run", this->DryRun, "Only estimate the cost; IN is not read");
+  if (std::ranges::any_of(this->job().table(), smg::isKind<smg::WhereOption>))
+  {
+    command.footer(
+      "WHERE is one of {\"vertices\": [numbers]}, {\"nearest\": [[x, y, z], ...]}, "
+      "{\"boundary\": true}, {\"sphere\": [x, y, z, r]}, {\"box\": [x0, y0, z0, x1, y1, z1]}, "
+      "{\"halfspace\": [nx, ny, nz, d]}, {\"tag\": [\"column\", value]}, {\"mask\": \"column\"}. "
+      "docs/" +
+      std::string(this->Kind.name) + ".md explains all");
+  }
+}
+
+const std::string& MeshCommand::readText()
+{
+  this->Text = smg::jsonFileText(this->File.string());
+  this->job().name = this->File.string();
+  this->solving()->text = this->Text;
+  this->solving()->options().checkpoint.folder = this->checkpoint;
+  return this->Text;
 }
 
 smg::JobEstimate MeshCommand::estimate(const smg::ResultFile& out) const
@@ -139,6 +179,16 @@ void MeshCommand::warn(const smg::Report& report) const
   {
     std::fprintf(stderr, "smg: warning: %s\n", smg::oneLine(warning).c_str());
   }
+  if (this->solving())
+  {
+    warnOfSolve(report, this->solving()->options());
+  }
+}
+
+void MeshCommand::print(const smg::Report& report) const
+{
+  const std::string found = this->job().found(report);
+  found.empty() ? printSolve(report) : void(std::puts(found.c_str()));
 }
 
 void MeshCommand::tell(const smg::Report& report)
@@ -168,7 +218,7 @@ void MeshCommand::compute()
   smg::Report report;
   std::optional<html::ResultSurface> drawn;
   {
-    ProgressBar bar(this->Title, this->quiet);
+    ProgressBar bar(this->title(), this->quiet);
     const std::unique_ptr<smg::OpenedMesh> mesh =
       this->openInput(this->In, smg::partOf(bar.function(), 0.0, 0.2));
     if (mesh->conversion())
@@ -227,12 +277,6 @@ smg::Report MeshCommand::solveAndWrite(
   return report;
 }
 
-const std::string& MeshCommand::text() const
-{
-  static const std::string none;
-  return none;
-}
-
 html::PageFacts MeshCommand::pageFacts() const
 {
   return { this->In, this->job().memoryLimit(), this->tolerance(), this->text(), this->File };
@@ -260,4 +304,9 @@ html::ResultSurface MeshCommand::draw(
         again, progress);
       return drawn;
     });
+}
+
+void addJobCommand(CLI::App& program, Action& action, const smg::JobKind& kind)
+{
+  addCommand<MeshCommand>(program, action, kind.name, kind.help, kind);
 }

@@ -8,6 +8,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/FormatTable.h"
 #include "IO/Formats/MeshFile.h"
+#include "IO/Jobs/Jobs.h"
 #include "IO/Jobs/SimplifyJob.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "Solver/Core/Text.h"
@@ -160,7 +161,7 @@ void SimplifyCommand::checkUsage() const
 
 } // namespace
 
-void addSimplifyCommand(CLI::App& program, Action& action)
+void addSimplifyCommand(CLI::App& program, Action& action, const smg::JobKind& kind)
 {
-  addJobCommand<SimplifyCommand>(program, action, "simplify");
+  addCommand<SimplifyCommand>(program, action, kind.name, kind.help);
 }

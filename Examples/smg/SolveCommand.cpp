@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EngineCommand.h"
 
-#include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/SolveJob.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
 #include "Solver/Problem/ProblemData.h"
@@ -27,18 +26,11 @@ std::string problemHelp()
 class SolveCommand : public EngineCommand
 {
 public:
-  SolveCommand()
-    : EngineCommand("solving")
-  {
-  }
+  using EngineCommand::EngineCommand;
 
-  void addOptions(CLI::App& command)
+  void addOptions(CLI::App& command) override
   {
-    this->addSolverOptions(command,
-      "The mesh with its solution: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
-        " in stream order; of a mesh file IN, " +
-        smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
-        " in the order of IN, unless that has a column OriginalId or points are welded");
+    this->EngineCommand::addOptions(command);
     this->addCheckpointTo(command);
     this->addEngineTo(command);
     command.add_option("--problem", this->File, "The problem, a JSON file")
@@ -49,14 +41,14 @@ public:
 
   void checkUsage() const override
   {
-    smg::checkOptions(this->Job.solving);
-    smg::checkOperators(this->Job.solving);
+    smg::checkOptions(this->asked().solving);
+    smg::checkOperators(this->asked().solving);
   }
 
 protected:
   void computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
-    if (this->Job.solving.tolerance == smg::SolveOptions::AutomaticTolerance)
+    if (this->asked().solving.tolerance == smg::SolveOptions::AutomaticTolerance)
     {
       throw smg::Error("--tolerance auto is for --engine streaming: give a number");
     }
@@ -64,28 +56,26 @@ protected:
     solve.read = [this]
     {
       this->readJob();
-      return this->Job.description;
+      return this->asked().description;
     };
-    solve.tolerance = this->Job.solving.tolerance;
+    solve.tolerance = this->asked().solving.tolerance;
     return engine.solve(job, solve);
   }
 
-  smg::SolveJob& job() override { return this->Job; }
+  smg::SolveJob& asked() { return static_cast<smg::SolveJob&>(this->job()); }
+  const smg::SolveJob& asked() const { return static_cast<const smg::SolveJob&>(this->job()); }
 
   void readTask() override
   {
-    this->Job.description = smg::readProblemText(this->readText(), this->File.string());
-    this->Job.check();
+    this->asked().description = smg::readProblemText(this->readText(), this->File.string());
+    this->asked().check();
     this->announceCheckpoint("pass");
   }
-
-private:
-  smg::SolveJob Job;
 };
 
 } // namespace
 
-void addSolveCommand(CLI::App& program, Action& action)
+void addSolveCommand(CLI::App& program, Action& action, const smg::JobKind& kind)
 {
-  addJobCommand<SolveCommand>(program, action, "solve");
+  addCommand<SolveCommand>(program, action, kind.name, kind.help, kind);
 }

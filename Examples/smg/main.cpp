@@ -19,8 +19,10 @@
 
 #include "CommonOptions.h"
 #include "HtmlReport/Page.h"
+#include "MeshCommand.h"
 #include "ProgressBar.h"
 
+#include "IO/Jobs/Jobs.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
@@ -30,6 +32,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <new>
 #include <numeric>
 #include <string>
@@ -38,24 +41,34 @@
 #include <vector>
 
 /** Each in its own file. */
-void addAreaCommand(CLI::App& program, Action& action);
-void addBlendCommand(CLI::App& program, Action& action);
 void addConvertCommand(CLI::App& program, Action& action);
-void addDeformCommand(CLI::App& program, Action& action);
-void addDistanceCommand(CLI::App& program, Action& action);
 void addInfoCommand(CLI::App& program, Action& action);
 void addPreviewCommand(CLI::App& program, Action& action);
-void addSimplifyCommand(CLI::App& program, Action& action);
-void addSmoothCommand(CLI::App& program, Action& action);
-void addSolveCommand(CLI::App& program, Action& action);
+/** Of jobs with more than the options of their tables. */
+void addDeformCommand(CLI::App& program, Action& action, const smg::JobKind& kind);
+void addDistanceCommand(CLI::App& program, Action& action, const smg::JobKind& kind);
+void addSimplifyCommand(CLI::App& program, Action& action, const smg::JobKind& kind);
+void addSolveCommand(CLI::App& program, Action& action, const smg::JobKind& kind);
 
 namespace
 {
 
-/** In the order of the help. */
-constexpr void (*Commands[])(CLI::App&, Action&) = { addInfoCommand, addConvertCommand,
-  addSolveCommand, addDeformCommand, addSmoothCommand, addBlendCommand, addDistanceCommand,
-  addAreaCommand, addSimplifyCommand, addPreviewCommand };
+/** Adds all commands, in the order of the help. */
+void addCommands(CLI::App& program, Action& action)
+{
+  using Add = void (*)(CLI::App&, Action&, const smg::JobKind&);
+  const std::map<std::string_view, Add> own{ { "deform", addDeformCommand },
+    { "distance", addDistanceCommand }, { "simplify", addSimplifyCommand },
+    { "solve", addSolveCommand } };
+  addInfoCommand(program, action);
+  addConvertCommand(program, action);
+  for (const smg::JobKind& kind : smg::jobKinds())
+  {
+    const auto found = own.find(kind.name);
+    (found == own.end() ? addJobCommand : found->second)(program, action, kind);
+  }
+  addPreviewCommand(program, action);
+}
 
 /** Prints an error in one line, without control characters. */
 int fail(const std::string& sentence)
@@ -139,10 +152,7 @@ int run(int argc, char** argv)
   program.set_version_flag("--version", SMG_VERSION);
   program.require_subcommand(1);
   Action action;
-  for (const auto add : Commands)
-  {
-    add(program, action);
-  }
+  addCommands(program, action);
   if (argc < 2 || std::string_view(argv[1]) == "help")
   {
     std::fputs(program.help().c_str(), argc < 2 ? stderr : stdout);

@@ -20,7 +20,8 @@ namespace smg
 {
 
 DeformationTask::DeformationTask()
-  : JobTask("this is the deformed preview", "deformed")
+  : JobTask("deform")
+  , asked(static_cast<DeformJob&>(this->job()))
 {
   this->asked.description = DeformationDescription::byColumns();
   this->asked.text = "handles in the arrays of the mesh";
@@ -94,8 +95,7 @@ SolveSummary DeformationTask::solveInMemory(
     this->interactive->judge(report);
     return SolveSummary::of(report, this->interactive->columns());
   }
-  report.notes.push_back(
-    noteOnPreview(report.vertices, "this is the deformed preview", "deformed"));
+  report.notes.push_back(this->noteOnPreview(report.vertices));
   if (isSurfaceOfSolid(mesh))
   {
     report.notes.push_back(

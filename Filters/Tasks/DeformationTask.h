@@ -25,7 +25,7 @@ public:
 
   DeformationTask();
 
-  DeformJob asked;
+  DeformJob& asked;          ///< the job
   bool needsNormals = false; ///< of the vertices; tetrahedra have none
   /** Keeps the hierarchy of a mesh in memory for the next deformation; that of the filter. */
   InteractiveMesh* interactive = nullptr;
@@ -39,7 +39,6 @@ public:
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) override;
 
 protected:
-  DeformJob& job() override { return this->asked; }
   std::set<std::string> required() const override;
   std::unique_ptr<Solution> run(const StoredMesh& mesh, const ProgressFunction& progress) override;
   void complete(Result& result, const StoredMesh& mesh, const ProgressFunction& progress) override;

@@ -4,8 +4,12 @@
 #include "Filters/Pieces/PieceBlock.h"
 #include "Filters/Regions/RegionArrays.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Jobs/JobOption.h"
+#include "IO/Jobs/JobProperties.h"
 #include "IO/Jobs/ReadOptions.h"
+#include "smg/Error.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace smg
@@ -16,12 +20,60 @@ namespace
 /** The share of the job in the progress; what follows from its result takes the rest. */
 constexpr double JobShare = 0.9;
 
+/** The option with the parts of the mesh to which Mesh Regions add; null: there is none. */
+const WhereOption* partsOf(const Job& job)
+{
+  const auto table = job.table();
+  const auto found = std::ranges::find_if(table, isKind<WhereOption>);
+  return found == table.end() ? nullptr : &std::get<WhereOption>(found->kind);
+}
+
 } // namespace
 
-std::string noteOnPreview(std::int64_t vertices, const char* result, const char* done)
+JobTask::JobTask(const char* kind)
+  : Kind(jobKind(kind))
+  , Job(makeMeshJob(kind))
 {
-  return std::string(result) + ", a mesh of " + std::to_string(vertices) +
-         " vertices: the full mesh is " + done + " when it is saved, or with Solve: Full Mesh";
+}
+
+void JobTask::setColumns(std::vector<std::string> names)
+{
+  for (const JobOption& option : this->job().table())
+  {
+    if (const auto* columns = std::get_if<ColumnsOption>(&option.kind))
+    {
+      columns->member.set(this->job(), names);
+    }
+  }
+}
+
+void JobTask::check() const
+{
+  this->job().check();
+  for (const JobOption& option : this->job().table())
+  {
+    const auto* column = std::get_if<ColumnOption>(&option.kind);
+    const auto* columns = std::get_if<ColumnsOption>(&option.kind);
+    const bool isMissing = (column && column->member.get(this->job())->empty()) ||
+                           (columns && columns->member.get(this->job())->empty());
+    if (option.isRequired && isMissing)
+    {
+      throw Error(propertyOf(option) + (column ? " must name an array: " : " must name arrays: ") +
+                  option.help + '.');
+    }
+  }
+}
+
+std::string JobTask::resultOnPreview() const
+{
+  return std::string("this is the ") + this->Kind.done + " preview";
+}
+
+std::string JobTask::noteOnPreview(std::int64_t vertices) const
+{
+  return this->resultOnPreview() + ", a mesh of " + std::to_string(vertices) +
+         " vertices: the full mesh is " + this->Kind.done +
+         " when it is saved, or with Solve: Full Mesh";
 }
 
 void JobTask::setLimits(const SolveOptions& options)
@@ -68,7 +120,12 @@ SolveSummary JobTask::solveInMemory(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values)
 {
   this->check();
-  dropEmptyRegions(mesh, this->places());
+  if (const WhereOption* parts = partsOf(this->job()))
+  {
+    std::vector<Where> places = *parts->member.get(this->job());
+    dropEmptyRegions(mesh, places);
+    parts->member.set(this->job(), std::move(places));
+  }
   const StoredBlock stored(mesh, this->required());
   this->adaptTo(mesh, stored.info());
   this->job().keepInMemory();
@@ -76,8 +133,7 @@ SolveSummary JobTask::solveInMemory(
   Solution& solution = *result.solution;
   values.resize(static_cast<std::size_t>(solution.vertices() * solution.columns()));
   solution.read(0, solution.vertices(), values);
-  result.report.notes.push_back(
-    noteOnPreview(result.report.vertices, this->ResultOnPreview, this->Done));
+  result.report.notes.push_back(this->noteOnPreview(result.report.vertices));
   return SolveSummary::of(result.report, solution.columns());
 }
 

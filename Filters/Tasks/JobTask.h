@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Filters/Tasks/SolveSummary.h"
+#include "IO/Jobs/Jobs.h"
 #include "IO/Jobs/MeshJob.h"
 #include "IO/Vtk/PieceStream.h"
-#include "smg/Region.h"
 #include "smg/VsmReader.h"
 
 #include <cstdint>
@@ -20,24 +20,25 @@ class vtkPointSet;
 namespace smg
 {
 
-/** What a report says of a result on a preview, for example "this is the smoothed preview", of a
- * job by which the mesh is, for example, "smoothed". */
-std::string noteOnPreview(std::int64_t vertices, const char* result, const char* done);
-
 /** What a filter computes: a job on the mesh that its input delivers in pieces, out of core, or,
  * with its preview or as a whole, in memory. */
 class JobTask
 {
 public:
+  explicit JobTask(const char* kind);
   virtual ~JobTask() = default;
 
   std::vector<std::string> notes; ///< for the report
 
+  MeshJob& job() { return *this->Job; }
+  const MeshJob& job() const { return *this->Job; }
+  /** Sets the columns of a job that is done to some. */
+  void setColumns(std::vector<std::string> names);
   /** Sets the limits of the job. */
   void setLimits(const SolveOptions& options);
 
   /** Throws Error for problems that do not depend on the mesh, before the mesh is read. */
-  virtual void check() const { this->job().check(); }
+  virtual void check() const;
   /** The arrays of the pieces that the job needs. */
   PieceColumns columns() const;
   /** What it is expected to cost on a mesh whose counts and span are known. */
@@ -58,13 +59,6 @@ public:
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values);
 
 protected:
-  /** Both as for noteOnPreview(). */
-  JobTask(const char* result, const char* done)
-    : ResultOnPreview(result)
-    , Done(done)
-  {
-  }
-
   /** A solution with what a report says of it. */
   struct Result
   {
@@ -72,10 +66,10 @@ protected:
     Report report;
   };
 
-  virtual MeshJob& job() = 0;
-  const MeshJob& job() const { return const_cast<JobTask*>(this)->job(); }
-  /** The parts of the mesh that the job names, of which a preview may lack some. */
-  virtual std::vector<Where>& places() { return this->NoPlaces; }
+  /** What a result on a preview is. */
+  virtual std::string resultOnPreview() const;
+  /** What the report says of one with so many vertices. */
+  std::string noteOnPreview(std::int64_t vertices) const;
   /** The arrays without which the job cannot be done. */
   virtual std::set<std::string> required() const;
 
@@ -87,8 +81,7 @@ protected:
     this->job().prepareOn(mesh);
     return this->job().solveOn(mesh, progress);
   }
-  /** Before a run in memory, from whose places() regions that a preview has no point of are gone.
-   */
+  /** Before a run in memory, without the regions of which a preview has no point. */
   virtual void adaptTo(vtkPointSet& /*preview*/, const StreamInfo& /*info*/) {}
   /** Completes a result with what follows from it on the mesh. Throws Error and Cancelled. */
   virtual void complete(
@@ -99,8 +92,8 @@ protected:
 private:
   Result resultOn(const StoredMesh& mesh, const ProgressFunction& progress);
 
-  const char *ResultOnPreview, *Done;
-  std::vector<Where> NoPlaces;
+  const JobKind& Kind;
+  std::unique_ptr<MeshJob> Job;
 };
 
 /** Makes the task of a filter from what its input delivered last, which may be nothing. */

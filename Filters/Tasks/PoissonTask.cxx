@@ -29,7 +29,8 @@ namespace smg
 {
 
 PoissonTask::PoissonTask()
-  : JobTask("this is the solution on the preview", "solved on")
+  : JobTask("solve")
+  , asked(static_cast<SolveJob&>(this->job()))
 {
 }
 

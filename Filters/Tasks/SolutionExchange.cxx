@@ -126,16 +126,8 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   {
     // Tables, outputs and warnings of a solve are there once.
     Report shared = summary.facts;
-    shared.by_pass.clear();
+    clearLists(shared);
     shared.warnings.clear();
-    if (shared.areas)
-    {
-      shared.areas->by_tag.clear();
-    }
-    if (shared.distance)
-    {
-      shared.distance->paths.clear();
-    }
     const std::vector<std::uint8_t> bytes = packedReport(shared);
     facts.assign(bytes.begin(), bytes.end());
   }

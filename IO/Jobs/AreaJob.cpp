@@ -1,15 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Jobs/AreaJob.h"
-
 #include "IO/Jobs/JobOption.h"
+#include "IO/Jobs/MeshJob.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Jobs/Estimate/Costs.h"
+#include "smg/Area.h"
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
+
+#include <iomanip>
+#include <ranges>
+#include <sstream>
 
 namespace smg
 {
 namespace
 {
+
+/** Sums up areas or volumes: of each vertex, by tags, in all. */
+class AreaJob : public SolvingJob
+{
+public:
+  AreaJob() { this->name = "area"; }
+
+  AreaDescription description;
+  SolveOptions running; ///< without what solves
+
+  using SolvingJob::options;
+  SolveOptions& options() override { return this->running; }
+  std::span<const JobOption> table() const override;
+  void check() const override {}
+  std::string resultHelp() const override
+  {
+    return meshWith("the share of each vertex, the column Area or Volume");
+  }
+  std::string resultColumns() const override { return "an area"; }
+  std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
+  void checkOn(const StreamInfo& info) const override;
+  Costs costsOn(const StreamInfo& info) const override;
+  AddedValues addedTo(const StreamInfo& info) const override;
+  std::unique_ptr<Solution> solveOn(
+    const StoredMesh& mesh, const ProgressFunction& progress) override;
+  void passResult(const StoredMesh& mesh, Solution& solution, const Reader& read, Report& report,
+    const ProgressFunction& progress) const override;
+  std::string found(const Report& report) const override;
+  std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override;
+};
 
 /** In the order of AreaShare. */
 constexpr const char* ShareNames[] = { "equal", "voronoi" };
@@ -39,8 +74,6 @@ constexpr auto AreaTable = joined(
               "square metres" },
   },
   LimitOptions, ScratchLimitOption);
-
-} // namespace
 
 std::span<const JobOption> AreaJob::table() const
 {
@@ -93,9 +126,35 @@ void AreaJob::passResult(const StoredMesh& mesh, Solution& solution, const Reade
   read(result, progress);
 }
 
+std::string AreaJob::found(const Report& report) const
+{
+  constexpr std::size_t Shown = 20;
+  const Report::Areas& areas = *report.areas;
+  std::ostringstream text;
+  text << std::setprecision(9) << report.vertices << " vertices, "
+       << counted(areas.cells, "cell", "cells");
+  for (const Report::Area& part : areas.by_tag | std::views::take(Shown))
+  {
+    text << "\n  tag " << shortest(part.tag) << ": " << counted(part.cells, "cell", "cells") << ", "
+         << (areas.isVolume ? "volume " : "area ") << part.area;
+  }
+  if (areas.by_tag.size() > Shown)
+  {
+    text << "\n  and " << areas.by_tag.size() - Shown << " more tags, which the report has";
+  }
+  return text.str();
+}
+
 std::string AreaJob::fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const
 {
   return vertices == 1 ? "has no area." : "have no area.";
+}
+
+} // namespace
+
+std::unique_ptr<Job> makeAreaJob()
+{
+  return std::make_unique<AreaJob>();
 }
 
 } // namespace smg

@@ -1,15 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Jobs/BlendJob.h"
-
 #include "IO/Jobs/JobOption.h"
+#include "IO/Jobs/MeshJob.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "Solver/Multigrid/Engine/CheckOptions.h"
+#include "smg/Blend.h"
 #include "smg/SolvedMesh.h"
 
 namespace smg
 {
 namespace
 {
+
+/** Blends columns of the vertices between patches. */
+class BlendJob : public SolvingJob
+{
+public:
+  BlendDescription description;
+  SolveOptions solving;
+
+  using SolvingJob::options;
+  SolveOptions& options() override { return this->solving; }
+  std::span<const JobOption> table() const override;
+  void check() const override;
+  std::string resultHelp() const override
+  {
+    return meshWith("the blended columns") +
+           "; and of other formats, if they have places for the columns";
+  }
+  std::string resultColumns() const override { return "these columns of vertices"; }
+  std::vector<std::string> changedColumns() const override { return this->description.columns; }
+  std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
+  Costs costsOn(const StreamInfo& info) const override;
+  AddedValues addedTo(const StreamInfo& info) const override;
+  std::unique_ptr<Solution> solveOn(
+    const StoredMesh& mesh, const ProgressFunction& progress) override;
+  void passResult(const StoredMesh& mesh, Solution& solution, const Reader& read, Report& report,
+    const ProgressFunction& progress) const override;
+  std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override;
+};
 
 /** In the order of SeamGradient. */
 constexpr const char* SeamNames[] = { "zero", "average" };
@@ -45,8 +73,6 @@ constexpr auto BlendTable = joined(
       .property = "SeamGradient" },
   },
   ToleranceOptions, SolverOptions, LimitOptions, ScratchLimitOption);
-
-} // namespace
 
 std::span<const JobOption> BlendJob::table() const
 {
@@ -98,6 +124,13 @@ void BlendJob::passResult(const StoredMesh& mesh, Solution& solution, const Read
 std::string BlendJob::fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const
 {
   return vertices == 1 ? "keeps its values." : "keep their values.";
+}
+
+} // namespace
+
+std::unique_ptr<Job> makeBlendJob()
+{
+  return std::make_unique<BlendJob>();
 }
 
 } // namespace smg

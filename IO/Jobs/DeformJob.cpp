@@ -3,6 +3,7 @@
 
 #include "IO/Description/ParseDescriptions.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/JobOption.h"
 #include "IO/Jobs/MovedResult.h"
 #include "Solver/Jobs/Estimate/Costs.h"
@@ -72,6 +73,14 @@ constexpr auto DeformTable = joined(
 std::span<const JobOption> DeformJob::table() const
 {
   return DeformTable;
+}
+
+std::string DeformJob::resultHelp() const
+{
+  return "The deformed mesh: " + suffixList(FormatUse::Write, "or") +
+         " in stream order; of a mesh file IN, " + suffixList(FormatUse::Restore, "and") +
+         " in the order of IN, unless that has a column OriginalId or points are welded. From "
+         ".vsm, and from a streaming format to a streaming format, the order is kept";
 }
 
 std::vector<ColumnSpec> DeformJob::solutionColumns(const StreamInfo& /*info*/) const

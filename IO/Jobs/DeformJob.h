@@ -29,6 +29,7 @@ public:
   SolveOptions& options() override { return this->deforming; }
   std::span<const JobOption> table() const override;
   void check() const override {}
+  std::string resultHelp() const override;
   std::string resultColumns() const override { return {}; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
   void checkOn(const StreamInfo& info) const override;

@@ -2,9 +2,14 @@
 #include "IO/Jobs/DistanceJob.h"
 
 #include "IO/Jobs/JobOption.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
+
+#include <iomanip>
+#include <ranges>
+#include <sstream>
 
 namespace smg
 {
@@ -141,6 +146,40 @@ bool DistanceJob::keeps(const ColumnSpec& column, const StreamInfo& /*info*/) co
 {
   return column.name != DistanceSourceName && column.name != DistanceGroupName &&
          column.name != DistanceDirectionName;
+}
+
+std::string DistanceJob::found(const Report& report) const
+{
+  constexpr std::size_t Shown = 10;
+  const Report::Distance& found = *report.distance;
+  const std::string source = this->description.wall ? "wall face" : "source";
+  std::ostringstream text;
+  text << report.vertices << " vertices, " << counted(report.cells, "cell", "cells") << ", "
+       << counted(found.sources, source, source + 's') << ", "
+       << counted(report.passes, "pass", "passes") << " (the mesh read " << std::fixed
+       << std::setprecision(2) << found.mesh_readings << " times)\n  " << std::defaultfloat
+       << std::setprecision(6) << (found.exact ? "exact" : "approximate") << " distance: maximum "
+       << found.maximum << ", mean " << found.mean;
+  if (found.unreached > 0)
+  {
+    text << ", " << counted(found.unreached, "vertex", "vertices") << " not reached";
+  }
+  for (const Report::Path& path : found.paths | std::views::take(Shown))
+  {
+    text << "\n  path to vertex " << path.to << ": ";
+    if (path.points.empty())
+    {
+      text << "none";
+      continue;
+    }
+    text << "from " << path.from << ", length " << path.length << ", "
+         << counted(std::ssize(path.points), "point", "points");
+  }
+  if (found.paths.size() > Shown)
+  {
+    text << "\n  and " << found.paths.size() - Shown << " more paths";
+  }
+  return text.str();
 }
 
 std::string DistanceJob::fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const

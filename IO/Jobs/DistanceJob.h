@@ -25,6 +25,7 @@ public:
   std::int64_t memoryLimit() const override { return this->options.memoryLimit; }
   std::span<const JobOption> table() const override;
   void check() const override;
+  std::string resultHelp() const override { return meshWith("its distances"); }
   std::string resultColumns() const override { return "a distance"; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
   void checkOn(const StreamInfo& info) const override;
@@ -34,6 +35,7 @@ public:
     const StoredMesh& mesh, const ProgressFunction& progress) override;
   void passResult(const StoredMesh& mesh, Solution& solution, const Reader& read, Report& report,
     const ProgressFunction& progress) const override;
+  std::string found(const Report& report) const override;
   std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override;
 
 protected:

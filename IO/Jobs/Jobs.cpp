@@ -2,8 +2,6 @@
 #include "IO/Jobs/Jobs.h"
 
 #include "IO/Conversion/ConversionFields.h"
-#include "IO/Jobs/AreaJob.h"
-#include "IO/Jobs/BlendJob.h"
 #include "IO/Jobs/DeformJob.h"
 #include "IO/Jobs/DistanceJob.h"
 #include "IO/Jobs/ReadOptions.h"
@@ -23,6 +21,11 @@
 
 namespace smg
 {
+
+/** Of jobs that nothing knows but by their tables; each in its own file. */
+std::unique_ptr<Job> makeAreaJob();
+std::unique_ptr<Job> makeBlendJob();
+
 namespace
 {
 
@@ -33,13 +36,20 @@ std::unique_ptr<Job> make()
 }
 
 constexpr JobKind Kinds[] = {
-  { "solve", "Solve a Poisson problem on a mesh", make<SolveJob> },
-  { "deform", "Deform a mesh by handles, keeping its details", make<DeformJob> },
-  { "smooth", "Smooth a surface, or a column of the vertices of any mesh", make<SmoothJob> },
-  { "blend", "Remove the steps of columns between patches of a mesh", make<BlendJob> },
-  { "distance", "Measure the distance of all vertices from some of them", make<DistanceJob> },
-  { "area", "Sum up areas or volumes: of vertices, by tags, in all", make<AreaJob> },
-  { "simplify", "Simplify a surface, or that of a solid, by collapsing edges", make<SimplifyJob> },
+  { "solve", "Solve a Poisson problem on a mesh", "solving", "Solution on", "solved on",
+    make<SolveJob> },
+  { "deform", "Deform a mesh by handles, keeping its details", "deforming", "Deformation of",
+    "deformed", make<DeformJob> },
+  { "smooth", "Smooth a surface, or a column of the vertices of any mesh", "smoothing",
+    "Smoothing of", "smoothed", make<SmoothJob> },
+  { "blend", "Remove the steps of columns between patches of a mesh", "blending", "Blend on",
+    "blended", makeBlendJob },
+  { "distance", "Measure the distance of all vertices from some of them", "measuring",
+    "Distances on", "measured", make<DistanceJob> },
+  { "area", "Sum up areas or volumes: of vertices, by tags, in all", "measuring", "Areas of",
+    "measured", makeAreaJob },
+  { "simplify", "Simplify a surface, or that of a solid, by collapsing edges", "simplifying",
+    "Simplification of", "simplified", make<SimplifyJob> },
 };
 
 } // namespace
@@ -64,6 +74,18 @@ const JobKind& jobKind(std::string_view name)
 std::unique_ptr<Job> makeJob(std::string_view kind)
 {
   return jobKind(kind).make();
+}
+
+std::unique_ptr<MeshJob> makeMeshJob(std::string_view kind)
+{
+  std::unique_ptr<Job> job = makeJob(kind);
+  if (auto* const ofMesh = dynamic_cast<MeshJob*>(job.get()))
+  {
+    job.release();
+    return std::unique_ptr<MeshJob>(ofMesh);
+  }
+  throw Error(
+    '\'' + std::string(kind) + "': its result is another mesh, with a function of its own.");
 }
 
 nlohmann::ordered_json describeAll()

@@ -2,6 +2,7 @@
 #include "IO/Jobs/MeshJob.h"
 
 #include "IO/External/Workspace.h"
+#include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/ReadOptions.h"
 
 #include <algorithm>
@@ -47,6 +48,13 @@ StreamInfo MeshJob::resultOn(const StreamInfo& info) const
   change(result.vertexColumns, added.ofVertices);
   change(result.cellColumns, added.ofCells);
   return result;
+}
+
+std::string MeshJob::meshWith(const std::string& columns)
+{
+  return "The mesh with " + columns + ": " + suffixList(FormatUse::WriteColumns, "or") +
+         " in stream order; of a mesh file IN, " + suffixList(FormatUse::RestoreColumns, "and") +
+         " in the order of IN, unless that has a column OriginalId or points are welded";
 }
 
 AddedValues MeshJob::replacedIn(const StreamInfo& info, const std::vector<std::string>& columns)

@@ -29,6 +29,8 @@ public:
   /** The limit of the accounted memory, bytes. */
   virtual std::int64_t memoryLimit() const = 0;
 
+  /** What help says of the result. */
+  virtual std::string resultHelp() const = 0;
   /** The columns of the result for an error, for example "a solution"; empty if the result is the
    * mesh with other positions. */
   virtual std::string resultColumns() const = 0;
@@ -64,6 +66,9 @@ public:
   virtual void passResult(const StoredMesh& mesh, Solution& solution, const Reader& read,
     Report& report, const ProgressFunction& progress) const = 0;
 
+  /** What was found, in lines for a user; empty: the convergence of a solve. */
+  virtual std::string found(const Report& /*report*/) const { return {}; }
+
   /** The treatment of this many isolated vertices in an output with all of the mesh, as the end of
    * a sentence. `ordered`: the output has the order of the mesh file. */
   virtual std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const
@@ -82,6 +87,8 @@ protected:
   {
     return true;
   }
+  /** What help says of a result that is the mesh with `columns` besides its own. */
+  static std::string meshWith(const std::string& columns);
   /** The values of a result that has these columns of the vertices with other values. */
   static AddedValues replacedIn(const StreamInfo& info, const std::vector<std::string>& columns);
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Jobs/SmoothJob.h"
 
+#include "IO/Formats/FormatTable.h"
 #include "IO/Jobs/JobOption.h"
 #include "IO/Jobs/MovedResult.h"
 #include "Solver/Jobs/Estimate/Costs.h"
@@ -66,6 +67,13 @@ constexpr auto SmoothTable = joined(
 std::span<const JobOption> SmoothJob::table() const
 {
   return SmoothTable;
+}
+
+std::string SmoothJob::resultHelp() const
+{
+  return "The smoothed mesh: " + suffixList(FormatUse::WriteColumns, "or") +
+         " with all columns of IN; or, of smoothed positions, any other format that is written. "
+         "The order of IN is kept wherever the format can have it";
 }
 
 std::string SmoothJob::resultColumns() const

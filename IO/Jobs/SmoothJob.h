@@ -24,6 +24,7 @@ public:
   SolveOptions& options() override { return this->smoothing; }
   std::span<const JobOption> table() const override;
   void check() const override { checkOptions(this->smoothing); }
+  std::string resultHelp() const override;
   std::string resultColumns() const override;
   std::vector<std::string> changedColumns() const override;
   bool turnsCells() const override { return this->smoothing.orient; }

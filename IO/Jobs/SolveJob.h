@@ -26,6 +26,7 @@ public:
   SolveOptions& options() override { return this->solving; }
   std::span<const JobOption> table() const override;
   void check() const override;
+  std::string resultHelp() const override { return meshWith("its solution"); }
   std::string resultColumns() const override { return "a solution"; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
   void checkOn(const StreamInfo& info) const override;

@@ -29,13 +29,9 @@ std::unique_ptr<MeshJob> jobOf(
   return argument(
     [&]
     {
-      std::unique_ptr<Job> job = makeJob(kind);
-      if (!dynamic_cast<MeshJob*>(job.get()))
-      {
-        throw Error('\'' + kind + "': its result is another mesh: call smg_" + kind + "().");
-      }
+      std::unique_ptr<MeshJob> job = makeMeshJob(kind);
       describeJob(*job, kind, description, defaults);
-      return std::unique_ptr<MeshJob>(static_cast<MeshJob*>(job.release()));
+      return job;
     });
 }
 

@@ -10,8 +10,8 @@
 namespace smg
 {
 
-/** The job "solve", "deform", "smooth", "blend", "distance" or "area" of a description in JSON,
- * checked as far as that is possible without the mesh. Limits that it does not have are `defaults`.
+/** The job of this kind of a description in JSON, checked as far as that is possible without the
+ * mesh. Limits that it does not have are `defaults`.
  * Throws ArgumentError with the place in the description. */
 std::unique_ptr<MeshJob> jobOf(
   const std::string& kind, const char* description, const JobLimits& defaults);

@@ -168,9 +168,9 @@ extern "C"
   SMG_C_EXPORT smg_status smg_files(const char* path, const char** json);
 
   /* What jobs may be asked, and what they report: a JSON object. "jobs" has a list for each of
-   * them, "solve", "deform", "smooth", "blend", "distance", "area" and "simplify", of its options
-   * in the order in which they are read: "key", "kind", "help", and as far as they have them
-   * "required", "default", "allowed", "unit", "choices". "report", "simplify_report" and "estimate"
+   * them, by its name, as "solve", of its options in the order in which they are read: "key",
+   * "kind", "help", and as far as they have them "required", "default", "allowed", "unit",
+   * "choices". "report", "simplify_report" and "estimate"
    * list the entries of these: "key", "kind", and "list" if there are several. The text stays
    * valid. */
   SMG_C_EXPORT smg_status smg_describe(const char** json);
@@ -187,13 +187,12 @@ extern "C"
   SMG_C_EXPORT smg_status smg_estimate_file(const char* file, const char* options, const char* job,
     const char* description, const char* path, const char** json);
 
-  /* Does a job: "solve", "deform", "smooth", "blend", "distance" or "area". description: its
-   * options, which smg_describe() lists, as {"patch": "scan", "columns": ["Colors"]}. They mean
-   * what the options of the command line of these names mean ("keep_volume" is --keep-volume), and
-   * have their defaults; "memory", "threads", "scratch" and "scratch_limit" those that the mesh was
-   * opened with. A number of "memory" is in bytes. "problem" of solve is as a problem file
-   * (docs/problem.md), "handles" of deform as a handle file (docs/deform.md). A checkpoint goes
-   * with the field that smg_save() has written. */
+  /* Does a job that smg_describe() lists, but "simplify". description: its options, as {"patch":
+   * "scan", "columns": ["Colors"]}. They mean what the options of the command line of these names
+   * mean ("keep_volume" is --keep-volume), and have their defaults; "memory", "threads", "scratch"
+   * and "scratch_limit" those that the mesh was opened with. A number of "memory" is in bytes.
+   * "problem" of solve is as a problem file (docs/problem.md), "handles" of deform as a handle file
+   * (docs/deform.md). A checkpoint goes with the field that smg_save() has written. */
   SMG_C_EXPORT smg_status smg_run(smg_mesh* mesh, const char* job, const char* description,
     smg_progress progress, void* user, smg_field** field);
 

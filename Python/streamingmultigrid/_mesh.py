@@ -380,7 +380,7 @@ class Mesh:
         """What a job is expected to cost, before it starts: memory, scratch, passes and seconds.
 
         Args:
-            job: "solve", "deform", "smooth", "blend", "distance", "area", "simplify".
+            job: the name of its method, as "solve".
             arguments, options: as of the method of this name.
             path: where the result is to be written; default: nowhere.
 

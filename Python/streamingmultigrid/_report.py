@@ -74,7 +74,7 @@ class Report(_Facts):
         if "converged" in self:
             residuals = self.get("residuals") or []
             outcome = "converged" if self["converged"] else "NOT CONVERGED"
-            if self["converged"] and not (residuals or "distance" in self or "areas" in self):
+            if self["converged"] and not residuals and self.get("levels"):
                 outcome += ", the values already are the solution"
             elif residuals:
                 outcome += " after %s, residual %s" % (counted(self["cycles"], "V-cycle"), _residual(residuals[-1]))
@@ -87,9 +87,6 @@ class Report(_Facts):
             "  %.3g s, %.3g s of CPU, %s of memory accounted"
             % (seconds, self.get("cpu_seconds", 0), in_bytes(self.get("pool_bytes_peak", 0)))
         )
-        if "areas" in self:
-            areas = self["areas"]
-            lines.append("  %s %.9g, of %s" % (areas["measure"], areas["total"], counted(areas["cells"], "cell")))
         for condition in self.get("conditions") or []:
             lines.append(
                 "  %s: mean %s, flux %s"

@@ -46,6 +46,33 @@ void addFields(T& total, const T& next)
   forFields<T>([&](const auto& field) { field.add(total.*field.member, next.*field.member); });
 }
 
+/** Empties the lists of entries, as of passes, of a structure and of those that it has. */
+template <class T>
+void clearLists(T& owner)
+{
+  forFields<T>(
+    [&owner]<class Owner, class Member, class Total, class Shown>(
+      const Field<Owner, Member, Total, Shown>& field)
+    {
+      Member& member = owner.*field.member;
+      if constexpr (requires { requires HasFields<typename Member::value_type>; })
+      {
+        if constexpr (requires { member.clear(); })
+        {
+          member.clear();
+        }
+        else if (member)
+        {
+          clearLists(*member);
+        }
+      }
+      else if constexpr (HasFields<Member>)
+      {
+        clearLists(member);
+      }
+    });
+}
+
 /** How totals are formed. */
 namespace total
 {

@@ -236,6 +236,24 @@ class OptionsTest(unittest.TestCase):
 
         self.for_all(check)
 
+    def test_contributing_lists_the_files_of_a_job(self):
+        def text(path):
+            with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
+                return file.read()
+
+        section = re.search(r"\n## Adding a job\n.*?\n6\. [^\n]*", text("CONTRIBUTING.md"), re.S)[0]
+        listed = {path for path in re.findall(r"`([\w/.]+\.\w+)`", section) if re.search(r"area|Report|Jobs\.cpp|_jobs", path, re.I)}
+        self.assertEqual(len(listed), 12)
+        knows = re.compile(r"AreaJob|Report::Areas?\b|struct Areas|MeshArea\b|smg/Area\.h|AreaDescription|\b_area\b")
+        found = {"docs/area.md"}
+        for folder in ("Solver", "IO", "Filters", "ParaViewPlugin", "Python", "Examples/smg"):
+            for parent, _, names in os.walk(os.path.join(SOURCE, folder)):
+                for name in names:
+                    path = os.path.relpath(os.path.join(parent, name), SOURCE)
+                    if name.endswith((".h", ".cpp", ".cxx", ".py", ".xml")) and knows.search(text(path)):
+                        found.add(path)
+        self.assertEqual(found, listed)
+
 
 if __name__ == "__main__":
     unittest.main()

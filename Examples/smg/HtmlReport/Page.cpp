@@ -5,6 +5,8 @@
 #include "HtmlReport/Sections.h"
 #include "HtmlReport/Text.h"
 
+#include "IO/Jobs/Jobs.h"
+
 #include <map>
 
 namespace html
@@ -25,10 +27,12 @@ std::string tile(const std::string& label, const std::string& value, const std::
 /** What the command has done, before the name of its mesh. */
 std::string deedOf(const std::string& command, bool isEstimate)
 {
-  static const std::map<std::string, std::string> deeds{ { "solve", "Solution on" },
-    { "deform", "Deformation of" }, { "smooth", "Smoothing of" }, { "blend", "Blend on" },
-    { "distance", "Distances on" }, { "area", "Areas of" }, { "convert", "Conversion of" },
-    { "simplify", "Simplification of" }, { "preview", "Preview of" }, { "info", "Properties of" } };
+  std::map<std::string, std::string> deeds{ { "convert", "Conversion of" },
+    { "preview", "Preview of" }, { "info", "Properties of" } };
+  for (const smg::JobKind& kind : smg::jobKinds())
+  {
+    deeds.emplace(kind.name, kind.deed);
+  }
   const auto found = deeds.find(command);
   return isEstimate ? "Expected costs: " + command : found == deeds.end() ? command : found->second;
 }

@@ -72,7 +72,7 @@ std::string convergenceSection(Entries& report, double tolerance)
   const std::string acceleration = report.has("acceleration")
                                      ? report.take("acceleration").get<std::string>()
                                      : std::string("none");
-  if (report.has("distance") || report.has("areas"))
+  if (residuals.empty() && report["levels"].empty())
   {
     return {}; // nothing is solved
   }

@@ -1,37 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SolvingCommand.h"
+#include "SolveText.h"
 
-#include "IO/Description/JsonNode.h"
 #include "Solver/Core/Text.h"
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
-
-void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result)
-{
-  smg::SolveOptions& options = this->job().options();
-  this->addFiles(command, result);
-  this->addJobOptions(command);
-  // checkOperators() says where shi2006, which there was, is found.
-  command.add_option("--operators", options.operators, "Operator set")
-    ->check([](const std::string& name)
-      { return name == "shi2006" ? std::string() : oneOf({ "extended" })(name); })
-    ->capture_default_str();
-  // For experiments and tests: they affect the speed, not the result.
-  command.add_option("--block-nodes", options.blockNodes)->group("");
-  command.add_option("--core-nodes", options.coreNodes)->group("");
-  this->addInputAndCommon(command);
-}
-
-const std::string& SolvingCommand::readText()
-{
-  this->Text = smg::jsonFileText(this->File.string());
-  this->job().name = this->File.string();
-  this->job().text = this->Text;
-  this->job().options().checkpoint.folder = this->checkpoint;
-  return this->Text;
-}
+#include <vector>
 
 namespace
 {
@@ -45,21 +21,19 @@ const char* iterations(const smg::Report& report, int count)
 
 } // namespace
 
-void SolvingCommand::warn(const smg::Report& report) const
+void warnOfSolve(const smg::Report& report, const smg::SolveOptions& options)
 {
-  this->MeshCommand::warn(report);
   bool isAdvised = false;
   const auto warning = [&](const std::string& what, double residual, int cycles)
   {
     std::fprintf(stderr, "smg: warning: %snot converged: the relative residual is %.3g after %d %s",
       what.c_str(), residual, cycles, iterations(report, cycles));
-    const double tolerance = this->solveOptions().tolerance;
-    if (tolerance != smg::SolveOptions::AutomaticTolerance)
+    if (options.tolerance != smg::SolveOptions::AutomaticTolerance)
     {
-      std::fprintf(stderr, ", the tolerance %.3g", tolerance);
+      std::fprintf(stderr, ", the tolerance %.3g", options.tolerance);
     }
     // What has stagnated does not get better by that.
-    if (cycles >= this->solveOptions().maxCycles && !std::exchange(isAdvised, true))
+    if (cycles >= options.maxCycles && !std::exchange(isAdvised, true))
     {
       std::fputs(": raise --max-cycles or --tolerance", stderr);
     }
@@ -111,7 +85,7 @@ std::string extentOf(const smg::Report::Condition& condition)
 
 } // namespace
 
-void SolvingCommand::print(const smg::Report& report) const
+void printSolve(const smg::Report& report)
 {
   std::printf("%lld vertices, %s, ", static_cast<long long>(report.vertices),
     smg::counted(report.cells, "cell", "cells").c_str());
