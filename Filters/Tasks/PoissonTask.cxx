@@ -110,17 +110,6 @@ void PoissonTask::complete(Result& result, const StoredMesh& mesh, const Progres
     [](MeshSource& solved, const ProgressFunction& read)
     { visitBlocks(solved, read, 0.0, 1.0, [](const MeshBlock&) {}); },
     result.report, progress);
-  if (mesh.file().empty())
-  {
-    MeshBlock block;
-    mesh.source({}, {})->next(block);
-    if (const std::ptrdiff_t ids = findColumn(block.vertexColumns, OriginalIdSpec); ids >= 0)
-    {
-      const auto numbers = block.vertexColumns[static_cast<std::size_t>(ids)].as<std::int64_t>();
-      renumberExtremes(result.report,
-        [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
-    }
-  }
 }
 
 namespace

@@ -9,8 +9,10 @@
 #include "smg/VsmReader.h"
 #include "smg/WriteMesh.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -87,9 +89,10 @@ struct SolvedMesh::Implementation
   StreamInfo info;
   std::filesystem::path file; ///< empty: the mesh is in none
   /** Opened before the result is written, so that no error follows it; none: there are no original
-   * numbers. */
+   * numbers in a file. */
   std::optional<VsmReader> numbers;
-  bool ended = false; ///< the stream has been read to its end
+  std::vector<std::int64_t> numbersInMemory; ///< of a mesh in none, as far as it has been read
+  bool ended = false;                        ///< the stream has been read to its end
 };
 
 SolvedMesh::SolvedMesh(
@@ -111,6 +114,12 @@ bool SolvedMesh::next(MeshBlock& block)
   {
     this->Self->ended = true;
     return false;
+  }
+  const std::ptrdiff_t ids = findColumn(block.vertexColumns, OriginalIdSpec);
+  if (this->Self->file.empty() && ids >= 0)
+  {
+    const auto numbers = block.vertexColumns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+    std::ranges::copy(numbers, std::back_inserter(this->Self->numbersInMemory));
   }
   // The problem may use the columns of an earlier solve.
   this->Self->results.add(block);
@@ -138,18 +147,21 @@ void SolvedMesh::finish(Report& report)
     throw Error("the results of a solution are known when its mesh has been read to the end");
   }
   this->Self->results.finish(report);
-  if (!this->Self->numbers)
+  if (this->Self->numbers)
   {
-    return;
+    Column id;
+    renumberExtremes(report,
+      [&](std::int64_t vertex)
+      {
+        this->Self->numbers->readVertexColumn(OriginalIdName, vertex, 1, id);
+        return id.as<std::int64_t>()[0];
+      });
   }
-  VsmReader& mesh = *this->Self->numbers;
-  Column id;
-  renumberExtremes(report,
-    [&](std::int64_t vertex)
-    {
-      mesh.readVertexColumn(OriginalIdName, vertex, 1, id);
-      return id.as<std::int64_t>()[0];
-    });
+  else if (!this->Self->numbersInMemory.empty())
+  {
+    renumberExtremes(report, [this](std::int64_t vertex)
+      { return this->Self->numbersInMemory.at(static_cast<std::size_t>(vertex)); });
+  }
 }
 
 Report write(const StoredMesh& mesh, const ProblemDescription& description, Solution& solution,
