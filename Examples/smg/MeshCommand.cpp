@@ -156,6 +156,7 @@ void MeshCommand::readJob()
 {
   this->readTask();
   this->Options.apply(this->job());
+  this->job().check();
 }
 
 smg::ResultFile MeshCommand::prepareFiles()

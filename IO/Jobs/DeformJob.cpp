@@ -8,6 +8,7 @@
 #include "IO/Jobs/MovedResult.h"
 #include "Solver/Jobs/Estimate/Costs.h"
 #include "smg/DescribedHandles.h"
+#include "smg/Error.h"
 
 namespace smg
 {
@@ -73,6 +74,15 @@ constexpr auto DeformTable = joined(
 std::span<const JobOption> DeformJob::table() const
 {
   return DeformTable;
+}
+
+void DeformJob::check() const
+{
+  if (this->deforming.cycles > 0 && this->deforming.maxCycles != DeformOptions().maxCycles)
+  {
+    throw Error(
+      "max_cycles: does not go with cycles, which " + this->name + " may state: leave one out.");
+  }
 }
 
 std::string DeformJob::resultHelp() const

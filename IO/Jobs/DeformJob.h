@@ -28,7 +28,7 @@ public:
   using SolvingJob::options;
   SolveOptions& options() override { return this->deforming; }
   std::span<const JobOption> table() const override;
-  void check() const override {}
+  void check() const override;
   std::string resultHelp() const override;
   std::string resultColumns() const override { return {}; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;

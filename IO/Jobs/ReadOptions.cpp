@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,15 @@ void readOptions(const JsonNode& object, Job& job)
   std::vector<const char*> keys;
   std::ranges::transform(job.table(), std::back_inserter(keys), &JobOption::key);
   object.requireObject(keys);
+  std::set<std::string_view> on; // the flags that are set unless something is said
+  for (const JobOption& option : job.table())
+  {
+    const auto* flag = std::get_if<FlagOption>(&option.kind);
+    if (flag && *flag->member.get(job))
+    {
+      on.insert(option.key);
+    }
+  }
   for (const JobOption& option : job.table())
   {
     if (!object.has(option.key) && !option.isRequired)
@@ -99,9 +109,9 @@ void readOptions(const JsonNode& object, Job& job)
     const JsonNode value = object.member(option.key);
     for (const char* const other : option.excludes)
     {
-      // A flag that is not set is as one that is not given.
-      const auto isGiven = [&object](const char* key)
-      { return object.has(key) && object.member(key).value() != false; };
+      // A flag that is not set is as one that is not given, unless it is on by itself.
+      const auto isGiven = [&](const char* key)
+      { return object.has(key) && (on.contains(key) || object.member(key).value() != false); };
       if (other && isGiven(option.key) && isGiven(other))
       {
         value.fail(std::string("does not go with ") + other + ": leave one out");

@@ -173,6 +173,8 @@ TEST(JobOptions, ATableRefusesWhatItDoesNotHave)
     message("distance", R"({"from": []})"), "distance: from: must have at least one place"));
   EXPECT_TRUE(contains(message("distance", R"({"from": [{}]})"), "boundary and everywhere"));
   EXPECT_EQ(message("distance", R"({"from": {"boundary": true}, "wall": false, "within": 1})"), "");
+  EXPECT_TRUE(contains(message("smooth", R"({"column": "c", "keep_volume": false})"),
+    "column: does not go with keep_volume"));
   EXPECT_TRUE(contains(messageOf([] { makeJob("melt"); }), "'melt': the jobs are solve, deform"));
 }
 
