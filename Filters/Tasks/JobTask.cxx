@@ -58,8 +58,8 @@ void JobTask::check() const
                            (columns && columns->member.get(this->job())->empty());
     if (option.isRequired && isMissing)
     {
-      throw Error(propertyOf(option) + (column ? " must name an array: " : " must name arrays: ") +
-                  option.help + '.');
+      throw Error(propertyOf(option) + " must name the array" +
+                  (column ? " to use." : "s to use, at least one."));
     }
   }
 }

@@ -235,7 +235,6 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
   expect("hold[0]: no vertex", [&] { this->Smoothing->SetHold(R"({"sphere": [9, 9, 9, 1]})"); });
   expect("no numeric array Missing of its points or cells (it has ",
     [&] { this->Smoothing->SetColumn("Missing"); });
-  expect("Size is -1: set it to a number greater than 0", [&] { this->Smoothing->SetSize(-1.0); });
   expect("from 1 to 1,000", [&] { this->Smoothing->SetSteps(0); });
   expect("from 1 to 1,000", [&] { this->Smoothing->SetSteps(1001); });
   this->Smoothing->SetSizeUnit(vtkStreamingMeshSmoothing::DIAGONAL);
