@@ -79,7 +79,8 @@ void MeshCommand::addOptions(CLI::App& command)
     command.footer(
       "WHERE is one of {\"vertices\": [numbers]}, {\"nearest\": [[x, y, z], ...]}, "
       "{\"boundary\": true}, {\"sphere\": [x, y, z, r]}, {\"box\": [x0, y0, z0, x1, y1, z1]}, "
-      "{\"halfspace\": [nx, ny, nz, d]}, {\"tag\": [\"column\", value]}, {\"mask\": \"column\"}. "
+      "{\"halfspace\": [nx, ny, nz, d]}, {\"tag\": [\"column\", value]}, {\"mask\": \"column\"}, "
+      "{\"group\": \"name\"}, {\"all\": [WHERE, ...]}, {\"any\": [WHERE, ...]}, {\"not\": WHERE}. "
       "docs/" +
       std::string(this->Kind.name) + ".md explains all");
   }
