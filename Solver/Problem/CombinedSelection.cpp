@@ -81,22 +81,20 @@ void CombinedSelection::add(const MeshBlock& block, const std::filesystem::path&
     this->Count = 1;
     return;
   }
-  const auto items =
-    static_cast<std::size_t>(this->Place == DataPlace::Vertices
-                               ? block.vertices()
-                               : std::ssize(block.corners) / cornersOf(this->Columns.cellType()));
-  std::vector<std::uint8_t> selected(items);
-  const CellRange cells{ block, 0, block.corners };
+  const auto isSelected = [](std::uint8_t bits) { return bits != 0; };
   if (this->Place == DataPlace::Vertices)
   {
+    const std::span<std::uint8_t> selected = this->open(block);
     this->combine(selected, 1, [](const Part& part) { return part.selection->atVertices(); });
+    this->Count += std::ranges::count_if(selected, isSelected);
+    return;
   }
-  else
-  {
-    this->Place == DataPlace::Cells ? this->atCells(cells, selected)
-                                    : this->atFacets(cells, selected);
-  }
-  this->Count += std::ranges::count_if(selected, [](std::uint8_t bits) { return bits != 0; });
+  std::vector<std::uint8_t> selected(
+    block.corners.size() / static_cast<std::size_t>(cornersOf(this->Columns.cellType())));
+  const CellRange cells{ block, 0, block.corners };
+  this->Place == DataPlace::Cells ? this->atCells(cells, selected)
+                                  : this->atFacets(cells, selected);
+  this->Count += std::ranges::count_if(selected, isSelected);
 }
 
 void CombinedSelection::endPreparing(MeshParts* parts)

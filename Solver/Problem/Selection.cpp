@@ -214,10 +214,15 @@ std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
  * still open. */
 void Selection::startBlock(const MeshBlock& block)
 {
+  this->select(block, this->open(block));
+}
+
+std::span<std::uint8_t> Selection::open(const MeshBlock& block)
+{
   // The same object serves several readings: preparation, solve, results.
   const std::span<std::uint8_t> current = this->Open.startBlock(block);
-  this->select(block, current);
   this->Current = current;
+  return current;
 }
 
 /** A cell is selected if all its corners are. */

@@ -132,6 +132,8 @@ protected:
 
   /** Forgets what was prepared. */
   virtual void begin() { this->Count = 0; }
+  /** Goes on to a block; returns what atVertices() does, at first 0. */
+  std::span<std::uint8_t> open(const MeshBlock& block);
   /** Prepares a block. */
   virtual void add(const MeshBlock& block, const std::filesystem::path& scratch);
   /** Sets `selected`, initially zero, to 1 at the selected vertices of the block. */

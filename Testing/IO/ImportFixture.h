@@ -101,7 +101,7 @@ protected:
     const auto areLabels = [](const ColumnSpec& column)
     {
       return column.name == ReferenceName || column.name == PhysicalTagName ||
-             column.name == GeometricalTagName;
+             column.name == GeometricalTagName || isGroupColumn(column.name);
     };
     std::erase_if(told, areLabels);
     std::erase_if(all, areLabels);

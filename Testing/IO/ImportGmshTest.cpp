@@ -135,7 +135,7 @@ TEST_F(ImportGmsh, TagsOfElementsAreColumns)
   const ReadMesh mesh = this->gmsh(Format2 + Nodes2 +
                                    "$Elements\n3\n1 2 2 5 1 1 2 3\n2 2 3 6 8 9 2 3 4\n"
                                    "3 2 0 1 2 4\n$EndElements\n");
-  ASSERT_EQ(mesh.elementColumns.size(), 2u);
+  ASSERT_EQ(mesh.elementColumns.size(), 3u); // and CellGroups
   EXPECT_EQ(mesh.elementColumns[0].spec, (ColumnSpec{ "PhysicalTag", ScalarType::Int64, 1 }));
   EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 5, 6, 0 }));
   EXPECT_EQ(mesh.elementColumns[1].spec, (ColumnSpec{ "GeometricalTag", ScalarType::Int64, 1 }));
@@ -176,7 +176,7 @@ TEST_F(ImportGmsh, EntitiesTellThePhysicalGroups)
     writer.nodes({ 1, 2, 3, 4 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
     writer.elements({ { 4, { 1, 2, 3, 4 } } });
     const ReadMesh mesh = this->gmsh(writer.bytes());
-    ASSERT_EQ(mesh.elementColumns.size(), 1u);
+    ASSERT_EQ(mesh.elementColumns.size(), 2u); // and CellGroups, with both groups
     EXPECT_EQ(mesh.elementColumns[0].spec.name, "PhysicalTag");
     EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 42 }));
   }
@@ -203,7 +203,10 @@ TEST_F(ImportGmsh, KindsOfCellsAreChosen)
 {
   const std::string bytes =
     Format2 + Nodes2 + "$Elements\n2\n1 2 0 1 2 3\n2 4 0 1 2 3 4\n$EndElements\n";
-  this->expectRefused(bytes, "a.msh, line 14: the file has both");
+  // Those of the highest dimension; a triangle in no group is dropped.
+  const ReadMesh mesh = this->gmsh(bytes);
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 3 }));
+  EXPECT_EQ(mesh.counts.droppedCells, 1);
   EXPECT_EQ(this->gmsh(bytes, CellChoice::Tetrahedra).corners, (Numbers{ 0, 1, 2, 3 }));
   EXPECT_EQ(this->gmsh(bytes, CellChoice::Triangles).corners, (Numbers{ 0, 1, 2 }));
 }
@@ -371,7 +374,7 @@ TEST_F(ImportGmsh, OlderVersionsAreRead)
     const ReadMesh mesh = this->gmsh(bytes);
     EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }));
     EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 3 }));
-    ASSERT_EQ(mesh.elementColumns.size(), 2u);
+    ASSERT_EQ(mesh.elementColumns.size(), 3u); // and CellGroups
     EXPECT_EQ(mesh.elementColumns[0].value(mesh.elementCount - 1), 5);
     EXPECT_EQ(mesh.elementColumns[1].value(mesh.elementCount - 1), 7);
   }

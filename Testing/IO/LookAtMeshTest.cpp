@@ -70,14 +70,14 @@ TEST_F(LookAtMesh, TellsWhatTheConversionMakesOfEveryFormat)
   EXPECT_GT(looked, 18);
 }
 
-/** The first cell decides, since a file with both kinds is refused unless one is chosen. */
+/** A tetrahedron decides, wherever it comes. */
 TEST_F(LookAtMesh, TheChoiceOfCellsDecides)
 {
   const std::string both = MeditHead + MeditVertices + OneTriangle + OneTetrahedron + "End\n";
-  EXPECT_EQ(this->typeOf("a.mesh", both), CellType::Triangle);
+  EXPECT_EQ(this->typeOf("a.mesh", both), CellType::Tetrahedron);
   EXPECT_EQ(this->typeOf("a.mesh", both, CellChoice::Tetrahedra), CellType::Tetrahedron);
   EXPECT_EQ(this->typeOf("a.mesh", both, CellChoice::Triangles), CellType::Triangle);
-  this->expectError("a.mesh", both, "both surface cells and volume cells");
+  EXPECT_EQ(this->readFile(this->Folder / "a.mesh").cellType, CellType::Tetrahedron);
 }
 
 /** Elements that are not cells, sections without any, and vertices that come last. */
