@@ -3,6 +3,7 @@
 
 #include "IO/Files/FileNames.h"
 #include "IO/Files/Inflate.h"
+#include "Solver/Core/Text.h"
 #include "Solver/Files/FileDescriptor.h"
 #include "smg/Error.h"
 

@@ -15,6 +15,29 @@ namespace
 constexpr std::uint32_t NoGroup = UINT32_MAX;
 constexpr std::size_t LongestName = 1024;
 
+// Groups and sets are in the header of a .vsm file, which has room for 16 KiB of JSON.
+constexpr std::size_t MostGroupBytes = 11000, MostSetBytes = 3500;
+
+/** About the bytes of a set in JSON. */
+std::size_t bytesOfSet(const std::vector<std::uint32_t>& set)
+{
+  constexpr std::size_t Digits = 4; // and a comma
+  return 2 + Digits * set.size();
+}
+
+/** Whether another group fits beside these. */
+template <class Groups>
+bool hasRoom(const Groups& groups, std::size_t nameBytes)
+{
+  constexpr std::size_t BesidesName = 38; // kind and number, and the set of the group alone
+  std::size_t bytes = BesidesName + nameBytes;
+  for (const auto& group : groups)
+  {
+    bytes += BesidesName + group.name.size();
+  }
+  return bytes <= MostGroupBytes;
+}
+
 /** The name as text without control characters. */
 std::string cleaned(const std::string& name)
 {
@@ -44,7 +67,12 @@ GroupSet GroupSets::numberOf(std::vector<std::uint32_t> set)
   {
     return found->second;
   }
-  if (this->Sets.size() > Most)
+  std::size_t bytes = 0; // of sets of several groups: the others are counted with these
+  for (const std::vector<std::uint32_t>& other : this->Sets)
+  {
+    bytes += other.size() > 1 ? bytesOfSet(other) : 0;
+  }
+  if (this->Sets.size() > Most || (set.size() > 1 && bytes + bytesOfSet(set) > MostSetBytes))
   {
     this->IsFull = true;
     return 0;
@@ -77,8 +105,9 @@ GroupSet GroupSets::join(GroupSet a, GroupSet b)
 
 std::string GroupSets::overflowNote()
 {
-  return "The file has more than " + std::to_string(Most) +
-         " groups or combinations of them: those beyond are left out.";
+  return "The file has more groups, or combinations of them, than a mesh has room for: those "
+         "beyond "
+         "are left out.";
 }
 
 std::uint32_t GroupTable::ofNumber(int dimension, std::int64_t number)
@@ -99,8 +128,8 @@ GroupSet GroupTable::numbered(int dimension, std::int64_t number)
   {
     this->LastNumber = { dimension, number };
     // One that does not fit is not even listed: labels may be as many as cells.
-    const bool fits = this->Groups.size() < Most ||
-                      this->ByNumber[static_cast<std::size_t>(dimension)].contains(number);
+    const bool fits = this->ByNumber[static_cast<std::size_t>(dimension)].contains(number) ||
+                      (!this->IsFull && hasRoom(this->Groups, 0));
     this->IsFull = this->IsFull || !fits;
     this->LastSet = fits ? this->Sets.numberOf({ this->ofNumber(dimension, number) }) : None;
   }
@@ -117,7 +146,7 @@ GroupSet GroupTable::named(int dimension, const std::string& text)
   {
     return this->Sets.numberOf({ found->second });
   }
-  if (next >= Most)
+  if (!hasRoom(this->Groups, name.size()))
   {
     this->IsFull = true;
     return None;
@@ -130,11 +159,20 @@ GroupSet GroupTable::named(int dimension, const std::string& text)
 void GroupTable::setName(int dimension, std::int64_t number, const std::string& text)
 {
   const std::string name = cleaned(text);
-  if (this->numbered(dimension, number) != None)
+  if (this->numbered(dimension, number) != None && hasRoom(this->Groups, name.size()))
   {
     const std::uint32_t group = this->ofNumber(dimension, number);
     this->Groups[group].name = name;
     this->ByName[static_cast<std::size_t>(dimension)].emplace(name, group);
+  }
+}
+
+void GroupTable::include(int dimension, std::int64_t number, const std::string& name)
+{
+  const GroupSet part = this->numbered(dimension, number), whole = this->named(dimension, name);
+  if (part != None && whole != None && this->Inclusions.size() < Most)
+  {
+    this->Inclusions.emplace_back(this->Sets.all()[part].front(), this->Sets.all()[whole].front());
   }
 }
 
@@ -158,6 +196,13 @@ MeshGroups GroupTable::finish(CellType cells) const
   result.sets = this->Sets.all();
   for (std::vector<std::uint32_t>& set : result.sets)
   {
+    for (const auto& [part, whole] : this->Inclusions)
+    {
+      if (std::ranges::binary_search(set, part) && !std::ranges::binary_search(set, whole))
+      {
+        set.insert(std::ranges::lower_bound(set, whole), whole);
+      }
+    }
     for (std::uint32_t& group : set)
     {
       group = kept[group];

@@ -62,6 +62,8 @@ public:
   GroupSet named(int dimension, const std::string& name);
   /** Gives the group of this number its name. Throws MeshError if that is too long. */
   void setName(int dimension, std::int64_t number, const std::string& name);
+  /** All that is in the group of this number is in the one of this name, too. */
+  void include(int dimension, std::int64_t number, const std::string& name);
   /** The set of all groups of both. */
   GroupSet join(GroupSet a, GroupSet b) { return this->Sets.join(a, b); }
 
@@ -84,6 +86,7 @@ private:
 
   std::vector<Entry> Groups;
   GroupSets Sets;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> Inclusions; ///< a group and the larger one
   std::array<std::map<std::int64_t, std::uint32_t>, Dimensions> ByNumber;
   std::array<std::map<std::string, std::uint32_t>, Dimensions> ByName;
   /** The group asked for last, whose elements usually follow each other. */

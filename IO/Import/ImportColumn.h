@@ -26,6 +26,8 @@ public:
   }
 
   bool exists() const { return this->Column != nullptr; }
+  /** What was appended; of a column that exists. */
+  const BucketFile& tuples() const { return this->Column->tuples; }
   void append(std::span<const std::byte> tuples)
   {
     if (this->Column)
@@ -97,6 +99,7 @@ public:
   }
   /** Removes the column. */
   void drop() { this->Column.drop(); }
+  const ImportColumn& column() const { return this->Column; }
 
 private:
   ImportColumn Column;

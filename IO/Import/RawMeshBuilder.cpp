@@ -23,6 +23,7 @@ RawMeshBuilder::RawMeshBuilder(Workspace& workspace, CellChoice choice, Use use)
   , Used(use)
   , Mesh(workspace)
   , ElementGroups(workspace)
+  , Further(workspace)
   , Lower{ GroupedElements(workspace), GroupedElements(workspace), GroupedElements(workspace) }
 {
   if (choice != CellChoice::Only)
@@ -189,9 +190,10 @@ void RawMeshBuilder::cell(std::span<const std::int64_t> corners)
   ++this->Mesh.cells;
 }
 
-bool RawMeshBuilder::keep(std::size_t dimension, std::span<const std::int64_t> corners)
+bool RawMeshBuilder::keep(
+  std::size_t dimension, std::span<const std::int64_t> corners, GroupSet set)
 {
-  if (this->Current == GroupTable::None || this->looks())
+  if (set == GroupTable::None || this->looks())
   {
     return false;
   }
@@ -200,13 +202,13 @@ bool RawMeshBuilder::keep(std::size_t dimension, std::span<const std::int64_t> c
   {
     kept.corners.put(this->vertexOf(corner));
   }
-  kept.sets.put(this->Current);
+  kept.sets.put(set);
   return true;
 }
 
-bool RawMeshBuilder::keepFacets(std::span<const std::int64_t> corners)
+bool RawMeshBuilder::keepFacets(std::span<const std::int64_t> corners, GroupSet set)
 {
-  if (this->Choice == CellChoice::Triangles || this->Current == GroupTable::None)
+  if (this->Choice == CellChoice::Triangles || set == GroupTable::None)
   {
     return false;
   }
@@ -217,9 +219,31 @@ bool RawMeshBuilder::keepFacets(std::span<const std::int64_t> corners)
   for (std::size_t k = 2; k < count; ++k)
   {
     kept = this->keep(2,
-      std::array{ corners[first], corners[(first + k - 1) % count], corners[(first + k) % count] });
+      std::array{ corners[first], corners[(first + k - 1) % count], corners[(first + k) % count] },
+      set);
   }
   return kept;
+}
+
+void RawMeshBuilder::grouped(int dimension, std::span<const std::int64_t> corners, GroupSet set)
+{
+  dimension == 2 ? this->keepFacets(corners, set)
+                 : dimension < 2 && this->keep(std::size_t(dimension), corners, set);
+}
+
+void RawMeshBuilder::alsoIn(
+  std::int64_t element, int dimension, std::span<const std::int64_t> corners, GroupSet set)
+{
+  const int ofCells = this->Kind ? cornersOf(*this->Kind) - 1 : 3;
+  if (dimension < ofCells)
+  {
+    this->grouped(dimension, corners, set);
+  }
+  else if (dimension == ofCells && set != GroupTable::None && !this->looks())
+  {
+    this->Further.put({ static_cast<std::uint32_t>(element), set });
+    ++this->GroupedCells;
+  }
 }
 
 /** A tetrahedron follows: the triangles so far are facets. */
@@ -258,7 +282,7 @@ void RawMeshBuilder::failAtCorner(std::int64_t number, std::int64_t count, std::
 void RawMeshBuilder::take(CellType type, std::span<const std::int64_t> corners)
 {
   const bool isCell = this->wants(type);
-  const bool isFacet = type == CellType::Triangle && this->keepFacets(corners);
+  const bool isFacet = type == CellType::Triangle && this->keepFacets(corners, this->Current);
   if (isCell)
   {
     this->cell(corners);
@@ -318,7 +342,7 @@ void RawMeshBuilder::noteGroups(std::int64_t cells)
 
 void RawMeshBuilder::polygon(std::span<const std::int64_t> corners)
 {
-  this->IsFacet = this->keepFacets(corners);
+  this->IsFacet = this->keepFacets(corners, this->Current);
   for (const std::int64_t corner : corners)
   {
     this->fanCorner(corner);
@@ -375,7 +399,8 @@ void RawMeshBuilder::element(int dimension, std::span<const std::int64_t> c, boo
   const std::int64_t before = this->cells();
   if (dimension < 2)
   {
-    this->keep(static_cast<std::size_t>(dimension), c) ? this->endElement(0) : this->dropped();
+    this->keep(static_cast<std::size_t>(dimension), c, this->Current) ? this->endElement(0)
+                                                                      : this->dropped();
     return;
   }
   c.size() == 3    ? this->triangle(c[0], c[1], c[2])
@@ -440,6 +465,29 @@ void RawMeshBuilder::renumber(
   corners.close();
 }
 
+/** Adds the groups of elements that were told after these. */
+void RawMeshBuilder::addFurtherGroups()
+{
+  this->ElementGroups.close();
+  this->Further.close();
+  RecordFile<GroupSet> all(this->Space);
+  RecordFile<GroupSet>::Reader sets(this->ElementGroups);
+  RecordFile<FurtherGroups>::Reader further(this->Further);
+  FurtherGroups next{};
+  bool has = further.next(next);
+  for (std::int64_t element = 0; element < this->Mesh.elementCount; ++element)
+  {
+    GroupSet set = GroupTable::None;
+    sets.next(set);
+    for (; has && next.element == element; has = further.next(next))
+    {
+      set = this->Groups.join(set, next.set);
+    }
+    all.put(set);
+  }
+  this->ElementGroups = std::move(all);
+}
+
 /** What elements below the cells are in the mesh: the next lower ones are facets, the vertices of
  * the others belong to groups themselves. */
 void RawMeshBuilder::finishGroups()
@@ -448,6 +496,10 @@ void RawMeshBuilder::finishGroups()
   if (this->Groups.empty())
   {
     return;
+  }
+  if (this->Further.size() > 0)
+  {
+    this->addFurtherGroups();
   }
   mesh.groups = this->Groups.finish(mesh.cellType);
   if (this->Groups.overflowed())

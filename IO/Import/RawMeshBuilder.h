@@ -90,6 +90,15 @@ public:
   GroupTable& groups() { return this->Groups; }
   /** The groups that the elements from now on are in. */
   void setGroups(GroupSet set) { this->Current = set; }
+  GroupSet currentGroups() const { return this->Current; }
+
+  /** Puts a vertex, an edge or a polygon, which need not be an element of the file, into groups:
+   * what it is in the mesh follows from the cells, as for elements. */
+  void grouped(int dimension, std::span<const std::int64_t> corners, GroupSet set);
+  /** Puts an element that has come into further groups. The numbers of such elements, from 0,
+   * ascend. */
+  void alsoIn(
+    std::int64_t element, int dimension, std::span<const std::int64_t> corners, GroupSet set);
 
   /** Adds a vertex. Throws MeshError if a coordinate is not finite (or beyond single precision). */
   void vertex(double x, double y, double z);
@@ -201,12 +210,13 @@ private:
    * facets. */
   bool wants(CellType type);
   /** Keeps an element of a lower dimension than the cells, if it is in a group. */
-  bool keep(std::size_t dimension, std::span<const std::int64_t> corners);
+  bool keep(std::size_t dimension, std::span<const std::int64_t> corners, GroupSet set);
   /** The same of a triangle or polygon: they may turn out to be facets. */
-  bool keepFacets(std::span<const std::int64_t> corners);
+  bool keepFacets(std::span<const std::int64_t> corners, GroupSet set);
   void makeTrianglesFacets();
   std::uint32_t vertexOf(std::int64_t corner);
   void finishGroups();
+  void addFurtherGroups();
   void triangleOfElement(std::int64_t a, std::int64_t b, std::int64_t c)
   {
     if (this->wants(CellType::Triangle))
@@ -258,6 +268,12 @@ private:
   bool HasGroupColumns = false; ///< whether columns of groups may come: they belong to the groups
   GroupSet Current = GroupTable::None;
   RecordFile<GroupSet> ElementGroups; ///< of each element, from the first one in a group on
+  struct FurtherGroups
+  {
+    std::uint32_t element;
+    GroupSet set;
+  };
+  RecordFile<FurtherGroups> Further;               ///< see alsoIn()
   std::int64_t CellElements = 0, GroupedCells = 0; ///< elements that are cells; those in groups
   std::array<GroupedElements, 3> Lower;            ///< elements that are no cells, by dimension
   std::optional<Relabelling> Numbers;

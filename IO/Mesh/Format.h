@@ -130,6 +130,9 @@ struct Format
   bool holdsVertices = true;
   bool holdsColumns = false; ///< every column of a mesh
   bool holdsGroups = false;  ///< groups of vertices, facets and cells; see MeshFileInfo::groups
+  /** Those of vertices and facets as columns, of which a table tells; see
+   * MeshFileInfo::groupTable. */
+  bool holdsGroupColumns = false;
   /** Columns of vertices that its files have places for, of a format without all columns. */
   std::span<const std::string_view> vertexColumns = {};
   /** Whether VTK reads its files, too: ParaView opens those itself that fit into memory. */
@@ -199,8 +202,8 @@ struct Format
 
 // All formats, each defined in its folder.
 extern const Format VsmFileFormat, StreamsFormat, PlyFormat, StlFormat, ObjFormat, OffFormat,
-  MeditFormat, BinaryMeditFormat, GmshFormat, TetGenFormat, LegacyVtkFormat, VtkXmlFormat,
-  VtkHdfFormat;
+  MeditFormat, BinaryMeditFormat, GmshFormat, TetGenFormat,
+  LegacyVtkFormat, VtkXmlFormat, VtkHdfFormat;
 /** The pieces of a .pvtp or .pvtu file, one after the other. */
 SMG_EXPORT extern const Format ParallelVtkXmlFormat;
 

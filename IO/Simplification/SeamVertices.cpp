@@ -3,6 +3,7 @@
 
 #include "Solver/Assembly/Elements.h"
 #include "Solver/Files/Checksum.h"
+#include "Solver/Mesh/VisitCells.h"
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 
 #include "IO/Mesh/Columns.h"
 #include "Solver/Assembly/Elements.h"
+#include "Solver/Mesh/VisitCells.h"
 
 #include <algorithm>
 #include <cmath>

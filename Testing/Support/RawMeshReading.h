@@ -10,8 +10,11 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace smg::testing
@@ -28,6 +31,9 @@ struct ReadMesh
   /** The element of each cell, also if the raw mesh omits them. */
   std::vector<std::int64_t> elements;
   std::vector<Column> vertexColumns, elementColumns;
+  MeshGroups groups;
+  std::vector<std::int64_t> facets, points; ///< corners of elements that are no cells
+  std::vector<GroupSet> facetSets, pointSets;
   ImportCounts counts;
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
@@ -70,6 +76,17 @@ inline std::vector<std::int64_t> numbersOf(const RecordFile<std::uint32_t>& file
   return numbers;
 }
 
+inline std::vector<GroupSet> setsOf(const RecordFile<GroupSet>& file)
+{
+  std::vector<GroupSet> sets;
+  RecordFile<GroupSet>::Reader reader(file);
+  for (GroupSet set; reader.next(set);)
+  {
+    sets.push_back(set);
+  }
+  return sets;
+}
+
 inline std::vector<Column> columnsOf(const std::vector<RawColumn>& columns)
 {
   std::vector<Column> read;
@@ -98,8 +115,64 @@ inline ReadMesh readRaw(const RawMesh& mesh)
   }
   read.vertexColumns = columnsOf(mesh.vertexColumns);
   read.elementColumns = columnsOf(mesh.elementColumns);
+  read.groups = mesh.groups;
+  read.facets = numbersOf(mesh.facets.corners);
+  read.points = numbersOf(mesh.points.corners);
+  read.facetSets = setsOf(mesh.facets.sets);
+  read.pointSets = setsOf(mesh.points.sets);
   read.counts = mesh.counts;
   return read;
+}
+
+/** The number of members of each group, as "facets inlet". */
+using GroupCounts = std::map<std::string, int>;
+
+/** Those of a mesh: elements, facets of the file, and vertices as often as they are named. */
+inline GroupCounts groupCounts(const ReadMesh& mesh)
+{
+  GroupCounts counts;
+  const auto count = [&](std::span<const GroupSet> sets, GroupOf kind)
+  {
+    for (const GroupSet set : sets)
+    {
+      for (const std::uint32_t index : mesh.groups.sets.at(set))
+      {
+        const Group& group = mesh.groups.groups.at(index);
+        constexpr const char* kinds[] = { "vertices ", "facets ", "cells " };
+        counts[kinds[std::size_t(kind)] + group.label()] += group.of == kind ? 1 : 0;
+      }
+    }
+  };
+  count(mesh.facetSets, GroupOf::Facets);
+  count(mesh.pointSets, GroupOf::Vertices);
+  for (const std::vector<Column>* columns : { &mesh.elementColumns, &mesh.vertexColumns })
+  {
+    for (const Column& column : *columns)
+    {
+      for (const GroupOf kind : { GroupOf::Vertices, GroupOf::Facets, GroupOf::Cells })
+      {
+        if (column.spec.name == MeshGroups::columnOf(kind))
+        {
+          count(column.as<GroupSet>(), kind);
+        }
+      }
+    }
+  }
+  std::erase_if(counts, [](const auto& group) { return group.second == 0; });
+  return counts;
+}
+
+/** The column of the elements of this name; throws if there is none. */
+inline const Column& elementColumn(const ReadMesh& mesh, const std::string& name)
+{
+  for (const Column& column : mesh.elementColumns)
+  {
+    if (column.spec.name == name)
+    {
+      return column;
+    }
+  }
+  throw std::out_of_range("no column " + name);
 }
 
 /** Expects that corners are vertices and that columns have the correct number of tuples. */

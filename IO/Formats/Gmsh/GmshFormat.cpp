@@ -5,6 +5,7 @@
 #include "IO/Formats/Gmsh/GmshInput.h"
 #include "IO/Formats/Gmsh/GmshSections.h"
 #include "IO/Formats/Gmsh/WriteGmsh.h"
+#include "IO/Import/FileNumbers.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Mesh/Format.h"
@@ -26,7 +27,7 @@ public:
   GmshReader(InputFile& file, RawMeshBuilder& builder)
     : Input(file, &builder.workspace())
     , Builder(builder)
-    , Nodes(builder.workspace())
+    , Nodes(builder.workspace(), "nodes")
     , Tags(builder)
   {
   }
@@ -389,7 +390,7 @@ private:
 
   GmshInput Input;
   RawMeshBuilder& Builder;
-  GmshNodes Nodes;
+  FileNumbers Nodes;
   GmshTags Tags;
   bool HasNodes = false;
 };

@@ -22,7 +22,7 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t LastCellBytes = std::int64_t(4) << 20;
+constexpr std::int64_t SavedLastCellBytes = std::int64_t(4) << 20;
 
 TableSpec tableWith(std::string name, ColumnSpec first, const std::vector<ColumnSpec>& columns)
 {
@@ -83,7 +83,7 @@ VsmWriter::VsmWriter(
   , Positions(info.doublePositions)
   , VertexRows(info.vertexColumns)
   , CellRows(info.cellColumns)
-  , LastCell(options.scratch, LastCellBytes)
+  , LastCell(options.scratch, SavedLastCellBytes)
   , Statistics(options.scratch)
   , Isolated(this->Name, info, this->Rows.vertices)
   , File(path, tablesOf(info, this->Name), options.codec, options.statistics, options.workers)
