@@ -32,6 +32,7 @@ struct MeshFileInfo
     , maxCorners(cornersOf(stream.cellType))
     , vertexColumns(stream.vertexColumns)
     , elementColumns(stream.cellColumns)
+    , groupTable(stream.groups)
   {
   }
 
@@ -47,6 +48,8 @@ struct MeshFileInfo
   std::int64_t maxCorners = 0;     ///< of an element
   std::vector<ColumnSpec> vertexColumns;
   std::vector<ColumnSpec> elementColumns;
+  /** The groups to which the columns of groups refer, as far as there are these columns. */
+  MeshGroups groupTable;
   bool text = false; ///< whether a format that has either form is to write text
   /** Facets and vertices in groups, for a format that has a place for them (Format::holdsGroups);
    * null: there are no groups. The sets of cells are the column CellGroups. */

@@ -37,14 +37,15 @@ constexpr double CellsShare = RestoredMesh::SortedShare * 0.8;
 
 } // namespace
 
-std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
+std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs, bool withGroups)
 {
   std::vector<ColumnSpec> own;
   std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
-    [](const ColumnSpec& spec)
+    [withGroups](const ColumnSpec& spec)
     {
       // Facets and vertices in groups are elements of their own: see GroupElements.
-      const bool isOfGroups = spec.name == FacetGroupsName || spec.name == VertexGroupsName;
+      const bool isOfGroups =
+        !withGroups && (spec.name == FacetGroupsName || spec.name == VertexGroupsName);
       return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName &&
              !isOfGroups;
     });
@@ -52,12 +53,12 @@ std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
 }
 
 RestoredMesh::RestoredMesh(
-  const std::filesystem::path& vsm, Workspace& workspace, std::int64_t maxCorners)
+  const std::filesystem::path& vsm, Workspace& workspace, std::int64_t maxCorners, bool withGroups)
   : Space(workspace)
   , Name(vsm.string())
 {
   VsmReader reader(vsm, &workspace.traffic());
-  this->readInfo(reader);
+  this->readInfo(reader, withGroups);
   // The table of the numbers is released before the cells are merged, which then have that memory
   // as well.
   const std::int64_t memory = workspace.available();
@@ -79,7 +80,7 @@ RestoredMesh::RestoredMesh(
   workspace.tell(SortedShare);
 }
 
-void RestoredMesh::readInfo(const VsmReader& reader)
+void RestoredMesh::readInfo(const VsmReader& reader, bool withGroups)
 {
   const StreamInfo& stream = reader.info();
   if (findColumn(stream.vertexColumns, VertexNumbers) < 0)
@@ -93,8 +94,9 @@ void RestoredMesh::readInfo(const VsmReader& reader)
   this->Info.isolated = reader.isolatedVertices();
   this->Info.vertices = stream.vertices + this->Info.isolated;
   this->Info.cells = stream.cells;
-  this->Info.vertexColumns = ownColumns(stream.vertexColumns);
-  this->Info.elementColumns = ownColumns(stream.cellColumns);
+  this->Info.vertexColumns = ownColumns(stream.vertexColumns, withGroups);
+  this->Info.elementColumns = ownColumns(stream.cellColumns, withGroups);
+  this->Info.groupTable = stream.groups;
   // Numbers of vertices have 32 bits in the relabelling.
   if (this->Info.vertices >= std::int64_t(NoIndex))
   {

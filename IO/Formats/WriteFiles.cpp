@@ -56,7 +56,7 @@ WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileIn
                          ? "Polygons are written as triangles."
                          : "Polygons of more than four corners are written as triangles.");
   }
-  if (info.groups && !format.holdsGroups)
+  if (info.groups && !format.holdsGroups && !format.holdsGroupColumns)
   {
     notes.push_back("The groups of the mesh are left out, since " +
                     std::string(format.suffixes.front().text) + " files have no place for them.");
@@ -133,16 +133,17 @@ void take(MeshBlock& block, CellType cells, ElementChunk& chunk)
 class StreamedMesh
 {
 public:
-  /** `allColumns`: also those that a conversion adds. */
-  StreamedMesh(const std::filesystem::path& vsm, bool allColumns, const ProgressFunction& progress)
+  /** `allColumns`: also those that a conversion adds. `withGroups`: see ownColumns(). */
+  StreamedMesh(const std::filesystem::path& vsm, bool allColumns, bool withGroups,
+    const ProgressFunction& progress)
     : Reader(vsm)
     , Info(this->Reader.info())
     , Reported(progress)
   {
     if (!allColumns)
     {
-      this->Info.vertexColumns = ownColumns(this->Info.vertexColumns);
-      this->Info.elementColumns = ownColumns(this->Info.elementColumns);
+      this->Info.vertexColumns = ownColumns(this->Info.vertexColumns, withGroups);
+      this->Info.elementColumns = ownColumns(this->Info.elementColumns, withGroups);
     }
     this->Vertices = this->Reader.source(columnNames(this->Info.vertexColumns), {});
   }
@@ -229,7 +230,7 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
     return format.writeVsm(vsm, path, options);
   }
   Workspace space(options.scratch, StreamOrderMemory);
-  StreamedMesh mesh(vsm, format.isStreamed(), options.progress);
+  StreamedMesh mesh(vsm, format.isStreamed(), format.holdsGroupColumns, options.progress);
   return writeParts(mesh, format, path, groupsOf(vsm, false, space), space, options.text);
 }
 
@@ -276,7 +277,7 @@ std::vector<std::string> writeRestored(const std::filesystem::path& vsm,
   checkRestoredPath(out, reader.info().cellType);
   checkForm(out, text);
   const Format& format = *formatOfName(out);
-  RestoredMesh mesh(vsm, workspace, format.maxCorners);
+  RestoredMesh mesh(vsm, workspace, format.maxCorners, format.holdsGroupColumns);
   std::vector<std::string> notes = mesh.notes();
   const WriteNotes more =
     writeParts(mesh, format, out, groupsOf(vsm, true, workspace), workspace, text);

@@ -74,6 +74,10 @@ inline constexpr const char* AttributeName = "Attribute";
 /** An integer, of vertices: the boundary marker in TetGen files. */
 inline constexpr const char* MarkerName = "Marker";
 
+/** Field array of a mesh in VTK's data and files: its groups as JSON (IO/Mesh/GroupsJson.h), which
+ * give the arrays VertexGroups, FacetGroups and CellGroups a meaning. Views do not list it. */
+inline constexpr const char* MeshGroupsName = "MeshGroups";
+
 /** Whether a column holds normals, of any type. */
 inline bool isNormals(const ColumnSpec& spec)
 {

@@ -43,6 +43,7 @@ public:
     layout.otherArrays = std::move(this->OtherArrays);
     layout.repeatedArrays = std::move(this->RepeatedArrays);
     layout.fields = std::move(this->Fields);
+    layout.groupsText = std::move(this->GroupsText);
     return layout;
   }
 
@@ -314,7 +315,9 @@ private:
     const bool areBits = type == "bit", areTexts = type == "string" || type == "utf8_string";
     if (areBits || areTexts)
     {
-      areBits ? this->Scanner.skipBits(values) : this->Scanner.skipTexts(values);
+      std::string text;
+      areBits ? this->Scanner.skipBits(values) : void(text = this->Scanner.skipTexts(values));
+      this->GroupsText = !arrays && name == MeshGroupsName ? text : this->GroupsText;
       if (arrays && arrays == this->Arrays && this->OtherArrays.size() < MaxOtherArrays)
       {
         this->OtherArrays.insert(name);
@@ -389,6 +392,7 @@ private:
   LegacyVtkScanner Scanner;
   VtkPiece Piece;
   std::set<std::string> OtherArrays, RepeatedArrays, Fields; ///< see VtkLayout
+  std::string GroupsText;
   VtkArrayNames PointNames, CellNames;
   bool IsGrid = false;
   bool OfPoints = false;

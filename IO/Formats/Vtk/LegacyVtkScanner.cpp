@@ -136,9 +136,12 @@ std::string LegacyVtkScanner::keyword()
   return word;
 }
 
-std::string LegacyVtkScanner::name()
+namespace
 {
-  const std::string name = this->word();
+
+/** A name or text in which % and two hexadecimal digits encode a character. */
+std::string decodedVtkName(const std::string& name)
+{
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i)
   {
@@ -156,6 +159,13 @@ std::string LegacyVtkScanner::name()
     }
   }
   return text;
+}
+
+} // namespace
+
+std::string LegacyVtkScanner::name()
+{
+  return decodedVtkName(this->word());
 }
 
 std::string LegacyVtkScanner::line()
@@ -251,8 +261,10 @@ void LegacyVtkScanner::skipBits(std::int64_t bits)
   this->array("bits", "unsigned_char", 1, bits);
 }
 
-void LegacyVtkScanner::skipTexts(std::int64_t texts)
+std::string LegacyVtkScanner::skipTexts(std::int64_t texts)
 {
+  constexpr std::uint64_t Longest = std::uint64_t(1) << 20;
+  std::string last;
   this->line();
   for (std::int64_t i = 0; i < texts; ++i)
   {
@@ -263,7 +275,7 @@ void LegacyVtkScanner::skipTexts(std::int64_t texts)
     }
     if (!this->Binary)
     {
-      this->line();
+      last = decodedVtkName(this->line());
       continue;
     }
     // The two highest bits encode the number of bytes of the length: 8, 4, 2 or 1.
@@ -274,8 +286,11 @@ void LegacyVtkScanner::skipTexts(std::int64_t texts)
       length = length << 8 | static_cast<unsigned char>(text[static_cast<std::size_t>(k)]);
     }
     this->skipBytes(bytes, 1);
+    const std::size_t begin = this->At;
     this->skipBytes(static_cast<std::int64_t>(length), 1);
+    last = length > Longest ? "" : this->File.at(begin, length).substr(0, length);
   }
+  return last;
 }
 
 } // namespace smg

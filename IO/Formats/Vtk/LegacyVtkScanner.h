@@ -46,8 +46,8 @@ public:
    * the file, and skips it. Throws Error if the type is unknown or the file is too short. */
   VtkArray array(
     const std::string& name, const std::string& type, int components, std::int64_t values);
-  /** Skips this number of texts. */
-  void skipTexts(std::int64_t texts);
+  /** Skips this number of texts; returns the last one, unless it is longer than 1 MiB. */
+  std::string skipTexts(std::int64_t texts);
   /** Skips this number of bits. */
   void skipBits(std::int64_t bits);
 

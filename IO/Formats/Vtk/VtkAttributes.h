@@ -5,6 +5,7 @@
 #include "IO/Mesh/Columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -67,6 +68,12 @@ std::string columnName(const std::string& name, int components, const std::vecto
   return isFree ? usual : name;
 }
 
+/** The names of arrays of cells whose integers are labels: those of this library, and of others
+ * that write cells of several dimensions into one file. The first one counts. */
+inline constexpr std::array<std::string_view, 12> VtkLabelNames{ PhysicalTagName, ReferenceName,
+  "gmsh:physical", "medit:ref", "netgen:index", "nastran:ref", "tetgen:ref", "su2:tag",
+  "avsucd:material", "cell_tags", "CellEntityIds", "material_id" };
+
 /** Whether a cell with these bits of vtkGhostType belongs to the mesh: not those that belong to
  * another piece, are refined elsewhere, or hidden. */
 constexpr bool isOwnVtkCell(std::int64_t ghostType)
@@ -85,7 +92,7 @@ inline void addFieldName(std::set<std::string>& names, const std::string& name)
 {
   static constexpr std::string_view Unmissed[] = { "", "TimeValue", "TIME", "CYCLE", "Report",
     "Preview", "PreviewOfReader", "FullNumberOfPoints", "FullNumberOfCells", "Failed",
-    "MeshRegions", "MeshConditions", "MeshConditionArrays" };
+    "MeshRegions", "MeshConditions", "MeshConditionArrays", MeshGroupsName };
   if (names.size() < MaxOtherArrays && std::ranges::find(Unmissed, name) == std::end(Unmissed))
   {
     names.insert(name);

@@ -144,6 +144,15 @@ bool isPointOrLine(int type)
   return typeOf(type).shape == Shape::PointOrLine;
 }
 
+int dimensionOfVtk(int type)
+{
+  constexpr int Vertex = 1;
+  return isSolidOfVtk(type)                                   ? 3
+         : !isPointOrLine(type)                               ? 2
+         : type == Vertex || type == VtkCellTypes::PolyVertex ? 0
+                                                              : 1;
+}
+
 bool isSolidOfVtk(int type)
 {
   const Shape shape = typeOf(type).shape;
@@ -170,6 +179,29 @@ std::int64_t partsOfVtk(int type, std::int64_t points)
       return std::max<std::int64_t>(corners - 2, 0);
   }
 }
+
+namespace
+{
+
+/** Of a polyline each line; of other lines both ends, which come first. */
+void takePointsOrLines(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)
+{
+  const int dimension = dimensionOfVtk(type);
+  const auto size = static_cast<std::size_t>(dimension) + 1;
+  if (points.size() < size)
+  {
+    builder.dropped();
+    return;
+  }
+  builder.element(dimension, points.first(size));
+  const bool areMany = type == VtkCellTypes::PolyVertex || type == VtkCellTypes::PolyLine;
+  for (std::size_t k = 1; areMany && k + size <= points.size(); ++k)
+  {
+    builder.grouped(dimension, points.subspan(k, size), builder.currentGroups());
+  }
+}
+
+} // namespace
 
 void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)
 {
@@ -214,7 +246,7 @@ void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder&
       builder.solid(p);
       break;
     case Shape::PointOrLine:
-      builder.dropped();
+      takePointsOrLines(type, points, builder);
       break;
     default:
       failForType(type);

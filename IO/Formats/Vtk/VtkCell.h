@@ -20,6 +20,9 @@ namespace smg
 /** Whether cells of VTK's type `type` are points or lines, which have no triangles. */
 bool isPointOrLine(int type);
 
+/** The dimension of cells of VTK's type `type`. */
+int dimensionOfVtk(int type);
+
 /** As "polyhedron", or "VTK's type 50". */
 SMG_EXPORT std::string nameOfVtkType(int type);
 

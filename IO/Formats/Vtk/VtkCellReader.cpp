@@ -14,9 +14,10 @@ namespace smg
 {
 
 VtkCellReader::VtkCellReader(
-  VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace)
+  VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace, bool takesLines)
   : Cells(list.cells)
   , Type(list.type)
+  , TakesLines(takesLines)
 {
   if (list.cells == 0)
   {
@@ -68,7 +69,7 @@ std::span<const std::int64_t> VtkCellReader::next()
     this->Type = type >= 0 && type < 256 ? static_cast<int>(type) : 255;
   }
   const std::int64_t size = this->nextSize();
-  if (isPointOrLine(this->Type))
+  if (isPointOrLine(this->Type) && (!this->TakesLines || size > MaxPoints))
   {
     this->Points->skip(size);
     ++this->Cell;

@@ -23,10 +23,12 @@ public:
   /** The maximum number of points of a cell other than points and lines. */
   static constexpr std::int64_t MaxPoints = std::int64_t(1) << 20;
 
-  VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace);
+  /** `takesLines`: also points and lines, up to MaxPoints points of each. */
+  VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace,
+    bool takesLines);
 
-  /** The points of the next cell, valid until the next call; none for points and lines. Throws
-   * Error if the list is invalid. */
+  /** The points of the next cell, valid until the next call; none for points and lines that are not
+   * taken. Throws Error if the list is invalid. */
   std::span<const std::int64_t> next();
   /** VTK's type of that cell. */
   int type() const { return this->Type; }
@@ -39,6 +41,7 @@ private:
   std::int64_t Cells;
   std::int64_t Cell = 0; ///< the next one
   int Type;
+  bool TakesLines;
   std::optional<VtkIndexReader> Points, Offsets, Types;
   std::int64_t Last = 0; ///< end of the last cell
 };

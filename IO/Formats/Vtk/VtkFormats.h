@@ -10,6 +10,9 @@ namespace smg
 MeshFileFunction makeLegacyVtkWriter, makeVtkXmlWriter;
 /** A name as one word of a legacy file, in VTK's encoding. */
 std::string encodedVtkName(const std::string& name);
+/** The lines of a legacy file that have the groups, as a text of its field data; empty: there are
+ * none. */
+std::string legacyGroups(const MeshGroups& groups, bool asText);
 /** Of legacy files as text. */
 MeshFileFunction makeTextVtkWriter;
 std::int64_t scratchOfTextVtk(const StreamInfo& mesh, std::int64_t memory, bool text);

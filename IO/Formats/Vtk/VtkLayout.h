@@ -89,6 +89,9 @@ struct VtkLayout
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
   std::set<std::string> fields;      ///< arrays of the field data; see addFieldName()
+  /** The text MeshGroups of the field data: its place, or itself. */
+  std::optional<VtkArray> groupsArray;
+  std::string groupsText;
   /** Names of several arrays of the points, or of the cells; see VtkArrayNames. */
   std::set<std::string> repeatedArrays;
   std::int64_t bytes = 0; ///< approximate memory of the pieces
@@ -141,6 +144,7 @@ public:
     Offsets,
     Types,
     Ghosts,
+    Labels,
     Windows
   };
 

@@ -8,9 +8,11 @@
 #include "IO/Import/ImportColumn.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/GroupsJson.h"
 #include "Solver/Memory/Pool.h"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +56,38 @@ private:
   std::unique_ptr<VtkIndexReader> GhostTypes;
 };
 
+/** The groups of cells, by their labels; 0 is no group. */
+class CellLabels
+{
+public:
+  /** There are none. */
+  CellLabels() = default;
+  /** Those from cell `first` on. */
+  CellLabels(InputFile& file, const VtkArray& labels, std::int64_t first, RawMeshBuilder& builder)
+    : Labels(std::make_unique<VtkIndexReader>(file, labels, builder.workspace()))
+    , Builder(&builder)
+  {
+    this->Labels->skip(first);
+  }
+
+  bool exist() const { return this->Labels != nullptr; }
+  /** The next cell, of VTK's type `type`, is added with its groups. */
+  void begin(int type)
+  {
+    if (this->exist())
+    {
+      const std::int64_t label = this->Labels->next();
+      this->Builder->setGroups(label == 0
+                                 ? GroupTable::None
+                                 : this->Builder->groups().numbered(dimensionOfVtk(type), label));
+    }
+  }
+
+private:
+  std::unique_ptr<VtkIndexReader> Labels;
+  RawMeshBuilder* Builder = nullptr;
+};
+
 class MeshReader
 {
 public:
@@ -67,6 +101,7 @@ public:
 
   void read()
   {
+    this->readGroups();
     if (this->Builder.looks())
     {
       this->look();
@@ -90,6 +125,66 @@ public:
   }
 
 private:
+  /** The groups of a mesh that this library has written, in a text. */
+  void readGroups()
+  {
+    std::string text = this->Layout.groupsText;
+    if (this->Layout.groupsArray)
+    {
+      constexpr std::size_t Longest = std::size_t(1) << 20;
+      VtkArrayReader reader(
+        this->Files.open(0, VtkFiles::Main), *this->Layout.groupsArray, this->Space);
+      for (auto some = reader.some(Longest); !some.empty() && text.size() < Longest;
+           some = reader.some(Longest))
+      {
+        text.append(reinterpret_cast<const char*>(some.data()), some.size());
+      }
+      text.resize(std::min(text.find('\0'), text.size()));
+    }
+    if (text.empty())
+    {
+      return;
+    }
+    try
+    {
+      this->Groups = groupsOfText(text);
+      this->Builder.setGroups(this->Groups);
+    }
+    catch (const MeshError& error)
+    {
+      this->Builder.note(
+        "The groups of the file are left out: it " + std::string(error.what()) + '.');
+    }
+  }
+
+  /** Whether an array is one of groups that goes with those of the file. */
+  bool isOfGroups(const VtkArray& array, bool ofPoints) const
+  {
+    const GroupOf kind = ofPoints                        ? GroupOf::Vertices
+                         : array.name == FacetGroupsName ? GroupOf::Facets
+                                                         : GroupOf::Cells;
+    const ColumnSpec spec{ array.name, array.columnType, array.components };
+    return !this->Groups.empty() &&
+           (spec == MeshGroups::columnSpec(kind, 3) || spec == MeshGroups::columnSpec(kind, 4));
+  }
+
+  /** Passes the tuples on; those of groups must be sets that there are. */
+  void append(ImportColumn& column, bool areGroups, std::span<const std::byte> tuples) const
+  {
+    for (std::size_t i = 0; areGroups && i + sizeof(GroupSet) <= tuples.size();
+         i += sizeof(GroupSet))
+    {
+      GroupSet set = 0;
+      std::memcpy(&set, &tuples[i], sizeof(set));
+      if (set >= this->Groups.sets.size())
+      {
+        throw MeshError("an array has a set of groups, number " + std::to_string(set) +
+                        ", that the file does not have");
+      }
+    }
+    column.append(tuples);
+  }
+
   /** Declares the columns, and passes cells until one ends that. */
   void look()
   {
@@ -189,6 +284,24 @@ private:
              : OwnCells();
   }
 
+  CellLabels labels(const VtkPiece& piece, std::int64_t first)
+  {
+    for (const std::string_view name : VtkLabelNames)
+    {
+      if (!this->Groups.empty())
+      {
+        break;
+      }
+      const VtkArray* array = find(piece.cellArrays, std::string(name));
+      if (array && array->components == 1 && !isReal(array->type) && !this->Builder.looks())
+      {
+        return CellLabels(
+          this->Files.open(piece.file, VtkFiles::Labels), *array, first, this->Builder);
+      }
+    }
+    return {};
+  }
+
   /** Cells of a piece in the lists before `list`. */
   static std::int64_t cellsBefore(const VtkPiece& piece, std::size_t list)
   {
@@ -223,7 +336,8 @@ private:
       return;
     }
     const std::int64_t first = cellsBefore(piece, list);
-    VtkCellReader reader(this->Files, piece.file, cells, this->Space);
+    CellLabels labels = this->labels(piece, first);
+    VtkCellReader reader(this->Files, piece.file, cells, this->Space, labels.exist());
     OwnCells own = this->ownCells(piece, first);
     this->Builder.numberVertices(0, piece.points, base);
     std::int64_t cell = 0;
@@ -232,6 +346,7 @@ private:
       for (; cell < cells.cells; ++cell)
       {
         const std::span<const std::int64_t> points = reader.next();
+        labels.begin(reader.type());
         if (own.next())
         {
           takeVtkCell(reader.type(), points, this->Builder);
@@ -280,6 +395,11 @@ private:
                            " is left out, since not all pieces have it in the same type.");
         continue;
       }
+      const bool areGroups = isGroupColumn(array.name);
+      if (areGroups && !this->isOfGroups(array, ofPoints))
+      {
+        continue;
+      }
       const std::string name = columnName(array.name, array.components, (*full).*arrays,
         ofPoints ? (*full).pointNormals : (*full).cellNormals,
         ofPoints ? (*full).pointTexture : "");
@@ -287,14 +407,14 @@ private:
       ImportColumn column(this->Builder, ofPoints ? ColumnOf::Vertices : ColumnOf::Elements, spec);
       if (column.exists())
       {
-        ofPoints ? this->readPointColumn(array.name, column)
-                 : this->readCellColumn(array.name, column);
+        ofPoints ? this->readPointColumn(array.name, column, areGroups)
+                 : this->readCellColumn(array.name, column, areGroups);
         column.close();
       }
     }
   }
 
-  void readPointColumn(const std::string& name, ImportColumn& column)
+  void readPointColumn(const std::string& name, ImportColumn& column, bool areGroups)
   {
     std::optional<VtkPointMerger::Walk> walk;
     if (this->Merger)
@@ -310,12 +430,12 @@ private:
       VtkArrayReader reader(this->open(piece), *find(piece.pointArrays, name), this->Space);
       copyVtkTuples(
         reader, piece.points, [&walk] { return walk->next(); }, !walk,
-        [&](std::span<const std::byte> tuples) { column.append(tuples); });
+        [&](std::span<const std::byte> tuples) { this->append(column, areGroups, tuples); });
       this->advance();
     }
   }
 
-  void readCellColumn(const std::string& name, ImportColumn& column)
+  void readCellColumn(const std::string& name, ImportColumn& column, bool areGroups)
   {
     for (std::size_t list = 0; list < this->lists(); ++list)
     {
@@ -332,7 +452,7 @@ private:
         OwnCells own = this->ownCells(piece, first);
         copyVtkTuples(
           reader, piece.lists[list].cells, [&own] { return own.next(); }, own.areAll(),
-          [&](std::span<const std::byte> tuples) { column.append(tuples); });
+          [&](std::span<const std::byte> tuples) { this->append(column, areGroups, tuples); });
         this->advance();
       }
     }
@@ -342,6 +462,7 @@ private:
   const VtkLayout& Layout;
   RawMeshBuilder& Builder;
   Workspace& Space;
+  MeshGroups Groups; ///< of a file that this library has written
   std::unique_ptr<VtkPointMerger> Merger;
   std::int64_t Steps = 0;
   std::int64_t Ghosts = 0; ///< cells that are left out

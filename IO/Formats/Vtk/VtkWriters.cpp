@@ -5,10 +5,12 @@
 #include "IO/Files/FileNames.h"
 #include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Vtk/LegacyVtkScanner.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/GroupsJson.h"
 #include "Solver/Core/Text.h"
 #include "smg/Error.h"
 
@@ -255,6 +257,28 @@ std::string encodedVtkName(const std::string& name)
   return text;
 }
 
+std::string legacyGroups(const MeshGroups& groups, bool asText)
+{
+  if (groups.empty())
+  {
+    return {};
+  }
+  const std::string text = textOf(groups);
+  std::string field = std::string("FIELD FieldData 1\n") + MeshGroupsName + " 1 1 string\n";
+  if (asText)
+  {
+    return field + encodedVtkName(text) + '\n';
+  }
+  // The length, big-endian, whose highest bits tell that it has four bytes.
+  constexpr std::uint32_t FourBytes = std::uint32_t(1) << 30;
+  const std::uint32_t length = FourBytes | static_cast<std::uint32_t>(text.size());
+  for (int shift = 24; shift >= 0; shift -= 8)
+  {
+    field += static_cast<char>(length >> shift & 0xff);
+  }
+  return field + text + '\n';
+}
+
 LegacyColumns::LegacyColumns(const std::vector<ColumnSpec>& specs, bool ofVertices)
   : Specs(specs)
   , OfVertices(ofVertices)
@@ -324,6 +348,7 @@ public:
     const ScalarType real = this->Positions.type();
     this->writeText("# vtk DataFile Version 3.0\nmesh\nBINARY\nDATASET ");
     this->writeText(isSurface ? "POLYDATA\n" : "UNSTRUCTURED_GRID\n");
+    this->writeText(legacyGroups(info.groupTable, false));
     this->writeText(
       "POINTS " + std::to_string(info.vertices) + ' ' + std::string(legacyTypeName(real)) + '\n');
     this->placeLine(this->Points, { "", real, 3 }, info.vertices);
@@ -421,6 +446,23 @@ std::string activeOf(const std::vector<ColumnSpec>& columns)
   return attributes;
 }
 
+/** The groups as a text of the field data, by the codes of its characters; empty: there are none.
+ */
+std::string groupsElement(const MeshGroups& groups)
+{
+  if (groups.empty())
+  {
+    return {};
+  }
+  std::string element = std::string("<FieldData>\n<Array type=\"String\" Name=\"") +
+                        MeshGroupsName + "\" NumberOfTuples=\"1\" format=\"ascii\">\n";
+  for (const char c : textOf(groups))
+  {
+    element += std::to_string(static_cast<unsigned char>(c)) + ' ';
+  }
+  return element + "0\n</Array>\n</FieldData>\n";
+}
+
 /** VTK XML: PolyData if the name ends with .vtp, else an UnstructuredGrid. Corners are 64-bit
  * numbers. */
 class VtkXmlWriter : public VtkWriter<InlineArray>
@@ -435,8 +477,8 @@ public:
     const bool little = std::endian::native == std::endian::little;
     this->writeText(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" +
-      (little ? "Little" : "Big") + "Endian\" header_type=\"UInt64\">\n<" + type +
-      ">\n<Piece NumberOfPoints=\"" + std::to_string(info.vertices) +
+      (little ? "Little" : "Big") + "Endian\" header_type=\"UInt64\">\n<" + type + ">\n" +
+      groupsElement(info.groupTable) + "<Piece NumberOfPoints=\"" + std::to_string(info.vertices) +
       (this->IsPolyData ? "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
                           "NumberOfStrips=\"0\" NumberOfPolys=\""
                         : "\" NumberOfCells=\"") +

@@ -178,7 +178,12 @@ private:
     }
     else if (this->Section == "FieldData" && (tag.name == "DataArray" || tag.name == "Array"))
     {
-      addFieldName(this->Layout.fields, tag.value("Name"));
+      const std::string name = tag.value("Name");
+      addFieldName(this->Layout.fields, name);
+      if (name == MeshGroupsName && tag.value("type") == "String" && !tag.alone)
+      {
+        this->Layout.groupsArray = vtkXmlArray(this->File, tag, ScalarType::UInt8, this->Encoding);
+      }
     }
     else if (tag.name == "DataArray" && !this->Section.empty())
     {
@@ -350,22 +355,26 @@ private:
     {
     }
     ++begin;
-    this->forEachArray(
-      [&](VtkArray& array)
+    const auto place = [&](VtkArray& array)
+    {
+      if (array.encoding != VtkEncoding::Raw)
       {
-        if (array.encoding != VtkEncoding::Raw)
-        {
-          return;
-        }
-        if (begin >= this->File.size() || array.begin > this->File.size() - begin)
-        {
-          this->File.fail(tag.begin, "the array " + inQuotes(array.name) +
-                                       " begins behind the end of the file: it is truncated or an "
-                                       "offset is wrong");
-        }
-        array.begin += begin;
-        array.encoding = base64 ? VtkEncoding::Base64 : VtkEncoding::Raw;
-      });
+        return;
+      }
+      if (begin >= this->File.size() || array.begin > this->File.size() - begin)
+      {
+        this->File.fail(tag.begin, "the array " + inQuotes(array.name) +
+                                     " begins behind the end of the file: it is truncated or an "
+                                     "offset is wrong");
+      }
+      array.begin += begin;
+      array.encoding = base64 ? VtkEncoding::Base64 : VtkEncoding::Raw;
+    };
+    this->forEachArray(place);
+    if (this->Layout.groupsArray)
+    {
+      place(*this->Layout.groupsArray);
+    }
     this->HasAppended = true;
   }
 

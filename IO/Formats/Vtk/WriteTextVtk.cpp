@@ -92,8 +92,9 @@ public:
     , CellData(info.elementColumns, false, space)
   {
     this->Out << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET "
-              << (this->isSurface() ? "POLYDATA" : "UNSTRUCTURED_GRID") << "\nPOINTS "
-              << info.vertices << ' ' << legacyTypeName(positionType(info.doublePositions)) << '\n';
+              << (this->isSurface() ? "POLYDATA\n" : "UNSTRUCTURED_GRID\n")
+              << legacyGroups(info.groupTable, true) << "POINTS " << info.vertices << ' '
+              << legacyTypeName(positionType(info.doublePositions)) << '\n';
   }
 
   void vertices(const VertexChunk& chunk) override

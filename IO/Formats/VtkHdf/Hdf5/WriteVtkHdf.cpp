@@ -2,10 +2,12 @@
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
 #include "IO/Files/FileNames.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 #include "IO/Mesh/Columns.h"
+#include "IO/Mesh/GroupsJson.h"
 #include "Solver/Core/Progress.h"
 #include "smg/VsmReader.h"
 
@@ -33,6 +35,10 @@ public:
     constexpr std::array<std::int64_t, 2> version{ 1, 0 };
     this->Out.addIntegers("/VTKHDF", "Version", version);
     this->Out.addText("/VTKHDF", "Type", "UnstructuredGrid");
+    if (!info.groups.empty())
+    {
+      this->Out.addText("/VTKHDF", MeshGroupsName, textOf(info.groups));
+    }
     for (const char* name : { "NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds" })
     {
       this->Out.addDataset(VtkHdfRoot + name, ScalarType::Int64, 0, partitions);
