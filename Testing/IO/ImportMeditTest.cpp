@@ -34,14 +34,56 @@ protected:
 
 } // namespace
 
+/** Edges, triangles and tetrahedra with references, and lists of each kind. */
+const std::string Listed =
+  fourVertices("Edges 3\n1 2 0\n2 3 5\n1 4 0\nTriangles 3\n1 2 3 7\n1 2 4 0\n2 3 4 7\n"
+               "Tetrahedra 1\n1 2 3 4 9\nRidges 1\n3\nRequiredEdges 2\n1 3\n"
+               "RequiredVertices 1\n2\nRequiredTriangles 2\n2 3\nCorners 4\n1 2 3 4\nEnd\n");
+
+TEST_F(ImportMedit, ReferencesAndListsAreGroups)
+{
+  const ReadMesh solid = this->medit(Listed);
+  EXPECT_EQ(solid.cells(), 1);
+  EXPECT_EQ(solid.elementCount, 4);
+  // Of edges in a volume both ends are members, in the order in which they came.
+  EXPECT_EQ(
+    groupCounts(solid), (GroupCounts{ { "cells 9", 1 }, { "facets 7", 2 }, { "facets required", 2 },
+                          { "vertices 5", 2 }, { "vertices ridges", 2 }, { "vertices required", 5 },
+                          { "vertices corners", 4 } }));
+  const ReadMesh surface = this->medit(Listed, CellChoice::Triangles);
+  EXPECT_EQ(surface.cells(), 3);
+  EXPECT_EQ(
+    groupCounts(surface), (GroupCounts{ { "cells 7", 2 }, { "cells required", 2 },
+                            { "facets 5", 1 }, { "facets ridges", 1 }, { "facets required", 2 },
+                            { "vertices required", 1 }, { "vertices corners", 4 } }));
+  EXPECT_EQ(elementColumn(surface, "Reference").tuples(), 4u);
+  this->expectRefused(fourVertices("Triangles 1\n1 2 3 0\nRequiredTriangles 1\n2\n"),
+    "line 12: number 2 of the section 'RequiredTriangles' is not one of");
+  this->expectSafe(MeditFormat, "a.mesh", Listed);
+}
+
+TEST_F(ImportMedit, FewLabelsOfVerticesAreGroups)
+{
+  const ReadMesh mesh = this->medit(Mixed);
+  EXPECT_EQ(groupCounts(mesh),
+    (GroupCounts{ { "cells 8", 1 }, { "cells 9", 1 }, { "facets 7", 1 }, { "vertices 1", 2 },
+      { "vertices 2", 2 }, { "vertices 3", 1 }, { "vertices corners", 1 } }));
+  std::string many = "MeshVersionFormatted 2\nDimension 3\nVertices 2000\n";
+  for (int i = 1; i <= 2000; ++i)
+  {
+    many += std::to_string(i % 5) + ' ' + std::to_string(i) + " 0 " + std::to_string(i) + '\n';
+  }
+  EXPECT_TRUE(groupCounts(this->medit(many + "Triangles 1\n1 2 3 0\nEnd\n")).empty());
+}
+
 TEST_F(ImportMedit, KindsOfCellsAreChosen)
 {
-  this->expectRefused(Mixed, "a.mesh, line 17: the file has both");
+  EXPECT_EQ(this->medit(Mixed).cells(), 2);
   const ReadMesh tetrahedra = this->medit(Mixed, CellChoice::Tetrahedra);
   EXPECT_EQ(tetrahedra.corners, (std::vector<std::int64_t>{ 0, 1, 2, 3, 1, 2, 3, 4 }));
   EXPECT_EQ(tetrahedra.elements, (std::vector<std::int64_t>{ 1, 2 }));
   EXPECT_EQ(tetrahedra.elementCount, 3);
-  EXPECT_EQ(tetrahedra.counts.droppedCells, 1);
+  EXPECT_EQ(tetrahedra.counts.droppedCells, 0);
   const ReadMesh triangles = this->medit(Mixed, CellChoice::Triangles);
   EXPECT_EQ(triangles.corners, (std::vector<std::int64_t>{ 0, 1, 2 }));
 }
@@ -53,17 +95,17 @@ TEST_F(ImportMedit, ReferencesAreColumns)
   ASSERT_EQ(mesh.vertexColumns.size(), 1u);
   EXPECT_EQ(mesh.vertexColumns[0].spec, spec);
   EXPECT_EQ(mesh.vertexColumns[0].value(4), 3);
-  ASSERT_EQ(mesh.elementColumns.size(), 1u);
-  EXPECT_EQ(mesh.elementColumns[0].spec, spec);
-  EXPECT_EQ(mesh.elementColumns[0].value(0), 7);
-  EXPECT_EQ(mesh.elementColumns[0].value(2), 9);
+  const Column& references = elementColumn(mesh, "Reference");
+  EXPECT_EQ(references.spec, spec);
+  EXPECT_EQ(references.value(0), 7);
+  EXPECT_EQ(references.value(2), 9);
 }
 
 TEST_F(ImportMedit, ReferencesThatAreZeroAreNoColumns)
 {
   const ReadMesh mesh = this->medit(fourVertices("Tetrahedra\n1\n1 2 3 4 5\n"));
   EXPECT_TRUE(mesh.vertexColumns.empty());
-  EXPECT_EQ(mesh.elementColumns.size(), 1u);
+  EXPECT_EQ(elementColumn(mesh, "Reference").value(0), 5);
   // Labels may be missing.
   EXPECT_TRUE(this->medit(fourVertices("Tetrahedra\n1\n1 2 3 4\n")).elementColumns.empty());
 }
@@ -102,7 +144,7 @@ TEST_F(ImportMedit, PlaneMeshesAndQuadrilaterals)
 TEST_F(ImportMedit, OtherSectionsArePassed)
 {
   const ReadMesh mesh =
-    this->medit(fourVertices("Edges\n2\n1 2 1\n2 3 1\nRidges 1\n1\nNormals\n1\n0.5 1e-3 -.5\n"
+    this->medit(fourVertices("Normals\n1\n0.5 1e-3 -.5\n"
                              "NormalAtVertices\n1\n1 1\nTetrahedra 1\n1 2 3 4 0\nRequiredVertices\n"
                              "0\nEnd\nanything else"));
   EXPECT_EQ(mesh.cells(), 1);

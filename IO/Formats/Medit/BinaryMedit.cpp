@@ -50,6 +50,7 @@ public:
   BinaryMeditReader(InputFile& file, std::endian order, RawMeshBuilder& builder)
     : Input(file, 4, order)
     , Builder(builder)
+    , Groups(builder)
   {
   }
 
@@ -59,12 +60,11 @@ public:
       [this]
       {
         this->readSections();
+        this->VertexReferences->finish();
+        this->VertexLabels.groupVertices(this->Builder, this->VertexReferences->column(), 1);
+        this->Groups.finish();
         this->Builder.checkCorners();
       });
-    if (this->VertexReferences)
-    {
-      this->VertexReferences->finish();
-    }
     this->ElementReferences->finish();
   }
 
@@ -134,6 +134,15 @@ private:
     {
       this->readElements(*section);
     }
+    const auto* const list = std::ranges::find(MeditLists, code, &MeditList::code);
+    if (list != MeditLists.end() && !this->Builder.looks())
+    {
+      const std::int64_t count = this->count("the number of entries", 1, 0);
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        this->Groups.list(*list, this->integer("a number of a list"));
+      }
+    }
   }
 
   std::int64_t integer(const char* what)
@@ -174,7 +183,9 @@ private:
           isSingle ? static_cast<double>(this->Input.take<float>()) : this->Input.take<double>();
       }
       this->Builder.vertex(point[0], point[1], point[2]);
-      this->VertexReferences->add(this->integer("a label"));
+      const std::int64_t reference = this->integer("a label");
+      this->VertexReferences->add(reference);
+      this->VertexLabels.add(reference);
     }
   }
 
@@ -183,14 +194,19 @@ private:
     const std::int64_t count = this->count("the number of elements", section.corners + 1, 0);
     std::array<std::int64_t, 8> storage{};
     const std::span<std::int64_t> corners = std::span(storage).first(section.corners);
+    this->Groups.beginSection(section, count);
     for (std::int64_t i = 0; i < count; ++i)
     {
       for (std::int64_t& corner : corners)
       {
         corner = this->integer("a vertex of an element");
       }
-      this->Builder.element(section.dimension, corners);
-      this->ElementReferences->add(this->integer("a label"));
+      const std::int64_t reference = this->integer("a label");
+      this->Groups.add(section, corners, reference);
+      if (section.dimension > 1)
+      {
+        this->ElementReferences->add(reference);
+      }
     }
   }
 
@@ -198,6 +214,8 @@ private:
   RawMeshBuilder& Builder;
   std::int32_t Version = 0, Dimension = 3;
   std::optional<LabelColumn> VertexReferences, ElementReferences;
+  LabelGroups VertexLabels;
+  MeditGroups Groups;
 };
 
 /** Whether the file begins with the number 1, a version, and the section of the dimension. */

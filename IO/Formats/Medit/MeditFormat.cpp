@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Export/GroupElements.h"
 #include "IO/Export/MeshFileWriter.h"
 #include "IO/Export/PlacedColumns.h"
 #include "IO/Files/InputFile.h"
@@ -16,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace smg
 {
@@ -29,6 +31,10 @@ bool isOfHigherOrder(std::string_view keyword)
   return std::ranges::any_of(MeditSections,
     [keyword](const MeditSection& section)
     {
+      if (section.dimension == 1)
+      {
+        return false;
+      }
       const std::string_view order =
         keyword.substr(std::min(section.keyword.size(), keyword.size()));
       return keyword.starts_with(section.keyword) && order.size() == 2 &&
@@ -45,6 +51,7 @@ public:
     , Builder(builder)
     , VertexReferences(builder, ColumnOf::Vertices, ReferenceName)
     , ElementReferences(builder, ColumnOf::Elements, ReferenceName)
+    , Groups(builder)
   {
   }
 
@@ -56,9 +63,11 @@ public:
       [this]
       {
         this->readSections();
+        this->VertexReferences.finish();
+        this->VertexLabels.groupVertices(this->Builder, this->VertexReferences.column(), 1);
+        this->Groups.finish();
         this->Builder.checkCorners();
       });
-    this->VertexReferences.finish();
     this->ElementReferences.finish();
   }
 
@@ -93,13 +102,17 @@ private:
       this->readVertices();
       return;
     }
-    for (const MeditSection& section : MeditSections)
+    const auto* const section = std::ranges::find(MeditSections, keyword, &MeditSection::keyword);
+    if (section != MeditSections.end())
     {
-      if (keyword == section.keyword)
-      {
-        this->readElements(section);
-        return;
-      }
+      this->readElements(*section);
+      return;
+    }
+    const auto* const list = std::ranges::find(MeditLists, keyword, &MeditList::keyword);
+    if (list != MeditLists.end() && !this->Builder.looks())
+    {
+      this->readList(*list);
+      return;
     }
     if (!std::isalpha(static_cast<unsigned char>(keyword[0])))
     {
@@ -154,7 +167,9 @@ private:
         point[axis] = this->Scanner.number("a coordinate of a vertex");
       }
       this->Builder.vertex(point[0], point[1], point[2]);
-      this->VertexReferences.add(this->reference());
+      const std::int64_t reference = this->reference();
+      this->VertexReferences.add(reference);
+      this->VertexLabels.add(reference);
     }
   }
 
@@ -163,6 +178,7 @@ private:
     const std::int64_t count = this->Scanner.count("the number of elements", 2 * section.corners);
     std::array<std::int64_t, 8> storage{};
     const std::span<std::int64_t> corners = std::span(storage).first(section.corners);
+    this->Groups.beginSection(section, count);
     for (std::int64_t i = 0; i < count; ++i)
     {
       for (std::int64_t& corner : corners)
@@ -170,8 +186,23 @@ private:
         corner = this->Scanner.integer("a vertex of an element");
       }
       this->Builder.setLine(this->Scanner.line());
-      this->Builder.element(section.dimension, corners);
-      this->ElementReferences.add(this->reference());
+      const std::int64_t reference = this->reference();
+      this->Groups.add(section, corners, reference);
+      if (section.dimension > 1)
+      {
+        this->ElementReferences.add(reference);
+      }
+    }
+  }
+
+  void readList(const MeditList& list)
+  {
+    const std::int64_t count = this->Scanner.count("the number of entries", 2);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const std::int64_t number = this->Scanner.integer("a number of the list");
+      this->Builder.setLine(this->Scanner.line());
+      this->Groups.list(list, number);
     }
   }
 
@@ -185,6 +216,8 @@ private:
   TextScanner Scanner;
   RawMeshBuilder& Builder;
   LabelColumn VertexReferences, ElementReferences;
+  LabelGroups VertexLabels;
+  MeditGroups Groups;
   std::int64_t Dimension = 3;
 };
 
@@ -193,7 +226,9 @@ void importMedit(InputFile& file, RawMeshBuilder& builder)
   MeditReader(file, builder).read();
 }
 
-/** Tetrahedra, or triangles and then quadrilaterals; vertices and cells with their references. */
+/** Tetrahedra, or triangles and then quadrilaterals, then facets in groups; vertices and cells with
+ * their references. Those of facets and, if no column has them, of cells are the numbers of their
+ * groups. */
 class MeditWriter : public MeshFileWriter
 {
 public:
@@ -203,6 +238,7 @@ public:
     , Columns(info)
     , VertexReferences(this->Columns.integerOfVertices({ ReferenceName, MarkerName }))
     , References(this->Columns.integerOfElements({ ReferenceName, PhysicalTagName }))
+    , Sets(this->Columns.integerOfElements({ CellGroupsName }))
     // All triangles of the stream, except for the two of each quadrilateral.
     , Triangles(info.cellType == CellType::Triangle ? info.cells - 2 * info.quadrilaterals : 0)
     , WritesQuadrilaterals(this->Triangles == 0)
@@ -241,7 +277,9 @@ public:
         {
           this->Out << (k > 0 ? " " : "") << corners[k] + 1;
         }
-        this->Out.tuple(chunk.columns, this->References, element, " 0");
+        const bool byGroups = this->Info.groups && this->Sets >= 0 && this->References < 0;
+        byGroups ? void(this->Out << ' ' << this->numberOf(chunk.columns, element))
+                 : this->Out.tuple(chunk.columns, this->References, element, " 0");
         this->Out << '\n';
       });
   }
@@ -256,9 +294,11 @@ public:
 
   WriteNotes finish() override
   {
+    this->writeFacets();
     this->Out << "End\n";
     this->Out.finish();
     WriteNotes notes = this->Columns.leftOut(".mesh");
+    this->noteGroups(notes);
     if (this->Info.quadrilaterals > 0 && this->Info.quadrilaterals < this->Info.elements)
     {
       notes.push_back("The quadrilaterals come after the triangles, as the format has it.");
@@ -267,6 +307,66 @@ public:
   }
 
 private:
+  /** The number of the first group of a cell; 0: it is in none. */
+  std::int64_t numberOf(const std::vector<Column>& columns, std::size_t element) const
+  {
+    const GroupSet set = columns[std::size_t(this->Sets)].as<GroupSet>()[element];
+    const std::vector<std::uint32_t> groups = this->Info.groups->groupsOf(set, GroupOf::Cells);
+    return groups.empty() ? 0 : this->Info.groups->numberOf(groups.front());
+  }
+
+  /** A facet is written once for each of its groups. */
+  void writeFacets()
+  {
+    const std::int64_t count =
+      this->Info.groups ? this->Info.groups->memberships(GroupOf::Facets) : 0;
+    if (count == 0)
+    {
+      return;
+    }
+    this->Out << (this->Info.cellType == CellType::Tetrahedron ? "Triangles\n" : "Edges\n") << count
+              << '\n';
+    this->Info.groups->forEach(GroupOf::Facets,
+      [this](std::span<const std::int64_t> corners, GroupSet set)
+      {
+        for (const std::uint32_t group : this->Info.groups->groupsOf(set, GroupOf::Facets))
+        {
+          for (const std::int64_t corner : corners)
+          {
+            this->Out << corner + 1 << ' ';
+          }
+          this->Out << this->Info.groups->numberOf(group) << '\n';
+        }
+      });
+  }
+
+  /** Groups have only numbers in the file. */
+  void noteGroups(WriteNotes& notes) const
+  {
+    if (!this->Info.groups)
+    {
+      return;
+    }
+    std::string names;
+    const std::vector<Group>& groups = this->Info.groups->groups().groups;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+    {
+      if (!groups[g].name.empty() && groups[g].of != GroupOf::Vertices)
+      {
+        names += (names.empty() ? "" : ", ") + inQuotes(groups[g].name) + " is " +
+                 std::to_string(this->Info.groups->numberOf(static_cast<std::uint32_t>(g)));
+      }
+    }
+    if (!names.empty())
+    {
+      notes.push_back("Groups have only numbers in the file: " + names + '.');
+    }
+    if (this->Info.groups->memberships(GroupOf::Vertices) > 0)
+    {
+      notes.emplace_back("Groups of vertices are left out.");
+    }
+  }
+
   void beginSection()
   {
     if (this->Info.cellType == CellType::Tetrahedron)
@@ -286,7 +386,7 @@ private:
   TextOutput Out;
   const MeshFileInfo Info;
   PlacedColumns Columns;
-  std::ptrdiff_t VertexReferences, References;
+  std::ptrdiff_t VertexReferences, References, Sets;
   std::int64_t Triangles;
   bool WritesQuadrilaterals; ///< otherwise, of a surface, the triangles
 };
@@ -318,6 +418,7 @@ const Format MeditFormat{
   .suffixes = MeditSuffixes,
   .description = "text",
   .cells = "triangles, quadrilaterals, tetrahedra, hexahedra, prisms, pyramids",
+  .holdsGroups = true,
   .hasMagic = isMedit,
   .parse = parseWith<importMedit>,
   .typicalBytes = { 200, 4 },
