@@ -45,9 +45,27 @@ TEST_F(ImportTetGen, AttributesAndMarkersAreColumns)
   EXPECT_EQ(mesh.vertexColumns[0].value(3, 1), -4);
   EXPECT_EQ(mesh.vertexColumns[1].spec, (ColumnSpec{ "Marker", ScalarType::Int64, 1 }));
   EXPECT_EQ(mesh.vertexColumns[1].value(4), 9);
-  ASSERT_EQ(mesh.elementColumns.size(), 1u);
-  EXPECT_EQ(mesh.elementColumns[0].spec, (ColumnSpec{ "Attribute", ScalarType::Float64, 1 }));
-  EXPECT_EQ(mesh.elementColumns[0].value(1), -20);
+  const Column& attributes = elementColumn(mesh, "Attribute");
+  EXPECT_EQ(attributes.spec, (ColumnSpec{ "Attribute", ScalarType::Float64, 1 }));
+  EXPECT_EQ(attributes.value(1), -20);
+}
+
+TEST_F(ImportTetGen, MarkersAndRegionsAreGroups)
+{
+  const GroupCounts own{ { "cells 10", 1 }, { "cells -20", 1 }, { "vertices 7", 1 },
+    { "vertices 8", 1 }, { "vertices 9", 1 } };
+  EXPECT_EQ(groupCounts(this->tetGen(Nodes, Elements)), own);
+  // Real attributes are measures.
+  EXPECT_EQ(groupCounts(this->tetGen(PlainNodes, "1 4 1\n1 1 2 3 4 0.5\n")).count("cells 0"), 0u);
+  this->write("a.1.face", "3 1\n0 0 1 2 5\n1 1 2 3 0 0 1\n2 4 3 2 -6 1 -1\n");
+  this->write("a.1.edge", "1 1\n0 3 4 2\n");
+  GroupCounts all = own;
+  all.insert({ { "facets 5", 1 }, { "facets -6", 1 }, { "vertices 2", 2 } });
+  EXPECT_EQ(groupCounts(this->tetGen(Nodes, Elements)), all);
+  this->write("a.1.face", "1 1\n0 0 1 7 5\n");
+  this->expectRefused(Nodes, Elements, "a.1.face, line 2: the corner 7");
+  this->write("a.1.face", "1 1\n0 0 1 2\n");
+  this->expectRefused(Nodes, Elements, "a.1.face, line");
 }
 
 TEST_F(ImportTetGen, NumbersCountFromZeroOrOne)

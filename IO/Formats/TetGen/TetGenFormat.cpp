@@ -8,6 +8,7 @@
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Foreign/ForeignFile.h"
 #include "IO/Import/ImportColumn.h"
+#include "IO/Import/LabelGroups.h"
 #include "IO/Import/RawMeshBuilder.h"
 #include "IO/Mesh/Columns.h"
 #include "IO/Mesh/Format.h"
@@ -60,6 +61,7 @@ public:
           scanner.fail("the number of boundary markers must be 0 or 1");
         }
         ImportColumn markerColumn;
+        LabelGroups labels;
         if (markers)
         {
           markerColumn =
@@ -76,12 +78,16 @@ public:
           {
             const std::int64_t marker = scanner.integer("the boundary marker of a node");
             markerColumn.append(std::as_bytes(std::span(&marker, 1)));
+            labels.add(marker);
           }
         }
         if (!looks)
         {
           checkEnd(scanner);
         }
+        markerColumn.close();
+        this->Builder.numberVertices(this->First, this->Builder.vertices());
+        labels.groupVertices(this->Builder, markerColumn, this->First);
       });
   }
 
@@ -99,14 +105,59 @@ public:
                        " nodes are not read, only tetrahedra of 4 or 10 and triangles of 3 or 6");
         }
         this->beginAttributes(scanner, ColumnOf::Elements);
-        this->Builder.numberVertices(this->First, this->Builder.vertices());
+        this->Nodes = static_cast<std::size_t>(nodes);
+        LabelGroups regions;
         for (std::int64_t i = 0; i < count; ++i)
         {
           this->readIndex(scanner, i, "an element");
-          this->readElement(scanner, static_cast<std::size_t>(nodes));
+          this->readElement(scanner);
           this->Column.append(this->readAttributes(scanner));
+          if (!this->Attributes.empty())
+          {
+            regions.add(this->Attributes.back());
+          }
         }
         checkEnd(scanner);
+        this->Column.close();
+        const int dimension = this->cornersOfElement() - 1;
+        regions.forEach<double>(this->Column, this->Attributes.size(),
+          [&](std::int64_t element, std::int64_t region)
+          {
+            this->Builder.alsoIn(
+              element, dimension, {}, this->Builder.groups().numbered(dimension, region));
+          });
+      });
+  }
+
+  /** The faces or edges beside the elements, with their markers. */
+  void readSides(InputFile& file, int dimension)
+  {
+    TextScanner scanner(file, '#', &this->Builder.workspace());
+    scanner.locateErrors(
+      [&]
+      {
+        const std::int64_t count = scanner.count("the number of faces or edges", 6);
+        const bool hasMarkers = numberInLine(scanner, "the number of boundary markers") != 0;
+        const auto corners = static_cast<std::size_t>(dimension) + 1;
+        const bool isQuadratic = this->Nodes == 6 || this->Nodes == 10;
+        // Of a face of second order three more nodes, of an edge one.
+        const std::size_t others = isQuadratic ? (dimension == 2 ? 3 : 1) : 0;
+        for (std::int64_t i = 0; i < count && hasMarkers; ++i)
+        {
+          this->readIndex(scanner, i, "a face or edge");
+          std::array<std::int64_t, 6> nodes{};
+          for (std::int64_t& node : std::span(nodes).first(corners + others))
+          {
+            node = scanner.integer("a node of a face or edge");
+          }
+          const std::int64_t marker = scanner.integer("the boundary marker of a face or edge");
+          if (marker != 0)
+          {
+            this->Builder.grouped(dimension, std::span(nodes).first(corners),
+              this->Builder.groups().numbered(dimension, marker));
+          }
+          scanner.skipLine(); // neighbours may follow
+        }
       });
   }
 
@@ -179,20 +230,23 @@ private:
   }
 
   /** The nodes of an element, corners first. */
-  void readElement(TextScanner& scanner, std::size_t nodes)
+  void readElement(TextScanner& scanner)
   {
     std::array<std::int64_t, 10> corners{};
-    for (std::int64_t& corner : std::span(corners).first(nodes))
+    for (std::int64_t& corner : std::span(corners).first(this->Nodes))
     {
       corner = scanner.integer("a node of an element");
     }
-    const bool flat = nodes == 3 || nodes == 6;
-    const std::size_t count = flat ? 3 : 4;
-    this->Builder.element(flat ? 2 : 3, std::span(corners).first(count), nodes > count);
+    const int count = this->cornersOfElement();
+    this->Builder.element(count - 1, std::span(corners).first(static_cast<std::size_t>(count)),
+      this->Nodes > static_cast<std::size_t>(count));
   }
+
+  int cornersOfElement() const { return this->Nodes % 3 == 0 ? 3 : 4; }
 
   RawMeshBuilder& Builder;
   std::int64_t First = 1; ///< number of the first node and element
+  std::size_t Nodes = 0;  ///< of an element
   ImportColumn Column;    ///< of the attributes
   std::vector<double> Attributes;
 };
@@ -215,10 +269,20 @@ std::filesystem::path otherFile(const std::filesystem::path& name)
     plainName(name).replace_extension(isOfElements(name) ? ".node" : ".ele"));
 }
 
+/** Suffixes of the files of faces and edges, which a mesh may have. */
+constexpr const char *Faces = ".face", *Edges = ".edge";
+
+std::filesystem::path sideFile(const std::filesystem::path& name, const char* suffix)
+{
+  return plainOrCompressed(plainName(name).replace_extension(suffix));
+}
+
 std::vector<std::filesystem::path> furtherTetGenInputs(const std::filesystem::path& path)
 {
-  const std::filesystem::path other = otherFile(path);
-  return other.empty() ? std::vector<std::filesystem::path>{} : std::vector{ other };
+  std::vector<std::filesystem::path> others{ otherFile(path), sideFile(path, Faces),
+    sideFile(path, Edges) };
+  std::erase_if(others, [](const std::filesystem::path& other) { return other.empty(); });
+  return others;
 }
 
 /** Both files that are written for a name: that of the nodes and that of the elements. */
@@ -239,6 +303,22 @@ std::vector<std::filesystem::path> furtherTetGenOutputs(const std::filesystem::p
   return { isOfElements(path) ? nodes : elements };
 }
 
+/** Calls `read` with a file beside the one that is read, which may be compressed. */
+template <class Read>
+void withFurtherFile(const std::filesystem::path& path, Workspace& space, Read&& read)
+{
+  std::optional<InflatedFile> inflated;
+  {
+    InputFile start(path);
+    if (isCompressed(start))
+    {
+      inflated.emplace(start, space, "inflated-other");
+    }
+  }
+  InputFile input(inflated ? inflated->path() : path, {}, path.string());
+  read(input);
+}
+
 void importTetGen(InputFile& file, RawMeshBuilder& builder)
 {
   const bool isElements = isOfElements(file.name());
@@ -250,20 +330,24 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
     throw Error(file.name() + ": the file " + inQuotes(absent.string()) + ", which has the " +
                 (isElements ? "nodes" : "elements") + ", must lie beside it.");
   }
-  std::optional<InflatedFile> inflated;
-  {
-    InputFile start(otherPath);
-    if (isCompressed(start))
+  TetGenReader reader(builder);
+  withFurtherFile(otherPath, builder.workspace(),
+    [&](InputFile& other)
     {
-      inflated.emplace(start, builder.workspace(), "inflated-other");
+      // Its beginning says nothing of a mesh.
+      refuseForeign(other.name(), other.at(0, FormatBytes).substr(0, FormatBytes), &TetGenFormat);
+      reader.readNodes(isElements ? other : file);
+      reader.readElements(isElements ? file : other);
+    });
+  for (const auto& [suffix, dimension] : { std::pair(Faces, 2), std::pair(Edges, 1) })
+  {
+    const std::filesystem::path sides = sideFile(file.name(), suffix);
+    if (!sides.empty() && !builder.looks())
+    {
+      withFurtherFile(
+        sides, builder.workspace(), [&](InputFile& input) { reader.readSides(input, dimension); });
     }
   }
-  InputFile other(inflated ? inflated->path() : otherPath, {}, otherPath.string());
-  // Its beginning says nothing of a mesh.
-  refuseForeign(other.name(), other.at(0, FormatBytes).substr(0, FormatBytes), &TetGenFormat);
-  TetGenReader reader(builder);
-  reader.readNodes(isElements ? other : file);
-  reader.readElements(isElements ? file : other);
 }
 
 constexpr int AnyNumber = std::numeric_limits<int>::max();
@@ -368,7 +452,8 @@ constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, FileForm::Text 
 const Format TetGenFormat{
   .name = "TetGen",
   .suffixes = TetGenSuffixes,
-  .description = "two files in a folder, either of which may be named",
+  .description = "two files in a folder, either of which may be named; the `.face` "
+                 "and `.edge` beside them, if any, have groups",
   .cells = "triangles, tetrahedra",
   .parse = parseWith<importTetGen>,
   .typicalBytes = { 200, 4 },
