@@ -29,6 +29,7 @@ constexpr const Format* Formats[] = {
   &BinaryMeditFormat,
   &GmshFormat,
   &TetGenFormat,
+  &AbaqusFormat,
   &LegacyVtkFormat,
   &VtkXmlFormat,
   &ParallelVtkXmlFormat,

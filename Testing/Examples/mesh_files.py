@@ -201,6 +201,19 @@ def read_gmsh(data):
     return mesh(points, cells, False)
 
 
+def read_abaqus(data):
+    """Nodes and elements that are numbered from 1 in the order of the file."""
+    points, cells, rows = [], [], None
+    for line in data.decode().splitlines():
+        if line.startswith("*"):
+            rows = points if line.startswith("*NODE") else cells if line.startswith("*ELEMENT") else None
+        elif rows is not None:
+            number, *words = line.split(",")
+            assert int(number) == len(rows) + 1
+            rows.append(tuple(map(float, words)) if rows is points else tuple(int(word) - 1 for word in words))
+    return mesh(points, cells, False)
+
+
 def read_legacy_vtk(data):
     """Binary files of versions before 5."""
     assert data.splitlines()[2] == b"BINARY"
@@ -247,9 +260,10 @@ def read_vtk_xml(data):
 
 # Those with polygons of any number of corners come first.
 READERS = {".ply": read_ply, ".vtp": read_vtk_xml, ".vtu": read_vtk_xml, ".vtk": read_legacy_vtk, ".obj": read_obj,
-           ".off": read_off, ".stl": read_stl, ".mesh": read_medit, ".msh": read_gmsh}
+           ".off": read_off, ".stl": read_stl, ".mesh": read_medit, ".msh": read_gmsh,
+           ".inp": read_abaqus}
 SURFACES = tuple(READERS)
-SOLIDS = (".vtu", ".vtk", ".mesh", ".msh")
+SOLIDS = (".vtu", ".vtk", ".mesh", ".msh", ".inp")
 
 
 def read_mesh(name):

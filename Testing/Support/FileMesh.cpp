@@ -132,6 +132,38 @@ FileMesh readGmsh(FileCursor in)
   return mesh;
 }
 
+FileMesh readAbaqus(FileCursor in)
+{
+  FileMesh mesh;
+  std::string keyword;
+  while (!in.atEnd())
+  {
+    std::string line = in.line();
+    if (line.starts_with('*'))
+    {
+      keyword = line.substr(0, line.find(','));
+      continue;
+    }
+    std::ranges::replace(line, ',', ' ');
+    std::istringstream words(line);
+    std::int64_t label = 0;
+    words >> label;
+    if (keyword == "*NODE")
+    {
+      std::copy(std::istream_iterator<double>(words), {}, std::back_inserter(mesh.points));
+    }
+    else if (keyword == "*ELEMENT")
+    {
+      mesh.cells.emplace_back();
+      for (std::int64_t corner = 0; words >> corner;)
+      {
+        mesh.cells.back().push_back(corner - 1);
+      }
+    }
+  }
+  return mesh;
+}
+
 FileMesh readPly(FileCursor in)
 {
   struct Property
@@ -201,6 +233,7 @@ FileMesh readFileMesh(const std::filesystem::path& path)
          : suffix == ".off"  ? readOff(FileCursor(text))
          : suffix == ".mesh" ? readMedit(FileCursor(text))
          : suffix == ".msh"  ? readGmsh(FileCursor(text))
+         : suffix == ".inp"  ? readAbaqus(FileCursor(text))
          : suffix == ".vtk"  ? readVtk(FileCursor(text))
                              : readVtkXml(text);
 }
