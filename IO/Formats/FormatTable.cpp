@@ -30,6 +30,7 @@ constexpr const Format* Formats[] = {
   &GmshFormat,
   &TetGenFormat,
   &AbaqusFormat,
+  &NastranFormat,
   &LegacyVtkFormat,
   &VtkXmlFormat,
   &ParallelVtkXmlFormat,
