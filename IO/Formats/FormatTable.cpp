@@ -31,6 +31,7 @@ constexpr const Format* Formats[] = {
   &TetGenFormat,
   &AbaqusFormat,
   &NastranFormat,
+  &MfemFormat,
   &LegacyVtkFormat,
   &VtkXmlFormat,
   &ParallelVtkXmlFormat,

@@ -239,8 +239,8 @@ TEST_F(ImportFormat, OtherFilesAreRefusedByName)
     { " <HTML><body>", "as a web page does" },
     { "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n",
       "begins with 'version https://git-lfs.github.com/spec/v1', as a pointer of Git LFS does" },
-    { "MFEM mesh v1.0\n\ndimension\n3\n", "begins with 'MFEM mesh v1.0', as a mesh of MFEM does" },
-    { "mesh3d\ndimension\n3\n", "begins with 'mesh3d', as a mesh of Netgen does" },
+    { "MFEM NURBS mesh v1.0\n",
+      "begins with 'MFEM NURBS mesh v1.0', as a mesh of MFEM of another" },
     { "PK\x03\x04\x14 and more", "as a ZIP archive does: unpack it first" },
     { std::string("\xff\xfeO\0F\0F\0\n\0"sv), "as text in UTF-16 does: save it as UTF-8" }
   };
