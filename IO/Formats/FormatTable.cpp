@@ -32,6 +32,7 @@ constexpr const Format* Formats[] = {
   &AbaqusFormat,
   &NastranFormat,
   &MfemFormat,
+  &NetgenFormat,
   &LegacyVtkFormat,
   &VtkXmlFormat,
   &ParallelVtkXmlFormat,
