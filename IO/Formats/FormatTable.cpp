@@ -33,6 +33,7 @@ constexpr const Format* Formats[] = {
   &NastranFormat,
   &MfemFormat,
   &NetgenFormat,
+  &ExodusFormat,
   &LegacyVtkFormat,
   &VtkXmlFormat,
   &ParallelVtkXmlFormat,

@@ -203,7 +203,7 @@ struct Format
 // All formats, each defined in its folder.
 extern const Format VsmFileFormat, StreamsFormat, PlyFormat, StlFormat, ObjFormat, OffFormat,
   MeditFormat, BinaryMeditFormat, GmshFormat, TetGenFormat, AbaqusFormat, NastranFormat, MfemFormat,
-  NetgenFormat, LegacyVtkFormat, VtkXmlFormat, VtkHdfFormat;
+  NetgenFormat, ExodusFormat, LegacyVtkFormat, VtkXmlFormat, VtkHdfFormat;
 /** The pieces of a .pvtp or .pvtu file, one after the other. */
 SMG_EXPORT extern const Format ParallelVtkXmlFormat;
 

@@ -273,7 +273,7 @@ std::optional<std::string> Hdf5File::text(const std::string& object, const char*
     H5free_memory(value);
     return text;
   }
-  constexpr std::size_t MaxBytes = 4096;
+  constexpr std::size_t MaxBytes = 32768;
   std::string text(std::min(H5Tget_size(type.id()), MaxBytes), '\0');
   if (H5Tget_size(type.id()) > MaxBytes || H5Aread(handle.id(), type.id(), text.data()) < 0)
   {
@@ -303,6 +303,29 @@ std::optional<std::int64_t> Hdf5File::integer(
     return {};
   }
   return value;
+}
+
+std::string Hdf5File::characters(const std::string& dataset) const
+{
+  constexpr std::uint64_t Most = std::uint64_t(16) << 20;
+  const Hdf5Shape shape = this->shape(dataset);
+  const Hdf5Silence silence;
+  const Hdf5Handle<H5Dclose> set(H5Dopen2(this->File, dataset.c_str(), H5P_DEFAULT));
+  const Hdf5Handle<H5Tclose> type(set.valid() ? H5Dget_type(set.id()) : -1);
+  const bool areTexts =
+    type.valid() && H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) <= 0;
+  const auto texts = static_cast<std::uint64_t>(shape.rows() * shape.components());
+  const std::uint64_t size = areTexts ? H5Tget_size(type.id()) : 0;
+  if (!areTexts || texts > Most || size > Most || texts * size > Most || shape.chunkBytes > Most)
+  {
+    this->fail("the dataset " + inQuotes(dataset) + " should be a short list of texts");
+  }
+  std::string all(texts * size, '\0');
+  if (H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0)
+  {
+    this->fail("the dataset " + inQuotes(dataset) + " cannot be read");
+  }
+  return all;
 }
 
 template <class T>

@@ -59,6 +59,8 @@ public:
   std::optional<std::string> text(const std::string& object, const char* attribute) const;
   /** An attribute of an object: an integer, or none. */
   std::optional<std::int64_t> integer(const std::string& object, const char* attribute) const;
+  /** All characters of a dataset of texts of fixed lengths, at most 16 MiB. */
+  std::string characters(const std::string& dataset) const;
   /** All of a short dataset of integers, row after row. */
   std::vector<std::int64_t> integers(const std::string& dataset) const;
   /** The same of numbers of any type. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/Exodus/ExodusReader.h"
+#include "IO/Formats/Vtk/VtkAttributes.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <hdf5.h>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,11 +32,48 @@ std::string noteOn(std::int64_t count, const char* what, std::int64_t chosen)
          " is read.";
 }
 
+/** The variables of a file of netCDF 4, whose datasets are in the root group; none of another. The
+ * HDF5 file must outlive them. */
+struct HdfVariables : NetCdfVariables
+{
+  explicit HdfVariables(const Hdf5File& hdf)
+  {
+    if (hdf.exists("/VTKHDF") || !hdf.exists("/connect1"))
+    {
+      return;
+    }
+    for (const std::string& name : hdf.datasets("/"))
+    {
+      const std::string path = '/' + name;
+      const Hdf5Shape shape = hdf.shape(path);
+      NetCdfVariable& variable = this->byName[name];
+      variable.extents.assign(shape.extents.begin(), shape.extents.end());
+      variable.elementType = hdf.text(path, "elem_type").value_or("");
+      VtkArray& numbers = variable.numbers;
+      numbers.name = name;
+      numbers.values = shape.type ? shape.rows() * shape.components() : 0;
+      numbers.type = numbers.columnType = shape.type.value_or(ScalarType::UInt8);
+      this->Openers.push_back(std::make_unique<DatasetOpener>(hdf, path));
+      numbers.opener = this->Openers.back().get();
+    }
+    this->characters = [&hdf](const std::string& name) { return hdf.characters('/' + name); };
+  }
+
+private:
+  std::vector<std::unique_ptr<VtkArrayOpener>> Openers;
+};
+
 void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part)
 {
   const Hdf5File hdf(file.path(), file.name());
+  if (const HdfVariables variables(hdf); isExodus(variables))
+  {
+    readExodus(file, variables, part, builder);
+    return;
+  }
   VtkHdfLayout layout = vtkHdfLayout(hdf, part, builder.workspace().available() / 2);
   layout.files.emplace_back(file);
+  layout.groupsText = hdf.text("/VTKHDF", MeshGroupsName).value_or("");
   builder.noteParts(layout.timeSteps, layout.partitions);
   if (layout.timeSteps > 1)
   {
@@ -100,6 +140,11 @@ std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
 std::vector<double> timesOfVtkHdf(const std::filesystem::path& path)
 {
   const Hdf5File hdf(path, path.string());
+  if (const HdfVariables variables(hdf); isExodus(variables))
+  {
+    InputFile file(path);
+    return timesOfExodus(file, variables);
+  }
   const std::int64_t steps = VtkHdfStep(hdf, 0).steps();
   const std::string dataset = VtkHdfRoot + "Steps/Values";
   std::vector<double> times;
