@@ -19,7 +19,7 @@ smg_paraview_packages=(
 smg_test_packages=(
   libgtest-dev libbenchmark-dev libmeshoptimizer-dev lld clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev
   xz-utils
-  python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-pip
+  python3 python3-jsonschema python3-numpy python3-scipy python3-getfem python3-matplotlib python3-meshio python3-pip
   python3-venv python3-tqdm mypy)
 smg_benchmark_packages=(
   libbenchmark-dev libhypre-dev libmeshoptimizer-dev libpetsc-real-dev libopenmpi-dev

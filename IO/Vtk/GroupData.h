@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Mesh/Columns.h"
 #include "smg/Groups.h"
 
 #include "vtkStreamingMultigridIOModule.h"
@@ -12,10 +13,6 @@ class vtkDataObject;
 
 namespace smg
 {
-
-/** Field array of a mesh: its groups as JSON (IO/Mesh/GroupsJson.h), which give the arrays
- * VertexGroups, FacetGroups and CellGroups a meaning. Views do not list it. */
-inline constexpr const char* MeshGroupsName = "MeshGroups";
 
 /** Adds the groups to the field data, if there are any. */
 void addGroups(vtkDataObject& mesh, const MeshGroups& groups);

@@ -73,6 +73,7 @@ std::optional<CellType> lookAt(
   try
   {
     format.parse(file, builder, {}, {});
+    builder.finish(); // of triangles only the end tells that no tetrahedron follows
   }
   catch (const CellTypeFound& found)
   {

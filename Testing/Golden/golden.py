@@ -29,7 +29,7 @@ sys.path.insert(0, os.path.join(TREE, "Testing", "Examples"))
 SURFACE_STREAMS = ".sma .smb .ply .vtp .vtkhdf".split()
 SOLID_STREAMS = ".sva .svb .vtu .vtkhdf".split()
 CORPUS = {"gmsh": ".msh", "medit": ".mesh", "obj": ".obj", "off": ".off", "ply": ".ply", "stl": ".stl", "vtk": ".vtk",
-          "vtu": ".vtu", "vsm": "", "stream": ""}
+          "vtu": ".vtu", "vsm": "", "stream": "", "abaqus": ".inp", "nastran": ".bdf", "mfem": ".mesh", "netgen": ".vol"}
 
 def problems(low, high, middle):
     """Problems with conditions in these places."""

@@ -89,7 +89,7 @@ TEST(FormatTable, SuffixesAreOfOneFormatEach)
 TEST(FormatTable, ListsFollowFromIt)
 {
   EXPECT_EQ(suffixList(FormatUse::Write, CellType::Tetrahedron, "or"),
-    ".vsm, .sva, .svb, .mesh, .msh, .node, .ele, .vtk, .vtu, .vtkhdf or .hdf");
+    ".vsm, .sva, .svb, .mesh, .msh, .node, .ele, .inp, .vtk, .vtu, .vtkhdf or .hdf");
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.pvtu"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.ply.gz"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
