@@ -4,15 +4,12 @@
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Convert.h"
-#include "smg/DescribedProblem.h"
 #include "smg/Error.h"
-#include "smg/Solve.h"
 #include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -507,85 +504,6 @@ TEST_P(Groups, AnUnknownNameListsThoseThatThereAre)
     "p.json: here.group: the group 'wall' is of facets, but cells are needed here.");
   EXPECT_EQ(
     error("empty", DataPlace::Cells), "p.json: here: no cell of the mesh is in the group 'empty'.");
-}
-
-/** A wall between two ends at 0, with a film at x = 1 that gives off 3 per area: u is linear on
- * both sides of it, with slopes whose difference is 3, which linear elements represent. */
-TEST_P(Groups, AFluxOnFacetsBetweenCellsActsOnce)
-{
-  const bool isSurface = this->GetParam() == CellType::Triangle;
-  const IndexedTestMesh mesh = isSurface ? grid(7, 5) : tetBox(4, 3, 3);
-  const auto count = static_cast<std::size_t>(cornersOf(mesh.cellType));
-  const std::size_t axis = isSurface ? 1 : 0; // rows of a grid are straight
-  const auto x = [&](std::int64_t v)
-  { return mesh.positions[static_cast<std::size_t>(3 * v) + axis]; };
-  double far = 0.0, film = isSurface ? std::sqrt(3.0) / 2.0 : 1.0;
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-  {
-    far = std::max(far, x(v));
-  }
-  // Each facet as often as there are cells: it is one all the same.
-  std::string elements;
-  std::int64_t number = 0;
-  const auto element = [&](std::size_t size, int group, const Entity& entity)
-  {
-    constexpr int Types[] = { 0, 15, 1, 2, 4 };
-    elements += std::to_string(++number) + ' ' + std::to_string(Types[size]) + " 2 " +
-                std::to_string(group) + " 1";
-    for (const std::int64_t v : entity)
-    {
-      elements += ' ' + std::to_string(v + 1);
-    }
-    elements += '\n';
-  };
-  for (std::size_t at = 0; at < mesh.corners.size(); at += count)
-  {
-    const auto begin = mesh.corners.begin() + static_cast<std::ptrdiff_t>(at);
-    const Entity cell(begin, begin + static_cast<std::ptrdiff_t>(count));
-    element(count, 1, cell);
-    for (const Entity& facet : facetsOf(cell))
-    {
-      for (const auto& [group, place] : { std::pair(7, 0.0), { 8, far }, { 9, film } })
-      {
-        if (std::ranges::all_of(
-              facet, [&](std::int64_t v) { return std::fabs(x(v) - place) < 1e-9; }))
-        {
-          element(count - 1, group, facet);
-        }
-      }
-    }
-  }
-  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
-  text += std::to_string(mesh.vertices()) + '\n';
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-  {
-    const auto at = static_cast<std::size_t>(3 * v);
-    text += std::to_string(v + 1) + ' ' + exact(mesh.positions[at]) + ' ' +
-            exact(mesh.positions[at + 1]) + ' ' + exact(mesh.positions[at + 2]) + '\n';
-  }
-  text += "$EndNodes\n$Elements\n" + std::to_string(number) + '\n' + elements + "$EndElements\n";
-  writeBytes(this->Folder / "wall.msh", text);
-  convert(this->Folder / "wall.msh", this->Folder / "wall.vsm");
-
-  const VsmReader reader(this->Folder / "wall.vsm");
-  ProblemDescription wall;
-  wall.dirichlet = { { InGroup{ { "7", "8" } }, 0.0 } };
-  wall.flux = { { InGroup{ { "9" } }, 3.0 } };
-  DescribedProblem problem(wall, reader.info());
-  const auto source = [&] { return reader.source(problem.vertexColumns(), problem.cellColumns()); };
-  problem.prepare(*source());
-  SolveOptions options;
-  options.tolerance = 1e-12;
-  const auto solution = solve(*source(), problem, options);
-  const Read read(reader);
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-  {
-    double u = 0.0;
-    solution->read(v, 1, std::span(&u, 1));
-    const double at = x(read.ids[static_cast<std::size_t>(v)]);
-    const double top = 3.0 * film * (far - film) / far;
-    EXPECT_NEAR(u, top * (at < film ? at / film : (far - at) / (far - film)), 1e-7) << v;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OfCells, Groups,

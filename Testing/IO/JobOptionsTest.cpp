@@ -171,7 +171,7 @@ TEST(JobOptions, ATableRefusesWhatItDoesNotHave)
   EXPECT_TRUE(contains(message("blend", R"({"patch": "p"})"), "blend: has no 'columns'"));
   EXPECT_TRUE(contains(
     message("distance", R"({"from": []})"), "distance: from: must have at least one place"));
-  EXPECT_TRUE(contains(message("distance", R"({"from": [{}]})"), "boundary and everywhere"));
+  EXPECT_TRUE(contains(message("distance", R"({"from": [{}]})"), "not and everywhere"));
   EXPECT_EQ(message("distance", R"({"from": {"boundary": true}, "wall": false, "within": 1})"), "");
   EXPECT_TRUE(contains(message("smooth", R"({"column": "c", "keep_volume": false})"),
     "column: does not go with keep_volume"));

@@ -217,7 +217,7 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(
     this->errorOf(R"({"dirichlet": [{"mask": "a", "box": [0, 0, 0, 1, 1, 1], "value": [0]}]})"),
     "dirichlet[0]: must have at most one of halfspace, box, sphere, vertices, tag, mask, "
-    "nearest and boundary");
+    "nearest, boundary, group, all, any and not");
   EXPECT_CONTAINS(this->errorOf(R"({"source": [{"mask": "a", "nearest": [], "value": [0]}]})"),
     "source[0]: must have at most one of halfspace");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, 9]}]})"), "has no 'value'");

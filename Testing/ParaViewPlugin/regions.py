@@ -152,6 +152,55 @@ sink.PreviewPoints = 800
 check(sink, {'{"tag": ["Material", 1]}': {"Region": "Tag", "TagArray": "Material", "Tag": 1},
              '{"boundary": true}': {"Region": "Boundary"}})
 
+
+
+def write_block(path, n):
+    """A block of tetrahedra as a file of Gmsh, with named faces at x = 0 and in the middle, and named cells."""
+    def number(i, j, k):
+        return (i * (n + 1) + j) * (n + 1) + k + 1
+    corners = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
+    lines = []
+    for i, j, k in np.ndindex(n, n, n):
+        at = [number(i + a, j + b, k + c) for a, b, c in corners]
+        for first, second in ((1, 3), (1, 5), (2, 3), (2, 6), (4, 5), (4, 6)):
+            lines.append("4 2 %d 1 %d %d %d %d" % (1 + (2 * i >= n), at[0], at[first], at[second], at[7]))
+        if i in (0, n // 2):
+            for middle in (1, 2):
+                lines.append("2 2 %d 1 %d %d %d" % (3 if i == 0 else 4, at[0], at[middle], at[3]))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 1 "left half"\n3 2 "right half"\n'
+                   '2 3 "inlet"\n2 4 "film"\n$EndPhysicalNames\n$Nodes\n%d\n' % (n + 1) ** 3)
+        for i, j, k in np.ndindex(n + 1, n + 1, n + 1):
+            file.write("%d %d %d %d\n" % (number(i, j, k), i, j, k))
+        file.write("$EndNodes\n$Elements\n%d\n" % len(lines))
+        file.writelines("%d %s\n" % (1 + at, line) for at, line in enumerate(lines))
+        file.write("$EndElements\n")
+
+
+# Groups of faces, on the boundary and inside, and of cells.
+write_block(os.path.join(folder, "block.msh"), 12)
+block = open_vsm(os.path.join(folder, "block.msh"), "block.vsm")
+block.PreviewPoints = 800
+check(block, {'{"group": "inlet"}': {"Region": "Group", "GroupName": "inlet"},
+              '{"group": "left half"}': {"Region": "Group", "GroupName": "left half"}})
+for guard in (2000000, 500):
+    block.MaximumPointsInMemory = guard
+    region = MeshRegion(Input=block, Region="Group", GroupName="film")
+    region.UpdatePipeline()
+    region.UpdatePropertyInformation()
+    assert list(region.GetPropertyValue("GroupNames")) == ["left half", "right half", "inlet", "film"]
+    assert saved(region, "RegionMask").sum() == 13**2, guard
+    # A source on the film, and what conducts on its right.
+    conducts = MeshCondition(Input=block, Condition="Conductivity", Value=3, Region="Group", GroupName="right half")
+    cold = MeshCondition(Input=conducts, Condition="Dirichlet", Value=0, Region="Group", GroupName="inlet")
+    warm = MeshCondition(Input=cold, Condition="Flux", Value=2, Region="Group", GroupName="film")
+    hot = MeshCondition(Input=warm, Condition="Dirichlet", Value=0, Region="Function", RegionFunction="Plane")
+    hot.RegionFunction.Origin, hot.RegionFunction.Normal = [12, 6, 6], [-1, 0, 0]
+    solution, points = saved(StreamingPoisson(Input=hot, Tolerance=1e-10), "Solution", "points")
+    # 2 = T / 6 + 3 T / 6 per area.
+    expected = np.where(points[:, 0] < 6, points[:, 0] / 6, (12 - points[:, 0]) / 6) * 3
+    assert np.abs(solution - expected).max() < 1e-6, np.abs(solution - expected).max()
+
 # Ordinary meshes, of any cells: in memory, and sorted into a stream.
 plane = Plane(XResolution=5, YResolution=4)
 wavelet = Wavelet(WholeExtent=[-3, 3, -3, 3, -3, 3])
