@@ -281,13 +281,18 @@ vtkStringArray* vtkRegionFilter::GetGroupNames()
   names.Reset();
   const bool isConnected = this->GetNumberOfInputConnections(0) > 0;
   vtkDataObject* const input = isConnected ? this->GetInputDataObject(0, 0) : nullptr;
-  const vtkSmartPointer<vtkPointSet> mesh = input ? smg::meshOf(input) : nullptr;
-  if (mesh)
+  try
   {
-    for (const smg::Group& group : smg::groupsIn(*mesh).groups)
+    const vtkSmartPointer<vtkPointSet> mesh = input ? smg::meshOf(input) : nullptr;
+    const smg::MeshGroups groups = mesh ? smg::groupsIn(*mesh) : smg::MeshGroups();
+    for (const smg::Group& group : groups.groups)
     {
       names.InsertNextValue(group.label());
     }
+  }
+  catch (const smg::Error&)
+  {
+    // What is no mesh has no groups; the request for it says so.
   }
   return &names;
 }

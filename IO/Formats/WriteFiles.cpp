@@ -45,6 +45,16 @@ void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
 namespace
 {
 
+/** Says that a format has no place for the groups of a mesh. */
+void noteGroups(const MeshGroups& groups, const Format& format, WriteNotes& notes)
+{
+  if (!groups.empty() && !format.holdsGroups && !format.holdsGroupColumns)
+  {
+    notes.push_back("The groups of the mesh are left out, since " +
+                    std::string(format.suffixes.front().text) + " files have no place for them.");
+  }
+}
+
 /** Completes a file. Adds what the format cannot hold of the polygons to the notes of its writer.
  */
 WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileInfo& info)
@@ -56,10 +66,9 @@ WriteNotes finish(MeshFileWriter& writer, const Format& format, const MeshFileIn
                          ? "Polygons are written as triangles."
                          : "Polygons of more than four corners are written as triangles.");
   }
-  if (info.groups && !format.holdsGroups && !format.holdsGroupColumns)
+  if (info.groups)
   {
-    notes.push_back("The groups of the mesh are left out, since " +
-                    std::string(format.suffixes.front().text) + " files have no place for them.");
+    noteGroups(info.groups->groups(), format, notes);
   }
   return notes;
 }
@@ -218,7 +227,9 @@ WriteNotes writeAsTheyCome(MeshSource& source, const Format& format,
                 std::to_string(info.vertices) + " vertices and " + std::to_string(info.cells) +
                 " cells of its info: write it to a .vsm file first.");
   }
-  return finish(*writer, format, info);
+  WriteNotes notes = finish(*writer, format, info);
+  noteGroups(source.info().groups, format, notes);
+  return notes;
 }
 
 /** Writes a .vsm file in stream order, in a format for which it is read more than once. */
@@ -227,7 +238,9 @@ WriteNotes writeAgain(const Format& format, const std::filesystem::path& vsm,
 {
   if (format.writeVsm)
   {
-    return format.writeVsm(vsm, path, options);
+    WriteNotes notes = format.writeVsm(vsm, path, options);
+    noteGroups(VsmReader(vsm).info().groups, format, notes);
+    return notes;
   }
   Workspace space(options.scratch, StreamOrderMemory);
   StreamedMesh mesh(vsm, format.isStreamed(), format.holdsGroupColumns, options.progress);

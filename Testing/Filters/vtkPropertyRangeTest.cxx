@@ -121,7 +121,7 @@ void expectRangesOfRegion(vtkRegionFilter* filter)
 {
   using R = vtkRegionFilter;
   SCOPED_TRACE(filter->GetClassName());
-  expectRange<R, int>(filter, { "Region", &R::SetRegion, &R::GetRegion, 0, 7 });
+  expectRange<R, int>(filter, { "Region", &R::SetRegion, &R::GetRegion, 0, 8 });
   expectRange<R, int>(filter, { "IdType", &R::SetIdType, &R::GetIdType, 0, 1 });
   expectRange<R, int>(filter, { "Rings", &R::SetRings, &R::GetRings, 0, 100 });
   expectRange<R, int>(

@@ -22,43 +22,18 @@ namespace
 
 using Entity = std::vector<std::int64_t>; ///< vertices
 
-} // namespace
-
-class InnerFacets : public ::testing::TestWithParam<CellType>
+/** A mesh as a file of Gmsh, in which each facet at this coordinate along an axis is in the group
+ * of this number; those with two cells come twice. */
+std::string textOf(
+  const IndexedTestMesh& mesh, std::size_t axis, const std::vector<std::pair<int, double>>& groups)
 {
-protected:
-  TemporaryFolder Folder;
-};
-
-/** A wall between two ends at 0, with a film at x = 1 that gives off 3 per area: u is linear on
- * both sides of it, with slopes whose difference is 3, which linear elements represent. */
-TEST_P(InnerFacets, HaveAFluxOnce)
-{
-  const bool isSurface = this->GetParam() == CellType::Triangle;
-  IndexedTestMesh mesh = isSurface ? grid(7, 5) : tetBox(4, 3, 3);
-  for (std::size_t v = 0; isSurface && v < static_cast<std::size_t>(mesh.vertices()); ++v)
-  {
-    // With straight sides, through which nothing flows.
-    mesh.positions[3 * v] = static_cast<double>(v % 7);
-    mesh.positions[3 * v + 1] = static_cast<double>(v / 7);
-  }
   const auto count = static_cast<std::size_t>(cornersOf(mesh.cellType));
-  const std::size_t axis = isSurface ? 1 : 0;
-  const auto x = [&](std::int64_t v)
-  { return mesh.positions[static_cast<std::size_t>(3 * v) + axis]; };
-  constexpr double film = 1.0;
-  double far = 0.0;
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-  {
-    far = std::max(far, x(v));
-  }
-  // Each facet as often as there are cells: it is one all the same.
   std::string elements;
   std::int64_t number = 0;
-  const auto element = [&](std::size_t size, int group, const Entity& entity)
+  const auto element = [&](int group, const Entity& entity)
   {
-    constexpr int Types[] = { 0, 15, 1, 2, 4 };
-    elements += std::to_string(++number) + ' ' + std::to_string(Types[size]) + " 2 " +
+    constexpr int Types[] = { 0, 15, 1, 2, 4 }; // of Gmsh, by the number of corners
+    elements += std::to_string(++number) + ' ' + std::to_string(Types[entity.size()]) + " 2 " +
                 std::to_string(group) + " 1";
     for (const std::int64_t v : entity)
     {
@@ -70,57 +45,78 @@ TEST_P(InnerFacets, HaveAFluxOnce)
   {
     const auto begin = mesh.corners.begin() + static_cast<std::ptrdiff_t>(at);
     const Entity cell(begin, begin + static_cast<std::ptrdiff_t>(count));
-    element(count, 1, cell);
+    element(1, cell);
     for (std::size_t k = 0; k < count; ++k)
     {
       Entity facet = cell;
       facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(k));
-      for (const auto& [group, place] : { std::pair(7, 0.0), { 8, far }, { 9, film } })
+      for (const auto& [group, place] : groups)
       {
-        if (std::ranges::all_of(
-              facet, [&](std::int64_t v) { return std::fabs(x(v) - place) < 1e-9; }))
+        const auto isAtPlace = [&, place = place](std::int64_t v)
+        { return mesh.positions[static_cast<std::size_t>(3 * v) + axis] == place; };
+        if (std::ranges::all_of(facet, isAtPlace))
         {
-          element(count - 1, group, facet);
+          element(group, facet);
         }
       }
     }
   }
   std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
   text += std::to_string(mesh.vertices()) + '\n';
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  for (std::size_t v = 0; v < static_cast<std::size_t>(mesh.vertices()); ++v)
   {
-    const auto at = static_cast<std::size_t>(3 * v);
-    text += std::to_string(v + 1) + ' ' + exact(mesh.positions[at]) + ' ' +
-            exact(mesh.positions[at + 1]) + ' ' + exact(mesh.positions[at + 2]) + '\n';
+    text += std::to_string(v + 1) + ' ' + exact(mesh.positions[3 * v]) + ' ' +
+            exact(mesh.positions[3 * v + 1]) + ' ' + exact(mesh.positions[3 * v + 2]) + '\n';
   }
-  text += "$EndNodes\n$Elements\n" + std::to_string(number) + '\n' + elements + "$EndElements\n";
-  writeBytes(this->Folder / "wall.msh", text);
+  return text + "$EndNodes\n$Elements\n" + std::to_string(number) + '\n' + elements +
+         "$EndElements\n";
+}
+
+} // namespace
+
+class InnerFacets : public ::testing::TestWithParam<CellType>
+{
+protected:
+  TemporaryFolder Folder;
+};
+
+/** A wall between two ends at 0, with a film in it that gives off 3 per area: u is linear on both
+ * sides of the film, with slopes whose difference is 3, which linear elements represent. */
+TEST_P(InnerFacets, HaveAFluxOnce)
+{
+  const bool isSurface = this->GetParam() == CellType::Triangle;
+  IndexedTestMesh mesh = isSurface ? grid(7, 5) : tetBox(4, 3, 3);
+  for (std::size_t v = 0; isSurface && v < static_cast<std::size_t>(mesh.vertices()); ++v)
+  {
+    // With straight sides, through which nothing flows.
+    mesh.positions[3 * v] = static_cast<double>(v % 7);
+    mesh.positions[3 * v + 1] = static_cast<double>(v / 7);
+  }
+  const std::size_t axis = isSurface ? 1 : 0;
+  constexpr double Film = 1.0;
+  const double far = isSurface ? 4.0 : 3.0;
+  writeBytes(
+    this->Folder / "wall.msh", textOf(mesh, axis, { { 7, 0.0 }, { 8, far }, { 9, Film } }));
   convert(this->Folder / "wall.msh", this->Folder / "wall.vsm");
 
   const VsmReader reader(this->Folder / "wall.vsm");
   ProblemDescription wall;
   wall.dirichlet = { { InGroup{ { "7", "8" } }, 0.0 } };
   wall.flux = { { InGroup{ { "9" } }, 3.0 } };
-  DescribedProblem problem(wall, reader.info());
-  const auto source = [&] { return reader.source(problem.vertexColumns(), problem.cellColumns()); };
-  problem.prepare(*source());
   SolveOptions options;
   options.tolerance = 1e-12;
-  const auto solution = solve(*source(), problem, options);
-  std::vector<std::int64_t> ids;
-  const auto numbers = reader.source({ OriginalIdName }, {});
-  for (MeshBlock block; numbers->next(block);)
+  const auto solution = solve(reader, wall, options);
+  const auto source = reader.source({}, {});
+  for (MeshBlock block; source->next(block);)
   {
-    const auto of = std::as_const(block.vertexColumns[0]).as<std::int64_t>();
-    ids.insert(ids.end(), of.begin(), of.end());
-  }
-  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-  {
-    double u = 0.0;
-    solution->read(v, 1, std::span(&u, 1));
-    const double at = x(ids[static_cast<std::size_t>(v)]);
-    const double top = 3.0 * film * (far - film) / far;
-    EXPECT_NEAR(u, top * (at < film ? at / film : (far - at) / (far - film)), 1e-7) << v;
+    std::vector<double> values(static_cast<std::size_t>(block.vertices()));
+    solution->read(block.firstVertex, block.vertices(), values);
+    for (std::size_t v = 0; v < values.size(); ++v)
+    {
+      const double at = block.positions[3 * v + axis];
+      const double top = 3.0 * Film * (far - Film) / far;
+      EXPECT_NEAR(values[v], top * (at < Film ? at / Film : (far - at) / (far - Film)), 1e-7);
+    }
   }
 }
 

@@ -81,7 +81,7 @@ region = MeshRegion(Input=reader)
 defaults = {"Region": "Function", "RegionName": "RegionMask", "MaskArray": "None", "TagArray": "None", "Tag": 0.0}
 for name, value in defaults.items():
     assert region.GetPropertyValue(name) == value, (name, region.GetPropertyValue(name))
-kinds = ["Function", "Selection", "Ids", "Points", "Boundary", "Mask", "Tag", "Everywhere"]
+kinds = ["Function", "Selection", "Ids", "Points", "Boundary", "Mask", "Tag", "Group", "Everywhere"]
 for proxy in (region, MeshHandle(Input=reader), MeshCondition(Input=reader)):
     assert list(proxy.GetProperty("Region").Available) == kinds, proxy.GetProperty("Region").Available
 

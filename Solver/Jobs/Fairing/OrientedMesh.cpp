@@ -20,6 +20,15 @@ namespace smg
 namespace
 {
 
+/** The sets of groups of the edges of the triangles, each opposite to a corner, which follow the
+ * corners; empty: there are none. */
+std::span<GroupSet> edgeGroups(MeshBlock& block)
+{
+  const auto found = std::ranges::find_if(
+    block.cellColumns, [](const Column& column) { return column.spec.name == FacetGroupsName; });
+  return found == block.cellColumns.end() ? std::span<GroupSet>() : found->as<GroupSet>();
+}
+
 /** A stream whose marked triangles are turned. */
 class TurnedSource final : public MeshSource
 {
@@ -46,6 +55,16 @@ public:
         std::swap(block.corners[3 * c + 1], block.corners[3 * c + 2]);
       }
     }
+    if (const std::span<GroupSet> edges = edgeGroups(block); !edges.empty())
+    {
+      for (std::size_t c = 0; c < this->Marks.size(); ++c)
+      {
+        if (this->Marks[c] != 0)
+        {
+          std::swap(edges[3 * c + 1], edges[3 * c + 2]);
+        }
+      }
+    }
     return true;
   }
 
@@ -70,6 +89,7 @@ public:
     {
       return false;
     }
+    this->Edges = edgeGroups(block);
     for (std::size_t c = 0; c < block.corners.size(); c += 3)
     {
       const std::span<std::int64_t, 3> corners(block.corners.data() + c, 3);
@@ -78,7 +98,7 @@ public:
         const auto exchanged = this->Exchanged.find(corner);
         corner = exchanged == this->Exchanged.end() ? corner : exchanged->second;
       }
-      this->putInOrder(block, corners);
+      this->putInOrder(block, corners, c);
       this->Used = std::max(this->Used, std::ranges::max(corners) + 1);
     }
     std::erase_if(this->Exchanged,
@@ -87,7 +107,8 @@ public:
   }
 
 private:
-  void putInOrder(MeshBlock& block, std::span<std::int64_t, 3> corners)
+  /** `first`: the place of the first corner in the block. */
+  void putInOrder(MeshBlock& block, std::span<std::int64_t, 3> corners, std::size_t first)
   {
     const auto isInOrder = [corners, this]
     {
@@ -106,6 +127,11 @@ private:
         return;
       }
       std::ranges::rotate(corners, corners.begin() + 1);
+      if (!this->Edges.empty())
+      {
+        const std::span<GroupSet> edges = this->Edges.subspan(first, 3);
+        std::ranges::rotate(edges, edges.begin() + 1);
+      }
     }
     if (std::min(corners[1], corners[2]) >= block.firstVertex)
     {
@@ -133,6 +159,7 @@ private:
   }
 
   std::unique_ptr<MeshSource> Source;
+  std::span<GroupSet> Edges;                      ///< see edgeGroups()
   std::int64_t Used = 0;                          ///< vertices, so far
   std::map<std::int64_t, std::int64_t> Exchanged; ///< numbers of open vertices
 };
