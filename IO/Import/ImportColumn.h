@@ -69,13 +69,17 @@ void appendAs(std::span<const double> numbers, ImportColumn& column)
   column.append(std::as_bytes(std::span(tuple).first(size)));
 }
 
-/** A column of labels, one integer each, which is omitted if all have the default value: only the
- * whole file tells whether the mesh has it. */
+/** A column of labels, one integer each, which is omitted if all vertices or all cells of the mesh
+ * have the default value: only the whole file tells whether the mesh has it. */
 class LabelColumn
 {
 public:
+  /** Where the dimension does not matter, as of vertices. */
+  static constexpr int AnyDimension = 4;
+
   LabelColumn(RawMeshBuilder& builder, ColumnOf of, const char* name, std::int64_t usual = 0)
-    : Usual(usual)
+    : Builder(&builder)
+    , Usual(usual)
   {
     if (!builder.looks())
     {
@@ -83,16 +87,19 @@ public:
     }
   }
 
-  void add(std::int64_t label)
+  /** Of an element its dimension: only labels of cells of the mesh make it a column. */
+  void add(std::int64_t label, int dimension = AnyDimension)
   {
     this->Column.append(std::as_bytes(std::span(&label, 1)));
-    this->Used = this->Used || label != this->Usual;
+    bool& used = this->Used[static_cast<std::size_t>(dimension)];
+    used = used || label != this->Usual;
   }
   /** To be called after the last one. */
   void finish()
   {
     this->Column.close();
-    if (!this->Used)
+    if (!this->Used[static_cast<std::size_t>(this->Builder->dimension())] &&
+        !this->Used[AnyDimension])
     {
       this->Column.drop();
     }
@@ -102,9 +109,10 @@ public:
   const ImportColumn& column() const { return this->Column; }
 
 private:
+  RawMeshBuilder* Builder;
   ImportColumn Column;
   std::int64_t Usual;
-  bool Used = false; ///< whether any differs from the default
+  std::array<bool, AnyDimension + 1> Used{}; ///< whether any differs from the default
 };
 
 /**

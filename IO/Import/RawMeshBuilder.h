@@ -195,6 +195,8 @@ public:
 
   std::int64_t elements() const { return this->Mesh.elementCount; }
   std::int64_t cells() const { return this->Mesh.cells; }
+  /** Of the cells so far: 2 or 3. */
+  int dimension() const { return cornersOf(this->Mesh.cellType) - 1; }
 
   /** Declares that vertices have other numbers than those of their corners: `numbers` contains the
    * vertex of each. Applied by finish(); a corner without a vertex is a MeshError. */

@@ -321,7 +321,7 @@ private:
       for (std::int64_t i = 0; i < count; ++i)
       {
         this->blockTag("the tag of an element");
-        this->Tags.add(groups, entity.tag);
+        this->Tags.add(groups, type.dimension, entity.tag);
         this->readElement(type, [this] { return this->blockTag("a node of an element"); });
       }
     }

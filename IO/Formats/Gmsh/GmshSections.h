@@ -59,14 +59,14 @@ public:
   {
     this->add({ group, group == NoGroup ? GroupTable::None
                                         : this->Builder.groups().numbered(dimension, group) },
-      entity);
+      dimension, entity);
   }
   /** Appends those of an element of an entity. */
-  void add(const Physicals& groups, std::int64_t entity)
+  void add(const Physicals& groups, int dimension, std::int64_t entity)
   {
     this->Builder.setGroups(groups.set);
-    this->Physical.add(groups.first);
-    this->Geometrical.add(entity);
+    this->Physical.add(groups.first, dimension);
+    this->Geometrical.add(entity, dimension);
   }
   /** After the last element. */
   void finish()

@@ -205,7 +205,7 @@ private:
       this->Groups.add(section, corners, reference);
       if (section.dimension > 1)
       {
-        this->ElementReferences->add(reference);
+        this->ElementReferences->add(reference, section.dimension);
       }
     }
   }
