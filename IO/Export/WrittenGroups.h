@@ -20,7 +20,7 @@ namespace smg
 class WrittenGroups
 {
 public:
-  /** The columns count as placed */
+  /** The columns of groups count as placed. */
   WrittenGroups(const MeshFileInfo& info, PlacedColumns& columns)
     : Groups(info.groupTable)
     , OfVertices(columns.ofVertices(VertexGroupsName, 1, 1))

@@ -12,12 +12,11 @@ namespace smg
 namespace
 {
 
-/** The column of the sets of this kind in a block; null: it has none. */
-const Column* setsIn(const std::vector<Column>& columns, GroupOf kind)
+/** The column of the sets of this kind among those of a block; null: it has none. */
+const Column* setsIn(const std::vector<Column>& columns, GroupOf kind, CellType cells)
 {
-  const auto found = std::ranges::find_if(columns,
-    [kind](const Column& column) { return column.spec.name == MeshGroups::columnOf(kind); });
-  return found == columns.end() ? nullptr : &*found;
+  const std::ptrdiff_t place = findColumn(columns, MeshGroups::columnSpec(kind, cornersOf(cells)));
+  return place < 0 ? nullptr : &columns[static_cast<std::size_t>(place)];
 }
 
 /** The length, area or volume of a simplex. */
@@ -46,7 +45,7 @@ GroupSummary::GroupSummary(const StreamInfo& info)
 
 void GroupSummary::add(const MeshBlock& block, const MeshMeasures& points)
 {
-  if (const Column* column = setsIn(block.vertexColumns, GroupOf::Vertices))
+  if (const Column* column = setsIn(block.vertexColumns, GroupOf::Vertices, this->Info.cellType))
   {
     for (const GroupSet set : column->as<GroupSet>())
     {
@@ -59,8 +58,8 @@ void GroupSummary::add(const MeshBlock& block, const MeshMeasures& points)
 
 void GroupSummary::addCells(const MeshBlock& block, const MeshMeasures& points)
 {
-  const Column* const ofCells = setsIn(block.cellColumns, GroupOf::Cells);
-  const Column* const ofFacets = setsIn(block.cellColumns, GroupOf::Facets);
+  const Column* const ofCells = setsIn(block.cellColumns, GroupOf::Cells, this->Info.cellType);
+  const Column* const ofFacets = setsIn(block.cellColumns, GroupOf::Facets, this->Info.cellType);
   if (!ofCells && !ofFacets)
   {
     return;

@@ -69,8 +69,10 @@ void CombinedSelection::add(const MeshBlock& block, const std::filesystem::path&
     {
       if (!part.isLate)
       {
-        part.vertices =
-          part.vertices ? std::move(part.vertices) : std::make_unique<VertexSetFile>(scratch);
+        if (!part.vertices)
+        {
+          part.vertices = std::make_unique<VertexSetFile>(scratch);
+        }
         part.vertices->append(part.selection->atVertices());
       }
     }

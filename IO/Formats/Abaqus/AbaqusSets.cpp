@@ -225,7 +225,7 @@ void AbaqusSets::addStretches()
 void AbaqusSets::takeSide(
   const ListedElements::Found& found, std::uint32_t set, std::uint32_t number)
 {
-  const AbaqusSide side = abaqusSide(found.kind, found.corners.size(), number);
+  const ElementSide side = abaqusSide(found.kind, found.corners.size(), number);
   if (side.isWhole)
   {
     this->Builder.alsoIn(

@@ -49,43 +49,20 @@ std::uint8_t cornersOfNodes(int dimension, int nodes)
 
 constexpr std::uint32_t WholeSide = 100;
 
-/** The corners of side `number`, from 0, of the sides of a shape. */
-template <std::size_t Sides, std::size_t Corners>
-std::span<const std::uint8_t> sideOf(
-  const std::array<std::array<std::uint8_t, Corners>, Sides>& sides, std::uint32_t number)
-{
-  constexpr std::uint8_t None = 9; // after the corners of a smaller side
-  if (number >= Sides)
-  {
-    return {};
-  }
-  const std::span<const std::uint8_t> all = sides[number];
-  return all.first(static_cast<std::size_t>(std::ranges::find(all, None) - all.begin()));
-}
-
-std::span<const std::uint8_t> faceOf(std::size_t corners, std::uint32_t number)
+std::span<const std::uint8_t> abaqusFace(std::size_t corners, std::uint32_t number)
 {
   static constexpr std::array<std::array<std::uint8_t, 3>, 4> Tetrahedron{ { { 0, 1, 2 },
     { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } } };
   static constexpr std::array<std::array<std::uint8_t, 4>, 6> Hexahedron{ { { 0, 1, 2, 3 },
     { 4, 7, 6, 5 }, { 0, 4, 5, 1 }, { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 3, 7, 4, 0 } } };
-  static constexpr std::array<std::array<std::uint8_t, 4>, 5> Wedge{ { { 0, 1, 2, 9 },
-    { 3, 5, 4, 9 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } } };
+  static constexpr std::array<std::array<std::uint8_t, 4>, 5> Wedge{ { { 0, 1, 2, NoCorner },
+    { 3, 5, 4, NoCorner }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } } };
   static constexpr std::array<std::array<std::uint8_t, 4>, 5> Pyramid{ { { 0, 1, 2, 3 },
-    { 0, 4, 1, 9 }, { 1, 4, 2, 9 }, { 2, 4, 3, 9 }, { 3, 4, 0, 9 } } };
+    { 0, 4, 1, NoCorner }, { 1, 4, 2, NoCorner }, { 2, 4, 3, NoCorner }, { 3, 4, 0, NoCorner } } };
   return corners == 4   ? sideOf(Tetrahedron, number)
          : corners == 5 ? sideOf(Pyramid, number)
          : corners == 6 ? sideOf(Wedge, number)
                         : sideOf(Hexahedron, number);
-}
-
-std::span<const std::uint8_t> edgeOf(std::size_t corners, std::uint32_t number)
-{
-  static constexpr std::array<std::array<std::uint8_t, 2>, 3> Triangle{ { { 0, 1 }, { 1, 2 },
-    { 2, 0 } } };
-  static constexpr std::array<std::array<std::uint8_t, 2>, 4> Quadrilateral{ { { 0, 1 }, { 1, 2 },
-    { 2, 3 }, { 3, 0 } } };
-  return corners == 3 ? sideOf(Triangle, number) : sideOf(Quadrilateral, number);
 }
 
 } // namespace
@@ -136,7 +113,7 @@ std::optional<std::uint32_t> abaqusSideNumber(std::string_view name)
   return static_cast<std::uint32_t>(name[1] - '1') + (isEdge ? FirstEdge : 0);
 }
 
-AbaqusSide abaqusSide(int kind, std::size_t corners, std::uint32_t number)
+ElementSide abaqusSide(int kind, std::size_t corners, std::uint32_t number)
 {
   constexpr std::uint32_t FirstEdge = 10, FacesOfShell = 2;
   const bool isShell = kind >= 4;
@@ -147,7 +124,7 @@ AbaqusSide abaqusSide(int kind, std::size_t corners, std::uint32_t number)
   }
   if (dimension == 3)
   {
-    return { false, 2, faceOf(corners, number) };
+    return { false, 2, abaqusFace(corners, number) };
   }
   if (dimension == 2)
   {

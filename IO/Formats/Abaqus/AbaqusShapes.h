@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Import/ElementSides.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 
 namespace smg
@@ -26,20 +27,12 @@ struct AbaqusShape
  * are not known. */
 std::optional<AbaqusShape> abaqusShape(std::string_view type);
 
-/** A side of an element as surfaces name it. */
-struct AbaqusSide
-{
-  bool isWhole = false; ///< the element itself, seen from either side
-  int dimension = 0;
-  std::span<const std::uint8_t> corners = {}; ///< of the element; empty: it has no such side
-};
-
 /** The number that stands for a side in surfaces: S1 or E1, SPOS, SNEG; none: it has another name.
  */
 std::optional<std::uint32_t> abaqusSideNumber(std::string_view name);
 
 /** The side of this number, of elements of this kind with so many corners. */
-AbaqusSide abaqusSide(int kind, std::size_t corners, std::uint32_t number);
+ElementSide abaqusSide(int kind, std::size_t corners, std::uint32_t number);
 
 /** The name of the face of a tetrahedron, or of the edge of a triangle, opposite to a corner. */
 const char* abaqusFaceName(std::size_t cornersOfCell, std::size_t opposite);

@@ -384,7 +384,7 @@ private:
     unknown += this->Listed.finish(
       [&](const ListedElements::Found& found)
       {
-        const ExodusSide side = exodusSide(found.kind, found.corners.size(), found.side);
+        const ElementSide side = exodusSide(found.kind, found.corners.size(), found.side);
         const auto& [number, name] = this->SideSets[found.list];
         if (side.isWhole)
         {

@@ -12,20 +12,6 @@ namespace smg
 namespace
 {
 
-constexpr std::uint8_t NoCorner = 9; // after the corners of a smaller side
-
-template <std::size_t Sides, std::size_t Corners>
-std::span<const std::uint8_t> sideAt(
-  const std::array<std::array<std::uint8_t, Corners>, Sides>& sides, std::uint32_t number)
-{
-  if (number < 1 || number > Sides)
-  {
-    return {};
-  }
-  const std::span<const std::uint8_t> all = sides[number - 1];
-  return all.first(static_cast<std::size_t>(std::ranges::find(all, NoCorner) - all.begin()));
-}
-
 std::span<const std::uint8_t> exodusFace(std::size_t corners, std::uint32_t number)
 {
   static constexpr std::array<std::array<std::uint8_t, 3>, 4> Tetrahedron{ { { 0, 1, 3 },
@@ -33,22 +19,13 @@ std::span<const std::uint8_t> exodusFace(std::size_t corners, std::uint32_t numb
   static constexpr std::array<std::array<std::uint8_t, 4>, 6> Hexahedron{ { { 0, 1, 5, 4 },
     { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 0, 4, 7, 3 }, { 0, 3, 2, 1 }, { 4, 5, 6, 7 } } };
   static constexpr std::array<std::array<std::uint8_t, 4>, 5> Wedge{ { { 0, 1, 4, 3 },
-    { 1, 2, 5, 4 }, { 0, 3, 5, 2 }, { 0, 2, 1, 9 }, { 3, 4, 5, 9 } } };
-  static constexpr std::array<std::array<std::uint8_t, 4>, 5> Pyramid{ { { 0, 1, 4, 9 },
-    { 1, 2, 4, 9 }, { 2, 3, 4, 9 }, { 0, 4, 3, 9 }, { 0, 3, 2, 1 } } };
-  return corners == 4   ? sideAt(Tetrahedron, number)
-         : corners == 5 ? sideAt(Pyramid, number)
-         : corners == 6 ? sideAt(Wedge, number)
-                        : sideAt(Hexahedron, number);
-}
-
-std::span<const std::uint8_t> exodusEdge(std::size_t corners, std::uint32_t number)
-{
-  static constexpr std::array<std::array<std::uint8_t, 2>, 3> Triangle{ { { 0, 1 }, { 1, 2 },
-    { 2, 0 } } };
-  static constexpr std::array<std::array<std::uint8_t, 2>, 4> Quadrilateral{ { { 0, 1 }, { 1, 2 },
-    { 2, 3 }, { 3, 0 } } };
-  return corners == 3 ? sideAt(Triangle, number) : sideAt(Quadrilateral, number);
+    { 1, 2, 5, 4 }, { 0, 3, 5, 2 }, { 0, 2, 1, NoCorner }, { 3, 4, 5, NoCorner } } };
+  static constexpr std::array<std::array<std::uint8_t, 4>, 5> Pyramid{ { { 0, 1, 4, NoCorner },
+    { 1, 2, 4, NoCorner }, { 2, 3, 4, NoCorner }, { 0, 4, 3, NoCorner }, { 0, 3, 2, 1 } } };
+  return corners == 4   ? sideOf(Tetrahedron, number)
+         : corners == 5 ? sideOf(Pyramid, number)
+         : corners == 6 ? sideOf(Wedge, number)
+                        : sideOf(Hexahedron, number);
 }
 
 } // namespace
@@ -103,7 +80,7 @@ std::optional<ExodusShape> exodusShape(
   return {};
 }
 
-ExodusSide exodusSide(int kind, std::size_t corners, std::uint32_t number)
+ElementSide exodusSide(int kind, std::size_t corners, std::uint32_t number)
 {
   constexpr std::uint32_t FacesOfShell = 2;
   const bool isShell = kind >= 4;
@@ -112,10 +89,10 @@ ExodusSide exodusSide(int kind, std::size_t corners, std::uint32_t number)
   {
     return { true, dimension };
   }
-  return dimension == 3 ? ExodusSide{ false, 2, exodusFace(corners, number) }
+  return dimension == 3 ? ElementSide{ false, 2, exodusFace(corners, number - 1) }
          : dimension == 2
-           ? ExodusSide{ false, 1, exodusEdge(corners, number - (isShell ? FacesOfShell : 0)) }
-           : ExodusSide{};
+           ? ElementSide{ false, 1, edgeOf(corners, number - 1 - (isShell ? FacesOfShell : 0)) }
+           : ElementSide{};
 }
 
 } // namespace smg

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Import/ElementSides.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 
 namespace smg
@@ -26,15 +27,7 @@ struct ExodusShape
 std::optional<ExodusShape> exodusShape(
   std::string_view type, std::int64_t nodes, std::int64_t dimensions);
 
-/** A side of an element. */
-struct ExodusSide
-{
-  bool isWhole = false; ///< the element itself, seen from either side
-  int dimension = 0;
-  std::span<const std::uint8_t> corners = {}; ///< of the element; empty: it has no such side
-};
-
 /** Side `number`, from 1 on, of elements of this kind with so many corners. */
-ExodusSide exodusSide(int kind, std::size_t corners, std::uint32_t number);
+ElementSide exodusSide(int kind, std::size_t corners, std::uint32_t number);
 
 } // namespace smg
