@@ -87,6 +87,9 @@ void checkOperators(const SolveOptions& options)
 void checkProblem(const Problem& problem)
 {
   require(problem.columns() >= 1, "a problem needs at least one column");
+  require(
+    !problem.couplings() || (problem.weights() == Weights::Cotangent && !problem.hasEdgeTargets()),
+    "coupled vertices need cotangent weights, and no edge targets");
 }
 
 std::unique_ptr<Solution> solveWith(const CompiledOperators& operators, MeshSource& mesh,

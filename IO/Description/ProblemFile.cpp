@@ -102,6 +102,76 @@ void parse(const JsonNode& node, const ConditionRow<Condition>& row, ProblemDesc
   }
 }
 
+/** A place, or the name of a group. */
+Where parsePlace(const JsonNode& node)
+{
+  if (node.isString())
+  {
+    return InGroup{ { node.string() } };
+  }
+  requireWhereAnd(node, {});
+  return parseWhere(node);
+}
+
+double parseTolerance(const JsonNode& entry)
+{
+  if (!entry.has("tolerance"))
+  {
+    return 0.0;
+  }
+  const double tolerance = entry.member("tolerance").number();
+  if (!(tolerance > 0.0))
+  {
+    entry.member("tolerance").fail("must be positive");
+  }
+  return tolerance;
+}
+
+/** Appends to the pairs of sides that there are: [FROM, TO] or { "sides": [FROM, TO], ... }. */
+void parsePeriodic(const JsonNode& node, ProblemDescription& problem)
+{
+  for (const JsonNode& entry : node.elements())
+  {
+    const bool isPair = entry.value().is_array();
+    if (!isPair)
+    {
+      entry.requireObject({ "sides", "jump", "tolerance" });
+    }
+    const JsonNode sides = isPair ? entry : entry.member("sides");
+    const std::vector<JsonNode> places = sides.elements();
+    if (places.size() != 2)
+    {
+      sides.fail("must have two sides: the names of two groups, or two places");
+    }
+    ProblemDescription::Periodic periodic{ parsePlace(places[0]), parsePlace(places[1]) };
+    if (!isPair && entry.has("jump"))
+    {
+      const JsonNode jump = entry.member("jump");
+      periodic.jump = jump.value().is_number()
+                        ? std::vector{ jump.number() }
+                        : jump.numbers(static_cast<std::size_t>(problem.columns));
+    }
+    periodic.tolerance = isPair ? 0.0 : parseTolerance(entry);
+    problem.periodic.push_back(std::move(periodic));
+  }
+}
+
+/** Appends to the contacts that there are. */
+void parseInterfaces(const JsonNode& node, ProblemDescription& problem)
+{
+  for (const JsonNode& entry : node.value().is_object() ? std::vector{ node } : node.elements())
+  {
+    requireWhereAnd(entry, { "coefficient", "tolerance" });
+    const JsonNode coefficient = entry.member("coefficient");
+    if (!(coefficient.number() >= 0.0))
+    {
+      coefficient.fail("must not be negative");
+    }
+    problem.interfaces.push_back(
+      { parseWhere(entry), coefficient.number(), parseTolerance(entry) });
+  }
+}
+
 void parseOutputs(const JsonNode& node, ProblemDescription& problem)
 {
   for (const JsonNode& output : node.elements())
@@ -134,6 +204,14 @@ ProblemDescription parseProblem(const JsonNode& node, const ProblemDescription& 
         parse(node.member(row.key), row, problem);
       }
     });
+  if (node.has("periodic"))
+  {
+    parsePeriodic(node.member("periodic"), problem);
+  }
+  if (node.has("interface"))
+  {
+    parseInterfaces(node.member("interface"), problem);
+  }
   if (node.has("outputs"))
   {
     parseOutputs(node.member("outputs"), problem);

@@ -178,6 +178,7 @@ def _data() -> List[inspect.Parameter]:
     """The arguments of `solve` that are data of a problem file."""
     types = {
         "dirichlet": "types.Conditions", "robin": "types.Pairs", "soft": "types.Pairs", "field": "types.Value",
+        "periodic": "types.Sides", "interface": "types.Conditions",
         "weights": "types.Weights", "columns": "int",
         "outputs": "Union[types.Output, Sequence[types.Output]]",
     }  # fmt: skip
@@ -209,6 +210,10 @@ _DATA = """\
             name of a column, or a list with regions. Default 0.
         field: q in the cells: an array (m, 3) or (m, 3 k), or the name of a column. Default 0.
         initial: where the iteration begins: like `source`, of the vertices; NaN counts as 0.
+        periodic: sides that are one: ``[("left", "right"), ("front", "back", 1.0)]``, names of groups
+            or regions; a third number is the jump of u from the first side to the second.
+        interface: contacts between bodies that have a copy each of its facets:
+            ``[smg.group("gap") >> coefficient]``: coefficient * (u - u on the other side) flows.
         weights: "cotangent" (default, finite elements), "clamped" or "uniform".
         outputs: "gradient", "flux", or both in a list: columns Gradient (grad u) and Flux (-K grad u)
             of the cells, beside the solution.

@@ -17,7 +17,7 @@ from ._regions import Placed, Region, as_region, everywhere, vertices
 #: The arguments of `Mesh.solve` that are data of the problem.
 DATA = (
     "dirichlet", "source", "flux", "robin", "soft", "conductivity", "screening", "field", "initial",
-    "weights", "outputs", "columns", "problem",
+    "periodic", "interface", "weights", "outputs", "columns", "problem",
 )  # fmt: skip
 #: More values of single vertices than this become a column.
 _FEW = 64
@@ -262,9 +262,32 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
         found["field"] = (
             field if isinstance(field, str) else columns.add(field, "field", True, (3, width)).name
         )
+    if given.get("periodic") is not None:
+        found["periodic"] = _periodic(given["periodic"], columns)
+    if given.get("interface") is not None:
+        found["interface"] = [
+            {**region.where(columns), "coefficient": value}
+            for region, value in _entries(given["interface"], "interface")
+        ]
     for name in ("weights", "outputs"):
         if given.get(name) is not None:
             found[name] = [given[name]] if name == "outputs" and isinstance(given[name], str) else given[name]
+    return found
+
+
+def _periodic(values: Any, columns: Columns) -> list:
+    """The pairs of sides, (from, to) or (from, to, jump), as in a problem file."""
+    pairs = [values] if isinstance(values, tuple) else list(values)
+    found = []
+    for pair in pairs:
+        if isinstance(pair, (str, bytes)) or not isinstance(pair, Sequence) or len(pair) not in (2, 3):
+            raise InputError(
+                'periodic: %r is no pair of sides: write ("left", "right"), or with a jump '
+                '("left", "right", 1.0); of several in a list.' % (pair,)
+            )
+        sides = [side if isinstance(side, str) else as_region(side).where(columns) for side in pair[:2]]
+        jump = {"jump": np.asarray(pair[2]).tolist()} if len(pair) == 3 else {}
+        found.append({"sides": sides, **jump})
     return found
 
 

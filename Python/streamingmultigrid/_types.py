@@ -22,6 +22,8 @@ Places = Union[Where, Sequence[Any]]
 Value = Union[npt.ArrayLike, str]
 Values = Union[Value, "Placed", Sequence[Any]]
 Conditions = Union["Placed", Mapping[int, Any], Sequence[Union["Placed", Mapping[int, Any]]]]
+#: A pair of periodic sides, with a jump, or several.
+Sides = Union[Tuple[Any, ...], List[Tuple[Any, ...]]]
 Pairs = Union["Placed", Tuple[Any, Any], List[Union["Placed", Tuple[Any, Any]]]]  # robin, soft
 Columns = Union[str, Sequence[str], npt.ArrayLike, Mapping[str, npt.ArrayLike]]
 Handles = Union["Handle", Sequence["Handle"], Path, Mapping[str, Any]]

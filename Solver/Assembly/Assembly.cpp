@@ -128,11 +128,11 @@ void Assembly::connect()
   }
 }
 
-/** Collects the vertices below `end`, and completes their rows unless another task does
- * (`pipelined`).
- */
-void Assembly::collectBelow(std::int64_t end, bool pipelined)
+/** Collects the vertices below `final` that need not wait for coupled ones, and completes their
+ * rows unless another task does (`pipelined`). */
+void Assembly::collectBelow(std::int64_t final, bool pipelined)
 {
+  const std::int64_t end = this->Cells.vertices.ties.closable(final);
   while (this->Collected.end() < end)
   {
     this->collectBatch(std::min(end, this->Collected.end() + BatchRows));
@@ -197,6 +197,7 @@ void Assembly::collectVertex(std::int64_t i)
   FinalVertices& made = this->Collected;
   const OpenVertices& open = this->Cells.vertices;
   const std::size_t before = made.neighbours.size();
+  const double mass = this->Cells.couple(i);
   this->Cells.edges.take(i, open.points, made.neighbours);
   const std::size_t end = made.neighbours.size();
   // The edges are in ascending order of the neighbour.
@@ -204,7 +205,7 @@ void Assembly::collectVertex(std::int64_t i)
   const double rowSum = this->Cells.loads.close(i);
   const double* load = this->Cells.loads.load();
   made.loads.insert(made.loads.end(), load, load + open.values.lanes());
-  const double mass = open.mass[i];
+  this->addJumps(i, mass);
   const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, rowSum);
   const bool isUndetermined = isKnown && open.dirichlet[i] < 0;
   // Without a prescribed value, edges or a rowSum, nothing determines the vertex.
@@ -239,6 +240,28 @@ void Assembly::collectVertex(std::int64_t i)
   made.vertices.push_back(
     { end, rowSum, weight, this->Reach[i], this->Cells.cells.hasData() ? open.scale[i] : 1.0F,
       root < 0 ? -1 : this->Cells.parts.label(i), counts });
+}
+
+/** Collects the mean of the jumps of the vertices that have the unknown i, of this mass. */
+void Assembly::addJumps(std::int64_t i, double mass)
+{
+  const VertexTies& ties = this->Cells.vertices.ties;
+  if (!ties.anyJump())
+  {
+    return;
+  }
+  std::vector<double>& made = this->Collected.jumps;
+  const std::size_t first = made.size();
+  made.resize(first + static_cast<std::size_t>(this->Cells.vertices.values.lanes()));
+  ties.forVerticesOf(i,
+    [&](std::int64_t vertex)
+    {
+      const double* jump = ties.jump(vertex);
+      for (std::size_t k = first; jump && mass > 0.0 && k < made.size(); ++k)
+      {
+        made[k] += this->Cells.vertices.mass[vertex] / mass * jump[k - first];
+      }
+    });
 }
 
 /** Completes the rows of the arrived vertices. A row reads values and positions of all its

@@ -91,9 +91,10 @@ public:
 
 private:
   void beginRows();
-  void collectBelow(std::int64_t end, bool pipelined);
+  void collectBelow(std::int64_t final, bool pipelined);
   void collectBatch(std::int64_t end);
   void collectVertex(std::int64_t i);
+  void addJumps(std::int64_t i, double mass);
   void askTargets(std::int64_t begin, std::size_t edge);
 
   StreamInfo Info;

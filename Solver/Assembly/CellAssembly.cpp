@@ -82,8 +82,8 @@ void CellAssembly::extend(std::int64_t vertices)
 void CellAssembly::weigh(
   const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<ElementMatrix>& to)
 {
-  this->cells.forRange(block, begin, end, this->vertices.points,
-    [&](const WeightedCell& cell) { this->weigh(cell, to); });
+  this->cells.forRange(
+    block, begin, end, this->vertices, [&](const WeightedCell& cell) { this->weigh(cell, to); });
 }
 
 void CellAssembly::weigh(const WeightedCell& cell, std::vector<ElementMatrix>& to)
@@ -106,8 +106,8 @@ void CellAssembly::weigh(const WeightedCell& cell, std::vector<ElementMatrix>& t
     matrix.weights = cell.stiffness();
     matrix.scale = cell.scale;
   }
-  // A cell without measure has no share of sources, screening or fields.
-  if (isWeighted && cell.data)
+  // A cell without measure has no share of sources, screening, fields or jumps.
+  if (isWeighted && (cell.data || this->vertices.ties.anyJump()))
   {
     this->loads.addCell(cell);
   }
@@ -125,7 +125,10 @@ void CellAssembly::connect(std::span<const ElementMatrix> cells)
 void CellAssembly::connect(const ElementMatrix& cell)
 {
   const int count = cornersOf(this->cells.type());
-  this->parts.join(cell.corners, count);
+  std::int64_t nodes[4] = {};
+  std::transform(cell.corners, cell.corners + count, nodes,
+    [this](std::int64_t corner) { return this->vertices.ties.node(corner); });
+  this->parts.join(nodes, count);
   // Lumping: each corner has the same share of the area or volume. The masses are written here
   // though weigh() extends their ring: reserve() has made room, so that it does not move meanwhile.
   const double mass = cell.weights.measure / count;
@@ -144,11 +147,31 @@ void CellAssembly::connect(const ElementMatrix& cell)
   {
     // The largest scale at a vertex decides which weights of its row are usual; see
     // RowAssembly::addEdge().
-    float& scale = this->vertices.scale[cell.corners[k]];
+    float& scale = this->vertices.scale[nodes[k]];
     scale = std::max(scale, static_cast<float>(cell.scale));
   }
-  this->edges.add(cell.corners, points, cell.weights, cell.scale,
-    [](std::int64_t, std::int64_t) { return true; });
+  // Corners that are one unknown have no edge.
+  this->edges.add(
+    nodes, points, cell.weights, cell.scale, [](std::int64_t a, std::int64_t b) { return a != b; });
+}
+
+double CellAssembly::couple(std::int64_t i)
+{
+  if (this->vertices.ties.isTied(i))
+  {
+    return 0.0;
+  }
+  this->vertices.ties.forLinks(i,
+    [&](std::int64_t to, double conductance)
+    {
+      const std::int64_t ends[] = { i, to };
+      this->parts.join(ends, 2);
+      this->edges.addLink(i, to, conductance);
+    });
+  double mass = 0.0;
+  this->vertices.ties.forVerticesOf(
+    i, [&](std::int64_t vertex) { mass += this->vertices.mass[vertex]; });
+  return mass;
 }
 
 } // namespace smg

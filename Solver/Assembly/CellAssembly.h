@@ -68,6 +68,10 @@ struct SMG_EXPORT CellAssembly
   /** Connects the corners of the cells. */
   void connect(const ElementMatrices& cells);
 
+  /** Adds what couples vertex i, the lowest open one, to others, all cells of which have been
+   * added, and returns the mass of its unknown; 0 if it is tied. */
+  double couple(std::int64_t i);
+
   /** The largest scale of the weights of a cell over the smallest one; 1 if there is none. */
   double contrast() const
   {

@@ -329,6 +329,9 @@ public:
     }
   }
 
+  /** Adds a weight that is not of cells to that of an edge, which may be new. */
+  void addLink(std::int64_t a, std::int64_t b, double weight) { this->add(a, b, weight, 0.0); }
+
   /** Calls visit(to, sum) for the edges of vertex `from` to higher vertices, in any order; visit()
    * may change the Sum. */
   template <class Visit>

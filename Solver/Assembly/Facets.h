@@ -30,7 +30,9 @@ struct BoundaryFacet
   static constexpr int cornersOf(CellType type) { return smg::cornersOf(type) - 1; }
 
   std::int64_t corners[3]; ///< stream indices, ascending; two for an edge
-  std::int32_t flux = -1;  ///< index of its condition
+  /** Where the corners are: others than these if they are tied to them, see VertexTies. */
+  std::int64_t vertices[3] = { corners[0], corners[1], corners[2] };
+  std::int32_t flux = -1; ///< index of its condition
   std::int32_t robin = -1;
   bool isInner = false;
   // In the order of the corners; null without a condition.

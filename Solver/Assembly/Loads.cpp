@@ -48,23 +48,54 @@ void VertexLoads::release(std::int64_t first)
 void VertexLoads::add(const WeightedCell& cell)
 {
   const int count = cornersOf(this->Type);
+  this->addJumps(cell);
+  if (!cell.data)
+  {
+    return;
+  }
   const double mass = cell.weights.measure / count;
   const double screening = *cell.data->density(ScreeningDensity);
   const double* source = cell.data->density(SourceDensity);
   double* loads[4] = {};
   for (int c = 0; c < count; ++c)
   {
-    this->RowSum[cell.corners[c]] += mass * screening;
-    loads[c] = this->Load.at(cell.corners[c]);
+    this->RowSum[cell.nodes[c]] += mass * screening;
+    loads[c] = this->Load.at(cell.nodes[c]);
     for (int k = 0; k < this->Columns; ++k)
     {
-      loads[c][k] += mass * source[k];
+      const double jump = cell.jumps[c] ? cell.jumps[c][k] : 0.0;
+      loads[c][k] += mass * (source[k] - screening * jump);
     }
   }
   addFieldLoads(cell, this->Type, this->Columns, loads);
 }
 
-void VertexLoads::add(const BoundaryFacet& facet, double area, const OpenVertices* solved)
+/** What flows along the edges of a cell because of the jumps at its corners: the equations have the
+ * values of nodes. */
+void VertexLoads::addJumps(const WeightedCell& cell)
+{
+  const int count = cornersOf(this->Type);
+  if (std::all_of(cell.jumps, cell.jumps + count, [](const double* jump) { return !jump; }))
+  {
+    return;
+  }
+  const CellWeights stiffness = cell.stiffness();
+  for (int e = 0; e < edgesOf(this->Type); ++e)
+  {
+    const int i = edgeCorners(this->Type, e)[0], j = edgeCorners(this->Type, e)[1];
+    double* a = this->Load.at(cell.nodes[i]);
+    double* b = this->Load.at(cell.nodes[j]);
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      const double flow = stiffness.weight[e] * ((cell.jumps[j] ? cell.jumps[j][k] : 0.0) -
+                                                  (cell.jumps[i] ? cell.jumps[i][k] : 0.0));
+      a[k] += flow;
+      b[k] -= flow;
+    }
+  }
+}
+
+void VertexLoads::add(const BoundaryFacet& facet, double area, const OpenVertices& vertices, Of of)
 {
   const int count = BoundaryFacet::cornersOf(this->Type);
   // (K grad u - q) . n is the flux itself, or coefficient * (ambient - u), of which the term with u
@@ -86,9 +117,11 @@ void VertexLoads::add(const BoundaryFacet& facet, double area, const OpenVertice
     for (int k = 0; k < this->Columns; ++k)
     {
       const double ambient = facet.ambient[c * this->Columns + k];
-      const std::int64_t corner = facet.corners[c];
-      load[k] +=
-        rowSum * (solved ? solved->below(ambient, corner, static_cast<std::size_t>(k)) : ambient);
+      const std::int64_t vertex = facet.vertices[c];
+      const double* jump = vertices.ties.jump(vertex);
+      load[k] += rowSum * (of == Of::Correction
+                              ? vertices.below(ambient, vertex, static_cast<std::size_t>(k))
+                              : ambient - (jump ? jump[k] : 0.0));
     }
   }
 }
@@ -97,7 +130,7 @@ RowLoads::RowLoads(Pool& pool, CellType type, Problem& problem, const OpenVertic
   : Vertices(vertices)
   , Load(static_cast<std::size_t>(problem.columns()))
 {
-  if (problem.hasCells())
+  if (problem.hasCells() || vertices.ties.anyJump())
   {
     this->OfCells.emplace(pool, type, problem.columns());
   }
@@ -160,12 +193,7 @@ double RowLoads::close(std::int64_t i)
   {
     this->addBoundary(i);
   }
-  const double mass = this->Vertices.mass[i];
-  double rowSum = this->Vertices.densities[ScreeningDensity][i] * mass;
-  for (std::size_t k = 0; k < this->Load.size(); ++k)
-  {
-    this->Load[k] = mass * this->Vertices.densities[SourceDensity].at(i)[k];
-  }
+  double rowSum = this->Vertices.sumDensities(i, this->Load);
   // Always in this order: vertex, cells, facets.
   const auto add = [&](const VertexLoads& loads)
   {
@@ -196,8 +224,12 @@ double RowLoads::close(std::int64_t i)
  */
 void RowLoads::addBoundary(std::int64_t i)
 {
-  this->Facets->take(i, [this](const BoundaryFacet& facet, double area)
-    { this->OfFacets->add(facet, area, this->Vertices.isSolved() ? &this->Vertices : nullptr); });
+  this->Facets->take(i,
+    [this](const BoundaryFacet& facet, double area)
+    {
+      this->OfFacets->add(facet, area, this->Vertices,
+        this->Vertices.isSolved() ? VertexLoads::Of::Correction : VertexLoads::Of::Problem);
+    });
 }
 
 } // namespace smg

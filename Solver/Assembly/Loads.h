@@ -29,17 +29,26 @@ public:
   void reserve(std::int64_t vertices);
   void release(std::int64_t first);
 
-  /** Adds screening, source and field of a cell, which must have data and a measure. */
+  /** Adds screening, source and field of a cell, which must have a measure, and what jumps at its
+   * corners make flow. */
   void add(const WeightedCell& cell);
-  /** Adds flux and heat transfer of a facet with this length or area; with a solution
-   * what that leaves of the heat transfer. */
-  void add(const BoundaryFacet& facet, double area, const OpenVertices* solved = nullptr);
+  /** What equations are for. */
+  enum class Of
+  {
+    Problem,
+    Correction ///< of the solution that the vertices have
+  };
+  /** Adds flux and heat transfer of a facet with this length or area; of a correction what the
+   * solution leaves of the heat transfer. */
+  void add(const BoundaryFacet& facet, double area, const OpenVertices& vertices, Of of);
 
   double rowSum(std::int64_t i) const { return this->RowSum[i]; }
   /** `columns` numbers. */
   const double* load(std::int64_t i) const { return this->Load.at(i); }
 
 private:
+  void addJumps(const WeightedCell& cell);
+
   CellType Type;
   int Columns;
   Ring<double> RowSum, Load;
@@ -59,7 +68,7 @@ public:
   void reserve(std::int64_t vertices);
   /** Adds the facets of the cells of the block. */
   void addFacets(const MeshBlock& block);
-  /** Adds the data of a cell, which must have some and a measure. */
+  /** Adds the data of a cell, which must have some, or jumps at its corners, and a measure. */
   void addCell(const WeightedCell& cell) { this->OfCells->add(cell); }
   void release(std::int64_t first);
 

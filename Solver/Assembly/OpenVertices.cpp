@@ -38,7 +38,8 @@ std::array<Ring<double>, sizeof...(Index)> densityRings(
 } // namespace
 
 OpenVertices::OpenVertices(Pool& pool, Problem& problem, Solution* solution)
-  : points(pool, 3)
+  : ties(pool, problem)
+  , points(pool, 3)
   , values(pool, problem.columns())
   , rest(pool, problem.columns())
   , dirichlet(pool)
@@ -80,6 +81,14 @@ void OpenVertices::add(const MeshBlock& block)
   // Zeroed: cells add to these.
   this->mass.extend(end);
   this->scale.extend(end);
+  this->ties.extend(end);
+  for (std::int64_t vertex = begin; this->ties.any() && vertex < end; ++vertex)
+  {
+    if (this->ties.isTied(vertex))
+    {
+      this->ties.require(vertex, this->dirichlet, this->values, this->points.at(vertex));
+    }
+  }
   if (this->Solved)
   {
     this->readSolution(begin, end);
@@ -99,6 +108,29 @@ void OpenVertices::readSolution(std::int64_t begin, std::int64_t end)
   }
 }
 
+double OpenVertices::sumDensities(std::int64_t node, std::span<double> source) const
+{
+  std::ranges::fill(source, 0.0);
+  if (this->ties.isTied(node))
+  {
+    return 0.0;
+  }
+  double sum = 0.0;
+  this->ties.forVerticesOf(node,
+    [&](std::int64_t vertex)
+    {
+      const double screening = this->densities[ScreeningDensity][vertex] * this->mass[vertex];
+      const double* jump = this->ties.jump(vertex);
+      for (std::size_t k = 0; k < source.size(); ++k)
+      {
+        source[k] += this->mass[vertex] * this->densities[SourceDensity].at(vertex)[k];
+        source[k] -= jump ? screening * jump[k] : 0.0;
+      }
+      sum += screening;
+    });
+  return sum;
+}
+
 void OpenVertices::reserve(std::int64_t more)
 {
   this->forGiven({}, [more](auto& ring, const auto&) { ring.reserveMore(more); });
@@ -107,6 +139,7 @@ void OpenVertices::reserve(std::int64_t more)
     this->rest.reserveMore(more);
   }
   this->mass.reserveMore(more);
+  this->ties.reserve(more);
   this->scale.reserveMore(more);
 }
 
@@ -172,6 +205,7 @@ void OpenVertices::release(std::int64_t done, std::int64_t final)
 {
   // Rows of neighbours still read these.
   this->points.release(done);
+  this->ties.release(done);
   this->values.release(done);
   if (this->HasRest)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Assembly/VertexTies.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Memory/Ring.h"
 #include "smg/Problem.h"
@@ -74,6 +75,11 @@ struct OpenVertices
    */
   void release(std::int64_t done, std::int64_t final);
 
+  /** Sets `source` to what the sources at the vertices of a node contribute to its right-hand side,
+   * `columns` numbers, and returns what their screening contributes to the diagonal. A tied vertex
+   * contributes to its node, and has 0 itself. */
+  double sumDensities(std::int64_t node, std::span<double> source) const;
+
   /** A number less the value of vertex i in column k, to the digits that this has. */
   double below(double number, std::int64_t i, std::size_t k) const
   {
@@ -81,6 +87,7 @@ struct OpenVertices
     return this->HasRest ? step - this->rest.at(i)[k] : step;
   }
 
+  VertexTies ties;
   Ring<double> points;          ///< 3 per vertex
   Ring<double> values;          ///< `columns` per vertex: VertexConditions::value
   Ring<double> rest;            ///< `columns` per vertex, if the solution has it: see Solution

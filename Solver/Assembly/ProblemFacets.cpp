@@ -36,7 +36,8 @@ ProblemFacets::ProblemFacets(
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
   , Open(pool)
-  , Data(pool, static_cast<int>(ValueLane + this->Corners * (1 + 2 * this->Columns)))
+  , ValueLane(VertexLane + (vertices.ties.any() ? this->Corners : 0))
+  , Data(pool, static_cast<int>(this->ValueLane + this->Corners * (1 + 2 * this->Columns)))
 {
 }
 
@@ -92,18 +93,25 @@ void ProblemFacets::addCell(const std::int64_t* corner, std::int64_t cell, std::
   {
     return;
   }
+  std::int64_t nodes[4] = {};
+  std::transform(corner, corner + corners, nodes,
+    [this](std::int64_t vertex) { return this->Vertices.ties.node(vertex); });
   for (int k = 0; k < corners; ++k)
   {
     // Facet k is opposite to corner k, so that a cell has as many facets as corners.
-    const CellFacet sorted = facetOf(this->Type, corner, k);
+    const CellFacet sorted = facetOf(this->Type, nodes, k);
     if (!this->Asks && !this->isWanted(sorted.vertex))
     {
       continue;
     }
     const std::size_t facet = c * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k);
-    const std::int32_t data = this->keep(sorted.order, facet, cell);
+    const std::int32_t data = this->keep(sorted.order, corner, k, facet, cell);
     const std::int32_t before =
       this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
+    if (before != OpenFacets::Fresh && this->Vertices.ties.any())
+    {
+      this->requireApart(sorted, before, data, cell);
+    }
     // A second cell has the facet: it is interior, and neither cell's data are needed, unless they
     // hold there. A third one gets 0, for no data, from add().
     for (const std::int32_t kept : { before, data })
@@ -113,6 +121,32 @@ void ProblemFacets::addCell(const std::int64_t* corner, std::int64_t cell, std::
         this->holdsInside(kept) ? this->keepInside(sorted, kept) : this->forget(kept);
       }
     }
+  }
+}
+
+/** Throws Error if two facets with the same nodes are not copies of each other: a period that is as
+ * short as two cells has such ones. */
+void ProblemFacets::requireApart(
+  const CellFacet& facet, std::int32_t first, std::int32_t second, std::int64_t cell) const
+{
+  int equal = 0;
+  for (std::size_t e = 0; e < this->Corners; ++e)
+  {
+    const auto vertexOf = [&](std::int32_t data)
+    {
+      std::int64_t vertex = facet.vertex[e];
+      if (data > 0)
+      {
+        std::memcpy(&vertex, this->Data.at(data) + VertexLane + e, sizeof(vertex));
+      }
+      return vertex;
+    };
+    equal += vertexOf(first) == vertexOf(second) ? 1 : 0;
+  }
+  if (equal > 0 && equal < static_cast<int>(this->Corners))
+  {
+    throw Error("periodic: there are fewer than three cells from one side to the other at cell " +
+                std::to_string(cell) + ": use a finer mesh, or repeat the body");
   }
 }
 
@@ -160,29 +194,51 @@ bool ProblemFacets::isWanted(const std::int64_t* vertex) const
            [&](std::int64_t v) { return this->Vertices.dirichlet[v] == condition; });
 }
 
-/** Stores the data of facet number `facet` of the batch in a slot, and returns the slot; 0 if the
- * facet has no condition. `order`: see CellFacet. The slot is an array of doubles, the first two of
- * which have the bits of integers; memcpy() is the defined way to put them there. */
-std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64_t cell)
+bool ProblemFacets::hasTied(const std::int64_t* vertices) const
 {
-  if (!this->Asks || (this->Flux[facet] < 0 && this->Robin[facet] < 0))
+  return this->Vertices.ties.any() &&
+         std::any_of(vertices, vertices + this->Corners,
+           [this](std::int64_t vertex) { return this->Vertices.ties.isTied(vertex); });
+}
+
+/** Stores the data of facet number `facet` of the batch in a slot, and returns the slot; 0 if the
+ * facet has no condition and no tied corner. It is opposite to corner k of its cell. `order`: see
+ * CellFacet. The slot is an array of doubles, the first two of which have the bits of integers;
+ * memcpy() is the defined way to put them there. */
+std::int32_t ProblemFacets::keep(
+  const int* order, const std::int64_t* corner, int k, std::size_t facet, std::int64_t cell)
+{
+  std::int64_t vertices[3] = {};
+  std::copy_if(corner, corner + cornersOf(this->Type), vertices,
+    [opposite = corner[k]](std::int64_t vertex) { return vertex != opposite; });
+  const bool hasConditions = this->Asks && (this->Flux[facet] >= 0 || this->Robin[facet] >= 0);
+  if (!hasConditions && !this->hasTied(vertices))
   {
     return 0;
   }
-  if (this->Flux[facet] >= this->Counts.flux || this->Robin[facet] >= this->Counts.robin)
+  const std::int32_t conditions[2] = { hasConditions ? this->Flux[facet] : -1,
+    hasConditions ? this->Robin[facet] : -1 };
+  if (conditions[0] >= this->Counts.flux || conditions[1] >= this->Counts.robin)
   {
     throw Error("a facet of cell " + std::to_string(cell) +
                 " names a condition that the problem does not have: see conditionCounts");
   }
   const std::int32_t slot = this->Data.take();
   double* kept = this->Data.at(slot);
-  const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
   std::memcpy(kept++, conditions, sizeof(conditions));
   // A negative number distinguishes an index in the stream from one in the original file.
   const std::int64_t name =
     this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
   std::memcpy(kept++, &name, sizeof(name));
-  *kept++ = this->Inside[facet];
+  *kept++ = hasConditions ? this->Inside[facet] : 0;
+  for (std::size_t e = 0; this->Vertices.ties.any() && e < this->Corners; ++e, ++kept)
+  {
+    std::memcpy(kept, &vertices[order[e]], sizeof(double));
+  }
+  if (!hasConditions)
+  {
+    return slot;
+  }
   const auto copy = [&](const std::vector<double>& values, std::size_t each)
   {
     for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
@@ -237,7 +293,11 @@ BoundaryFacet ProblemFacets::facet(
     std::memcpy(&name, kept + 1, sizeof(name));
     facet.flux = conditions[0];
     facet.robin = conditions[1];
-    facet.fluxValue = kept + ValueLane;
+    for (std::size_t e = 0; this->Vertices.ties.any() && e < this->Corners; ++e)
+    {
+      std::memcpy(&facet.vertices[e], kept + VertexLane + e, sizeof(double));
+    }
+    facet.fluxValue = kept + this->ValueLane;
     facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
     facet.ambient = facet.coefficient + this->Corners;
     this->require(facet, name);
@@ -256,7 +316,7 @@ double ProblemFacets::areaOf(const BoundaryFacet& facet) const
   const double* points[3] = {};
   for (std::size_t k = 0; k < this->Corners; ++k)
   {
-    points[k] = this->Vertices.points.at(facet.corners[k]);
+    points[k] = this->Vertices.points.at(facet.vertices[k]);
   }
   return facetArea(this->Type, points);
 }

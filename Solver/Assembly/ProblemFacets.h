@@ -81,7 +81,11 @@ private:
   void addCell(const std::int64_t* corner, std::int64_t cell, std::size_t c);
   bool mayHaveWanted(const std::int64_t* corner) const;
   bool isWanted(const std::int64_t* vertex) const;
-  std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
+  std::int32_t keep(
+    const int* order, const std::int64_t* corner, int k, std::size_t facet, std::int64_t cell);
+  bool hasTied(const std::int64_t* corner) const;
+  void requireApart(
+    const CellFacet& facet, std::int32_t first, std::int32_t second, std::int64_t cell) const;
   void require(const BoundaryFacet& facet, std::int64_t name) const;
   BoundaryFacet facet(
     std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
@@ -118,10 +122,11 @@ private:
   };
   /** Facets of two cells or more with conditions, by their lowest corner, which is open. */
   std::map<std::int64_t, std::vector<InnerFacet>> Inner;
-  static constexpr int InsideLane = 2, ValueLane = 3;
-  /** The data of a facet: its two conditions, its cell, whether they hold between two cells,
-   * fluxes, coefficients and ambient values. The cell is given by its index in the original file,
-   * or as -1 minus its index in the stream. */
+  static constexpr int InsideLane = 2, VertexLane = 3;
+  std::size_t ValueLane;
+  /** The data of a facet: its two conditions, its cell, whether they hold between two cells, with
+   * ties where its corners are, fluxes, coefficients and ambient values. The cell is given by its
+   * index in the original file, or as -1 minus its index in the stream. */
   FreeList<double> Data;
   // The block.
   const Column* CellIds = nullptr;

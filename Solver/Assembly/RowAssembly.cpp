@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 
@@ -99,7 +100,8 @@ void RowAssembly::close(const FinalVertices& collected, std::size_t k)
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, vertex);
+  this->count(
+    i, vertex, collected.jumps.empty() ? nullptr : collected.jumps.data() + k * this->Columns);
 }
 
 /** Appends the position of a vertex. */
@@ -122,7 +124,11 @@ void RowAssembly::place(std::int64_t i)
 void RowAssembly::closeKnown(std::int64_t i)
 {
   const double* x = this->initial(i);
-  ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
+  // A tied vertex gets its value from another one in the end.
+  if (!this->Vertices.ties.isTied(i))
+  {
+    ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
+  }
   this->Out.b.insert(this->Out.b.end(), x, x + this->Columns);
   if (this->Listener)
   {
@@ -338,7 +344,7 @@ void RowAssembly::regularise(std::int64_t i)
 }
 
 /** Adds the row to the initial residual and to the sums over its component. */
-void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
+void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex, const double* jumps)
 {
   // What is beyond the ordinary weights: the share of screening and the like, and the excess of
   // slivers.
@@ -365,6 +371,13 @@ void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
   {
     this->Residual.varying.add(
       vertex.label, this->RowSum - this->Raise, vertex.weight, this->B.data(), share);
+  }
+  if (vertex.counts && jumps)
+  {
+    // The mean that is kept is that of all vertices, of which some are more than their unknown.
+    this->Mean.assign(x, x + this->Columns);
+    std::transform(x, x + this->Columns, jumps, this->Mean.begin(), std::minus<>());
+    x = this->Mean.data();
   }
   if (vertex.counts)
   {

@@ -92,6 +92,9 @@ public:
   std::vector<RowNeighbour> neighbours; ///< of each vertex, in ascending order
   std::vector<double> targets;          ///< `columns` per neighbour; empty without edge targets
   std::vector<double> loads;            ///< `columns` per vertex: contribution to b
+  /** `columns` per vertex: the mean of the jumps of the vertices that have its unknown; empty if
+   * there are no jumps. */
+  std::vector<double> jumps;
 
   std::int64_t end() const
   {
@@ -105,7 +108,8 @@ public:
     return static_cast<std::int64_t>(
       this->vertices.capacity() * sizeof(Vertex) +
       this->neighbours.capacity() * sizeof(RowNeighbour) +
-      (this->targets.capacity() + this->loads.capacity()) * sizeof(double));
+      (this->targets.capacity() + this->loads.capacity() + this->jumps.capacity()) *
+        sizeof(double));
   }
   /** Removes all vertices; the next one is `next`. */
   void clear(std::int64_t next)
@@ -115,6 +119,7 @@ public:
     this->neighbours.clear();
     this->targets.clear();
     this->loads.clear();
+    this->jumps.clear();
   }
 };
 
@@ -285,7 +290,7 @@ private:
   void sharpen(std::span<const RowNeighbour> neighbours);
   bool addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight);
   void regularise(std::int64_t i);
-  void count(std::int64_t i, const FinalVertices::Vertex& vertex);
+  void count(std::int64_t i, const FinalVertices::Vertex& vertex, const double* jumps);
   std::span<const double> weights() const
   {
     return { this->Weight.data(), static_cast<std::size_t>(this->Size) };
@@ -318,6 +323,7 @@ private:
   std::vector<double> Zeros;      // `Columns` numbers
   std::vector<double> B;          // `Columns` numbers
   std::vector<double> Constraint; // the part of b not from edges to unknowns
+  std::vector<double> Mean;       // `Columns` numbers
 
   InitialResidual Residual;
   std::int64_t Prescribed = 0, Held = 0, Raised = 0;

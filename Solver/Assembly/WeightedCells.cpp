@@ -16,12 +16,21 @@ namespace smg
 {
 
 /** Flagged cells and those that use a vertex twice have no weights, whatever the problem sets. */
-void WeightedCells::weigh(WeightedCell& cell, const Ring<double>& points) const
+void WeightedCells::weigh(WeightedCell& cell, const OpenVertices& vertices) const
 {
   const int count = cornersOf(this->Type);
   for (int k = 0; k < count; ++k)
   {
-    cell.points[k] = points.at(cell.corners[k]);
+    cell.points[k] = vertices.points.at(cell.corners[k]);
+    cell.nodes[k] = cell.corners[k];
+  }
+  if (vertices.ties.any())
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      cell.nodes[k] = vertices.ties.node(cell.corners[k]);
+      cell.jumps[k] = vertices.ties.jump(cell.corners[k]);
+    }
   }
   const bool hasWeights = cell.flags == 0 && !hasRepeatedCorner(cell.corners, count);
   cell.weights = !hasWeights  ? CellWeights()

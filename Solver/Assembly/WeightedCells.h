@@ -20,6 +20,8 @@ struct WeightedCell
 {
   std::size_t number; ///< in its block
   const std::int64_t* corners;
+  std::int64_t nodes[4];   ///< the vertices whose unknowns its corners have, see VertexTies
+  const double* jumps[4];  ///< of its corners, see VertexTies; null: none
   unsigned flags;          ///< bits of CellFlag
   const double* points[4]; ///< the positions of its corners
   /** Those of finite elements or of the problem. Measure 0: it has none, since it is flat, flagged
@@ -71,11 +73,11 @@ public:
   bool hasData() const { return this->Data.has_value(); }
 
   /** Calls visit(cell) for the cells [begin, end) of a block, which are to be visited in ascending
-   * order; `points` are the positions of all open vertices. Throws Error if a value of the problem
+   * order; `vertices` are all open ones. Throws Error if a value of the problem
    * is invalid. */
   template <class Visit>
   void forRange(const MeshBlock& block, std::size_t begin, std::size_t end,
-    const Ring<double>& points, Visit&& visit)
+    const OpenVertices& vertices, Visit&& visit)
   {
     WeightedCell cell{};
     cell.data = this->Data ? &*this->Data : nullptr;
@@ -85,25 +87,25 @@ public:
         // Also of a cell without weights: the data come in batches.
         if (this->Data)
         {
-          this->Data->prepare(block, c, points);
+          this->Data->prepare(block, c, vertices.points);
         }
         cell.number = c;
         cell.corners = corners;
         cell.flags = flags;
-        this->weigh(cell, points);
+        this->weigh(cell, vertices);
         visit(std::as_const(cell));
       });
   }
   /** The same for all cells of the block. */
   template <class Visit>
-  void forEach(const MeshBlock& block, const Ring<double>& points, Visit&& visit)
+  void forEach(const MeshBlock& block, const OpenVertices& vertices, Visit&& visit)
   {
-    this->forRange(block, 0, cellsOf(this->Type, block), points, visit);
+    this->forRange(block, 0, cellsOf(this->Type, block), vertices, visit);
   }
 
 private:
   /** Of a cell with its corners and flags, sets the rest. */
-  void weigh(WeightedCell& cell, const Ring<double>& points) const;
+  void weigh(WeightedCell& cell, const OpenVertices& vertices) const;
 
   CellType Type;
   Weights Kind;

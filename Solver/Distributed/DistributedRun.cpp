@@ -72,6 +72,10 @@ void DistributedRun::assemble(Problem& problem)
   {
     throw Error("a problem needs at least one column");
   }
+  if (problem.couplings())
+  {
+    throw Error("coupled vertices are not solved by several processes: use one");
+  }
   const Timer wall;
   this->requireSameOptions(problem);
   Report& r = this->report;

@@ -24,6 +24,11 @@ inline constexpr PoolUse SolveMemory{ "the solve",
   "raise the memory limit, use fewer sweeps, or convert the mesh with the order bfs if it has "
   "another" };
 
+/** Of a problem that couples vertices. */
+inline constexpr PoolUse CoupledSolveMemory{ "the solve",
+  "raise the memory limit, use fewer sweeps, or, if the stream is not made for this problem, "
+  "convert the mesh file with --problem, which keeps coupled vertices near each other" };
+
 /**
  * Accounts for the large memory of an operation and enforces its limit: a request above it throws
  * an Error that names the required bytes, the allowed bytes and a remedy.

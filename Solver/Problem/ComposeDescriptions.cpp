@@ -120,6 +120,8 @@ void append(ProblemDescription& problem, const ProblemDescription& more)
   // components, which the check against the mesh reports.
   problem.columns = std::max(problem.columns, more.columns);
   forProblemData([&](const auto& row) { appendTo(problem.*row.member, more.*row.member); });
+  appendTo(problem.periodic, more.periodic);
+  appendTo(problem.interfaces, more.interfaces);
   problem.gradientOutput = problem.gradientOutput || more.gradientOutput;
   problem.fluxOutput = problem.fluxOutput || more.fluxOutput;
 }
@@ -128,6 +130,15 @@ std::set<std::string> namedColumns(const ProblemDescription& problem)
 {
   ColumnNames columns;
   forProblemData([&](const auto& row) { columns.add(row, problem); });
+  for (const ProblemDescription::Periodic& sides : problem.periodic)
+  {
+    columns.add(sides.from);
+    columns.add(sides.to);
+  }
+  for (const ProblemDescription::Interface& interface : problem.interfaces)
+  {
+    columns.add(interface.where);
+  }
   return std::move(columns.names);
 }
 
@@ -140,7 +151,9 @@ std::set<std::string> namedColumns(const std::vector<Where>& parts)
 
 bool isPosed(const ProblemDescription& problem)
 {
-  bool posed = false;
+  // What flows because of a jump is a solution other than 0.
+  bool posed = std::ranges::any_of(problem.periodic, [](const ProblemDescription::Periodic& sides)
+    { return std::ranges::any_of(sides.jump, [](double jump) { return jump != 0.0; }); });
   forProblemData(
     [&](const auto& row) { posed = posed || (row.poses && isGiven(problem.*row.member)); });
   return posed;
@@ -243,6 +256,14 @@ private:
   }
   void add(const PlacedValue& entry) { (*this)(entry.where, entry.value); }
   void add(const Datum& datum) { this->add(datum.entries); }
+  void add(const ProblemDescription::Periodic& sides)
+  {
+    (*this)(sides.from, sides.to, sides.jump, sides.tolerance);
+  }
+  void add(const ProblemDescription::Interface& interface)
+  {
+    (*this)(interface.where, interface.coefficient, interface.tolerance);
+  }
 
   std::string Text;
 };
@@ -282,6 +303,11 @@ std::string textOf(const ProblemDescription& problem)
   text(static_cast<std::int64_t>(problem.weights), std::int64_t(problem.columns));
   forProblemData([&](const auto& row) { text.add(row, problem.*row.member); });
   text(std::int64_t(problem.gradientOutput), std::int64_t(problem.fluxOutput));
+  // The texts of checkpoints without couplings are as they were.
+  if (!problem.periodic.empty() || !problem.interfaces.empty())
+  {
+    text(problem.periodic, problem.interfaces);
+  }
   return text.take();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DescribedProblem.h"
 #include "Solver/Core/Text.h"
+#include "Solver/Problem/CouplingSearch.h"
 #include "Solver/Problem/ProblemData.h"
 #include "smg/Error.h"
 #include "smg/Problem.h"
@@ -126,6 +127,12 @@ struct DescribedProblem::OnMesh
   void add(const ColumnRow& row, const ProblemDescription& description);
   template <class Condition>
   void add(const ConditionRow<Condition>& row, const ProblemDescription& description);
+  void endPreparing(MeshParts* parts)
+  {
+    // Couplings take of the limited memory, too.
+    this->selections.endPreparing(parts);
+    this->couplings.end(parts);
+  }
   /** Adds a datum without entries. */
   DatumOnMesh& add(DataPlace place, const ValueRules& rules);
 
@@ -142,6 +149,7 @@ struct DescribedProblem::OnMesh
 
   MeshColumns mesh;
   Selections selections;
+  CouplingSearch couplings;
   std::size_t columns;
   Weights weights;
   std::vector<DatumOnMesh> data; ///< in the order of ProblemData
@@ -156,6 +164,7 @@ DescribedProblem::OnMesh::OnMesh(
   const ProblemDescription& description, const StreamInfo& info, const std::string& name)
   : mesh(info, name)
   , selections(this->mesh)
+  , couplings(description, this->mesh, this->selections)
   , columns(static_cast<std::size_t>(description.columns))
   , weights(description.weights)
 {
@@ -278,12 +287,13 @@ void DescribedProblem::prepare(
   MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
   this->preparePart(mesh, scratch, memoryLimit);
-  this->Data->selections.endPreparing(nullptr);
+  this->Data->endPreparing(nullptr);
 }
 
 void DescribedProblem::acceptEmpty()
 {
   this->Data->selections.acceptEmpty();
+  this->Data->couplings.acceptEmpty();
 }
 
 /** Without parts of the mesh there is nothing to prepare. The reading also checks that no part is
@@ -291,17 +301,23 @@ void DescribedProblem::acceptEmpty()
 void DescribedProblem::preparePart(
   MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->Data->selections.prepare(part, scratch, memoryLimit);
+  this->Data->selections.prepare(part, scratch, memoryLimit,
+    [this](const MeshBlock& block) { this->Data->couplings.add(block); });
 }
 
 void DescribedProblem::endPreparing(MeshParts& parts)
 {
-  this->Data->selections.endPreparing(&parts);
+  this->Data->endPreparing(&parts);
 }
 
 std::int64_t DescribedProblem::bytes() const
 {
   return this->Data->mesh.memory().used();
+}
+
+std::shared_ptr<const VertexCouplings> DescribedProblem::couplings() const
+{
+  return this->Data->couplings.couplings();
 }
 
 int DescribedProblem::columns() const
@@ -353,11 +369,11 @@ bool DescribedProblem::hasFacets() const
 void DescribedProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
   OnMesh& data = *this->Data;
-  if (data.selections.needPreparing())
+  if (data.selections.needPreparing() || (data.couplings.any() && !data.couplings.couplings()))
   {
     throw Error(
-      "Nearest vertices, the vertices of cells and the boundary are found by a previous reading "
-      "of the mesh: call DescribedProblem::prepare().");
+      "Nearest vertices, the vertices of cells, the boundary and coupled vertices are found by a "
+      "previous reading of the mesh: call DescribedProblem::prepare().");
   }
   data.selections.startBlock(block);
   for (DatumOnMesh& datum : data.data)

@@ -309,15 +309,22 @@ bool Selections::needPreparing() const
     this->All, [](const auto& selection) { return selection->needsPreparing(); });
 }
 
-void Selections::prepare(
-  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
+void Selections::prepare(MeshSource& mesh, const std::filesystem::path& scratch,
+  std::int64_t memoryLimit, const std::function<void(const MeshBlock& prepared)>& visit)
 {
   this->Columns.memory().setLimit(memoryLimit);
   this->IsLimited = true;
+  const auto prepareBlock = [&](const MeshBlock& block)
+  {
+    this->prepare(block, scratch);
+    if (visit)
+    {
+      visit(block);
+    }
+  };
   if (!this->All.empty())
   {
-    forCheckedBlocks(
-      mesh, [&](const MeshBlock& block) { this->prepare(block, scratch); }, true);
+    forCheckedBlocks(mesh, prepareBlock, true);
   }
 }
 

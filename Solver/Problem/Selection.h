@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -173,8 +174,10 @@ public:
   /** Whether the stream must be read before all of them can be evaluated. */
   bool needPreparing() const;
   /** Reads the stream, unless there are none, to be followed by endPreparing(). The memory of what
-   * is kept meanwhile is limited. Throws Error for an invalid stream. */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
+   * is kept meanwhile is limited. Throws Error for an invalid stream. `visit` is called with each
+   * block for which they have been prepared. */
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit,
+    const std::function<void(const MeshBlock& prepared)>& visit = {});
   /** See Selection. */
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
   void endPreparing(MeshParts* parts);

@@ -33,7 +33,7 @@ void DiscretisationError::add(const MeshBlock& block)
 {
   this->Check.add(block);
   this->addVertices(block);
-  this->Weighted.forEach(block, this->Vertices.points,
+  this->Weighted.forEach(block, this->Vertices,
     [this](const WeightedCell& cell)
     {
       if (cell.weights.measure > 0.0)
@@ -72,7 +72,7 @@ void DiscretisationError::addCell(const WeightedCell& cell)
   std::int32_t slots[4] = {};
   for (int k = 0; k < count; ++k)
   {
-    slots[k] = this->termsOf(facetOf(this->Type, cell.corners, k).vertex);
+    slots[k] = this->termsOf(facetOf(this->Type, cell.nodes, k).vertex);
   }
   // Pointers only now: each call of termsOf() may have moved the terms.
   double conductance[4] = {};
@@ -149,7 +149,7 @@ void DiscretisationError::addInflows(std::int64_t vertex)
       const double share = area / count / count;
       for (int c = 0; c < count; ++c)
       {
-        const double* u = this->Vertices.values.at(facet.corners[c]);
+        const double* u = this->Vertices.values.at(facet.vertices[c]);
         for (std::size_t k = 0; k < this->Columns; ++k)
         {
           const std::size_t at = static_cast<std::size_t>(c) * this->Columns + k;
@@ -169,10 +169,11 @@ bool DiscretisationError::isPrescribed(
          (this->Type == CellType::Triangle || dirichlet[high] >= 0);
 }
 
-/** Adds the error at all facets whose lowest vertex is below `end`: all their cells and inflows are
- * known. */
-void DiscretisationError::finalize(std::int64_t end)
+/** Adds the error at all facets whose lowest vertex is below `final`, and need not wait: all their
+ * cells and inflows are known. */
+void DiscretisationError::finalize(std::int64_t final)
 {
+  const std::int64_t end = this->Vertices.ties.closable(final);
   const double dimension = cornersOf(this->Type) - 1;
   for (; this->Final < end; ++this->Final)
   {

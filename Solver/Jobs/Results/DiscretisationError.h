@@ -67,7 +67,7 @@ private:
   void addVertices(const MeshBlock& block);
   void addCell(const WeightedCell& cell);
   std::int32_t termsOf(const std::int64_t* corners);
-  void finalize(std::int64_t end);
+  void finalize(std::int64_t final);
   void addInflows(std::int64_t vertex);
   bool isPrescribed(std::int64_t low, std::int64_t middle, std::int64_t high) const;
 

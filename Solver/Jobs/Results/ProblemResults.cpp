@@ -41,6 +41,7 @@ ProblemResults::ProblemResults(
       problem.conditionCounts().parts)
   , Sums(info.cellType, problem)
   , Steps(4 * this->Columns)
+  , Sources(this->Columns)
   , Terms(VertexTerms::size(this->Columns))
 {
   // A solution of another problem would give plausible numbers without meaning.
@@ -53,7 +54,7 @@ ProblemResults::ProblemResults(
   {
     throw Error("the results of a problem with edge targets have no fluxes that balance");
   }
-  if (problem.hasCells())
+  if (problem.hasCells() || this->Vertices.ties.anyJump())
   {
     this->CellLoads.emplace(this->Memory, this->Type, problem.columns());
   }
@@ -113,7 +114,7 @@ void ProblemResults::addCells(const MeshBlock& block)
 {
   this->Cells.begin(cellsOf(this->Type, block));
   this->Weighted.forEach(
-    block, this->Vertices.points, [this](const WeightedCell& cell) { this->addCell(cell); });
+    block, this->Vertices, [this](const WeightedCell& cell) { this->addCell(cell); });
 }
 
 /** Adds a cell as the assembly does: the same cells have no weight, and the same ones connect their
@@ -125,7 +126,7 @@ void ProblemResults::addCell(const WeightedCell& cell)
     return;
   }
   const int count = cornersOf(this->Type);
-  this->Labels.join(cell.corners, count);
+  this->Labels.join(cell.nodes, count);
   if (cell.weights.measure == 0.0)
   {
     this->connect(cell);
@@ -141,17 +142,17 @@ void ProblemResults::addCell(const WeightedCell& cell)
   this->Cells.add(cell, values);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    this->Sums.conditions.bodies.of(this->bodyOf(cell.corners[0]), k).energy +=
+    this->Sums.conditions.bodies.of(this->bodyOf(cell.nodes[0]), k).energy +=
       this->Cells.energyOfCell()[k];
   }
-  if (cell.data)
+  if (this->CellLoads)
   {
     this->CellLoads->add(cell);
   }
   // The energy has been computed with the full weights; edges get the weights of the solve.
   if (this->Kind == Weights::Cotangent)
   {
-    this->addFlows(cell.corners, values, cell.stiffness());
+    this->addFlows(cell, values);
   }
   this->connect(cell);
 }
@@ -186,37 +187,41 @@ void ProblemResults::connect(const WeightedCell& cell)
   }
   if (!same)
   {
-    this->Edges.add(cell.corners, cell.points, cell.stiffness(), cell.scale,
-      [&](std::int64_t a, std::int64_t b) { return !areSums || dirichlet[a] != dirichlet[b]; });
+    this->Edges.add(cell.nodes, cell.points, cell.stiffness(), cell.scale,
+      [&](std::int64_t a, std::int64_t b)
+      { return a != b && (!areSums || dirichlet[a] != dirichlet[b]); });
   }
 }
 
-/** Adds what flows along the edges of a cell to the residuals of its corners, which have these
- * values, and the magnitudes of its weights. */
-void ProblemResults::addFlows(
-  const std::int64_t* corners, const double* const* values, const CellWeights& cell)
+/** Adds what flows along the edges of a cell to the residuals of its nodes, whose corners have
+ * these values, and the magnitudes of its weights. What flows because of jumps is a load. */
+void ProblemResults::addFlows(const WeightedCell& cell, const double* const* values)
 {
   const int count = cornersOf(this->Type), edges = edgesOf(this->Type);
+  const CellWeights stiffness = cell.stiffness();
   double weights[4] = {};
   for (int e = 0; e < edges; ++e)
   {
     const int* ends = edgeCorners(this->Type, e);
-    weights[ends[0]] += std::fabs(cell.weight[e]);
-    weights[ends[1]] += std::fabs(cell.weight[e]);
+    weights[ends[0]] += std::fabs(stiffness.weight[e]);
+    weights[ends[1]] += std::fabs(stiffness.weight[e]);
   }
   double* flows[4] = {};
   for (int c = 0; c < count; ++c)
   {
-    flows[c] = this->Flows.at(corners[c]);
+    flows[c] = this->Flows.at(cell.nodes[c]);
     flows[c][this->Columns] += weights[c];
   }
+  const auto jump = [&](int c, std::size_t k) { return cell.jumps[c] ? cell.jumps[c][k] : 0.0; };
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     double sums[4] = {};
     for (int e = 0; e < edges; ++e)
     {
       const int* ends = edgeCorners(this->Type, e);
-      const double flow = cell.weight[e] * (values[ends[0]][k] - values[ends[1]][k]);
+      const double step =
+        (values[ends[0]][k] - values[ends[1]][k]) - (jump(ends[0], k) - jump(ends[1], k));
+      const double flow = stiffness.weight[e] * step;
       sums[ends[0]] += flow;
       sums[ends[1]] -= flow;
     }
@@ -227,10 +232,11 @@ void ProblemResults::addFlows(
   }
 }
 
-/** Completes the vertices below `end`, in ascending order, which fixes the order of all sums, and
- * releases what no later one needs. */
-void ProblemResults::finalize(std::int64_t end)
+/** Completes the vertices below `final` that need not wait, in ascending order, which fixes the
+ * order of all sums, and releases what no later one needs. */
+void ProblemResults::finalize(std::int64_t final)
 {
+  const std::int64_t end = this->Vertices.ties.closable(final);
   for (; this->Final < end; ++this->Final)
   {
     this->close(this->Final, this->Terms.data());
@@ -259,9 +265,35 @@ void ProblemResults::addBoundary(std::int64_t i)
     {
       if (this->FacetLoads)
       {
-        this->FacetLoads->add(facet, area);
+        this->FacetLoads->add(facet, area, this->Vertices, VertexLoads::Of::Problem);
       }
       this->Sums.conditions.add(facet, area, this->Vertices, this->bodyOf(facet.corners[0]));
+    });
+}
+
+/** Adds what flows through the links of a vertex to higher ones, or keeps the link for a prescribed
+ * end. */
+void ProblemResults::addLinks(std::int64_t i)
+{
+  this->Vertices.ties.forLinks(i,
+    [&](std::int64_t to, double conductance)
+    {
+      const std::int64_t ends[] = { i, to };
+      this->Labels.join(ends, 2);
+      const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
+      if (dirichlet[i] != dirichlet[to])
+      {
+        this->Edges.addLink(i, to, conductance);
+      }
+      for (const int side : { 0, 1 })
+      {
+        double* flows = this->Flows.at(ends[side]);
+        flows[this->Columns] += conductance;
+        for (std::size_t k = 0; k < this->Columns; ++k)
+        {
+          flows[k] += conductance * this->Vertices.difference(ends[side], ends[1 - side], k);
+        }
+      }
     });
 }
 
@@ -269,17 +301,16 @@ void ProblemResults::addBoundary(std::int64_t i)
 void ProblemResults::close(std::int64_t i, double* numbers)
 {
   this->addBoundary(i);
+  this->addLinks(i);
   VertexTerms terms(numbers);
-  const double mass = this->Vertices.mass[i];
-  terms.mass() = mass;
-  terms.screening() = this->Vertices.densities[ScreeningDensity][i] * mass +
+  terms.mass() = this->Vertices.mass[i];
+  terms.screening() = this->Vertices.sumDensities(i, this->Sources) +
                       (this->CellLoads ? this->CellLoads->rowSum(i) : 0.0);
   terms.transfer() = this->FacetLoads ? this->FacetLoads->rowSum(i) : 0.0;
   terms.weights() = 0.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    terms.source(k) = mass * this->Vertices.densities[SourceDensity].at(i)[k] +
-                      (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
+    terms.source(k) = this->Sources[k] + (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
     terms.inflow(k) = this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0;
     terms.outflow(k) = terms.outflowTerms(k) = 0.0;
   }

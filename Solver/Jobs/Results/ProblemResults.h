@@ -92,8 +92,9 @@ private:
   }
   void relateToFirst(const std::int64_t* corners, const double** values);
   void connect(const WeightedCell& cell);
-  void addFlows(const std::int64_t* corners, const double* const* values, const CellWeights& cell);
-  void finalize(std::int64_t end);
+  void addFlows(const WeightedCell& cell, const double* const* values);
+  void finalize(std::int64_t final);
+  void addLinks(std::int64_t i);
   void addBoundary(std::int64_t i);
   void close(std::int64_t i, double* numbers);
   void addEdges(std::int64_t i, VertexTerms terms);
@@ -119,7 +120,7 @@ private:
 
   CellResults Cells;
   ResultSums Sums;
-  std::vector<double> Values, Steps, Terms; // of a block, of a cell, of a vertex
+  std::vector<double> Values, Steps, Sources, Terms; // of a block, a cell; of a vertex two
   std::vector<RowNeighbour> Neighbours;
   bool IsPart = false;
   std::int64_t Final = 0;

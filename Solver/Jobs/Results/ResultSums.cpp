@@ -138,7 +138,7 @@ void ConditionSums::add(
     this->addMean(sums, facet, area, vertices);
     for (std::size_t e = 0; e < static_cast<std::size_t>(this->Corners) * this->Columns; ++e)
     {
-      const std::int64_t corner = facet.corners[e / this->Columns];
+      const std::int64_t corner = facet.vertices[e / this->Columns];
       const double weight = isUndetermined(vertices.values.at(corner)) ? 0.0 : share;
       const double flux = weight * facet.fluxValue[e];
       this->addFlux(sums, e % this->Columns, flux, label);
@@ -158,7 +158,7 @@ void ConditionSums::addRobin(
   this->addMean(sums, facet, area, vertices);
   for (int c = 0; c < this->Corners; ++c)
   {
-    const double* value = vertices.values.at(facet.corners[c]);
+    const double* value = vertices.values.at(facet.vertices[c]);
     const double factor = isUndetermined(value) ? 0.0 : area / this->Corners * facet.coefficient[c];
     if (factor <= 0.0)
     {
@@ -168,7 +168,7 @@ void ConditionSums::addRobin(
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
-      this->addFlux(sums, k, factor * vertices.below(ambient, facet.corners[c], k), label);
+      this->addFlux(sums, k, factor * vertices.below(ambient, facet.vertices[c], k), label);
       // The flux is a small difference of these where u is close to the ambient value.
       BodyFlows::Sums& body = this->bodies.of(label, k);
       body.terms += factor * (std::fabs(ambient) + std::fabs(value[k]));
@@ -201,7 +201,7 @@ void ConditionSums::addMean(
   int determined = 0;
   for (int c = 0; c < this->Corners; ++c)
   {
-    const double* value = vertices.values.at(facet.corners[c]);
+    const double* value = vertices.values.at(facet.vertices[c]);
     determined += isUndetermined(value) ? 0 : 1;
     for (std::size_t k = 0; !isUndetermined(value) && k < this->Columns; ++k)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/FirstPass.h"
 
+#include "Solver/Assembly/VertexTies.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Memory/Pool.h"
 #include "Solver/Multigrid/Cycle/VCycle.h"
@@ -18,6 +19,20 @@
 namespace smg
 {
 
+namespace
+{
+
+/** What the problem makes of a mesh stream: vertices that are coupled are neighbours. */
+StreamInfo coupled(const StreamInfo& info, const Problem& problem)
+{
+  StreamInfo coupled = info;
+  coupled.span =
+    info.span < 0 ? info.span : std::max(info.span, reachOf(problem.couplings().get()));
+  return coupled;
+}
+
+} // namespace
+
 ColumnResiduals FirstPass::run(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
@@ -25,11 +40,12 @@ ColumnResiduals FirstPass::run(
   // room.
   SolveOptions alone = this->Context.options;
   alone.threads = 1;
+  const StreamInfo info = coupled(mesh.info(), problem);
   this->Context.expectedBytes =
-    (mesh.info().span < 0 && !alone.inCore) || mesh.info().vertices <= 0
+    (info.span < 0 && !alone.inCore) || info.vertices <= 0
       ? 0
-      : expectedMemory(mesh.info(), problem.columns(), problem.weights(), alone);
-  this->Context.isAmple = permitsTasks(mesh.info(), problem, this->Context.options);
+      : expectedMemory(info, problem.columns(), problem.weights(), alone);
+  this->Context.isAmple = permitsTasks(info, problem, this->Context.options);
   try
   {
     const ColumnResiduals residual = this->perform(mesh, problem, listener, furtherCoreBytes);
@@ -48,7 +64,8 @@ ColumnResiduals FirstPass::perform(
 {
   const Timer building;
   const SolveOptions& options = this->Context.options;
-  requireMemory(mesh.info(), problem.columns(), problem.weights(), options, furtherCoreBytes);
+  requireMemory(
+    coupled(mesh.info(), problem), problem.columns(), problem.weights(), options, furtherCoreBytes);
   if (this->Context.scratch)
   {
     this->Context.labels.useScratch(*this->Context.scratch, this->Context.traffic.add("labels"));

@@ -26,6 +26,7 @@ std::unique_ptr<Solution> PoissonSolver::solve(MeshSource& mesh, Problem& proble
     balance.emplace([&] { return this->discretisation(problem); });
   }
   context.mayMeasureFlow = !balance;
+  context.couplings = problem.couplings();
   constexpr double Least = 1e-13; // the tolerance if it is automatic
   const Stopping stopping{ balance ? Least : context.options.tolerance, context.options.maxCycles };
   context.progress.begin(
@@ -65,6 +66,7 @@ std::unique_ptr<Solution> PoissonSolver::correct(
   SolveContext& context = *this->Context;
   context.beginReport();
   context.corrected = &solution;
+  context.couplings = problem.couplings();
   context.scales = scales;
   context.progress.begin({ Least, context.options.maxCycles }, 0.0, 1.0, true);
   FirstResidual first =
@@ -131,10 +133,7 @@ EnergySquares PoissonSolver::discretisation(Problem& problem)
   {
     DiscretisationError error(this->Context->pool, mesh->info(), problem,
       [this](std::int64_t first, std::int64_t count, std::span<double> values)
-      {
-        this->Levels.window().readX(first, count, values.data());
-        this->Context->free.complete(first, count, values);
-      });
+      { this->Context->readCompleted(this->Levels.window(), first, count, values); });
     for (MeshBlock block; mesh->next(block);)
     {
       error.add(block);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Multigrid/Engine/SolveContext.h"
 
+#include "Solver/Assembly/VertexTies.h"
 #include "Solver/Core/FieldsJson.h"
 #include "Solver/Core/ReportFields.h"
 #include "Solver/Files/Checksum.h"
@@ -219,6 +220,24 @@ void SolveContext::endPass(double residual)
   if (this->checkpoint)
   {
     this->checkpoint->save(this->report.passes, [this](StateWriter& state) { this->save(state); });
+  }
+}
+
+void SolveContext::readCompleted(
+  LevelWindow<double>& window, std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  const auto read = [&](std::int64_t begin, std::span<double> of)
+  {
+    const std::int64_t vertices =
+      static_cast<std::int64_t>(of.size()) / static_cast<std::int64_t>(window.columns());
+    window.readX(begin, vertices, of.data());
+    this->free.complete(begin, vertices, of);
+  };
+  read(first, values.first(static_cast<std::size_t>(count * window.columns())));
+  if (this->couplings)
+  {
+    completeTied(*this->couplings, this->corrected ? TiedDifference::None : TiedDifference::Jump,
+      first, static_cast<std::size_t>(window.columns()), values, read);
   }
 }
 

@@ -20,7 +20,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -84,8 +86,15 @@ struct SMG_EXPORT SolveContext
   /** The error of a part that exceeded the limit, completed by the memory that usually suffices. */
   MemoryLimitError explained(const MemoryLimitError& error) const
   {
-    return error.expecting(this->expectedBytes);
+    const MemoryLimitError expecting = error.expecting(this->expectedBytes);
+    return this->couplings ? expecting.of(CoupledSolveMemory) : expecting;
   }
+
+  /** Reads the values of vertices [first, first + count) from the window of the finest level, and
+   * adds what the equations leave open: means of free components, undetermined values, and the
+   * values of vertices that are tied to others. */
+  void readCompleted(
+    LevelWindow<double>& window, std::int64_t first, std::int64_t count, std::span<double> values);
 
   /** The norm of what flows, where `flow` measures it, with the scales of columns. */
   double flowNorm() const;
@@ -121,6 +130,7 @@ struct SMG_EXPORT SolveContext
   Components components;
   ComponentLabels labels;
   FreeComponents free;
+  std::shared_ptr<const VertexCouplings> couplings; ///< of the problem; null: none
   std::optional<IterateEnergy> energy; ///< energy of the iterates, if the solve needs it
   std::optional<IterateFlow> flow;     ///< in the iterates, if the solve needs it
   bool mayMeasureFlow = false;         ///< in later passes, if coefficients differ much

@@ -19,10 +19,7 @@ void StreamedSolution::read(std::int64_t first, std::int64_t count, std::span<do
 {
   checkVertexRange(
     first, count, values.size() / static_cast<std::size_t>(this->columns()), this->vertices());
-  // The values of the last iterate, and then what the equations leave open: means of free
-  // components, undetermined values.
-  this->Window.readX(first, count, values.data());
-  this->Context->free.complete(first, count, values);
+  this->Context->readCompleted(this->Window, first, count, values);
 }
 
 void StreamedSolution::removeCheckpoint()

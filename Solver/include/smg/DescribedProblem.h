@@ -83,6 +83,8 @@ public:
   bool hasFacets() const override;
   void facets(FacetBatch& batch) override;
   std::int64_t bytes() const override;
+  /** Known after prepare(). */
+  std::shared_ptr<const VertexCouplings> couplings() const override;
 
 private:
   struct OnMesh;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -136,6 +137,30 @@ struct ConditionCounts
   std::vector<std::string> groups = {};
 };
 
+/** Vertices that a problem couples beyond the cells of the mesh. Their stream indices are those of
+ * the mesh that is solved on. */
+struct VertexCouplings
+{
+  /** Two vertices that are one unknown. */
+  struct Tie
+  {
+    std::int64_t vertex; ///< whose value is that of `to`, and its jump
+    std::int64_t to;     ///< less than `vertex`, and not tied itself
+  };
+  /** Two vertices between which there flows the conductance times the difference of their values.
+   */
+  struct Link
+  {
+    std::int64_t from;  ///< not tied
+    std::int64_t to;    ///< more than `from`, and not tied
+    double conductance; ///< at least 0
+  };
+
+  std::vector<Tie> ties;     ///< by ascending `vertex`, each once
+  std::vector<double> jumps; ///< `columns` a tie: what `vertex` has more than `to`; empty: 0
+  std::vector<Link> links;   ///< by ascending `from`, then `to`, each once
+};
+
 /**
  * The elliptic problem -div(K grad u - q) + s u = f by linear finite elements, lumped at the
  * vertices: (L + S) u = F, with u given at the Dirichlet vertices. L_ij = -w_ij, with row sums 0. S
@@ -224,6 +249,10 @@ public:
    * 0 by default. Asked after each conditions(): they count within the memory limit of the solve.
    */
   virtual std::int64_t bytes() const { return 0; }
+
+  /** The vertices that are one unknown, or linked; null, by default: none. Only with
+   * Weights::Cotangent, and not with edge targets. The same object for all readings of a mesh. */
+  virtual std::shared_ptr<const VertexCouplings> couplings() const { return nullptr; }
 
   /** Whether edgeTargets() is to be called; false by default. Results (SolvedMesh) are not
    * available then. */

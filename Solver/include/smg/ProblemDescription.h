@@ -154,6 +154,25 @@ struct ProblemDescription
     DataValue value; ///< the value that u is pulled towards
   };
 
+  /** Two sides of the mesh that are one: each facet of `to` is a facet of `from`, moved by the same
+   * vector, and u is there what it is here, and `jump`. */
+  struct Periodic
+  {
+    Where from;                    ///< a group of facets, a region or a column
+    Where to;                      ///< likewise
+    std::vector<double> jump = {}; ///< one number, or one for each column; empty: 0
+    /** How far corners may be from where they should be; 0: 1e-6 of the diagonal of a side. */
+    double tolerance = 0.0;
+  };
+  /** A contact between bodies that have a copy each of its facets: through each of them there flows
+   * coefficient * (u on this side - u on the other side), per area or length. */
+  struct Interface
+  {
+    Where where;              ///< the facets of both bodies: groups, a region or a column
+    double coefficient = 0.0; ///< at least 0
+    double tolerance = 0.0;   ///< as of Periodic
+  };
+
   /** The weights of the edges. */
   Weights weights = Weights::Cotangent;
   /** Right-hand sides that are solved at once, 1 to MaxColumns. */
@@ -182,6 +201,10 @@ struct ProblemDescription
   std::vector<Robin> robin;
   /** Soft constraints. Where several entries hold, they add up. */
   std::vector<Soft> soft;
+  /** Sides that are one. With Weights::Cotangent. */
+  std::vector<Periodic> periodic;
+  /** Contacts of bodies. Where several entries hold, they add up. With Weights::Cotangent. */
+  std::vector<Interface> interfaces;
   bool gradientOutput = false; ///< whether grad u of the cells is wanted as a result
   bool fluxOutput = false;     ///< whether -K grad u of the cells is wanted as a result
 };
