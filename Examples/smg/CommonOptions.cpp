@@ -166,11 +166,12 @@ smg::ConversionOptions CommonOptions::inputOptions() const
   return options;
 }
 
-std::unique_ptr<smg::OpenedMesh> CommonOptions::openInput(
-  const std::filesystem::path& path, smg::ProgressFunction progress, smg::StreamOrder order) const
+std::unique_ptr<smg::OpenedMesh> CommonOptions::openInput(const std::filesystem::path& path,
+  smg::ProgressFunction progress, smg::StreamOrder order, const smg::CoupledGroups& coupled) const
 {
   smg::ConversionOptions options = this->inputOptions();
   options.order = order;
+  options.coupled = coupled;
   options.checkpoint = this->checkpoint;
   options.progress = std::move(progress);
   return smg::openMesh(path, options);

@@ -64,10 +64,11 @@ struct CommonOptions
 
   /** How the mesh file is converted within the memory limit. */
   smg::ConversionOptions inputOptions() const;
-  /** Opens a mesh file of any format. A file that is not a stream is converted to `order`; with a
-   * checkpoint, it is kept there. Throws smg::Error. */
+  /** Opens a mesh file of any format. A file that is not a stream is converted to `order`, with
+   * these groups coupled; with a checkpoint, it is kept there. Throws smg::Error. */
   std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
-    smg::ProgressFunction progress, smg::StreamOrder order = smg::StreamOrder::BreadthFirst) const;
+    smg::ProgressFunction progress, smg::StreamOrder order = smg::StreamOrder::BreadthFirst,
+    const smg::CoupledGroups& coupled = {}) const;
 
   /** Adds what the conversion of an opened mesh left out or changed, if it was converted. */
   static void addNotes(const smg::OpenedMesh& mesh, std::vector<std::string>& notes);

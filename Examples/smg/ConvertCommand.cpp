@@ -8,6 +8,7 @@
 #include "IO/Formats/MeshFile.h"
 #include "Solver/Core/Text.h"
 #include "smg/Convert.h"
+#include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
 #include <cstdio>
@@ -60,6 +61,7 @@ struct ConvertCommand : CommonOptions
   std::filesystem::path in, out;
   std::string order = "bfs";
   std::string codec = "zstd";
+  std::filesystem::path problem;
   bool orient = false;
   bool restoreOrder = false;
   bool dryRun = false;
@@ -72,6 +74,10 @@ struct ConvertCommand : CommonOptions
                     : this->codec == "lz4" ? smg::Codec::Lz4
                                            : smg::Codec::None;
     options.orient = this->orient;
+    if (!this->problem.empty())
+    {
+      options.coupled = smg::coupledGroups(smg::readProblemFile(this->problem));
+    }
     options.restoreOrder = this->restoreOrder;
     options.text = this->writesText;
     options.checkpoint = this->checkpoint;
@@ -105,6 +111,11 @@ struct ConvertCommand : CommonOptions
         "(the order of the file)")
       ->check(oneOf({ "bfs", "axis", "keep", "spectral" }))
       ->capture_default_str();
+    command
+      .add_option("--problem", this->problem,
+        "A problem file: the order bfs keeps vertices near each other that its periodic sides and "
+        "interfaces couple, so that solving it takes little memory")
+      ->type_name("FILE.json");
     command.add_option("--codec", this->codec, "Compression of .vsm files: zstd, lz4 or none")
       ->check(oneOf({ "zstd", "lz4", "none" }))
       ->capture_default_str();
@@ -115,8 +126,8 @@ struct ConvertCommand : CommonOptions
       .add_flag("--restore-order", this->restoreOrder,
         "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
           smg::suffixList(smg::FormatUse::Restore, "or") + " file")
-      ->excludes(
-        "--order", "--weld", "--orient", "--cells", "--codec", "--time-step", "--partition");
+      ->excludes("--order", "--weld", "--orient", "--cells", "--codec", "--time-step",
+        "--partition", "--problem");
     this->addTextTo(command);
     command.add_flag("--dry-run", this->dryRun,
       "Only estimate the size of the mesh and the cost of the conversion");
@@ -132,6 +143,7 @@ struct ConvertCommand : CommonOptions
     smg::checkForm(this->out, this->writesText);
     smg::UsedFiles files;
     files.readMesh(this->in);
+    files.read(this->problem, "the problem file");
     files.writeMesh(this->out);
     this->checkFiles(std::move(files));
     this->checkCheckpoint({ this->out, this->report });

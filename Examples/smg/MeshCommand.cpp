@@ -221,8 +221,8 @@ void MeshCommand::compute()
   std::optional<html::ResultSurface> drawn;
   {
     ProgressBar bar(this->title(), this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh =
-      this->openInput(this->In, smg::partOf(bar.function(), 0.0, 0.2));
+    const std::unique_ptr<smg::OpenedMesh> mesh = this->openInput(this->In,
+      smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->job().coupled());
     if (mesh->conversion())
     {
       this->Conversion = *mesh->conversion();

@@ -18,6 +18,7 @@
 #include "IO/Mesh/Columns.h"
 #include "IO/Order/Assembly/CellFlagger.h"
 #include "IO/Order/Assembly/LayoutSource.h"
+#include "IO/Order/Coupling.h"
 #include "IO/Order/LayOut.h"
 #include "IO/Order/Search/FileOrder.h"
 #include "Solver/Core/Progress.h"
@@ -208,8 +209,9 @@ void importInput(Conversion& conversion, RawMesh& mesh)
   report.seconds.import = conversion.lap();
 }
 
-void layOutInput(Conversion& conversion, const RawMesh& mesh, StreamLayout& layout)
+void layOutInput(Conversion& conversion, RawMesh& mesh, StreamLayout& layout)
 {
+  linkCoupled(mesh, conversion.options().coupled, conversion.workspace());
   ConversionReport& report = conversion.report();
   LayOutCounts counts;
   layout = layOut(mesh, conversion.options().order, conversion.workspace(), counts, 0.75);

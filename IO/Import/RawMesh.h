@@ -87,6 +87,7 @@ struct RawMesh
     , elements(workspace)
     , facets(workspace)
     , points(workspace)
+    , links(workspace)
   {
   }
 
@@ -105,6 +106,8 @@ struct RawMesh
   MeshGroups groups;
   GroupedElements facets; ///< edges of triangles or faces of tetrahedra, as far as they are such
   GroupedElements points; ///< one vertex each; a vertex may occur several times
+  /** Pairs of vertices that are neighbours, as those of cells are, for the order alone. */
+  RecordFile<std::uint32_t> links;
   ImportCounts counts;
 
   std::size_t positionBytes() const

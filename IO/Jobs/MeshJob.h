@@ -3,6 +3,7 @@
 
 #include "IO/Conversion/JobEstimate.h"
 #include "IO/Jobs/Job.h"
+#include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
@@ -44,6 +45,8 @@ public:
   /** Throws Error for what such a mesh certainly does not have, as columns that are named, before
    * it is read; solveOn() checks all. */
   virtual void checkOn(const StreamInfo& info) const;
+  /** The groups that it couples, for the order of the mesh. */
+  virtual CoupledGroups coupled() const { return {}; }
   /** What the computation is expected to cost on such a mesh. */
   virtual Costs costsOn(const StreamInfo& info) const = 0;
   /** The values that the result has besides the mesh, or in place of its own. */

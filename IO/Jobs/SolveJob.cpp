@@ -77,6 +77,11 @@ void SolveJob::checkOn(const StreamInfo& info) const
   const DescribedProblem problem(this->description, info, this->name);
 }
 
+CoupledGroups SolveJob::coupled() const
+{
+  return coupledGroups(this->description);
+}
+
 Costs SolveJob::costsOn(const StreamInfo& info) const
 {
   return solveCosts(info, this->description.columns, this->description.weights, this->solving,

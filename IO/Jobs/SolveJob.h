@@ -30,6 +30,7 @@ public:
   std::string resultColumns() const override { return "a solution"; }
   std::vector<ColumnSpec> solutionColumns(const StreamInfo& info) const override;
   void checkOn(const StreamInfo& info) const override;
+  CoupledGroups coupled() const override;
   Costs costsOn(const StreamInfo& info) const override;
   AddedValues addedTo(const StreamInfo& info) const override;
   void prepareOn(const StoredMesh& mesh) override;

@@ -9,6 +9,7 @@
 #include "IO/Order/Pages/VertexStar.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -104,6 +105,20 @@ Arrangement<Real> arrange(const RawMesh& mesh, Workspace& workspace, int pageVer
       groups.put(cell);
       crossing.add(cell);
     });
+  if (mesh.links.size() > 0)
+  {
+    // As cells of which one corner is repeated, which are neighbours and nothing else.
+    std::array<std::uint32_t, 4> cell{};
+    ranks.apply(mesh.links, 2,
+      [&](std::span<const std::uint32_t> link)
+      {
+        if (std::ranges::find(link, NoIndex) == link.end())
+        {
+          cell = { link[0], link[1], link[1], link[1] };
+          groups.put(std::span<const std::uint32_t>(cell).first(corners));
+        }
+      });
+  }
   groups.close();
   return { std::move(vertices), std::move(groups), crossing.share() };
 }

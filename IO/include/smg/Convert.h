@@ -4,6 +4,7 @@
 #include "smg/Column.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
+#include "smg/ProblemDescription.h"
 #include "smg/VsmReader.h"
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -53,6 +55,18 @@ enum class Numbering
   OfRows     ///< its rows; columns of these names are renamed
 };
 
+/** Groups of facets that a problem couples (ProblemDescription::periodic and ::interfaces). */
+struct CoupledGroups
+{
+  /** The names of the groups of one side and of the other. */
+  std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> periodic;
+  /** The names of the groups of each contact. */
+  std::vector<std::vector<std::string>> interfaces;
+};
+
+/** The groups that a problem couples. Sides that are other places are left out. */
+SMG_EXPORT CoupledGroups coupledGroups(const ProblemDescription& problem);
+
 /** How to convert. */
 struct ConversionOptions
 {
@@ -74,6 +88,9 @@ struct ConversionOptions
   std::int64_t timeStep = 0; ///< of a file with time steps (VTKHDF): which one, from 0
   /** Which partition of a file with partitions (VTKHDF) to read, from 0; none: all, joined. */
   std::optional<std::int64_t> partition;
+  /** What a problem couples: the order keeps coupled vertices near each other, so that its solve
+   * takes as little memory as one without couplings. The mesh is the same. */
+  CoupledGroups coupled;
   /** What numbers the vertices and cells of a file. */
   Numbering numbering = Numbering::OfColumns;
   /** Write vertices and cells in the order of the original file; the input must be a .vsm file. */
