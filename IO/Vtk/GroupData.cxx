@@ -10,6 +10,10 @@
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cstddef>
+#include <string>
 
 namespace smg
 {
@@ -27,14 +31,24 @@ void addGroups(vtkDataObject& mesh, const MeshGroups& groups)
 
 MeshGroups groupsIn(vtkDataObject& mesh)
 {
-  auto* text = vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(MeshGroupsName));
-  if (!text || text->GetNumberOfValues() == 0)
+  vtkAbstractArray* array = mesh.GetFieldData()->GetAbstractArray(MeshGroupsName);
+  std::string text;
+  if (auto* texts = vtkStringArray::SafeDownCast(array); texts && texts->GetNumberOfValues() > 0)
+  {
+    text = texts->GetValue(0);
+  }
+  else if (auto* characters = vtkUnsignedCharArray::SafeDownCast(array))
+  {
+    text.assign(reinterpret_cast<const char*>(characters->GetPointer(0)),
+      static_cast<std::size_t>(characters->GetNumberOfValues()));
+  }
+  if (text.empty())
   {
     return {};
   }
   try
   {
-    return groupsOfText(text->GetValue(0));
+    return groupsOfText(text);
   }
   catch (const MeshError& error)
   {

@@ -447,20 +447,22 @@ std::string activeOf(const std::vector<ColumnSpec>& columns)
 }
 
 /** The groups as a text of the field data, by the codes of its characters; empty: there are none.
- */
+ * Numbers, since programs other than VTK (meshio) refuse files with texts. */
 std::string groupsElement(const MeshGroups& groups)
 {
   if (groups.empty())
   {
     return {};
   }
-  std::string element = std::string("<FieldData>\n<Array type=\"String\" Name=\"") +
-                        MeshGroupsName + "\" NumberOfTuples=\"1\" format=\"ascii\">\n";
-  for (const char c : textOf(groups))
+  const std::string text = textOf(groups);
+  std::string element = std::string("<FieldData>\n<DataArray type=\"UInt8\" Name=\"") +
+                        MeshGroupsName + "\" NumberOfTuples=\"" + std::to_string(text.size()) +
+                        "\" format=\"ascii\">\n";
+  for (const char c : text)
   {
     element += std::to_string(static_cast<unsigned char>(c)) + ' ';
   }
-  return element + "0\n</Array>\n</FieldData>\n";
+  return element + "\n</DataArray>\n</FieldData>\n";
 }
 
 /** VTK XML: PolyData if the name ends with .vtp, else an UnstructuredGrid. Corners are 64-bit

@@ -180,7 +180,10 @@ private:
     {
       const std::string name = tag.value("Name");
       addFieldName(this->Layout.fields, name);
-      if (name == MeshGroupsName && tag.value("type") == "String" && !tag.alone)
+      // VTK stores the characters of texts like numbers.
+      const std::string type = tag.value("type");
+      if (name == MeshGroupsName && (type == "UInt8" || type == "String") &&
+          (!tag.alone || tag.value("format") == "appended"))
       {
         this->Layout.groupsArray = vtkXmlArray(this->File, tag, ScalarType::UInt8, this->Encoding);
       }
