@@ -130,8 +130,7 @@ void identify(SolveOptions& options, const StoredMesh& mesh, const std::string& 
 std::unique_ptr<Solution> solve(const StoredMesh& mesh, const ProblemDescription& description,
   const SolveOptions& options, const std::string& name)
 {
-  require(isPosed(description), name + " says nothing to solve for: give it dirichlet, source, "
-                                       "flux, robin, soft, field or initial");
+  require(isPosed(description), name + " says nothing to solve for: give it " + PosingData);
   DescribedProblem problem(description, mesh.info(), name);
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   requireMemory(mesh.info(), problem.columns(), problem.weights(), options);

@@ -54,9 +54,7 @@ void SolveJob::check() const
 {
   if (!isPosed(this->description))
   {
-    throw Error(this->name +
-                ": says nothing to solve for: give it dirichlet, source, flux, robin, soft, "
-                "field or initial.");
+    throw Error(this->name + ": says nothing to solve for: give it " + PosingData + '.');
   }
   checkAutomaticTolerance(this->solving, this->description.weights);
 }

@@ -24,7 +24,8 @@ ConversionOptions convertingIn(const JsonNode& node)
                     : Codec::Zstd;
   options.text = node.has("text") && flagIn(node.member("text"));
   options.restoreOrder = node.has("restore") && flagIn(node.member("restore"));
-  for (const char* key : { "order", "weld", "orient", "cells", "codec", "time_step", "partition" })
+  for (const char* key :
+    { "order", "weld", "orient", "cells", "codec", "time_step", "partition", "problem" })
   {
     if (options.restoreOrder && node.has(key))
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Python/C/Options.h"
 
+#include "IO/Description/ParseDescriptions.h"
 #include "IO/Jobs/JobOption.h"
 #include "IO/Jobs/ReadOptions.h"
 #include "Python/C/Call.h"
@@ -69,7 +70,8 @@ ConversionOptions conversionIn(
   keys.insert(keys.end(), LimitKeys);
   if (isFile)
   {
-    keys.insert(keys.end(), { "cells", "time_step", "partition", "checkpoint", "numbering" });
+    keys.insert(
+      keys.end(), { "cells", "time_step", "partition", "checkpoint", "numbering", "problem" });
   }
   keys.insert(keys.end(), more);
   object.requireObject(keys);
@@ -104,6 +106,10 @@ ConversionOptions conversionIn(
   {
     options.numbering =
       static_cast<Numbering>(choiceIn(object.member("numbering"), { "columns", "rows" }));
+  }
+  if (object.has("problem"))
+  {
+    options.coupled = coupledGroups(parseProblem(object.member("problem")));
   }
   if (object.has("checkpoint"))
   {

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 import os
 from ctypes import byref, c_char_p
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Dict, List, Mapping, Optional, Union
 
 import numpy.typing as npt
 
@@ -14,7 +14,7 @@ from . import _types as types
 from ._arrays import counted, points_and_cells, table
 from ._errors import Error
 from ._field import Field
-from ._library import NativeHandle, call, call_reporting, encoded, json_text, parse, version
+from ._library import NativeHandle, call, call_reporting, encoded, json_file, json_text, parse, version
 from ._mesh import Mesh
 
 _LIMITS = ("memory", "threads", "scratch", "scratch_limit")
@@ -58,6 +58,7 @@ def open(  # noqa: A001, the word of the trade
     time_step: Optional[int] = None,
     partition: Optional[int] = None,
     order: Optional[types.Order] = None,
+    problem: Union[types.Path, Mapping[str, Any], None] = None,
     numbering: Optional[types.Numbering] = None,
     cache: Union[bool, types.Path, None] = None,
     progress: Optional[types.Progress] = None,
@@ -81,6 +82,8 @@ def open(  # noqa: A001, the word of the trade
         orient: turn triangles so that those of a body are wound alike, and outwards if it is closed.
         time_step, partition: which of a VTKHDF file, from 0.
         order: "bfs" (default), "spectral", "axis", "keep": see docs/convert.md.
+        problem: a problem file, or a dict as in one: the order keeps vertices near each other that
+            its `periodic` sides and `interface` couple, so that `Mesh.solve` takes little memory.
         numbering: "columns" (default): rows of arrays are those that `int64` columns OriginalId and
             OriginalCellId of the file name, if it has them, as results in the order of the stream do; which is
             a `ReportWarning`. "rows": rows are those of the file, and such columns are called OriginalId_1 and
@@ -103,6 +106,7 @@ def open(  # noqa: A001, the word of the trade
         "time_step": time_step,
         "partition": partition,
         "order": order,
+        "problem": problem if problem is None or isinstance(problem, Mapping) else json_file(problem, "problem"),
         "numbering": numbering,
     }
     own = {key: value for key, value in given.items() if value is not None}

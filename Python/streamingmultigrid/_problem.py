@@ -277,10 +277,10 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
 
 def _periodic(values: Any, columns: Columns) -> list:
     """The pairs of sides, (from, to) or (from, to, jump), as in a problem file."""
-    pairs = [values] if isinstance(values, tuple) else list(values)
+    pairs = values if isinstance(values, list) else [values]
     found = []
     for pair in pairs:
-        if isinstance(pair, (str, bytes)) or not isinstance(pair, Sequence) or len(pair) not in (2, 3):
+        if not isinstance(pair, tuple) or len(pair) not in (2, 3):
             raise InputError(
                 'periodic: %r is no pair of sides: write ("left", "right"), or with a jump '
                 '("left", "right", 1.0); of several in a list.' % (pair,)

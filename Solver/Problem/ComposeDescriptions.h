@@ -24,6 +24,9 @@ SMG_EXPORT std::set<std::string> namedColumns(const std::vector<Where>& parts);
 /** Whether a description poses a problem, that is, has data other than conductivity and screening,
  * which alone have the solution 0. */
 SMG_EXPORT bool isPosed(const ProblemDescription& problem);
+/** What to give a problem that is not posed, for messages. */
+inline constexpr const char* PosingData =
+  "dirichlet, source, flux, robin, soft, field, initial, or periodic sides with a jump";
 
 /** The factor by which the numbers differ that a description gives as conductivities: 1 if there
  * are less than two. Columns are not known. */

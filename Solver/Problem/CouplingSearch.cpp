@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 // From places in a description to pairs of vertices. The facets of both sides of a periodic pair,
@@ -211,11 +212,12 @@ std::vector<VertexCouplings::Tie> CouplingSearch::pairsOf(std::size_t entry) con
   const double given = this->Periodic[entry].tolerance;
   const double tolerance = given > 0.0 ? given : usualTolerance(from.facets, to.facets);
   const FacetCopies copies = findCopies(from.facets, to.facets, shift, tolerance);
-  const std::string moved = ", moved by " + textOf(shift) + ',';
   if (!copies.alone.empty())
   {
-    this->failAlone(
-      from, copies, moved + " have no copy among those of the second side; the first is at ");
+    this->failAlone(from, copies,
+      ", moved by " + textOf(shift) +
+        ", have no copy among those of the second side; the first is at ");
+    return {};
   }
   if (copies.pairs.size() != to.facets.facets().size() && this->IsStrict)
   {
@@ -254,13 +256,16 @@ std::vector<VertexCouplings::Link> CouplingSearch::linksOf(std::size_t entry) co
       "their vertices there, or are apart, or the place has only the facets of one of them; the "
       "first is at ");
   }
+  // Two facets that are copies of each other are found once each; of more, not all are.
+  std::set<std::pair<std::size_t, std::size_t>> found;
   std::vector<VertexCouplings::Link> links;
   const auto corners = static_cast<double>(side.facets.corners());
   for (const FacetCopy& copy : copies.pairs)
   {
-    if (copy.first > copy.second)
+    const bool isNew = found.insert(std::minmax({ copy.first, copy.second })).second;
+    if (!isNew || this->Interfaces[entry].coefficient == 0.0)
     {
-      continue; // the other way round it has been there
+      continue;
     }
     const FacetList::Facet& facet = side.facets.facets()[copy.first];
     const double conductance =
@@ -276,6 +281,10 @@ std::vector<VertexCouplings::Link> CouplingSearch::linksOf(std::size_t entry) co
 void CouplingSearch::failAlone(
   const Side& side, const FacetCopies& copies, const std::string& sentence) const
 {
+  if (!this->IsStrict)
+  {
+    return;
+  }
   const FacetList& list = side.facets;
   this->Columns.fail(side.key, groupedDigits(std::ssize(copies.alone)) + " of " +
                                  groupedDigits(std::ssize(list.facets())) + " facets" + sentence +

@@ -62,8 +62,8 @@ private:
   std::vector<VertexCouplings::Tie> pairsOf(std::size_t entry) const;
   std::vector<VertexCouplings::Link> linksOf(std::size_t entry) const;
   void addLinks(TiedClasses& classes, std::vector<VertexCouplings::Link>& links) const;
-  [[noreturn]] void failAlone(
-    const Side& side, const FacetCopies& copies, const std::string& sentence) const;
+  /** Throws Error on facets without a copy, unless these are accepted. */
+  void failAlone(const Side& side, const FacetCopies& copies, const std::string& sentence) const;
 
   const MeshColumns& Columns;
   std::size_t ValueColumns;

@@ -254,6 +254,27 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf("[]"), "must be an object");
 }
 
+TEST_F(ProblemFile, ErrorsOfCouplings)
+{
+  const std::pair<const char*, const char*> cases[] = {
+    { R"({"periodic": [["left"]]})", "periodic[0]: must have two sides" },
+    { R"({"periodic": [{"jump": 1}]})", "periodic[0]: has no 'sides'" },
+    { R"({"periodic": [{"sides": ["a", "b"], "jumps": 1}]})", "jumps" },
+    { R"({"periodic": [["a", {"box": [0, 0, 0, 1, 1, 1], "value": 1}]]})", "value" },
+    { R"({"periodic": [{"sides": ["a", "b"], "tolerance": 0}]})", "tolerance: must be positive" },
+    { R"({"interface": {"coefficient": 1}})", "must have exactly one of halfspace" },
+    { R"({"interface": [{"group": "gap", "coefficient": -1}]})",
+      "interface[0].coefficient: must not be negative" },
+    { R"({"weights": "clamped", "interface": {"box": [0, 0, 0, 1, 1, 1], "coefficient": 1}})",
+      "interface: goes with cotangent weights only" },
+    { R"({"periodic": [["left", "right"]]})", "the mesh has no groups" },
+  };
+  for (const auto& [json, message] : cases)
+  {
+    EXPECT_PRED_FORMAT2(::testing::IsSubstring, message, this->errorOf(json));
+  }
+}
+
 TEST_F(ProblemFile, WhatSelectsNothingIsFound)
 {
   EXPECT_EQ(
