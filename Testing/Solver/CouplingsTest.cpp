@@ -325,6 +325,39 @@ TEST(Couplings, DescriptionsHaveAnalyticSolutions)
   }
 }
 
+/** Layers conduct as resistors in a row across them, and side by side along them. */
+TEST(Couplings, ACellOfLayersHasTheMeansOfItsConductivities)
+{
+  IndexedTestMesh shape = periodicBox(7, 5, 5);
+  for (std::size_t k = 0; k < shape.positions.size(); k += 3)
+  {
+    double& x = shape.positions[k];
+    x = std::round(x) == 4 ? 4.0 : x; // where the layers meet
+  }
+  const StreamMesh box = toStream(shape);
+  const auto side = [](double x, double y, double z, double at) -> Where {
+    return Region::HalfSpace{ { x, y, z }, at };
+  };
+  for (const bool across : { true, false })
+  {
+    // A layer of 20 from x = 4 to 6, of which a third of the cell is.
+    ProblemDescription layers;
+    layers.conductivity = { { Everywhere{}, 1.0 }, { side(1, 0, 0, 4), 20.0 } };
+    layers.periodic = { { side(-1, 0, 0, 0), side(1, 0, 0, 6), { across ? 6.0 : 0.0 } },
+      { side(0, -1, 0, 0), side(0, 1, 0, 4), { across ? 0.0 : 4.0 } },
+      { side(0, 0, -1, 0), side(0, 0, 1, 4) } };
+    DescribedProblem problem(layers, MemorySource(box).info());
+    MemorySource source(box, 37);
+    problem.prepare(source);
+    const Report report = resultsOf(box, problem);
+    const double expected =
+      across ? 1.0 / (2.0 / 3.0 / 1.0 + 1.0 / 3.0 / 20.0) : 2.0 / 3.0 + 20.0 / 3.0;
+    ASSERT_EQ(report.parts.front().name, "all");
+    EXPECT_NEAR(report.parts.front().gradient[across ? 0 : 1], 1.0, 1e-8);
+    EXPECT_NEAR(-report.parts.front().flux[across ? 0 : 1], expected, 1e-7 * expected);
+  }
+}
+
 TEST(Couplings, SidesThatDoNotMatchAreErrorsThatNameThePlace)
 {
   const StreamMesh mesh = toStream(shuffled(tetBox(5, 5, 5, 0.1)));
