@@ -29,11 +29,6 @@ GroupOf groupKindOf(const std::string& name)
 
 } // namespace
 
-const char* nameOf(GroupOf kind)
-{
-  return kind == GroupOf::Vertices ? "vertices" : kind == GroupOf::Facets ? "facets" : "cells";
-}
-
 nlohmann::json jsonOf(const MeshGroups& groups)
 {
   nlohmann::json list = nlohmann::json::array(), sets = nlohmann::json::array();

@@ -23,7 +23,4 @@ MeshGroups groupsOf(const nlohmann::json& json);
 SMG_EXPORT std::string textOf(const MeshGroups& groups);
 SMG_EXPORT MeshGroups groupsOfText(const std::string& text);
 
-/** "vertices", "facets" or "cells". */
-const char* nameOf(GroupOf kind);
-
 } // namespace smg

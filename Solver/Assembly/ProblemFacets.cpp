@@ -16,8 +16,9 @@
 // Whether a facet is on the boundary is known only when its lowest vertex is final, so its data are
 // stored until then. A second cell shows that the facet is interior, and releases its data at once:
 // what is stored are the facets of open vertices, and the data of those facets that have a
-// condition and only one cell so far. Conditions that the problem states for a facet itself hold
-// on it between two cells, too, once: their data stay until its lowest vertex is final.
+// condition and only one cell so far. What the problem states for facets between cells is stored
+// beside it, since nothing tells at first which of both will hold, and then until the lowest vertex
+// is final, once.
 //
 // Data are stored in ascending order of the corners, which is the same in both cells of a facet.
 // The boundary facets of a vertex are found in the order in which the stream first had them, so
@@ -32,6 +33,7 @@ ProblemFacets::ProblemFacets(
   , Vertices(vertices)
   , Type(type)
   , Asks(problem.hasFacets())
+  , AsksInside(Asks && problem.hasInnerFacets())
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
@@ -71,18 +73,29 @@ void ProblemFacets::add(const MeshBlock& block)
 /** Queries the problem for the facets of cells [first, first + cells) of the block. */
 void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t cells)
 {
+  FacetBatch batch = this->start(this->Asked, block, first, cells);
+  this->Given.facets(batch);
+  if (this->AsksInside)
+  {
+    FacetBatch inside = this->start(this->AskedInside, block, first, cells);
+    this->Given.innerFacets(inside);
+  }
+}
+
+/** A batch of these cells without conditions. */
+FacetBatch ProblemFacets::start(
+  BatchValues& values, const MeshBlock& block, std::size_t first, std::size_t cells) const
+{
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
   const std::size_t facets = cells * corners;
-  this->Flux.assign(facets, -1);
-  this->Robin.assign(facets, -1);
-  this->FluxValue.assign(facets * this->Corners * this->Columns, 0.0);
-  this->Coefficient.assign(facets * this->Corners, 0.0);
-  this->Ambient.assign(facets * this->Corners * this->Columns, 0.0);
-  this->Inside.assign(facets, 0);
-  FacetBatch batch{ this->Type, block, first,
-    std::span(block.corners).subspan(first * corners, cells * corners), this->Flux, this->FluxValue,
-    this->Robin, this->Coefficient, this->Ambient, this->Inside };
-  this->Given.facets(batch);
+  values.flux.assign(facets, -1);
+  values.robin.assign(facets, -1);
+  values.fluxValue.assign(facets * this->Corners * this->Columns, 0.0);
+  values.coefficient.assign(facets * this->Corners, 0.0);
+  values.ambient.assign(facets * this->Corners * this->Columns, 0.0);
+  return { this->Type, block, first,
+    std::span(block.corners).subspan(first * corners, cells * corners), values.flux,
+    values.fluxValue, values.robin, values.coefficient, values.ambient };
 }
 
 /** Adds the facets of a cell, number `c` of the batch. */
@@ -112,13 +125,14 @@ void ProblemFacets::addCell(const std::int64_t* corner, std::int64_t cell, std::
     {
       this->requireApart(sorted, before, data, cell);
     }
-    // A second cell has the facet: it is interior, and neither cell's data are needed, unless they
-    // hold there. A third one gets 0, for no data, from add().
+    // A second cell has the facet: it is interior, and of neither cell's data more is needed than
+    // what holds there. A third one gets 0, for no data, from add().
     for (const std::int32_t kept : { before, data })
     {
-      if (before != OpenFacets::Fresh)
+      if (before != OpenFacets::Fresh && kept > 0)
       {
-        this->holdsInside(kept) ? this->keepInside(sorted, kept) : this->forget(kept);
+        this->keepInside(sorted, this->insideOf(kept));
+        this->Data.give(kept);
       }
     }
   }
@@ -150,18 +164,13 @@ void ProblemFacets::requireApart(
   }
 }
 
-BoundaryFacet ProblemFacets::inside(BoundaryFacet facet, std::int32_t data) const
-{
-  const auto bits = static_cast<unsigned>(this->Data.at(data)[InsideLane]);
-  facet.isInner = true;
-  facet.flux = (bits & FacetBatch::InnerFlux) != 0 ? facet.flux : -1;
-  facet.robin = (bits & FacetBatch::InnerRobin) != 0 ? facet.robin : -1;
-  return facet;
-}
-
-/** Keeps the data of an inner facet, those that came first. */
+/** Keeps the data of an inner facet, those that came first; 0: none. */
 void ProblemFacets::keepInside(const CellFacet& facet, std::int32_t data)
 {
+  if (data == 0)
+  {
+    return;
+  }
   std::vector<InnerFacet>& ofVertex = this->Inner[facet.vertex[0]];
   const bool isKnown = std::ranges::any_of(ofVertex, [&facet](const InnerFacet& known)
     { return known.middle == facet.vertex[1] && known.high == facet.vertex[2]; });
@@ -201,23 +210,38 @@ bool ProblemFacets::hasTied(const std::int64_t* vertices) const
            [this](std::int64_t vertex) { return this->Vertices.ties.isTied(vertex); });
 }
 
-/** Stores the data of facet number `facet` of the batch in a slot, and returns the slot; 0 if the
- * facet has no condition and no tied corner. It is opposite to corner k of its cell. `order`: see
- * CellFacet. The slot is an array of doubles, the first two of which have the bits of integers;
- * memcpy() is the defined way to put them there. */
+/** Stores the data of facet number `facet` of the batch, and returns their slot; 0 if the facet has
+ * no condition and no tied corner. It is opposite to corner k of its cell. `order`: see CellFacet.
+ */
 std::int32_t ProblemFacets::keep(
   const int* order, const std::int64_t* corner, int k, std::size_t facet, std::int64_t cell)
 {
   std::int64_t vertices[3] = {};
   std::copy_if(corner, corner + cornersOf(this->Type), vertices,
     [opposite = corner[k]](std::int64_t vertex) { return vertex != opposite; });
-  const bool hasConditions = this->Asks && (this->Flux[facet] >= 0 || this->Robin[facet] >= 0);
+  const bool isInside = this->AsksInside && this->AskedInside.hasAny(facet);
+  const bool hasConditions = isInside || (this->Asks && this->Asked.hasAny(facet));
   if (!hasConditions && !this->hasTied(vertices))
   {
     return 0;
   }
-  const std::int32_t conditions[2] = { hasConditions ? this->Flux[facet] : -1,
-    hasConditions ? this->Robin[facet] : -1 };
+  const std::int32_t slot =
+    this->keep(hasConditions ? &this->Asked : nullptr, order, vertices, facet, cell);
+  if (isInside)
+  {
+    const std::int32_t inside = this->keep(&this->AskedInside, order, vertices, facet, cell);
+    this->Data.at(slot)[InsideLane] = inside;
+  }
+  return slot;
+}
+
+/** `values`: null: it has no condition. The slot is an array of doubles, the first two of which
+ * have the bits of integers; memcpy() is the defined way to put them there. */
+std::int32_t ProblemFacets::keep(const BatchValues* values, const int* order,
+  const std::int64_t* vertices, std::size_t facet, std::int64_t cell)
+{
+  const std::int32_t conditions[2] = { values ? values->flux[facet] : -1,
+    values ? values->robin[facet] : -1 };
   if (conditions[0] >= this->Counts.flux || conditions[1] >= this->Counts.robin)
   {
     throw Error("a facet of cell " + std::to_string(cell) +
@@ -230,26 +254,26 @@ std::int32_t ProblemFacets::keep(
   const std::int64_t name =
     this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
   std::memcpy(kept++, &name, sizeof(name));
-  *kept++ = hasConditions ? this->Inside[facet] : 0;
+  *kept++ = 0.0;
   for (std::size_t e = 0; this->Vertices.ties.any() && e < this->Corners; ++e, ++kept)
   {
     std::memcpy(kept, &vertices[order[e]], sizeof(double));
   }
-  if (!hasConditions)
+  if (!values)
   {
     return slot;
   }
-  const auto copy = [&](const std::vector<double>& values, std::size_t each)
+  const auto copy = [&](const std::vector<double>& numbers, std::size_t each)
   {
     for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
     {
       const std::size_t corner = facet * this->Corners + static_cast<std::size_t>(order[e]);
-      std::copy_n(values.data() + corner * each, each, kept);
+      std::copy_n(numbers.data() + corner * each, each, kept);
     }
   };
-  copy(this->FluxValue, this->Columns);
-  copy(this->Coefficient, 1);
-  copy(this->Ambient, this->Columns);
+  copy(values->fluxValue, this->Columns);
+  copy(values->coefficient, 1);
+  copy(values->ambient, this->Columns);
   return slot;
 }
 

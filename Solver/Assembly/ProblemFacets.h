@@ -54,9 +54,9 @@ public:
         {
           found(facet, this->areaOf(facet));
         }
-        else if (this->holdsInside(data))
+        else if (const std::int32_t inside = this->insideOf(data); inside > 0)
         {
-          found(this->inside(facet, data), this->areaOf(facet));
+          found(this->innerFacet(vertex, middle, high, inside), this->areaOf(facet));
         }
         this->forget(data);
       });
@@ -67,8 +67,8 @@ public:
     }
     for (const InnerFacet& kept : inner->second)
     {
-      const BoundaryFacet facet = this->facet(vertex, kept.middle, kept.high, kept.data);
-      found(this->inside(facet, kept.data), this->areaOf(facet));
+      const BoundaryFacet facet = this->innerFacet(vertex, kept.middle, kept.high, kept.data);
+      found(facet, this->areaOf(facet));
       this->forget(kept.data);
     }
     this->Inner.erase(inner);
@@ -81,8 +81,23 @@ private:
   void addCell(const std::int64_t* corner, std::int64_t cell, std::size_t c);
   bool mayHaveWanted(const std::int64_t* corner) const;
   bool isWanted(const std::int64_t* vertex) const;
+  /** What the problem has set on the facets of a batch. */
+  struct BatchValues
+  {
+    std::vector<std::int32_t> flux, robin;
+    std::vector<double> fluxValue, coefficient, ambient;
+
+    bool hasAny(std::size_t facet) const
+    {
+      return this->flux[facet] >= 0 || this->robin[facet] >= 0;
+    }
+  };
+  FacetBatch start(
+    BatchValues& values, const MeshBlock& block, std::size_t first, std::size_t cells) const;
   std::int32_t keep(
     const int* order, const std::int64_t* corner, int k, std::size_t facet, std::int64_t cell);
+  std::int32_t keep(const BatchValues* values, const int* order, const std::int64_t* vertices,
+    std::size_t facet, std::int64_t cell);
   bool hasTied(const std::int64_t* corner) const;
   void requireApart(
     const CellFacet& facet, std::int32_t first, std::int32_t second, std::int64_t cell) const;
@@ -90,19 +105,25 @@ private:
   BoundaryFacet facet(
     std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
   bool isExcluded(const BoundaryFacet& facet) const;
-  /** Whether the data are those of conditions that hold between two cells, too. */
-  bool holdsInside(std::int32_t data) const
+  /** The data of the conditions that hold if the facet is between cells; 0: none. */
+  std::int32_t insideOf(std::int32_t data) const
   {
-    return data > 0 && this->Data.at(data)[InsideLane] != 0.0;
+    return data > 0 ? static_cast<std::int32_t>(this->Data.at(data)[InsideLane]) : 0;
   }
-  /** The facet with those of its conditions that hold between two cells. */
-  BoundaryFacet inside(BoundaryFacet facet, std::int32_t data) const;
+  BoundaryFacet innerFacet(
+    std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const
+  {
+    BoundaryFacet facet = this->facet(low, middle, high, data);
+    facet.isInner = true;
+    return facet;
+  }
   void keepInside(const CellFacet& facet, std::int32_t data);
   double areaOf(const BoundaryFacet& facet) const;
   void forget(std::int32_t data)
   {
     if (data > 0)
     {
+      this->forget(this->insideOf(data));
       this->Data.give(data);
     }
   }
@@ -110,7 +131,7 @@ private:
   Problem& Given;
   const OpenVertices& Vertices;
   CellType Type;
-  bool Asks;
+  bool Asks, AsksInside;
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
@@ -124,17 +145,16 @@ private:
   std::map<std::int64_t, std::vector<InnerFacet>> Inner;
   static constexpr int InsideLane = 2, VertexLane = 3;
   std::size_t ValueLane;
-  /** The data of a facet: its two conditions, its cell, whether they hold between two cells, with
-   * ties where its corners are, fluxes, coefficients and ambient values. The cell is given by its
+  /** The data of a facet: its two conditions, its cell, the data of those that hold if it is
+   * between cells (0: none), with ties where its corners are, fluxes, coefficients and ambient
+   * values. The cell is given by its
    * index in the original file, or as -1 minus its index in the stream. */
   FreeList<double> Data;
   // The block.
   const Column* CellIds = nullptr;
   std::int64_t FirstCell = 0;
   // The batch.
-  std::vector<std::int32_t> Flux, Robin;
-  std::vector<double> FluxValue, Coefficient, Ambient;
-  std::vector<std::uint8_t> Inside;
+  BatchValues Asked, AskedInside;
 };
 
 } // namespace smg

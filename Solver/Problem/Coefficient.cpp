@@ -290,12 +290,18 @@ void PiecewiseCoefficient::select(
       continue;
     }
     select(*where);
-    for (std::size_t c = 0; c < this->Selected.size(); ++c)
+    this->set(e, entry, places);
+  }
+}
+
+void PiecewiseCoefficient::set(
+  std::int32_t e, std::span<std::int32_t> entry, std::size_t places) const
+{
+  for (std::size_t c = 0; c < this->Selected.size(); ++c)
+  {
+    for (std::size_t k = 0; k < places; ++k)
     {
-      for (std::size_t k = 0; k < places; ++k)
-      {
-        entry[c * places + k] = this->Selected[c] >> k & 1 ? e : entry[c * places + k];
-      }
+      entry[c * places + k] = this->Selected[c] >> k & 1 ? e : entry[c * places + k];
     }
   }
 }
@@ -303,7 +309,12 @@ void PiecewiseCoefficient::select(
 void PiecewiseCoefficient::entriesAtCells(
   const CellRange& cells, std::span<std::int32_t> entry) const
 {
-  this->select(entry, 1, [&](const Selection& where) { where.atCells(cells, this->Selected); });
+  this->select(entry, 1,
+    [&](const Selection& where)
+    {
+      where.atCells(cells, this->Selected);
+      where.checkCells(cells, this->Selected);
+    });
 }
 
 void PiecewiseCoefficient::entriesAtFacets(
@@ -313,23 +324,18 @@ void PiecewiseCoefficient::entriesAtFacets(
     [&](const Selection& where) { where.atFacets(cells, this->Selected); });
 }
 
-void PiecewiseCoefficient::innerAtFacets(const CellRange& cells,
-  std::span<const std::int32_t> entry, std::span<std::uint8_t> inner, std::uint8_t bit) const
+/** What holds everywhere on the boundary holds on no facet between cells, and takes none away. */
+void PiecewiseCoefficient::entriesAtInnerFacets(
+  const CellRange& cells, std::span<std::int32_t> entry) const
 {
   const auto facets = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
   this->Selected.resize(entry.size() / facets);
   for (std::int32_t e = 0; e < this->entries(); ++e)
   {
-    const Selection* const where = this->at(e).where;
-    if (!where)
+    if (const Selection* const where = this->at(e).where)
     {
-      continue;
-    }
-    where->atInnerFacets(cells, this->Selected);
-    for (std::size_t facet = 0; facet < entry.size(); ++facet)
-    {
-      const bool isSelected = (this->Selected[facet / facets] >> facet % facets & 1) != 0;
-      inner[facet] |= entry[facet] == e && isSelected ? bit : std::uint8_t(0);
+      where->atInnerFacets(cells, this->Selected);
+      this->set(e, entry, facets);
     }
   }
 }

@@ -155,10 +155,8 @@ public:
   /** Likewise in cells of the block, and on their facets, as many per cell as corners. */
   void entriesAtCells(const CellRange& cells, std::span<std::int32_t> entry) const;
   void entriesAtFacets(const CellRange& cells, std::span<std::int32_t> entry) const;
-  /** Sets a bit of `inner` for facets whose entry, as entriesAtFacets() has found it, holds on them
-   * between two cells, too. */
-  void innerAtFacets(const CellRange& cells, std::span<const std::int32_t> entry,
-    std::span<std::uint8_t> inner, std::uint8_t bit) const;
+  /** Likewise on facets between cells, of the entries that hold there. */
+  void entriesAtInnerFacets(const CellRange& cells, std::span<std::int32_t> entry) const;
 
   /** Copies the values of entries at the vertices of the block, `stride` numbers apart; -1: no
    * entry. Throws Error if a value violates the rules. */
@@ -181,6 +179,8 @@ private:
   };
 
   void select(std::span<std::int32_t> entry, std::size_t places, auto select) const;
+  /** Sets `entry` to e where `Selected` has the bit of the place. */
+  void set(std::int32_t e, std::span<std::int32_t> entry, std::size_t places) const;
   /** Throws Error if the numbers of an entry violate the rules; `where` returns the place. */
   void require(const Entry& entry, const double* numbers, auto where) const;
   /** Calls `visit(entry, its values in the block, k)` for each k with an entry. */

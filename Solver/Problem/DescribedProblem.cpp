@@ -102,6 +102,10 @@ struct DatumOnMesh
   std::vector<std::string> groups = {};           ///< of each entry: see ConditionCounts
 };
 
+/** Which of the entries hold on facets: on the boundary, or between two cells. */
+using EntriesOnFacets = void (PiecewiseCoefficient::*)(
+  const CellRange& cells, std::span<std::int32_t> entry) const;
+
 std::string keyOf(const char* list, std::size_t k)
 {
   return std::string(list) + '[' + std::to_string(k) + ']';
@@ -145,7 +149,8 @@ struct DescribedProblem::OnMesh
   void addSoft(const MeshBlock& block, VertexConditions& conditions);
   void setConductivity(const CellRange& cells, CellBatch& batch);
   void setField(const CellRange& cells, CellBatch& batch);
-  void setRobin(const CellRange& cells, FacetBatch& batch);
+  /** Sets the conditions on facets to entries that `entriesOn` finds. */
+  void setFacets(FacetBatch& batch, EntriesOnFacets entriesOn);
 
   MeshColumns mesh;
   Selections selections;
@@ -544,20 +549,28 @@ void DescribedProblem::OnMesh::setField(const CellRange& cells, CellBatch& batch
 
 void DescribedProblem::facets(FacetBatch& batch)
 {
-  const CellRange cells{ batch.block, batch.first, batch.corners };
-  const PiecewiseCoefficient& flux = this->Data->valueOf(rowOf("flux"));
-  flux.entriesAtFacets(cells, batch.flux);
-  flux.innerAtFacets(cells, batch.flux, batch.inner, FacetBatch::InnerFlux);
-  flux.valuesAtFacets(cells, batch.flux, batch.fluxValue.data(), this->Data->columns);
-  this->Data->setRobin(cells, batch);
+  this->Data->setFacets(batch, &PiecewiseCoefficient::entriesAtFacets);
 }
 
-void DescribedProblem::OnMesh::setRobin(const CellRange& cells, FacetBatch& batch)
+bool DescribedProblem::hasInnerFacets() const
 {
+  return DescribedProblem::hasFacets() && this->Data->mesh.hasGroupColumn(GroupOf::Facets);
+}
+
+void DescribedProblem::innerFacets(FacetBatch& batch)
+{
+  this->Data->setFacets(batch, &PiecewiseCoefficient::entriesAtInnerFacets);
+}
+
+void DescribedProblem::OnMesh::setFacets(FacetBatch& batch, EntriesOnFacets entriesOn)
+{
+  const CellRange cells{ batch.block, batch.first, batch.corners };
+  const PiecewiseCoefficient& flux = this->valueOf(rowOf("flux"));
+  (flux.*entriesOn)(cells, batch.flux);
+  flux.valuesAtFacets(cells, batch.flux, batch.fluxValue.data(), this->columns);
   const PiecewiseCoefficient& ambient = this->valueOf(rowOf("robin"));
   const std::vector<PiecewiseCoefficient>& coefficients = (*this)[rowOf("robin")].coefficients;
-  ambient.entriesAtFacets(cells, batch.robin);
-  ambient.innerAtFacets(cells, batch.robin, batch.inner, FacetBatch::InnerRobin);
+  (ambient.*entriesOn)(cells, batch.robin);
   ambient.valuesAtFacets(cells, batch.robin, batch.ambient.data(), this->columns);
   for (std::size_t k = 0; k < coefficients.size(); ++k)
   {

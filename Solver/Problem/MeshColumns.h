@@ -57,6 +57,8 @@ public:
   MeshColumns& operator=(const MeshColumns&) = delete;
 
   CellType cellType() const { return this->Info.cellType; }
+  /** The number of its cells. */
+  std::int64_t cells() const { return this->Info.cells; }
   /** The pool that accounts for what selections and values keep of open vertices. */
   Pool& memory() const { return *this->Memory; }
 

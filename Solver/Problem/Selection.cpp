@@ -41,6 +41,19 @@ std::size_t pointsOf(const Where& place)
   return nearest ? nearest->points.size() : 0;
 }
 
+std::string whyNoGroup(const std::string& name, const MeshGroups& groups)
+{
+  for (const GroupOf kind : { GroupOf::Facets, GroupOf::Vertices })
+  {
+    if (!groups.find(name, kind).empty())
+    {
+      return "the group '" + name + "' is of " + nameOf(kind) + ", but cells are needed here";
+    }
+  }
+  return groups.empty() ? "the mesh has no groups, so none is called '" + name + "'"
+                        : "the mesh has no group '" + name + "'; it has " + groups.listFor(name);
+}
+
 bool isOfCells(const Where& where, const MeshColumns& columns)
 {
   if (const auto* group = std::get_if<InGroup>(&where))
@@ -92,11 +105,6 @@ std::vector<GroupOf> kindsAt(DataPlace place)
   return { GroupOf::Facets, GroupOf::Vertices, GroupOf::Cells };
 }
 
-const char* pluralOf(GroupOf kind)
-{
-  return kind == GroupOf::Vertices ? "vertices" : kind == GroupOf::Facets ? "facets" : "cells";
-}
-
 /** The selection of the groups of these names: one for each kind that they have. */
 std::unique_ptr<Selection> selectionOf(
   const InGroup& where, DataPlace place, const std::string& key, MeshColumns& columns)
@@ -110,11 +118,7 @@ std::unique_ptr<Selection> selectionOf(
       std::ranges::find_if(kinds, [&](GroupOf kind) { return !groups.find(name, kind).empty(); });
     if (named == kinds.end())
     {
-      const bool isFacets = !groups.find(name, GroupOf::Facets).empty();
-      columns.fail(key + ".group",
-        isFacets         ? "the group '" + name + "' is of facets, but cells are needed here"
-        : groups.empty() ? "the mesh has no groups, so none is called '" + name + "'"
-                         : "the mesh has no group '" + name + "'; it has " + groups.listFor(name));
+      columns.fail(key + ".group", whyNoGroup(name, groups));
     }
     for (const std::uint32_t group : groups.find(name, *named))
     {
@@ -128,7 +132,7 @@ std::unique_ptr<Selection> selectionOf(
   {
     if (!columns.hasGroupColumn(kind))
     {
-      columns.fail(key + ".group", names + " has no " + pluralOf(kind) + " of the mesh");
+      columns.fail(key + ".group", names + " has no " + nameOf(kind) + " of the mesh");
     }
     const ColumnTest test{ columns.requireGroups(kind), std::nullopt, groups.setsWith(numbers),
       names };
@@ -284,6 +288,7 @@ void Selection::endPreparing(MeshParts* parts)
   {
     parts->sum({ &this->Count, 1 });
   }
+  this->IsWhole = !parts;
   if (this->Count == 0 && !this->MayBeEmpty)
   {
     const char* what = this->Place == DataPlace::Vertices               ? "vertex"
@@ -292,6 +297,18 @@ void Selection::endPreparing(MeshParts* parts)
                                                                         : "face";
     this->Columns.fail(this->Key, std::string("no ") + what + " of the mesh " + this->predicate() +
                                     (parts ? "" : this->instead()));
+  }
+}
+
+void Selection::checkCells(const CellRange& cells, std::span<const std::uint8_t> selected) const
+{
+  const std::int64_t first = cells.block.firstCell + static_cast<std::int64_t>(cells.first);
+  this->HasCells =
+    (first > 0 && this->HasCells) || std::ranges::find(selected, 1) != selected.end();
+  const bool isLast = first + std::ssize(selected) == this->Columns.cells();
+  if (isLast && !this->HasCells && this->IsWhole && !this->MayBeEmpty)
+  {
+    this->Columns.fail(this->Key, "no cell of the mesh has all its corners in this place");
   }
 }
 

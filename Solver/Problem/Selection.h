@@ -102,6 +102,11 @@ public:
   /** That nothing is selected is no error any more. */
   void acceptEmpty() { this->MayBeEmpty = true; }
 
+  /** To be called with what atCells() selects of all cells, in order, where a datum of cells is
+   * evaluated. That a place that is known only after preparation has no cell is seen here: throws
+   * Error at the last cell. */
+  void checkCells(const CellRange& cells, std::span<const std::uint8_t> selected) const;
+
   /** The selected vertices, if preparation stores them, after endPreparing(); else null. */
   virtual VertexSetFile* preparedVertices() { return nullptr; }
 
@@ -152,8 +157,14 @@ protected:
 private:
   OpenValues<std::uint8_t> Open;
   bool MayBeEmpty = false;
+  bool IsWhole = false; ///< whether it has been prepared, with the whole mesh
+  mutable bool HasCells = false;
   std::span<const std::uint8_t> Current;
 };
+
+/** Why a place cannot be the groups of this name, which has none of a kind that is possible there.
+ */
+std::string whyNoGroup(const std::string& name, const MeshGroups& groups);
 
 /** The number of points of a place that names points one by one; 0 if it is a region. */
 std::size_t pointsOf(const Where& place);

@@ -20,12 +20,36 @@ namespace smg::testing
 class InnerFacets : public ::testing::TestWithParam<CellType>
 {
 protected:
+  /** Solves for a film with this flux, and later entries, and expects a flux of 3. */
+  void expectFilm(const Where& film, std::vector<PlacedValue> later, double value = 3.0);
+
   TemporaryFolder Folder;
 };
 
 /** A wall between two ends at 0, with a film in it that gives off 3 per area: u is linear on both
  * sides of the film, with slopes whose difference is 3, which linear elements represent. */
 TEST_P(InnerFacets, HaveAFluxOnce)
+{
+  this->expectFilm(InGroup{ { "9" } }, {});
+}
+
+/** The ends are prescribed, and what flows through the sides is 0 by the later entry, too. */
+TEST_P(InnerFacets, KeepTheirFluxWhereALaterEntryHoldsEverywhere)
+{
+  this->expectFilm(InGroup{ { "9" } }, { { Everywhere{}, 0.0 } });
+  this->expectFilm(InGroup{ { "9" } }, { { OnBoundary{}, 0.0 } });
+  // Of those that are stated for facets, the later one holds.
+  this->expectFilm(InGroup{ { "7", "8", "9" } },
+    { { Combination{ Combination::Kind::Any, { InGroup{ { "9" } } } }, 3.0 },
+      { Everywhere{}, 0.0 } },
+    1000.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfCells, InnerFacets,
+  ::testing::Values(CellType::Triangle, CellType::Tetrahedron),
+  [](const auto& info) { return info.param == CellType::Triangle ? "Triangles" : "Tetrahedra"; });
+
+void InnerFacets::expectFilm(const Where& film, std::vector<PlacedValue> later, double value)
 {
   const bool isSurface = this->GetParam() == CellType::Triangle;
   IndexedTestMesh mesh = isSurface ? grid(7, 5) : tetBox(4, 3, 3);
@@ -45,7 +69,8 @@ TEST_P(InnerFacets, HaveAFluxOnce)
   const VsmReader reader(this->Folder / "wall.vsm");
   ProblemDescription wall;
   wall.dirichlet = { { InGroup{ { "7", "8" } }, 0.0 } };
-  wall.flux = { { InGroup{ { "9" } }, 3.0 } };
+  wall.flux = { { film, value } };
+  wall.flux.insert(wall.flux.end(), later.begin(), later.end());
   SolveOptions options;
   options.tolerance = 1e-12;
   const auto solution = solve(reader, wall, options);
@@ -62,9 +87,5 @@ TEST_P(InnerFacets, HaveAFluxOnce)
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(OfCells, InnerFacets,
-  ::testing::Values(CellType::Triangle, CellType::Tetrahedron),
-  [](const auto& info) { return info.param == CellType::Triangle ? "Triangles" : "Tetrahedra"; });
 
 } // namespace smg::testing

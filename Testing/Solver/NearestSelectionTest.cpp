@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Jobs/Projection/PointTree.h"
 #include "Testing/Support/DescribedMesh.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/SolveMesh.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/DescribedProblem.h"
@@ -70,6 +71,34 @@ TEST(NearestSelection, OfManyPointsFindsTheFirstNearestVertices)
       }
     }
     EXPECT_EQ(selected, expected) << blockCells;
+  }
+}
+
+/** A vertex has no whole cell, and none is known before the place is: the solve refuses it. */
+TEST(NearestSelection, OfCellsThatHasNoneIsRefused)
+{
+  const StreamMesh mesh = toStream(tetBox(5, 5, 5));
+  const Region inside = Region::Sphere{ { 2, 2, 2 }, 1.5 };
+  const NearestVertices nearest{ { { 2.0, 2.0, 2.0 } } };
+  for (const Where& place :
+    { Where(nearest), Where(Combination{ Combination::Kind::All, { OnBoundary{}, inside } }),
+      Where(Combination{ Combination::Kind::Any, { nearest } }) })
+  {
+    for (const std::int64_t blockCells : { 3, 1000000 })
+    {
+      ProblemDescription description;
+      description.dirichlet = { { OnBoundary{}, 1.0 } };
+      description.conductivity = { { Everywhere{}, 1.0 }, { place, 2.0 } };
+      MemorySource source(mesh, blockCells);
+      DescribedProblem problem(description, source.info(), "p.json");
+      problem.prepare(source);
+      source.rewind(blockCells);
+      EXPECT_EQ(messageOf([&] { solveMesh(source, problem, {}); }),
+        "p.json: conductivity[1]: no cell of the mesh has all its corners in this place.");
+      problem.acceptEmpty();
+      source.rewind(blockCells);
+      EXPECT_EQ(messageOf([&] { solveMesh(source, problem, {}); }), "");
+    }
   }
 }
 

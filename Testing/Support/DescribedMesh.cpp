@@ -66,9 +66,7 @@ void askFacets(Problem& problem, CellType type, const MeshBlock& block, std::siz
   std::vector<std::int32_t> flux(facets, -1), robin(facets, -1);
   std::vector<double> fluxValue(facets * (corners - 1) * columns);
   std::vector<double> coefficient(facets * (corners - 1)), ambient(fluxValue.size());
-  std::vector<std::uint8_t> inner(facets);
-  FacetBatch batch{ type, block, first, those, flux, fluxValue, robin, coefficient, ambient,
-    inner };
+  FacetBatch batch{ type, block, first, those, flux, fluxValue, robin, coefficient, ambient };
   problem.facets(batch);
   append(all.flux, flux);
   append(all.robin, robin);

@@ -82,6 +82,9 @@ public:
   void cells(CellBatch& batch) override;
   bool hasFacets() const override;
   void facets(FacetBatch& batch) override;
+  /** Whether the mesh has groups of facets, which conditions may name. */
+  bool hasInnerFacets() const override;
+  void innerFacets(FacetBatch& batch) override;
   std::int64_t bytes() const override;
   /** Known after prepare(). */
   std::shared_ptr<const VertexCouplings> couplings() const override;

@@ -23,6 +23,12 @@ enum class GroupOf : std::uint8_t
   Cells     ///< triangles of a surface, tetrahedra of a volume
 };
 
+/** "vertices", "facets" or "cells". */
+constexpr const char* nameOf(GroupOf kind)
+{
+  return kind == GroupOf::Vertices ? "vertices" : kind == GroupOf::Facets ? "facets" : "cells";
+}
+
 /** A set of vertices, facets or cells that a mesher has named: a physical group, a set, a label. */
 struct Group
 {

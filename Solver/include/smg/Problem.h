@@ -92,9 +92,10 @@ struct CellBatch
 
 /**
  * The facets of consecutive cells: the edges of triangles, the faces of tetrahedra. Facet k of a
- * cell is opposite to its corner k and has its other corners in their order. What is set for a
- * facet counts only if the facet turns out to be on the boundary: an open edge of a surface, or a
- * face of a single tetrahedron. On entry `flux` and `robin` are -1, all other numbers 0.
+ * cell is opposite to its corner k and has its other corners in their order. What facets() sets for
+ * a facet counts only if the facet turns out to be on the boundary: an open edge of a surface, or a
+ * face of a single tetrahedron; what innerFacets() sets, only if it turns out to be between cells.
+ * On entry `flux` and `robin` are -1, all other numbers 0.
  */
 struct FacetBatch
 {
@@ -111,11 +112,6 @@ struct FacetBatch
   std::span<std::int32_t> robin;
   std::span<double> coefficient; ///< out, one a corner of a facet, at least 0
   std::span<double> ambient;     ///< out, `columns` a corner of a facet
-  /** Out, one a facet, at first 0: the bits InnerFlux and InnerRobin if its condition holds on it
-   * also between two cells. Either cell may say so; the condition acts once. */
-  std::span<std::uint8_t> inner;
-  static constexpr std::uint8_t InnerFlux = 1;  ///< bit of `inner`
-  static constexpr std::uint8_t InnerRobin = 2; ///< bit of `inner`
 
   /** Number of cells of the batch. */
   std::size_t cells() const
@@ -219,6 +215,11 @@ public:
   /** Sets flux and Robin conditions for facets of cells, in stream order, in batches of any size.
    * They count on the boundary only. */
   virtual void facets(FacetBatch& /*batch*/) {}
+  /** Whether innerFacets() is to be called, after facets() with the same cells; false by default.
+   */
+  virtual bool hasInnerFacets() const { return false; }
+  /** The same for facets between cells. Any cell of a facet may set it; its conditions act once. */
+  virtual void innerFacets(FacetBatch& /*batch*/) {}
 
   /** Numbers of conditions that conditions() and facets() refer to; by default one Dirichlet
    * condition. */
