@@ -85,6 +85,9 @@ struct vtkStreamingPoisson::Internals
     this->Conditions = smg::applyConditions(input, problem);
     problem.gradientOutput = problem.gradientOutput || this->Self.Gradient;
     problem.fluxOutput = problem.fluxOutput || this->Self.Flux;
+    problem.vertexGradientOutput = problem.vertexGradientOutput || this->Self.GradientAtPoints;
+    problem.integrals.insert(
+      problem.integrals.end(), this->Self.Integrals.begin(), this->Self.Integrals.end());
     return problem;
   }
 
@@ -144,11 +147,18 @@ struct vtkStreamingPoisson::Internals
     return task;
   }
 
-  /** Adds Gradient and Flux to the output, unless a preview lacks the data that they need. */
-  void addCellResults(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
+  /** The problem whose values are delivered with a piece. */
+  smg::ProblemDescription delivered(vtkPointSet& piece) const
   {
     smg::ProblemDescription problem = this->Solved ? *this->Solved : this->describe(piece);
-    problem.columns = this->Self.GetSummary().columns;
+    problem.columns = smg::columnsWithoutGradient(problem, this->Self.GetSummary().columns);
+    return problem;
+  }
+
+  /** Adds Gradient and Flux to the output, unless a preview lacks the data that they need. */
+  void addCellResults(vtkPointSet& piece, const smg::ProblemDescription& problem,
+    const std::vector<double>& values, vtkPointSet& output)
+  {
     if (!problem.gradientOutput && !problem.fluxOutput)
     {
       return;
@@ -336,17 +346,34 @@ void vtkStreamingPoisson::Deliver(
   output.ShallowCopy(&piece);
   // Before the solution comes, which may have the name of one of their arrays.
   smg::removeConditions(output);
-  vtkNew<vtkDoubleArray> solution;
-  solution->SetName(this->Internal->resultName());
-  solution->SetNumberOfComponents(this->GetSummary().columns);
-  solution->SetNumberOfTuples(piece.GetNumberOfPoints());
-  solution->GetInformation()->Set(vtkStreamingMeshKeys::ISOLATED_VALUE(), std::nan(""));
-  std::copy(values.begin(), values.end(), solution->GetPointer(0));
-  smg::addResult(*output.GetPointData(), *solution);
-  output.GetPointData()->SetActiveScalars(solution->GetName());
+  const smg::ProblemDescription problem = this->Internal->delivered(piece);
+  const auto columns = static_cast<std::size_t>(problem.columns);
+  const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
+  const auto add = [&](const char* name, std::size_t first, std::size_t count)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(static_cast<int>(count));
+    array->SetNumberOfTuples(piece.GetNumberOfPoints());
+    array->GetInformation()->Set(vtkStreamingMeshKeys::ISOLATED_VALUE(), std::nan(""));
+    std::vector<double> numbers(static_cast<std::size_t>(array->GetNumberOfValues()));
+    for (std::size_t e = 0; e < numbers.size(); ++e)
+    {
+      numbers[e] = values[e / count * stride + first + e % count];
+    }
+    std::ranges::copy(numbers, array->GetPointer(0));
+    smg::addResult(*output.GetPointData(), *array);
+    return numbers;
+  };
+  if (problem.vertexGradientOutput)
+  {
+    add(smg::GradientName, columns, 3 * columns);
+  }
+  const std::vector<double> solution = add(this->Internal->resultName(), 0, columns);
+  output.GetPointData()->SetActiveScalars(this->Internal->resultName());
   if (piece.GetNumberOfCells() > 0)
   {
-    this->Internal->addCellResults(piece, values, output);
+    this->Internal->addCellResults(piece, problem, solution, output);
   }
 }
 
@@ -359,6 +386,8 @@ void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Problem: " << smg::textOrNone(this->Problem) << "\n";
   os << indent << "Gradient: " << this->Gradient << "\n";
   os << indent << "Flux: " << this->Flux << "\n";
+  os << indent << "GradientAtPoints: " << this->GradientAtPoints << "\n";
+  os << indent << "Integrals: " << this->GetNumberOfIntegrals() << "\n";
   os << indent << "InCore: " << this->InCore << "\n";
   os << indent << "ResultArrayName: " << smg::textOrNone(this->ResultArrayName) << "\n";
   os << indent << "Cycles: " << this->GetSummary().facts.cycles << "\n";

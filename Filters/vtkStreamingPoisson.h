@@ -13,8 +13,9 @@
  * - the conditions of upstream vtkMeshCondition filters.
  *
  * The number of right-hand sides is the number of components of the values. The output has the
- * point array `Solution` (ResultArrayName) and optionally the cell arrays `Gradient` and `Flux`.
- * The report includes the flow through each condition (docs/problem.md).
+ * point array `Solution` (ResultArrayName) and optionally the cell arrays `Gradient` and `Flux`,
+ * and the point array `Gradient`. The report includes the flow through each condition
+ * (docs/problem.md).
  *
  * vtkStreamingSolver describes how the input is requested, solved and delivered. If the input is
  * the preview of a surface and Solve says so, the filter solves on that preview in memory; this is
@@ -83,6 +84,16 @@ public:
    * Default: off. */
   smgFlagProperty(Flux);
 
+  /** Whether the output has the point array `Gradient`: the mean of the gradients in the cells of a
+   * point, weighted by area or volume. Default: off. */
+  smgFlagProperty(GradientAtPoints);
+
+  /** Groups of cells, by names, numbers or patterns with `*`, over which the report has integrals
+   * of the solution, of its gradient and of its flux; "*" is the whole and all of them. Default:
+   * none.
+   */
+  smgNamesProperty(Integral);
+
   /** The acceleration of the V-cycles. Default: AUTOMATIC. */
   smgOption(Acceleration, int);
 
@@ -130,6 +141,8 @@ private:
   std::string Problem;
   bool Gradient = false;
   bool Flux = false;
+  bool GradientAtPoints = false;
+  std::vector<std::string> Integrals;
   bool InCore = false;
   std::string ResultArrayName = "Solution";
 

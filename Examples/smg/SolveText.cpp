@@ -122,6 +122,12 @@ void printSolve(const smg::Report& report)
     std::printf("  %s: %smean%s, flux into the body%s\n", smg::oneLine(condition.name).c_str(),
       extentOf(condition).c_str(), listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }
+  for (const smg::Report::Integral& part : report.integrals)
+  {
+    std::printf("  %s: measure%s, integral%s, mean%s, of the flux%s\n",
+      smg::oneLine(part.name).c_str(), listOf({ part.measure }).c_str(),
+      listOf(part.integral).c_str(), listOf(part.mean).c_str(), listOf(part.flux).c_str());
+  }
   for (const smg::Report::Seam& seam : report.seams)
   {
     std::printf("  %s: the largest step between patches was %.3g and is %.3g\n",

@@ -46,6 +46,11 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
       task = taskOfType<PoissonTask>(taskOf, sample);
       task->check();
       checkForProcesses(task->asked.solving);
+      if (task->asked.description.vertexGradientOutput)
+      {
+        throw Error("The distributed engine has no gradient at the points: switch GradientAtPoints "
+                    "off, or choose the Engine Streaming.");
+      }
       std::set<std::string> names = namedColumns(task->asked.description);
       names.insert({ CellFlagsName, OriginalIdName, OriginalCellIdName });
       return names;
@@ -65,7 +70,8 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
   const SolveOptions& options = task->asked.solving;
   solver.prepare(*problem, options.scratch, options.memoryLimit);
   DistributedSolution solution = solver.solve(*problem, distributedOptions(options, progress));
-  solver.evaluate(*problem, solution, { .memoryLimit = INT64_MAX });
+  solver.evaluate(*problem, solution,
+    { .integrals = task->asked.description.integrals, .memoryLimit = INT64_MAX });
   return parts.summarize(solution.report, task->notes, solution.values, solution.columns, values);
 }
 

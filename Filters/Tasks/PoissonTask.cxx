@@ -3,6 +3,7 @@
 
 #include "Filters/Pieces/PieceBlock.h"
 #include "Filters/Pieces/ReplacedArray.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "Solver/Mesh/AddedColumn.h"
 #include "Solver/Mesh/VisitBlocks.h"
@@ -101,15 +102,93 @@ void PoissonTask::prepareFor(const StreamInfo& info)
   this->asked.text = textOf(this->asked.description);
 }
 
+namespace
+{
+
+/** A solution with its gradients at the vertices, as they are in the stream of a SolvedMesh: n and
+ * 3 n columns. */
+class SolutionWithGradient final : public Solution
+{
+public:
+  SolutionWithGradient(const std::filesystem::path& scratch, int columns)
+    : Folder(scratch)
+    , Gradients({ this->Memory, &this->Folder, this->Traffic }, 3 * columns)
+    , Columns(static_cast<std::size_t>(columns))
+  {
+  }
+
+  void append(const MeshBlock& block)
+  {
+    const ColumnSpec spec{ GradientName, ScalarType::Float64, this->Gradients.lanes() };
+    const auto column = static_cast<std::size_t>(findColumn(block.vertexColumns, spec));
+    this->Gradients.append(block.vertexColumns.at(column).as<double>());
+  }
+  void setValues(std::unique_ptr<Solution> values) { this->Values = std::move(values); }
+
+  std::int64_t vertices() const override { return this->Values->vertices(); }
+  int columns() const override { return static_cast<int>(4 * this->Columns); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
+  {
+    const auto rows = static_cast<std::size_t>(count);
+    std::vector<double> own(rows * this->Columns), gradients(3 * own.size());
+    this->Values->read(first, count, own);
+    this->Gradients.read(first, count, gradients.data());
+    for (std::size_t row = 0; row < rows; ++row)
+    {
+      double* to = values.data() + 4 * row * this->Columns;
+      to = std::copy_n(own.data() + row * this->Columns, this->Columns, to);
+      std::copy_n(gradients.data() + 3 * row * this->Columns, 3 * this->Columns, to);
+    }
+  }
+  void removeCheckpoint() override { this->Values->removeCheckpoint(); }
+  const Report& report() const override { return this->Values->report(); }
+
+private:
+  Pool Memory{ INT64_MAX };
+  ScratchFolder Folder;
+  IoStatistics Traffic;
+  VertexFile Gradients;
+  std::size_t Columns;
+  std::unique_ptr<Solution> Values;
+};
+
+} // namespace
+
 void PoissonTask::complete(Result& result, const StoredMesh& mesh, const ProgressFunction& progress)
 {
+  ProblemDescription& description = this->asked.description;
   // Pieces get their cell arrays when they are delivered.
-  this->asked.description.gradientOutput = this->asked.description.fluxOutput = false;
+  description.gradientOutput = description.fluxOutput = false;
+  std::unique_ptr<SolutionWithGradient> gradients;
+  if (description.vertexGradientOutput)
+  {
+    gradients = std::make_unique<SolutionWithGradient>(
+      this->asked.solving.scratch, result.solution->columns());
+  }
   this->asked.passResult(
     mesh, *result.solution,
-    [](MeshSource& solved, const ProgressFunction& read)
-    { visitBlocks(solved, read, 0.0, 1.0, [](const MeshBlock&) {}); },
+    [&](MeshSource& solved, const ProgressFunction& read)
+    {
+      visitBlocks(solved, read, 0.0, 1.0,
+        [&](const MeshBlock& block)
+        {
+          if (gradients)
+          {
+            gradients->append(block);
+          }
+        });
+    },
     result.report, progress);
+  if (gradients)
+  {
+    gradients->setValues(std::move(result.solution));
+    result.solution = std::move(gradients);
+  }
+}
+
+int columnsWithoutGradient(const ProblemDescription& problem, int columns)
+{
+  return problem.vertexGradientOutput ? columns / 4 : columns;
 }
 
 namespace

@@ -69,6 +69,10 @@ private:
   vtkPointSet& Input;
 };
 
+/** The columns of the problem, of a solution with this many, which has the gradients at the points
+ * if they are wanted. */
+int columnsWithoutGradient(const ProblemDescription& problem, int columns);
+
 /** Throws Error if the requested cell results need more than the cell itself. */
 void checkCellResults(const ProblemDescription& problem);
 

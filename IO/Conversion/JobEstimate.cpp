@@ -192,14 +192,19 @@ std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& writt
 
 } // namespace
 
-AddedValues solvedValues(int columns, bool gradient, bool flux)
+AddedValues solvedValues(const ProblemDescription& problem)
 {
+  const int columns = problem.columns;
   AddedValues added{ { { SolutionName, ScalarType::Float64, columns } }, {} };
-  if (gradient)
+  if (problem.vertexGradientOutput)
+  {
+    added.ofVertices.push_back({ GradientName, ScalarType::Float64, 3 * columns });
+  }
+  if (problem.gradientOutput)
   {
     added.ofCells.push_back({ GradientName, ScalarType::Float64, 3 * columns });
   }
-  if (flux)
+  if (problem.fluxOutput)
   {
     added.ofCells.push_back({ FluxName, ScalarType::Float64, 3 * columns });
   }

@@ -45,7 +45,7 @@ struct AddedValues
 };
 
 /** Those of SolvedMesh. */
-SMG_EXPORT AddedValues solvedValues(int columns, bool gradient, bool flux);
+SMG_EXPORT AddedValues solvedValues(const ProblemDescription& problem);
 
 /** The order of a written mesh. */
 enum class WrittenOrder

@@ -99,26 +99,30 @@ NearestVertices nearestOf(const JsonNode& node)
   return nearest;
 }
 
-InGroup groupOf(const JsonNode& node)
+} // namespace
+
+std::vector<std::string> parseGroups(const JsonNode& node)
 {
-  InGroup group;
+  std::vector<std::string> names;
   for (const JsonNode& name :
     node.value().is_array() ? node.elements() : std::vector<JsonNode>{ node })
   {
     const bool isNumber = name.value().is_number_integer();
-    group.names.push_back(
-      isNumber ? std::to_string(name.value().get<std::int64_t>()) : name.string());
-    if (group.names.back().empty())
+    names.push_back(isNumber ? std::to_string(name.value().get<std::int64_t>()) : name.string());
+    if (names.back().empty())
     {
       name.fail("must be the name of a group, or its number");
     }
   }
-  if (group.names.empty())
+  if (names.empty())
   {
     node.fail("must name at least one group");
   }
-  return group;
+  return names;
 }
+
+namespace
+{
 
 /** Places within places are few: a file of brackets alone must not take the stack. */
 constexpr int MostNested = 32;
@@ -187,7 +191,7 @@ Where placeOf(const JsonNode& object, bool everywhere, bool listsEverywhere, int
   }
   if (key == "group")
   {
-    return groupOf(node);
+    return InGroup{ parseGroups(node) };
   }
   if (key == "all" || key == "any" || key == "not")
   {

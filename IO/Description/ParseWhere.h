@@ -9,7 +9,9 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace smg
 {
@@ -27,6 +29,10 @@ inline constexpr std::array WhereKeys{ "halfspace", "box", "sphere", "vertices",
  * whether it is a key that the caller takes.
  */
 Where parseWhere(const JsonNode& object, bool everywhere = false, bool listsEverywhere = false);
+
+/** The names of groups: a name, which may contain `*`, a number, or a list of these. Throws Error.
+ */
+std::vector<std::string> parseGroups(const JsonNode& node);
 
 /** Throws Error unless the value is an object with no other keys than WhereKeys and these. */
 void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> keys);

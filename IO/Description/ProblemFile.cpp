@@ -172,16 +172,30 @@ void parseInterfaces(const JsonNode& node, ProblemDescription& problem)
   }
 }
 
+/** A result besides the solution. */
+struct Output
+{
+  const char* key;
+  bool ProblemDescription::*member;
+};
+
+constexpr Output Outputs[] = {
+  { "gradient", &ProblemDescription::gradientOutput },
+  { "flux", &ProblemDescription::fluxOutput },
+  { "gradient at vertices", &ProblemDescription::vertexGradientOutput },
+};
+
 void parseOutputs(const JsonNode& node, ProblemDescription& problem)
 {
   for (const JsonNode& output : node.elements())
   {
     const std::string name = output.string();
-    if (name != "gradient" && name != "flux")
+    const auto known = std::ranges::find(Outputs, name, &Output::key);
+    if (known == std::end(Outputs))
     {
-      output.fail("must be \"gradient\" or \"flux\"");
+      output.fail("must be \"gradient\", \"flux\" or \"gradient at vertices\"");
     }
-    (name == "gradient" ? problem.gradientOutput : problem.fluxOutput) = true;
+    problem.*known->member = true;
   }
 }
 
@@ -215,6 +229,10 @@ ProblemDescription parseProblem(const JsonNode& node, const ProblemDescription& 
   if (node.has("outputs"))
   {
     parseOutputs(node.member("outputs"), problem);
+  }
+  if (node.has("integrals"))
+  {
+    problem.integrals = parseGroups(node.member("integrals"));
   }
   return problem;
 }

@@ -88,8 +88,7 @@ Costs SolveJob::costsOn(const StreamInfo& info) const
 
 AddedValues SolveJob::addedTo(const StreamInfo& /*info*/) const
 {
-  return solvedValues(
-    this->description.columns, this->description.gradientOutput, this->description.fluxOutput);
+  return solvedValues(this->description);
 }
 
 std::unique_ptr<MeshSource> SolveJob::sourceOf(const StoredMesh& mesh) const
@@ -117,6 +116,9 @@ void SolveJob::passResult(const StoredMesh& mesh, Solution& solution, const Read
   ResultOptions results;
   results.gradient = this->description.gradientOutput;
   results.flux = this->description.fluxOutput;
+  results.gradientAtVertices = this->description.vertexGradientOutput;
+  results.integrals = this->description.integrals;
+  results.scratch = this->solving.scratch;
   results.memoryLimit = this->solving.memoryLimit;
   results.threads = this->solving.threads;
   SolvedMesh source(mesh, *this->Problem, solution, results);

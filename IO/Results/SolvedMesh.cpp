@@ -3,6 +3,7 @@
 
 #include "IO/Mesh/Columns.h"
 #include "IO/Results/SourcePrefetch.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Results/ProblemResults.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
@@ -44,6 +45,44 @@ std::unique_ptr<MeshSource> wholeSource(const StoredMesh& mesh)
   return mesh.source(columnNames(mesh.info().vertexColumns), columnNames(mesh.info().cellColumns));
 }
 
+/** The gradients at the vertices, which follow from cells that come later: from a reading of the
+ * mesh before the one that passes them on, in a scratch file. */
+class VertexGradientFile
+{
+public:
+  VertexGradientFile(
+    const StoredMesh& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
+    : Memory(options.memoryLimit)
+    , Folder(options.scratch)
+    , File({ this->Memory, &this->Folder, this->Traffic }, 3 * problem.columns())
+  {
+    const auto source = std::make_unique<SourcePrefetch>(wholeSource(mesh), options.threads);
+    ProblemResults results(
+      source->info(), problem, solution, { .gradient = true, .memoryLimit = options.memoryLimit });
+    results.appendVertexGradients(this->File);
+    for (MeshBlock block; source->next(block);)
+    {
+      results.add(block);
+    }
+    Report unused;
+    results.finish(unused);
+  }
+
+  /** Those of the vertices of a block. */
+  std::vector<double> of(const MeshBlock& block) const
+  {
+    std::vector<double> values(static_cast<std::size_t>(block.vertices() * this->File.lanes()));
+    this->File.read(block.firstVertex, block.vertices(), values.data());
+    return values;
+  }
+
+private:
+  Pool Memory;
+  ScratchFolder Folder;
+  IoStatistics Traffic;
+  VertexFile File;
+};
+
 } // namespace
 
 struct SolvedMesh::Implementation
@@ -55,6 +94,9 @@ struct SolvedMesh::Implementation
     , wanted(options)
     , info(source->info())
     , file(mesh.file())
+    , mesh(mesh)
+    , problem(problem)
+    , solution(solution)
   {
     if (solution.vertices() != this->info.vertices)
     {
@@ -73,6 +115,11 @@ struct SolvedMesh::Implementation
     }
     constexpr double NoSolution = std::numeric_limits<double>::quiet_NaN();
     this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns, NoSolution });
+    if (options.gradientAtVertices)
+    {
+      this->info.vertexColumns.push_back(
+        { GradientName, ScalarType::Float64, 3 * columns, NoSolution });
+    }
     if (options.gradient)
     {
       this->info.cellColumns.push_back({ GradientName, ScalarType::Float64, 3 * columns });
@@ -93,6 +140,10 @@ struct SolvedMesh::Implementation
   std::optional<VsmReader> numbers;
   std::vector<std::int64_t> numbersInMemory; ///< of a mesh in none, as far as it has been read
   bool ended = false;                        ///< the stream has been read to its end
+  const StoredMesh& mesh;
+  Problem& problem;
+  Solution& solution;
+  std::optional<VertexGradientFile> vertexGradients; ///< from the first block on, if wanted
 };
 
 SolvedMesh::SolvedMesh(
@@ -110,6 +161,11 @@ const StreamInfo& SolvedMesh::info() const
 
 bool SolvedMesh::next(MeshBlock& block)
 {
+  if (this->Self->wanted.gradientAtVertices && !this->Self->vertexGradients)
+  {
+    this->Self->vertexGradients.emplace(
+      this->Self->mesh, this->Self->problem, this->Self->solution, this->Self->wanted);
+  }
   if (!this->Self->source->next(block))
   {
     this->Self->ended = true;
@@ -127,8 +183,12 @@ bool SolvedMesh::next(MeshBlock& block)
   {
     std::erase_if(*columns, [](const Column& column) { return isOfSolve(column.spec.name); });
   }
-  const int columns = this->Self->info.vertexColumns.back().components;
+  const int columns = this->Self->problem.columns();
   append(SolutionName, columns, this->Self->results.values(), block.vertexColumns);
+  if (this->Self->vertexGradients)
+  {
+    append(GradientName, 3 * columns, this->Self->vertexGradients->of(block), block.vertexColumns);
+  }
   if (this->Self->wanted.gradient)
   {
     append(GradientName, 3 * columns, this->Self->results.gradient(), block.cellColumns);
@@ -173,6 +233,9 @@ Report write(const StoredMesh& mesh, const ProblemDescription& description, Solu
   ResultOptions wanted = results;
   wanted.gradient = wanted.gradient || description.gradientOutput;
   wanted.flux = wanted.flux || description.fluxOutput;
+  wanted.gradientAtVertices = wanted.gradientAtVertices || description.vertexGradientOutput;
+  wanted.integrals.insert(
+    wanted.integrals.end(), description.integrals.begin(), description.integrals.end());
   SolvedMesh solved(mesh, problem, solution, wanted);
   const auto notes = writeMesh(solved, path,
     { .isolatedFrom = mesh.file(),

@@ -125,7 +125,9 @@ _REPORTING = """        progress: a function of the part that is done, a bar of 
 def _solve(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
     problem = problems.problem(added, {name: description.pop(name) for name in problems.DATA})
     description["problem"] = problem
-    return ["Solution", *(name.capitalize() for name in problem.get("outputs", []))]
+    # "gradient at vertices" is a column Gradient, too.
+    outputs = (name.partition(" ")[0].capitalize() for name in problem.get("outputs", []))
+    return ["Solution", *dict.fromkeys(outputs)]
 
 
 def _deform(added: Columns, given: Dict[str, Any], description: Dict[str, Any]) -> List[str]:
@@ -181,6 +183,7 @@ def _data() -> List[inspect.Parameter]:
         "periodic": "types.Sides", "interface": "types.Conditions",
         "weights": "types.Weights", "columns": "int",
         "outputs": "Union[types.Output, Sequence[types.Output]]",
+        "integrals": "Union[types.GroupName, Sequence[types.GroupName]]",
     }  # fmt: skip
     return [
         inspect.Parameter(
@@ -216,7 +219,10 @@ _DATA = """\
             ``[smg.group("gap") >> coefficient]``: coefficient * (u - u on the other side) flows.
         weights: "cotangent" (default, finite elements), "clamped" or "uniform".
         outputs: "gradient", "flux", or both in a list: columns Gradient (grad u) and Flux (-K grad u)
-            of the cells, beside the solution.
+            of the cells, beside the solution; "gradient at vertices": Gradient of the vertices, the mean
+            of their cells weighted by area or volume.
+        integrals: groups of cells, by names, numbers or patterns with ``*``, over which the report has
+            integrals; "*" is the whole and all of them.
         columns: k, the number of right-hand sides, 1 to 64; default: what the values have.
 """
 

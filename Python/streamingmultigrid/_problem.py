@@ -17,7 +17,7 @@ from ._regions import Placed, Region, as_region, everywhere, vertices
 #: The arguments of `Mesh.solve` that are data of the problem.
 DATA = (
     "dirichlet", "source", "flux", "robin", "soft", "conductivity", "screening", "field", "initial",
-    "periodic", "interface", "weights", "outputs", "columns", "problem",
+    "periodic", "interface", "weights", "outputs", "integrals", "columns", "problem",
 )  # fmt: skip
 #: More values of single vertices than this become a column.
 _FEW = 64
@@ -269,7 +269,7 @@ def problem(columns: Columns, given: Mapping[str, Any]) -> Dict[str, Any]:
             {**region.where(columns), "coefficient": value}
             for region, value in _entries(given["interface"], "interface")
         ]
-    for name in ("weights", "outputs"):
+    for name in ("weights", "outputs", "integrals"):
         if given.get(name) is not None:
             found[name] = [given[name]] if name == "outputs" and isinstance(given[name], str) else given[name]
     return found

@@ -58,7 +58,7 @@ class Report(_Facts):
 
     Of a solve for example `vertices`, `cells`, `passes`, `cycles`, `residuals` (relative, one for each
     V-cycle), `converged`, `pool_bytes_peak` (accounted memory, bytes), `seconds` (a dict),
-    `conditions`, `energy` (1/2 the integral of grad u . K grad u + s u^2, for each column), `mean`,
+    `conditions`, `integrals`, `energy` (1/2 the integral of grad u . K grad u + s u^2, for each column), `mean`,
     `minimum`, `maximum`, `notes` and `warnings` (sentences). Numbers that are not finite are None.
     docs/solve.md describes all of them. Some are of some jobs alone; `to_dict` makes a plain dict.
     """
@@ -91,6 +91,11 @@ class Report(_Facts):
             lines.append(
                 "  %s: mean %s, flux %s"
                 % (condition["name"], condition.get("mean"), condition.get("flux"))
+            )
+        for part in self.get("integrals") or []:
+            lines.append(
+                "  %s: measure %.6g, integral %s, mean %s"
+                % (part["name"], part["measure"], part.get("integral"), part.get("mean"))
             )
         lines += ["  " + note for note in self.get("notes") or []]
         return lines

@@ -154,6 +154,16 @@ inline constexpr auto Fields<Report::Part> = std::tuple{
 };
 
 template <>
+inline constexpr auto Fields<Report::Integral> = std::tuple{
+  field("name", &Report::Integral::name),
+  field("measure", &Report::Integral::measure),
+  field("integral", &Report::Integral::integral),
+  field("mean", &Report::Integral::mean),
+  field("gradient", &Report::Integral::gradient),
+  field("flux", &Report::Integral::flux),
+};
+
+template <>
 inline constexpr auto Fields<Report::Seam> = std::tuple{
   field("column", &Report::Seam::column),
   field("before", &Report::Seam::before),
@@ -232,6 +242,7 @@ inline constexpr auto Fields<Report> = std::tuple{
   field("errors", &Report::errors, total::None, shown::IfAny),
   field("conditions", &Report::conditions, total::None, shown::OfSolution),
   field("parts", &Report::parts, total::None, shown::OfParts),
+  field("integrals", &Report::integrals, total::None, shown::IfAny),
   field("energy", &Report::energy, total::None, shown::OfSolution),
   field("mean", &Report::mean, total::None, shown::OfSolution),
   field("minimum", &Report::minimum, total::None, shown::OfSolution),

@@ -123,7 +123,9 @@ void append(ProblemDescription& problem, const ProblemDescription& more)
   appendTo(problem.periodic, more.periodic);
   appendTo(problem.interfaces, more.interfaces);
   problem.gradientOutput = problem.gradientOutput || more.gradientOutput;
+  problem.vertexGradientOutput = problem.vertexGradientOutput || more.vertexGradientOutput;
   problem.fluxOutput = problem.fluxOutput || more.fluxOutput;
+  appendTo(problem.integrals, more.integrals);
 }
 
 std::set<std::string> namedColumns(const ProblemDescription& problem)
@@ -138,6 +140,10 @@ std::set<std::string> namedColumns(const ProblemDescription& problem)
   for (const ProblemDescription::Interface& interface : problem.interfaces)
   {
     columns.add(interface.where);
+  }
+  if (!problem.integrals.empty())
+  {
+    columns.names.insert(CellGroupsName);
   }
   return std::move(columns.names);
 }
@@ -307,6 +313,11 @@ std::string textOf(const ProblemDescription& problem)
   if (!problem.periodic.empty() || !problem.interfaces.empty())
   {
     text(problem.periodic, problem.interfaces);
+  }
+  // The texts of checkpoints without these are as they were.
+  if (problem.vertexGradientOutput || !problem.integrals.empty())
+  {
+    text(std::int64_t(problem.vertexGradientOutput), problem.integrals);
   }
   return text.take();
 }

@@ -2,6 +2,7 @@
 #include "smg/DescribedProblem.h"
 #include "Solver/Core/Text.h"
 #include "Solver/Problem/CouplingSearch.h"
+#include "Solver/Problem/IntegratedParts.h"
 #include "Solver/Problem/ProblemData.h"
 #include "smg/Error.h"
 #include "smg/Problem.h"
@@ -183,6 +184,14 @@ DescribedProblem::OnMesh::OnMesh(
     this->mesh.fail("conductivity", "goes with cotangent and clamped weights only");
   }
   forProblemData([&](const auto& row) { this->add(row, description); });
+  // Only to be checked early: the results read the groups.
+  const IntegratedParts integrated(description.integrals, this->mesh.groups(),
+    [this](const std::string& key, const std::string& sentence)
+    { this->mesh.fail(key, sentence); });
+  if (!integrated.names.empty() && this->mesh.hasGroupColumn(GroupOf::Cells))
+  {
+    this->mesh.requireGroups(GroupOf::Cells);
+  }
   this->start = StartValues(description);
   this->isPosition = prescribesPosition(description);
 }

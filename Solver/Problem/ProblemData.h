@@ -135,8 +135,10 @@ consteval std::size_t rowOf(std::string_view key)
 
 /** The keys of a problem file. */
 inline constexpr auto ProblemKeys = std::apply(
-  [](const auto&... row) {
-    return std::array{ "weights", "columns", row.key..., "periodic", "interface", "outputs" };
+  [](const auto&... row)
+  {
+    return std::array{ "weights", "columns", row.key..., "periodic", "interface", "outputs",
+      "integrals" };
   },
   ProblemData);
 

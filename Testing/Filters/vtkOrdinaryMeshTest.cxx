@@ -238,17 +238,24 @@ TEST_F(VtkOrdinaryMesh, AGridOfTetrahedraHasGradients)
   tetrahedra->SetInputData(image);
   tetrahedra->Update();
   this->Poisson->SetGradient(true);
+  this->Poisson->SetGradientAtPoints(true);
+  this->Poisson->AddIntegral("*");
   vtkUnstructuredGrid* mesh = tetrahedra->GetOutput();
   this->expectLinear(mesh, 0);
   auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
-  vtkDataArray* gradient = output->GetCellData()->GetArray("Gradient");
-  ASSERT_TRUE(gradient);
-  for (vtkIdType i = 0; i < gradient->GetNumberOfTuples(); ++i)
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(output->GetCellData()),
+         static_cast<vtkDataSetAttributes*>(output->GetPointData()) })
   {
-    ASSERT_NEAR(gradient->GetComponent(i, 0), 1.0, 1e-5);
-    ASSERT_NEAR(gradient->GetComponent(i, 1), 2.0, 1e-5);
-    ASSERT_NEAR(gradient->GetComponent(i, 2), -1.0, 1e-5);
+    vtkDataArray* gradient = data->GetArray("Gradient");
+    ASSERT_TRUE(gradient);
+    for (vtkIdType i = 0; i < gradient->GetNumberOfTuples(); ++i)
+    {
+      ASSERT_NEAR(gradient->GetComponent(i, 0), 1.0, 1e-5);
+      ASSERT_NEAR(gradient->GetComponent(i, 1), 2.0, 1e-5);
+      ASSERT_NEAR(gradient->GetComponent(i, 2), -1.0, 1e-5);
+    }
   }
+  EXPECT_NE(std::string(this->Poisson->GetReport()).find("\"integrals\""), std::string::npos);
 }
 
 TEST_F(VtkOrdinaryMesh, GradientsOfOtherCellsAreMeansOverTheirParts)

@@ -48,8 +48,10 @@ protected:
     expectPart("About " + mebibytes(costs.memory) + " of memory (the limit is 1024 MiB), ");
     expectPart(mebibytes(costs.scratch + mesh.storedBytes()) + " of scratch files");
     expectPart(std::to_string(costs.passes) + " passes over 40,000 points and 80,000 cells");
-    const JobEstimate saved(EstimatedInput(mesh.path(), {}),
-      { "result.vsm", solvedValues(columns, false, false) }, costs, {});
+    ProblemDescription problem;
+    problem.columns = columns;
+    const JobEstimate saved(
+      EstimatedInput(mesh.path(), {}), { "result.vsm", solvedValues(problem) }, costs, {});
     expectPart("saved as .vsm " + mebibytes(saved.output_bytes));
   }
 };

@@ -72,11 +72,14 @@ TEST_F(ProblemFile, DefaultsAndValues)
   EXPECT_EQ(empty.weights, Weights::Cotangent);
   const ProblemDescription full = readProblemFile(this->file(
     R"({"weights": "uniform", "columns": 2, "source": [1, -2.5], "screening": 0.25,
-        "outputs": ["flux"]})"));
+        "outputs": ["flux", "gradient at vertices"], "integrals": ["chip *", 7]})"));
   EXPECT_EQ(full.columns, 2);
   EXPECT_EQ(full.weights, Weights::Uniform);
-  EXPECT_TRUE(full.fluxOutput && !full.gradientOutput);
-  const ProblemAnswers answers = this->ask(full, this->Source);
+  EXPECT_TRUE(full.fluxOutput && !full.gradientOutput && full.vertexGradientOutput);
+  EXPECT_EQ(full.integrals, std::vector<std::string>({ "chip *", "7" }));
+  ProblemDescription askable = full;
+  askable.integrals = { "*" }; // the mesh has no groups
+  const ProblemAnswers answers = this->ask(askable, this->Source);
   EXPECT_EQ(answers.vertices.screening[24], 0.25);
   EXPECT_EQ(answers.vertices.source[0], 1.0);
   EXPECT_EQ(answers.vertices.source[49], -2.5);
@@ -212,7 +215,11 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(
     this->errorOf(R"({"initial": "position"})"), "initial: can be \"position\" only if");
   EXPECT_CONTAINS(this->errorOf(R"({"field": [1, 0, 0]})"), "field: must be a string");
-  EXPECT_CONTAINS(this->errorOf(R"({"outputs": ["heat"]})"), "outputs[0]: must be \"gradient\" or");
+  EXPECT_CONTAINS(this->errorOf(R"({"outputs": ["heat"]})"),
+    "outputs[0]: must be \"gradient\", \"flux\" or \"gradient at vertices\"");
+  EXPECT_CONTAINS(this->errorOf(R"({"integrals": [1.5]})"), "integrals[0]: must be a string");
+  EXPECT_CONTAINS(this->errorOf(R"({"integrals": ["chip"]})"),
+    "integrals[0]: the mesh has no groups, so none is called 'chip'");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": {}})"), "dirichlet: must be an array");
   EXPECT_CONTAINS(
     this->errorOf(R"({"dirichlet": [{"mask": "a", "box": [0, 0, 0, 1, 1, 1], "value": [0]}]})"),

@@ -487,6 +487,57 @@ class ElementsTest(unittest.TestCase):
         np.testing.assert_allclose(means, np.ones(count), rtol=1e-6)
 
 
+class GroupsTest(unittest.TestCase):
+    """What a solve reports of groups of cells, against numpy."""
+
+    def mesh(self):
+        """A plate of 8 x 6 x 2 triangles, whose right half is in a group; (mesh, whether a triangle is in it)."""
+        x, y = (each.ravel() for each in np.meshgrid(np.arange(9.0), np.arange(7.0), indexing="ij"))
+        corner = (np.arange(8)[:, None] * 7 + np.arange(6)).ravel()
+        triangles = np.concatenate([corner[:, None] + [0, 7, 8], corner[:, None] + [0, 8, 1]])
+        is_right = x[triangles].min(axis=1) >= 4
+        with open("plate.msh", "w", encoding="utf-8") as file:
+            file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"right\"\n$EndPhysicalNames\n")
+            file.write("$Nodes\n%d\n" % len(x))
+            file.writelines("%d %r %r 0\n" % (v + 1, *p) for v, p in enumerate(zip(x.tolist(), y.tolist())))
+            file.write("$EndNodes\n$Elements\n%d\n" % len(triangles))
+            for k, (t, label) in enumerate(zip((triangles + 1).tolist(), is_right.tolist())):
+                file.write("%d 2 2 %d 1 %d %d %d\n" % (k + 1, 5 if label else 0, *t))
+            file.write("$EndElements\n")
+        return smg.open("plate.msh"), triangles, is_right
+
+    def test_integrals(self):
+        mesh, triangles, is_right = self.mesh()
+        points = mesh.points
+        u = mesh.solve(
+            dirichlet=[smg.below(x=0) >> 0, smg.above(x=8) >> 1],
+            source=points[:, 1],
+            conductivity=[1, smg.group("right") >> 3],
+            outputs=["flux", "gradient at vertices"],
+            integrals=["right", "*"],
+        )
+        a, b = (points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))
+        area = np.linalg.norm(np.cross(a, b), axis=1) / 2
+        values, flux = u.to_numpy(), u.read("Flux", cells=True)
+        gradient = -flux / np.where(is_right, 3.0, 1.0)[:, None]
+        found = u.report.integrals
+        self.assertEqual([part["name"] for part in found], ["all", "right"])
+        for part, chosen in zip(found, (area, area * is_right)):
+            np.testing.assert_allclose(part["measure"], chosen.sum(), rtol=1e-13)
+            integral = (chosen * values[triangles].mean(axis=1)).sum()
+            np.testing.assert_allclose(part["integral"][0], integral, rtol=1e-12)
+            np.testing.assert_allclose(part["mean"][0], integral / chosen.sum(), rtol=1e-12)
+            np.testing.assert_allclose(part["gradient"], chosen @ gradient, atol=1e-11)
+            np.testing.assert_allclose(part["flux"], chosen @ flux, atol=1e-11)
+        sums, shares = np.zeros((len(points), 3)), np.zeros(len(points))
+        np.add.at(sums, triangles, (area[:, None] * gradient)[:, None, :])
+        np.add.at(shares, triangles, area[:, None])
+        np.testing.assert_allclose(u.read("Gradient"), sums / shares[:, None], atol=1e-12)
+        self.assertIn("right: measure 24", str(u.report))
+        with self.assertRaisesRegex(smg.InputError, "integrals.*no group 'left'"):
+            mesh.solve(dirichlet={0: 0.0}, integrals="left")
+
+
 class SidesTest(unittest.TestCase):
     """Of as many vertices as cells, or cells of the file, an array has to say which its rows are."""
 

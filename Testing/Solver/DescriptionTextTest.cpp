@@ -107,4 +107,15 @@ TEST(DescriptionText, IsAnotherOneForEachChange)
   }
 }
 
+TEST(DescriptionText, TellsResultsApart)
+{
+  ProblemDescription plain, gradients, one, several;
+  gradients.vertexGradientOutput = true;
+  one.integrals = { "chip" };
+  several.integrals = { "*", "chip" };
+  const std::set<std::string> texts{ textOf(plain), textOf(gradients), textOf(one),
+    textOf(several) };
+  EXPECT_EQ(texts.size(), 4U);
+}
+
 } // namespace smg::testing

@@ -29,6 +29,7 @@ MemorySource::MemorySource(StreamMesh mesh, std::int64_t blockCells)
   , BlockCells(blockCells)
 {
   this->Info.cellType = this->Mesh.cellType;
+  this->Info.groups = this->Mesh.groups;
   this->Info.vertices = this->Mesh.vertices();
   this->Info.cells = this->Mesh.cells();
   for (const Column& column : this->Mesh.vertexColumns)

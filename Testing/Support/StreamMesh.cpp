@@ -131,6 +131,7 @@ StreamMesh collect(MeshSource& source)
 {
   StreamMesh mesh;
   mesh.cellType = source.info().cellType;
+  mesh.groups = source.info().groups;
   for (const ColumnSpec& spec : source.info().vertexColumns)
   {
     mesh.vertexColumns.push_back({ spec, {} });

@@ -32,7 +32,15 @@ void solveOn(smg::Team& team, const DistributedJob& job, const DistributedSolve&
     [&]
     {
       const smg::ProblemDescription description = task.read();
-      results = { description.gradientOutput, description.fluxOutput, job.memoryLimit };
+      results = { .gradient = description.gradientOutput,
+        .flux = description.fluxOutput,
+        .integrals = description.integrals,
+        .memoryLimit = job.memoryLimit };
+      if (description.vertexGradientOutput && isInPieces(job.out))
+      {
+        throw smg::Error("gradient at vertices is no output in pieces: write another format than " +
+                         job.out.extension().string() + ".");
+      }
       return description;
     });
   smg::DistributedSolver solver(team.communicator(), on.part);

@@ -188,6 +188,7 @@ std::string page(const std::string& json, const PageFacts& facts)
   out += convergenceSection(report, facts.tolerance);
   out += costSections(report, facts.memoryLimit);
   out += conditionsSection(report);
+  out += integralsSection(report);
   out += levelsSection(report);
   out += furtherSection(report);
   return out + sourcesSection(json, facts) + "</main>\n</body>\n</html>\n";

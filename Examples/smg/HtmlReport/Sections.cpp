@@ -157,6 +157,28 @@ std::string conditionsSection(Entries& report)
                  "through it.</p>\n");
 }
 
+std::string integralsSection(Entries& report)
+{
+  const Json integrals = report.take("integrals");
+  if (integrals.empty())
+  {
+    return {};
+  }
+  Table out{ { "group", "measure", "integral", "mean", "gradient", "flux" }, {} };
+  for (const Json& part : integrals)
+  {
+    std::vector<std::string>& row = out.rows.emplace_back();
+    row = { part.value("name", ""), number(numberOf(part, "measure")) };
+    for (const char* name : { "integral", "mean", "gradient", "flux" })
+    {
+      row.push_back(valueText(name, part[name]));
+    }
+  }
+  return section("integrals", "Integrals",
+    table(out) + "<p>Integral and mean of the solution over the cells of a group, and integrals of "
+                 "grad u and of -K grad u.</p>\n");
+}
+
 namespace
 {
 

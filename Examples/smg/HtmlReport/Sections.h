@@ -40,6 +40,7 @@ std::string costSections(Entries& report, std::int64_t memoryLimit);
 std::string estimateSection(Entries& report);
 std::string levelsSection(Entries& report);
 std::string conditionsSection(Entries& report);
+std::string integralsSection(Entries& report);
 /** Integrals and extremes of a solution, by its columns. */
 std::string solutionSection(Entries& report);
 std::string notesSection(Entries& report);

@@ -23,7 +23,7 @@ namespace smg
  *       "flux": [ { WHERE, "value": D } ],
  *       "robin": [ { WHERE, "coefficient": C, "ambient": D } ],
  *       "soft": [ { WHERE, "weight": C, "value": D } ],
- *       "outputs": [ "gradient", "flux" ] }
+ *       "outputs": [ "gradient", "flux" ], "integrals": [ "chip", "*" ] }
  *
  *     C = number | tensor [xx, yy, zz, xy, yz, xz] (conductivity alone) | "column"
  *         | [ { "value": C }, { WHERE, "value": C }, ... ]

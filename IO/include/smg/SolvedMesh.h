@@ -18,7 +18,8 @@ namespace smg
 
 /** Vertex column with the solution (float64): `columns` components. */
 inline constexpr const char* SolutionName = "Solution";
-/** Cell column with grad u (float64): 3 components for each column of the problem. */
+/** Column with grad u (float64), of the cells or the vertices: 3 components for each column of the
+ * problem. */
 inline constexpr const char* GradientName = "Gradient";
 /** Cell column with -K grad u (float64): 3 components for each column of the problem. */
 inline constexpr const char* FluxName = "Flux";
@@ -26,8 +27,8 @@ inline constexpr const char* FluxName = "Flux";
 /**
  * The stream of a mesh with all its columns and the solution of a problem on it: the vertex
  * column Solution and, if wanted, the cell columns Gradient and Flux (0 in cells without weight; on
- * surfaces, in the plane of the triangle). Columns of these names from an earlier solve are left
- * out.
+ * surfaces, in the plane of the triangle) and the vertex column Gradient (NaN at vertices of no
+ * cell with weight). Columns of these names from an earlier solve are left out.
  */
 class SMG_EXPORT SolvedMesh : public MeshSource
 {
@@ -37,7 +38,8 @@ public:
    * @param mesh the mesh of the solution
    * @param problem the problem of the solution; asked once more while the stream is read
    * @param solution the solution
-   * @param options which results to compute
+   * @param options which results to compute; with gradientAtVertices the first call of next()
+   * reads the mesh before
    * @throws Error if the solution has another number of columns than the problem, or of vertices
    * than the mesh, or the problem has edge targets
    */
@@ -50,10 +52,10 @@ public:
   bool next(MeshBlock& block) override;
 
   /**
-   * Adds the results to a copy of the solution's report: `conditions`, `energy`, `mean`, `minimum`,
-   * `maximum`, `source`, `screening`, `balance`, and notes. To be called when the stream has been
-   * read to its end. The vertices of minima and maxima are original numbers if the mesh is a
-   * .vsm file with the column OriginalId.
+   * Adds the results to a copy of the solution's report: `conditions`, `energy`, `integrals`,
+   * `mean`, `minimum`, `maximum`, `source`, `screening`, `balance`, and notes. To be called when
+   * the stream has been read to its end. The vertices of minima and maxima are original numbers if
+   * the mesh is a .vsm file with the column OriginalId.
    */
   void finish(Report& report);
 

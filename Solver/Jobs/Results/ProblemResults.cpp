@@ -20,6 +20,14 @@ namespace
 constexpr PoolUse ResultMemory{ "reading the results",
   "raise the memory limit, or convert the mesh with the order bfs if it has another" };
 
+/** For Problems that have not checked the names. */
+IntegratedParts integratedParts(const std::vector<std::string>& wanted, const MeshGroups& groups)
+{
+  return { wanted, groups, [](const std::string& key, const std::string& sentence) {
+            throw Error(key + ": " + sentence + '.');
+          } };
+}
+
 } // namespace
 
 ProblemResults::ProblemResults(
@@ -32,13 +40,15 @@ ProblemResults::ProblemResults(
   , Vertices(this->Memory, problem, &solution)
   , Reach(this->Memory)
   , Flows(this->Memory, problem.columns() + 1)
-  , Weighted(info.cellType, problem, options.flux || problem.conditionCounts().parts > 0)
+  , Weighted(info.cellType, problem,
+      options.flux || problem.conditionCounts().parts > 0 || !options.integrals.empty())
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Parts(1, &this->Memory)
   , Labels(this->Memory, this->Parts, BodyFlows::mostLabels(problem.columns()))
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux,
-      problem.conditionCounts().parts)
+      problem.conditionCounts().parts, integratedParts(options.integrals, info.groups))
+  , Gradients(this->Memory, 3 * problem.columns() + 1)
   , Sums(info.cellType, problem)
   , Steps(4 * this->Columns)
   , Sources(this->Columns)
@@ -92,6 +102,10 @@ void ProblemResults::addVertices(const MeshBlock& block)
   this->Facets.extend(end);
   this->Edges.extend(end);
   this->Flows.extend(end);
+  if (this->VertexGradients)
+  {
+    this->Gradients.extend(end);
+  }
   this->Labels.extend(end);
   for (auto* loads : { &this->CellLoads, &this->FacetLoads })
   {
@@ -112,7 +126,7 @@ void ProblemResults::addVertices(const MeshBlock& block)
 
 void ProblemResults::addCells(const MeshBlock& block)
 {
-  this->Cells.begin(cellsOf(this->Type, block));
+  this->Cells.begin(block);
   this->Weighted.forEach(
     block, this->Vertices, [this](const WeightedCell& cell) { this->addCell(cell); });
 }
@@ -138,8 +152,13 @@ void ProblemResults::addCell(const WeightedCell& cell)
     values[k] = this->Vertices.values.at(cell.corners[k]);
     this->Vertices.mass[cell.corners[k]] += cell.weights.measure / count;
   }
+  this->Cells.integrate(cell, values);
   this->relateToFirst(cell.corners, values);
   this->Cells.add(cell, values);
+  if (this->VertexGradients)
+  {
+    this->addGradient(cell);
+  }
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     this->Sums.conditions.bodies.of(this->bodyOf(cell.nodes[0]), k).energy +=
@@ -155,6 +174,24 @@ void ProblemResults::addCell(const WeightedCell& cell)
     this->addFlows(cell, values);
   }
   this->connect(cell);
+}
+
+/** Each corner has the same share of the cell. */
+void ProblemResults::addGradient(const WeightedCell& cell)
+{
+  const std::size_t numbers = 3 * this->Columns;
+  const std::span<const double> gradient =
+    this->Cells.gradient().subspan(cell.number * numbers, numbers);
+  const int count = cornersOf(this->Type);
+  for (int c = 0; c < count; ++c)
+  {
+    double* sums = this->Gradients.at(cell.corners[c]);
+    for (std::size_t k = 0; k < numbers; ++k)
+    {
+      sums[k] += cell.weights.measure / count * gradient[k];
+    }
+    sums[numbers] += cell.weights.measure / count;
+  }
 }
 
 /** Only differences within a cell matter for its results: those to its first corner have all
@@ -239,6 +276,10 @@ void ProblemResults::finalize(std::int64_t final)
   const std::int64_t end = this->Vertices.ties.closable(final);
   for (; this->Final < end; ++this->Final)
   {
+    if (this->VertexGradients)
+    {
+      this->closeGradient(this->Final);
+    }
     this->close(this->Final, this->Terms.data());
     this->Sums.add(VertexTerms(this->Terms.data()), this->Vertices.values.at(this->Final),
       this->Vertices.dirichlet[this->Final], this->bodyOf(this->Final));
@@ -252,9 +293,20 @@ void ProblemResults::finalize(std::int64_t final)
     }
   }
   this->Flows.release(this->Final);
+  this->Gradients.release(this->Final);
   this->Labels.release(this->Final);
   this->Facets.release(this->Final);
   this->Edges.release(this->Final);
+}
+
+/** Without a cell that has area or volume, nothing determines the gradient: not a number. */
+void ProblemResults::closeGradient(std::int64_t i)
+{
+  // Its own cells count, not those of vertices that are one unknown with it.
+  const std::span<double> gradient = this->Gradients.range(i, i + 1).first(3 * this->Columns);
+  const double mass = this->Gradients.at(i)[3 * this->Columns];
+  std::ranges::for_each(gradient, [mass](double& sum) { sum /= mass; });
+  this->VertexGradients->append(gradient);
 }
 
 /** Adds the boundary facets whose lowest corner is i to their corners and conditions. */

@@ -9,6 +9,7 @@
 #include "Solver/Assembly/OpenVertices.h"
 #include "Solver/Assembly/ProblemFacets.h"
 #include "Solver/Assembly/WeightedCells.h"
+#include "Solver/Files/VertexFile.h"
 #include "Solver/Jobs/Results/ResultSums.h"
 #include "Solver/Mesh/StreamCheck.h"
 #include "smg/Export.h"
@@ -62,6 +63,11 @@ public:
   std::span<const double> gradient() const { return this->Cells.gradient(); }
   std::span<const double> flux() const { return this->Cells.flux(); }
 
+  /** Before the first block, with ResultOptions::gradient: the gradients at the vertices are
+   * appended to the file, as far as they are known. They are the means of those of the cells,
+   * weighted by area or volume. */
+  void appendVertexGradients(VertexFile& file) { this->VertexGradients = &file; }
+
   /** After the last block: see ResultSums. */
   void finish(Report& report);
 
@@ -90,6 +96,8 @@ private:
   {
     return this->IsPart ? 0 : std::max(0, this->Labels.label(i));
   }
+  void addGradient(const WeightedCell& cell);
+  void closeGradient(std::int64_t i);
   void relateToFirst(const std::int64_t* corners, const double** values);
   void connect(const WeightedCell& cell);
   void addFlows(const WeightedCell& cell, const double* const* values);
@@ -119,6 +127,8 @@ private:
   EdgeStiffness Edges; // from Dirichlet vertices to vertices outside the condition, or all
 
   CellResults Cells;
+  VertexFile* VertexGradients = nullptr; // null: not wanted
+  Ring<double> Gradients;                // sums over cells and their measure, if they are
   ResultSums Sums;
   std::vector<double> Values, Steps, Sources, Terms; // of a block, a cell; of a vertex two
   std::vector<RowNeighbour> Neighbours;

@@ -23,7 +23,8 @@
 namespace smg
 {
 
-CellResults::CellResults(CellType type, int columns, bool gradient, bool flux, int parts)
+CellResults::CellResults(
+  CellType type, int columns, bool gradient, bool flux, int parts, IntegratedParts integrated)
   : Type(type)
   , Columns(columns)
   , WantsGradient(gradient)
@@ -31,16 +32,49 @@ CellResults::CellResults(CellType type, int columns, bool gradient, bool flux, i
   , Energy(static_cast<std::size_t>(columns))
   , LeftOut(static_cast<std::size_t>(columns))
   , OfCell(static_cast<std::size_t>(columns))
+  , Integrated(std::move(integrated))
 {
   const std::vector<double> zeros(3 * static_cast<std::size_t>(columns));
   this->Parts.assign(parts > 0 ? static_cast<std::size_t>(parts) + 1 : 0, { 0.0, zeros, zeros });
+  const std::vector<double> value(static_cast<std::size_t>(columns));
+  this->Integrals.assign(this->Integrated.names.size(), { { 0.0, zeros, zeros }, value });
 }
 
-void CellResults::begin(std::size_t cells)
+void CellResults::begin(const MeshBlock& block)
 {
-  const std::size_t numbers = 3 * cells * static_cast<std::size_t>(this->Columns);
+  const std::size_t numbers =
+    3 * cellsOf(this->Type, block) * static_cast<std::size_t>(this->Columns);
+  const std::ptrdiff_t groups =
+    this->Integrals.empty() ? -1
+                            : findColumn(block.cellColumns,
+                                MeshGroups::columnSpec(GroupOf::Cells, cornersOf(this->Type)));
+  this->Sets = groups < 0 ? std::span<const GroupSet>()
+                          : block.cellColumns[static_cast<std::size_t>(groups)].as<GroupSet>();
   this->Gradient.assign(this->WantsGradient ? numbers : 0, 0.0);
   this->Flux.assign(this->WantsFlux ? numbers : 0, 0.0);
+}
+
+/** The mean of the corners is exact for a linear function. */
+void CellResults::integrate(const WeightedCell& cell, const double* const* values)
+{
+  if (this->Integrals.empty())
+  {
+    return;
+  }
+  const int corners = cornersOf(this->Type);
+  for (const std::uint32_t part : this->partsOf(cell))
+  {
+    IntegralSums& sums = this->Integrals[part];
+    for (std::size_t k = 0; k < sums.value.size(); ++k)
+    {
+      double sum = 0.0;
+      for (int c = 0; c < corners; ++c)
+      {
+        sum += values[c][k];
+      }
+      sums.value[k] += cell.weights.measure * (sum / corners);
+    }
+  }
 }
 
 /** Adds the energy of a cell by its weights, 1/2 the sum of w_ij (u_i - u_j)^2 over the edges,
@@ -60,19 +94,24 @@ void CellResults::add(const WeightedCell& cell, const double* const* values)
     this->Energy[static_cast<std::size_t>(k)] += 0.5 * twice;
     this->LeftOut[static_cast<std::size_t>(k)] += 0.5 * (1.0 - cell.flatness) * twice;
   }
-  if (!this->WantsGradient && !this->WantsFlux && this->Parts.empty())
+  this->Into.clear();
+  if (!this->Parts.empty())
+  {
+    const std::int32_t part = cell.data ? cell.data->part() : -1;
+    this->Into.push_back(
+      part >= 0 ? &this->Parts[static_cast<std::size_t>(part)] : &this->Parts.back());
+  }
+  for (std::size_t k = 0; !this->Integrals.empty() && k < this->partsOf(cell).size(); ++k)
+  {
+    this->Into.push_back(&this->Integrals[this->partsOf(cell)[k]].part);
+  }
+  if (!this->WantsGradient && !this->WantsFlux && this->Into.empty())
   {
     return;
   }
-  const std::int32_t part = cell.data ? cell.data->part() : -1;
+  const double measure = cell.weights.measure;
   const double* K = cell.data ? cell.data->conductivity() : nullptr;
-  PartSums* sums = this->Parts.empty() ? nullptr
-                   : part >= 0         ? &this->Parts[static_cast<std::size_t>(part)]
-                                       : &this->Parts.back();
-  if (sums)
-  {
-    sums->measure += cell.weights.measure;
-  }
+  std::ranges::for_each(this->Into, [measure](PartSums* sums) { sums->measure += measure; });
   const CellGradients gradients(this->Type, cell.points);
   for (int k = 0; k < this->Columns; ++k)
   {
@@ -83,7 +122,7 @@ void CellResults::add(const WeightedCell& cell, const double* const* values)
     {
       std::ranges::copy(gradient, this->Gradient.begin() + static_cast<std::ptrdiff_t>(place));
     }
-    if (!this->WantsFlux && !sums)
+    if (!this->WantsFlux && this->Into.empty())
     {
       continue; // then K is not known
     }
@@ -92,11 +131,14 @@ void CellResults::add(const WeightedCell& cell, const double* const* values)
     {
       std::ranges::copy(flux, this->Flux.begin() + static_cast<std::ptrdiff_t>(place));
     }
-    for (std::size_t d = 0; sums && d < 3; ++d)
+    for (PartSums* sums : this->Into)
     {
-      const std::size_t number = 3 * static_cast<std::size_t>(k) + d;
-      sums->gradient[number] += cell.weights.measure * gradient[d];
-      sums->flux[number] += cell.weights.measure * flux[d];
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        const std::size_t number = 3 * static_cast<std::size_t>(k) + d;
+        sums->gradient[number] += measure * gradient[d];
+        sums->flux[number] += measure * flux[d];
+      }
     }
   }
 }
@@ -375,6 +417,8 @@ void ResultSums::setCells(const CellResults& cells)
   this->CellEnergy = cells.energy();
   this->LeftOut = cells.leftOut();
   this->Parts = cells.parts();
+  this->Integrals = cells.integrals();
+  this->IntegralNames = cells.integrated().names;
 }
 
 /** The order is the same in all processes, which add these numbers. */
@@ -382,18 +426,24 @@ ResultSums::Numbers ResultSums::numbers()
 {
   Numbers numbers{ { &this->Mass }, {} };
   std::vector<double*>& all = numbers.sums;
+  const auto append = [&all](std::vector<double>& sums)
+  { std::ranges::transform(sums, std::back_inserter(all), [](double& sum) { return &sum; }); };
   for (auto* sums : { &this->Mean, &this->Source, &this->Screening, &this->ScreeningEnergy,
          &this->CellEnergy, &this->LeftOut })
   {
-    std::ranges::transform(*sums, std::back_inserter(all), [](double& sum) { return &sum; });
+    append(*sums);
   }
-  for (PartSums& part : this->Parts)
+  const auto appendPart = [&](PartSums& part)
   {
     all.push_back(&part.measure);
-    for (auto* sums : { &part.gradient, &part.flux })
-    {
-      std::ranges::transform(*sums, std::back_inserter(all), [](double& sum) { return &sum; });
-    }
+    append(part.gradient);
+    append(part.flux);
+  };
+  std::ranges::for_each(this->Parts, appendPart);
+  for (IntegralSums& integral : this->Integrals)
+  {
+    appendPart(integral.part);
+    append(integral.value);
   }
   this->conditions.appendNumbers(all);
   this->conditions.bodies.appendNumbers(all, numbers.least);
@@ -415,6 +465,7 @@ void ResultSums::finish(Report& report, bool hasRest) const
   report.maximum = this->maximum;
   this->reportBalance(report, hasRest);
   this->reportParts(report);
+  this->reportIntegrals(report);
   noteConditionsWithoutEffect(report);
   this->noteFlatCells(report);
 }
@@ -472,6 +523,23 @@ void ResultSums::reportParts(Report& report) const
       add(p == last ? "elsewhere"
                     : "conductivity[" + std::to_string(p) + ']' + this->conditions.groupOfPart(p),
         this->Parts[p]);
+    }
+  }
+}
+
+void ResultSums::reportIntegrals(Report& report) const
+{
+  for (std::size_t k = 0; k < this->Integrals.size(); ++k)
+  {
+    const auto& [part, value] = this->Integrals[k];
+    std::vector<double> mean = value;
+    // Not a number without a measure.
+    std::ranges::for_each(mean, [measure = part.measure](double& number) { number /= measure; });
+    report.integrals.push_back(
+      { this->IntegralNames[k], part.measure, value, std::move(mean), part.gradient, part.flux });
+    if (part.measure == 0.0)
+    {
+      report.warn("integrals: the group " + this->IntegralNames[k] + " has no area or volume");
     }
   }
 }

@@ -5,6 +5,7 @@
 #include "Solver/Assembly/OpenVertices.h"
 #include "Solver/Assembly/WeightedCells.h"
 #include "Solver/Jobs/Results/BodyFlows.h"
+#include "Solver/Problem/IntegratedParts.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 #include "smg/Report.h"
@@ -26,15 +27,25 @@ struct PartSums
   std::vector<double> gradient, flux; ///< 3 * `columns` numbers
 };
 
+/** The same of a group of cells, with the integral of u: `columns` numbers. */
+struct IntegralSums
+{
+  PartSums part;
+  std::vector<double> value;
+};
+
 /** The gradients and fluxes of the cells of a block, and the sums over all cells. */
 class CellResults
 {
 public:
   /** `gradient`, `flux`: whether they are requested. `parts`: see ConditionCounts. */
-  CellResults(CellType type, int columns, bool gradient, bool flux, int parts);
+  CellResults(CellType type, int columns, bool gradient, bool flux, int parts,
+    IntegratedParts integrated = {});
 
-  /** Starts the next block, of this many cells. */
-  void begin(std::size_t cells);
+  /** Starts the next block. */
+  void begin(const MeshBlock& block);
+  /** Integrates over a cell, which add() follows: u has these values at the corners. */
+  void integrate(const WeightedCell& cell, const double* const* values);
   /** Adds a cell of the block with the values at its corners, `columns` each. Without data of the
    * problem K is the identity, and the cell is in no part. */
   void add(const WeightedCell& cell, const double* const* values);
@@ -51,13 +62,26 @@ public:
   const std::vector<double>& energyOfCell() const { return this->OfCell; }
   /** One of each part, and one of all other cells; empty without parts. */
   const std::vector<PartSums>& parts() const { return this->Parts; }
+  /** One of each of the integrated parts. */
+  const IntegratedParts& integrated() const { return this->Integrated; }
+  const std::vector<IntegralSums>& integrals() const { return this->Integrals; }
 
 private:
+  /** The integrated parts that a cell is in. */
+  const std::vector<std::uint32_t>& partsOf(const WeightedCell& cell) const
+  {
+    return this->Integrated.ofSet[this->Sets.empty() ? 0 : this->Sets[cell.number]];
+  }
+
   CellType Type;
   int Columns;
   bool WantsGradient, WantsFlux;
   std::vector<double> Gradient, Flux, Energy, LeftOut, OfCell;
   std::vector<PartSums> Parts;
+  IntegratedParts Integrated;
+  std::vector<IntegralSums> Integrals;
+  std::span<const GroupSet> Sets; // of the cells of the block; empty: all 0
+  std::vector<PartSums*> Into;    // what a cell is added to
 };
 
 /** Whether nothing determines these values of a vertex, which has no share in the equations. */
@@ -189,6 +213,7 @@ private:
   void addResidual(VertexTerms terms, const double* u, std::int32_t dirichlet, std::int32_t label);
   void reportBalance(Report& report, bool hasRest) const;
   void reportParts(Report& report) const;
+  void reportIntegrals(Report& report) const;
   static void noteConditionsWithoutEffect(Report& report);
   void noteFlatCells(Report& report) const;
 
@@ -199,6 +224,8 @@ private:
   std::vector<double> Mean, Source, Screening, ScreeningEnergy;
   std::vector<double> CellEnergy, LeftOut; // see CellResults
   std::vector<PartSums> Parts;             // likewise
+  std::vector<IntegralSums> Integrals;     // likewise
+  std::vector<std::string> IntegralNames;
 };
 
 } // namespace smg

@@ -206,7 +206,12 @@ struct ProblemDescription
   /** Contacts of bodies. Where several entries hold, they add up. With Weights::Cotangent. */
   std::vector<Interface> interfaces;
   bool gradientOutput = false; ///< whether grad u of the cells is wanted as a result
-  bool fluxOutput = false;     ///< whether -K grad u of the cells is wanted as a result
+  /** Whether grad u at the vertices is, the mean of the cells weighted by area or volume. */
+  bool vertexGradientOutput = false;
+  bool fluxOutput = false; ///< whether -K grad u of the cells is wanted as a result
+  /** Groups of cells, by names, numbers or patterns with `*`, over which the solution is integrated
+   * for the report: Report::integrals. "*" alone stands for the whole and every group of cells. */
+  std::vector<std::string> integrals;
 };
 
 } // namespace smg

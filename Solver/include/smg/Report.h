@@ -208,6 +208,17 @@ struct SMG_EXPORT Report
     std::vector<double> flux;     ///< mean of -K grad u: 3 a column
   };
 
+  /** The solution over a group of cells, or over the whole. */
+  struct Integral
+  {
+    std::string name;             ///< of the group, or its number; "all"
+    double measure = 0;           ///< area or volume of its cells
+    std::vector<double> integral; ///< per column: of u
+    std::vector<double> mean;     ///< per column: of u; NaN if it has no area or volume
+    std::vector<double> gradient; ///< integral of grad u: 3 a column
+    std::vector<double> flux;     ///< integral of -K grad u: 3 a column
+  };
+
   /** The largest difference of a column, over its components, between the ends of the edges that
    * are not in one patch. */
   struct Seam
@@ -288,11 +299,12 @@ struct SMG_EXPORT Report
   std::vector<double> energy;
   /** Of a problem with a conductivity: the whole, and its parts if there are several. */
   std::vector<Part> parts;
-  std::vector<double> mean;      ///< per column: the mean of u, weighted with area or volume
-  std::vector<Extreme> minimum;  ///< per column: the smallest value of u
-  std::vector<Extreme> maximum;  ///< per column: the largest value of u
-  std::vector<double> source;    ///< per column: the total of f, less removed_source
-  std::vector<double> screening; ///< per column: the total of s u
+  std::vector<Integral> integrals; ///< over the groups that the problem asks for
+  std::vector<double> mean;        ///< per column: the mean of u, weighted with area or volume
+  std::vector<Extreme> minimum;    ///< per column: the smallest value of u
+  std::vector<Extreme> maximum;    ///< per column: the largest value of u
+  std::vector<double> source;      ///< per column: the total of f, less removed_source
+  std::vector<double> screening;   ///< per column: the total of s u
   /** Per column: what flows in through all conditions and sources less what screening takes, over
    * the sum of the magnitudes of all terms, from -1 to 1; of the size of the tolerance. 0 if
    * nothing flows; NaN if a flux is. */

@@ -144,10 +144,17 @@ struct ResultOptions
 {
   bool gradient = false; ///< grad u of each cell
   bool flux = false;     ///< -K grad u of each cell
+  /** grad u at each vertex: the mean of its cells, weighted by area or volume. It takes a reading
+   * of the mesh before, and a scratch file. Not with several processes. */
+  bool gradientAtVertices = false;
+  /** Groups of cells for Report::integrals: see ProblemDescription::integrals. */
+  std::vector<std::string> integrals = {};
   /** Limit of the accounted memory, bytes; 1 GiB by default. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
   /** With 1 thread the mesh is not read ahead; otherwise a further thread does so. 0 by default. */
   int threads = 0;
+  /** Folder of the scratch file; empty: the system's temporary folder. */
+  std::filesystem::path scratch = {};
 };
 
 /** The solution of a problem: columns() values a vertex, in stream order, on disk or in memory. */
