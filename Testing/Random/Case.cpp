@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Random/Case.h"
 
+#include "IO/Mesh/GroupsJson.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace smg::testing
@@ -22,6 +27,31 @@ namespace
 {
 
 constexpr double Flat = 1e-13;
+
+/** The groups as field data of a legacy file, in which characters other than letters and digits are
+ * %XX. */
+std::string fieldOf(const MeshGroups& groups)
+{
+  if (groups.empty())
+  {
+    return {};
+  }
+  std::ostringstream field;
+  field << "FIELD FieldData 1\nMeshGroups 1 1 string\n" << std::hex << std::uppercase;
+  for (const char c : textOf(groups))
+  {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+    {
+      field << c;
+    }
+    else
+    {
+      field << '%' << std::setw(2) << std::setfill('0') << static_cast<int>(c);
+    }
+  }
+  field << '\n';
+  return field.str();
+}
 
 /** Whether a cell has no area or volume, up to the rounding of its coordinates. */
 bool isFlat(const Case& given, std::int64_t c)
@@ -44,7 +74,12 @@ std::vector<Column> columnsOf(const std::vector<CaseColumn>& from)
   std::vector<Column> columns;
   for (const CaseColumn& column : from)
   {
-    if (column.isInteger)
+    if (isGroupColumn(column.name))
+    {
+      const std::vector<GroupSet> sets(column.values.begin(), column.values.end());
+      columns.push_back(makeColumn<GroupSet>(column.name, sets, column.components));
+    }
+    else if (column.isInteger)
     {
       const std::vector<std::int32_t> numbers(column.values.begin(), column.values.end());
       columns.push_back(makeColumn<std::int32_t>(column.name, numbers, column.components));
@@ -86,15 +121,19 @@ void writeColumns(std::ofstream& file, const char* owner, std::int64_t rows,
   file << owner << ' ' << rows << "\nFIELD FieldData " << columns.size() << '\n';
   for (const CaseColumn& column : columns)
   {
+    const bool isGroups = isGroupColumn(column.name);
     file << column.name << ' ' << column.components << ' ' << rows << ' '
-         << (column.isInteger ? "int" : "double") << '\n';
+         << (isGroups            ? "unsigned_short"
+              : column.isInteger ? "int"
+                                 : "double")
+         << '\n';
     for (const double value : column.values)
     {
       file << value << '\n';
     }
     for (int k = 0; k < unused * column.components; ++k)
     {
-      file << "1\n";
+      file << (isGroups ? "0\n" : "1\n");
     }
   }
 }
@@ -123,6 +162,7 @@ StreamMesh Case::stream() const
   mesh.cellType = this->type;
   mesh.positions = this->points;
   mesh.corners = this->corners;
+  mesh.groups = this->groups;
   mesh.vertexColumns = columnsOf(this->vertexColumns);
   mesh.cellColumns = columnsOf(this->cellColumns);
   mesh.cellColumns.push_back(makeColumn<std::uint8_t>(CellFlagsName, this->flags()));
@@ -171,7 +211,7 @@ void Case::writeVtk(const std::filesystem::path& path) const
   const int size = cornersOf(this->type);
   const bool isSurface = this->type == CellType::Triangle;
   file << "# vtk DataFile Version 3.0\nrandom\nASCII\nDATASET "
-       << (isSurface ? "POLYDATA" : "UNSTRUCTURED_GRID") << "\nPOINTS "
+       << (isSurface ? "POLYDATA\n" : "UNSTRUCTURED_GRID\n") << fieldOf(this->groups) << "POINTS "
        << this->vertices() + this->run.unused << " double\n";
   for (std::size_t k = 0; k < this->points.size(); ++k)
   {
@@ -212,7 +252,8 @@ void Case::save(const std::filesystem::path& path) const
 {
   const json mesh{ { "type", this->type == CellType::Triangle ? "triangles" : "tetrahedra" },
     { "points", this->points }, { "corners", this->corners },
-    { "vertexColumns", this->vertexColumns }, { "cellColumns", this->cellColumns } };
+    { "vertexColumns", this->vertexColumns }, { "cellColumns", this->cellColumns },
+    { "groups", json::parse(textOf(this->groups)) } };
   std::ofstream file(path);
   file << json{ { "seed", this->seed }, { "job", this->job }, { "mesh", mesh },
     { "problem", this->problem }, { "run", this->run } }
@@ -237,6 +278,7 @@ Case Case::load(const std::filesystem::path& path)
   mesh.at("corners").get_to(given.corners);
   mesh.at("vertexColumns").get_to(given.vertexColumns);
   mesh.at("cellColumns").get_to(given.cellColumns);
+  given.groups = mesh.contains("groups") ? groupsOfText(mesh.at("groups").dump()) : MeshGroups();
   given.problem = text.at("problem");
   text.at("run").get_to(given.run);
   return given;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Testing/Support/StreamMesh.h"
+#include "smg/Groups.h"
 
 #include <nlohmann/json.hpp>
 
@@ -65,6 +66,7 @@ struct Case
   std::vector<double> points;        ///< x, y, z a vertex
   std::vector<std::int64_t> corners; ///< of the cells
   std::vector<CaseColumn> vertexColumns, cellColumns;
+  MeshGroups groups; ///< with columns of their sets
   nlohmann::json problem;
   CaseRun run;
 
@@ -105,6 +107,8 @@ public:
 
   /** Names begin with v for vertices and c for cells. */
   void addColumns();
+  /** Groups of vertices, facets and cells, with columns of their sets; mostly. */
+  void addGroups();
   nlohmann::json solve();
   nlohmann::json deform();
   nlohmann::json smooth();
@@ -131,6 +135,10 @@ private:
   nlohmann::json place(bool mayBeEverywhere);
   nlohmann::json places();
   nlohmann::json region();
+  nlohmann::json group();
+  nlohmann::json combination();
+  /** The set of a random choice of the groups of a kind, each with this probability. */
+  double randomSet(GroupOf kind, double probability);
   nlohmann::json value(bool mayBeOfCells);
   nlohmann::json coefficient(bool mayBeOfCells, bool mayBeZero);
   /** A coefficient or a list of placed ones. */

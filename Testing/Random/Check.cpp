@@ -75,6 +75,77 @@ std::string checkGradients(
   return {};
 }
 
+/** Whether the integrals over the whole and over groups of cells are those of the values. */
+std::string checkIntegrals(
+  const Case& given, const Oracle& oracle, const MatrixXd& values, const Report& report)
+{
+  if (!given.problem.contains("integrals"))
+  {
+    return {};
+  }
+  const Evaluation at(given);
+  std::vector<std::vector<bool>> parts{ std::vector<bool>(
+    static_cast<std::size_t>(given.cells()), true) };
+  for (std::size_t g = 0; g < given.groups.groups.size(); ++g)
+  {
+    if (given.groups.groups[g].of == GroupOf::Cells)
+    {
+      parts.push_back(at.cellsOf(g));
+    }
+  }
+  if (parts.size() != report.integrals.size())
+  {
+    return "has another number of integrals";
+  }
+  const int columns = static_cast<int>(values.cols());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(1 + 7 * columns), sizes = sums;
+    for (std::int64_t c = 0; c < given.cells(); ++c)
+    {
+      const MatrixXd& shape = oracle.shapes.gradients[static_cast<std::size_t>(c)];
+      if (!parts[k][static_cast<std::size_t>(c)] || at.flags()[static_cast<std::size_t>(c)] != 0)
+      {
+        continue;
+      }
+      const double measure = oracle.shapes.measure[c];
+      Eigen::VectorXd own = Eigen::VectorXd::Zero(sums.size());
+      own[0] = 1.0;
+      for (int column = 0; column < columns; ++column)
+      {
+        Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+        for (int i = 0; i < shape.rows(); ++i)
+        {
+          const double u = values(given.cell(c)[i], column);
+          own[1 + column] += u / static_cast<double>(shape.rows());
+          gradient += u * shape.row(i).transpose();
+        }
+        own.segment<3>(1 + columns + 3 * column) = gradient;
+        own.segment<3>(1 + 4 * columns + 3 * column) =
+          -oracle.conductivity[static_cast<std::size_t>(c)] * gradient;
+      }
+      sums += measure * own;
+      sizes += measure * own.cwiseAbs();
+    }
+    const Report::Integral& found = report.integrals[k];
+    std::vector<double> all{ found.measure };
+    for (const auto* more : { &found.integral, &found.gradient, &found.flux })
+    {
+      all.insert(all.end(), more->begin(), more->end());
+    }
+    const double largest = sizes.size() > 1 ? sizes.tail(sizes.size() - 1).maxCoeff() : 0.0;
+    for (Eigen::Index e = 0; e < sums.size(); ++e)
+    {
+      const double size = e == 0 ? sizes[0] : largest;
+      if (!(std::abs(all[static_cast<std::size_t>(e)] - sums[e]) <= 1e-8 * size))
+      {
+        return "has another integral over " + found.name;
+      }
+    }
+  }
+  return {};
+}
+
 /** Solves in the way of the run; `failure` is set if there is more to say than of its values. */
 Result solveAsTold(const Case& given, const Oracle& oracle, CheckedCase& to)
 {
@@ -88,6 +159,7 @@ Result solveAsTold(const Case& given, const Oracle& oracle, CheckedCase& to)
     StreamMesh mesh;
     Result found = solveFile(given, mesh);
     to.failure = checkGradients(given, oracle, found.values, mesh);
+    to.failure += checkIntegrals(given, oracle, found.values, found.report);
     return found;
   }
   if (run.memory == 0.0)

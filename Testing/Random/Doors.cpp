@@ -164,7 +164,8 @@ Result solveFile(const Case& given, StreamMesh& result)
 {
   const TemporaryFolder folder;
   const VsmReader mesh(convertedFile(given, folder.path()));
-  DescribedProblem problem(readProblemText(given.problem.dump(), "problem"), mesh.info());
+  const ProblemDescription description = readProblemText(given.problem.dump(), "problem");
+  DescribedProblem problem(description, mesh.info());
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   problem.prepare(*source());
   SolveOptions options;
@@ -173,6 +174,7 @@ Result solveFile(const Case& given, StreamMesh& result)
   const std::unique_ptr<Solution> solution = solve(*source(), problem, options);
   ResultOptions results;
   results.gradient = results.flux = true;
+  results.integrals = description.integrals;
   results.threads = given.run.threads;
   SolvedMesh solved(mesh, problem, *solution, results);
   result = collect(solved);

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,8 +50,10 @@ public:
     return Eigen::Vector3d::Map(&this->On.points[3 * static_cast<std::size_t>(v)]);
   }
 
-  /** The vertices, cells or facets of a place; sets `isEmpty` if there are none. */
-  std::vector<bool> select(const nlohmann::json& place, Of of, bool& isEmpty) const;
+  /** The vertices, cells or facets of a place, or of a part of one; sets `isEmpty` if there are
+   * none. */
+  std::vector<bool> select(
+    const nlohmann::json& place, Of of, bool& isEmpty, bool isPart = false) const;
   /** For each vertex, cell or facet the last entry that holds there; -1: none. */
   std::vector<int> last(const std::vector<nlohmann::json>& entries, Of of, bool& isEmpty) const;
 
@@ -65,18 +69,37 @@ public:
   {
     return value.is_string() ? find(this->On.cellColumns, value) : nullptr;
   }
-  /** Whether an entry names a column of the cells. */
+  /** Whether an entry names a column or a group of the cells. */
   bool namesCells(const nlohmann::json& entry) const
   {
-    return this->cellColumn(entry.at("value")) ||
-           (entry.contains("mask") && this->cellColumn(entry.at("mask"))) ||
-           (entry.contains("tag") && this->cellColumn(entry.at("tag")[0]));
+    return this->cellColumn(entry.at("value")) || this->isOfCells(entry);
   }
 
-  /** The boundary facets in any of these places; of no place, all of them. */
+  /** The facets of cells that lie between cells. */
+  const std::vector<std::size_t>& inner() const { return this->Inner; }
+  /** For each facet between cells the last entry that is stated for facets and holds there. */
+  std::vector<int> lastInside(const std::vector<nlohmann::json>& entries) const;
+  /** The cells of a group, by its number in Case::groups. */
+  std::vector<bool> cellsOf(std::size_t group) const;
+
+  /** The boundary facets in any of these places, and those between cells that these are stated for;
+   * of no place, all of the boundary. */
   std::vector<std::size_t> walls(const nlohmann::json& places) const;
 
 private:
+  bool isOfCells(const nlohmann::json& place) const;
+  std::vector<bool> inside(const nlohmann::json& place) const;
+  /** The groups of a kind that have a name or number. */
+  std::set<std::size_t> named(const nlohmann::json& name, GroupOf kind) const;
+  /** Whether a row of the column of sets is in one of the groups. */
+  bool isIn(const std::set<std::size_t>& groups, GroupOf kind, std::size_t row) const;
+  std::map<GroupOf, std::set<std::size_t>> groupsAt(
+    const nlohmann::json& names, Of of, bool& isEmpty) const;
+  std::vector<bool> selectGroups(const nlohmann::json& names, Of of, bool& isEmpty) const;
+  std::vector<bool> combine(const nlohmann::json& place, Of of, bool& isEmpty, bool isPart) const;
+  /** The vertices, cells or facets whose corners are all among these. */
+  std::vector<bool> within(const std::vector<bool>& vertices, Of of) const;
+  std::size_t count(Of of) const;
   std::vector<bool> verticesOf(const nlohmann::json& place) const;
   /** Whether a tag or mask holds in a row of its column. */
   static bool holds(const nlohmann::json& place, const CaseColumn& column, std::int64_t row)
@@ -89,7 +112,7 @@ private:
   std::vector<std::uint8_t> Flags;
   std::vector<Facet> All;
   std::vector<bool> Counts;
-  std::vector<std::size_t> Boundary;
+  std::vector<std::size_t> Boundary, Inner;
 };
 
 } // namespace smg::testing

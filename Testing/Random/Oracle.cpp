@@ -259,7 +259,7 @@ void Equations::addFacets()
     coefficients.push_back(entriesOf(entry.at("coefficient")));
     coefficient.push_back(this->At.last(coefficients.back(), Of::Facets, this->Empty));
   }
-  for (const std::size_t f : this->At.boundary())
+  const auto add = [&](std::size_t f, int fluxOf, int robinOf)
   {
     const Facet& facet = this->At.facets()[f];
     const Vector3d a = this->At.point(facet.corners[0]);
@@ -270,16 +270,16 @@ void Equations::addFacets()
     const double share = area / static_cast<double>(facet.corners.size());
     for (const std::int64_t v : facet.corners)
     {
-      if (!fluxes.empty() && flux[f] >= 0)
+      if (fluxOf >= 0)
       {
-        const json& value = fluxes[static_cast<std::size_t>(flux[f])].at("value");
+        const json& value = fluxes[static_cast<std::size_t>(fluxOf)].at("value");
         this->addLoad(v, share * this->At.atCorner(value, facet.cell, v).transpose());
       }
-      if (robins.empty() || robin[f] < 0)
+      if (robinOf < 0)
       {
         continue;
       }
-      const auto r = static_cast<std::size_t>(robin[f]);
+      const auto r = static_cast<std::size_t>(robinOf);
       if (const int entry = coefficient[r][f]; entry >= 0)
       {
         const json& value = coefficients[r][static_cast<std::size_t>(entry)].at("value");
@@ -289,6 +289,18 @@ void Equations::addFacets()
           v, weight * this->At.atCorner(robins[r].at("ambient"), facet.cell, v).transpose());
       }
     }
+  };
+  const auto entryOf = [](const std::vector<int>& entries, std::size_t f)
+  { return entries.empty() ? -1 : entries[f]; };
+  for (const std::size_t f : this->At.boundary())
+  {
+    add(f, entryOf(flux, f), entryOf(robin, f));
+  }
+  const std::vector<int> fluxInside = this->At.lastInside(fluxes);
+  const std::vector<int> robinInside = this->At.lastInside(robins);
+  for (const std::size_t f : this->At.inner())
+  {
+    add(f, fluxInside[f], robinInside[f]);
   }
 }
 

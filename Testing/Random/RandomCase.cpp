@@ -187,6 +187,7 @@ Case randomCase(std::uint64_t seed)
   made = made.part(std::vector<std::uint8_t>(static_cast<std::size_t>(made.cells()), 1));
   ProblemMaker maker(made, random);
   maker.addColumns();
+  maker.addGroups();
   made.job = randomJob(random);
   if (made.job == "solve")
   {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <set>
 
 namespace smg::testing
 {
@@ -62,6 +63,79 @@ void ProblemMaker::addColumns()
     [&](int) { return this->uniform(-1, 1); });
 }
 
+double ProblemMaker::randomSet(GroupOf kind, double probability)
+{
+  MeshGroups& groups = this->To.groups;
+  std::vector<std::uint32_t> set;
+  for (std::size_t g = 0; g < groups.groups.size(); ++g)
+  {
+    if (groups.groups[g].of == kind && this->chance(probability))
+    {
+      set.push_back(static_cast<std::uint32_t>(g));
+    }
+  }
+  const auto known = std::ranges::find(groups.sets, set);
+  const auto number = known - groups.sets.begin();
+  if (known == groups.sets.end())
+  {
+    groups.sets.push_back(set);
+  }
+  return static_cast<double>(number);
+}
+
+/** The same name and the same number may be those of several kinds. Of the cells of a facet, one
+ * has its groups. */
+void ProblemMaker::addGroups()
+{
+  if (this->chance(0.3))
+  {
+    return;
+  }
+  this->To.groups.groups = { { "v low", 1, GroupOf::Vertices }, { "both", 2, GroupOf::Vertices },
+    { "f in", 1, GroupOf::Facets }, { "f out", 3, GroupOf::Facets },
+    { "all three", {}, GroupOf::Facets }, { "c core", 1, GroupOf::Cells },
+    { "both", 4, GroupOf::Cells }, { "all three", 5, GroupOf::Cells },
+    { "all three", 6, GroupOf::Vertices } };
+  this->addColumn(
+    false, VertexGroupsName, 1, true, [&](int) { return this->randomSet(GroupOf::Vertices, 0.5); });
+  this->addColumn(
+    true, CellGroupsName, 1, true, [&](int) { return this->randomSet(GroupOf::Cells, 0.4); });
+  const int size = cornersOf(this->To.type);
+  std::set<std::vector<std::int64_t>> seen;
+  std::int64_t facet = 0;
+  this->addColumn(true, FacetGroupsName, size, true,
+    [&](int k)
+    {
+      const std::int64_t* cell = this->To.cell(facet++ / size);
+      std::vector<std::int64_t> corners(cell, cell + size);
+      corners.erase(corners.begin() + k);
+      std::ranges::sort(corners);
+      return seen.insert(corners).second ? this->randomSet(GroupOf::Facets, 0.25) : 0.0;
+    });
+}
+
+json ProblemMaker::group()
+{
+  switch (this->Numbers.below(4))
+  {
+    case 0:
+      return { { "group", this->oneOf({ "v low", "c core", "f out", "f *", "*in", "all*" }) } };
+    case 1:
+      return { { "group", 1 + this->Numbers.below(5) } };
+    case 2:
+      return { { "group", { "both", this->oneOf({ "f in", "all three", "c core" }) } } };
+    default:
+      return { { "group", this->oneOf({ "both", "f in", "f in", "f out", "all three" }) } };
+  }
+}
+
+json ProblemMaker::combination()
+{
+  json parts = { this->place(false), this->place(false) };
+  const std::string key = this->oneOf({ "all", "any", "any", "not" });
+  return { { key, key == "not" ? parts[0] : parts } };
+}
+
 json ProblemMaker::region()
 {
   const double* p = this->somePoint();
@@ -87,6 +161,14 @@ json ProblemMaker::region()
 
 json ProblemMaker::place(bool mayBeEverywhere)
 {
+  if (!this->To.groups.empty() && this->chance(0.3))
+  {
+    return this->group();
+  }
+  if (this->chance(0.12))
+  {
+    return this->combination();
+  }
   switch (this->Numbers.below(mayBeEverywhere ? 9 : 8))
   {
     case 0:
@@ -268,6 +350,10 @@ json ProblemMaker::solve()
     problem["source"] = this->value(true);
   }
   problem["outputs"] = { "gradient", "flux" };
+  if (this->chance(0.3))
+  {
+    problem["integrals"] = "*";
+  }
   return problem;
 }
 

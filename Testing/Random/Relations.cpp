@@ -279,6 +279,13 @@ std::optional<Related> permuted(const Case& given)
       std::copy_n(from.values.begin() + order[c] * from.components, from.components,
         other.cellColumns[column].values.begin() +
           static_cast<std::ptrdiff_t>(c) * from.components);
+      if (from.name == FacetGroupsName)
+      {
+        // Facets follow the corners that they are opposite to.
+        const auto to = other.cellColumns[column].values.begin() +
+                        static_cast<std::ptrdiff_t>(c) * from.components;
+        std::rotate(to, to + turn, to + from.components);
+      }
     }
   }
   other = other.part(std::vector<std::uint8_t>(order.size(), 1));

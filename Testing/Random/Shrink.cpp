@@ -141,8 +141,11 @@ void leaveOutColumns(Case& given)
   const std::string text = given.problem.dump();
   for (std::vector<CaseColumn>* columns : { &next.vertexColumns, &next.cellColumns })
   {
-    std::erase_if(*columns, [&](const CaseColumn& column)
-      { return text.find('"' + column.name + '"') == std::string::npos; });
+    std::erase_if(*columns,
+      [&](const CaseColumn& column) {
+        return !isGroupColumn(column.name) &&
+               text.find('"' + column.name + '"') == std::string::npos;
+      });
   }
   take(given, next);
 }
