@@ -166,7 +166,7 @@ public:
       if (isAll && this->Cuts && this->Surface.keepsBorders())
       {
         this->Surface.releaseBorders();
-        done.crossesBorders = !this->Part.labels.empty();
+        done.crossesBorders = this->Part.hasBorders();
       }
       else if (const std::size_t welded =
                  isAll && this->Cuts ? weldSeams(this->Part, left - goal.vertices, this->Polled)

@@ -104,6 +104,7 @@ void StreamSimplifier::keepIn(ScratchFolder& folder, std::vector<Checkpoint::Ite
     this->Parts.next(taken);
   }
   this->Window.labels = taken.surface.labels;
+  this->Window.edgeGroups = taken.surface.edgeGroups;
   this->Window.marksHeld = taken.surface.marksHeld;
 }
 

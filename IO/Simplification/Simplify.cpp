@@ -127,7 +127,7 @@ void noteBorders(
   if (simplifier.counts().crossesBorders)
   {
     notes.emplace_back("So few vertices are not enough for the borders between the labels of the "
-                       "cells: some are not held.");
+                       "cells and for edges in groups: some are not held.");
   }
 }
 

@@ -208,6 +208,7 @@ void StreamSimplifier::append(const StreamPart& part)
   std::vector<std::uint32_t> places(from.vertices());
   to.origin = from.origin;
   to.labels = from.labels;
+  to.edgeGroups = from.edgeGroups;
   to.marksHeld = from.marksHeld;
   if (to.triangles() == 0)
   {

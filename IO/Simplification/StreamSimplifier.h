@@ -154,7 +154,7 @@ private:
   void count(const Collapsed& done);
   void countMerged(std::size_t vertices)
   {
-    this->Counts.crossesBorders = this->Counts.crossesBorders || !this->Window.labels.empty();
+    this->Counts.crossesBorders = this->Counts.crossesBorders || this->Window.hasBorders();
     this->Counts.merged += static_cast<std::int64_t>(vertices);
   }
   bool dropBodies(std::int64_t vertices);

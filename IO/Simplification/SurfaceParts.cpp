@@ -64,9 +64,24 @@ void appendTuples(const std::byte* row, std::span<Column> columns)
 /** Whether triangles carry a column of cells. */
 bool isCarried(const ColumnSpec& spec)
 {
-  // Edges of groups are not those of the triangles that remain.
-  return spec.name != OriginalCellIdName && spec.name != CellFlagsName &&
-         spec.name != FacetGroupsName;
+  // Facets of tetrahedra are not those of the triangles of their boundary.
+  const bool isOfTetrahedra = spec == MeshGroups::columnSpec(GroupOf::Facets, 4);
+  return spec.name != OriginalCellIdName && spec.name != CellFlagsName && !isOfTetrahedra;
+}
+
+/** See SurfacePart::edgeGroups. */
+std::optional<std::size_t> edgeGroupsIn(const std::vector<ColumnSpec>& columns)
+{
+  std::size_t begin = 0;
+  for (const ColumnSpec& spec : columns)
+  {
+    if (spec == MeshGroups::columnSpec(GroupOf::Facets, 3))
+    {
+      return begin;
+    }
+    begin += spec.tupleBytes();
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -350,6 +365,7 @@ void SurfaceParts::localise(SurfacePart& surface)
   }
   surface.cellRows = this->CellRows;
   surface.labels = this->Labels.places();
+  surface.edgeGroups = edgeGroupsIn(carriedColumns(this->Source.info()));
   surface.marksHeld = this->MarksHeld;
   surface.corners.reserve(this->Corners.size());
   for (std::size_t i = 0; i < this->Corners.size(); ++i)

@@ -6,6 +6,7 @@
 #include "Solver/Core/Vector.h"
 #include "Solver/Problem/OpenValues.h"
 #include "smg/Column.h"
+#include "smg/Groups.h"
 #include "smg/MeshSource.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -80,6 +82,9 @@ struct SurfacePart
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
   std::vector<std::byte> cellRows;    ///< for each triangle its tuples of the carried columns
   std::vector<LabelPlace> labels;     ///< in these tuples; collapses keep their borders
+  /** Where the row of a triangle has the sets of groups of its edges, each opposite to a corner; of
+   * the triangles at an edge, one has it. Collapses keep edges in groups as borders. */
+  std::optional<std::size_t> edgeGroups;
   /** Whether the last byte in the row of a vertex says if that is held (1), or lies on a seam with
    * others at its place (their number with it, at most MostOfSeam); else it is 0. */
   bool marksHeld = false;
@@ -156,6 +161,27 @@ struct SurfacePart
       });
   }
 
+  /** The set of groups of the edge of a triangle that is opposite to its corner k; 0: none. */
+  GroupSet edgeSet(std::size_t triangle, std::size_t k) const
+  {
+    GroupSet set = 0;
+    std::memcpy(&set, this->cellRows.data() + this->placeOfEdge(triangle, k), sizeof(set));
+    return set;
+  }
+  void setEdgeSet(std::size_t triangle, std::size_t k, GroupSet set)
+  {
+    std::memcpy(this->cellRows.data() + this->placeOfEdge(triangle, k), &set, sizeof(set));
+  }
+  /** Whether a triangle has an edge in a group. */
+  bool hasEdgeSets(std::size_t triangle) const
+  {
+    return this->edgeGroups &&
+           (this->edgeSet(triangle, 0) != 0 || this->edgeSet(triangle, 1) != 0 ||
+             this->edgeSet(triangle, 2) != 0);
+  }
+  /** Whether there are borders to keep. */
+  bool hasBorders() const { return !this->labels.empty() || this->edgeGroups; }
+
   /** Appends a vertex of another surface, without its quadric. */
   void addVertex(const SurfacePart& from, std::size_t vertex);
   /** Appends the position and the tuples of a vertex to these. */
@@ -195,6 +221,10 @@ struct SurfacePart
   }
 
 private:
+  std::size_t placeOfEdge(std::size_t triangle, std::size_t k) const
+  {
+    return triangle * this->cellRowBytes() + *this->edgeGroups + k * sizeof(GroupSet);
+  }
   std::uint8_t mark(std::size_t vertex) const
   {
     return this->marksHeld

@@ -38,7 +38,7 @@ SurfaceTopology::SurfaceTopology(
   , Polled(poll)
   , IsFixed(open.size())
   , Curves(open.size())
-  , KeepsBorders(!part.labels.empty() || !part.wedges.empty())
+  , KeepsBorders(part.hasBorders() || !part.wedges.empty())
   , Target(open.size())
   , Touched(open.size())
   , Seen(open.size(), 0)
@@ -118,22 +118,25 @@ void SurfaceTopology::classify(std::uint32_t v)
   }
 }
 
-/** Whether two triangles at an edge have the same labels, and there is no seam between them. */
+/** Whether two triangles at an edge have the same labels, there is no seam between them, and the
+ * edge is in no group. */
 bool SurfaceTopology::areAlike(
   std::size_t one, std::size_t other, std::uint32_t v, std::uint32_t w) const
 {
-  return this->Part.haveSameLabels(one, other) &&
+  return this->Part.haveSameLabels(one, other) && this->edgeSet(one, v, w) == 0 &&
+         this->edgeSet(other, v, w) == 0 &&
          (this->Part.wedges.empty() || (this->wedgeAt(one, v) == this->wedgeAt(other, v) &&
                                          this->wedgeAt(one, w) == this->wedgeAt(other, w)));
 }
 
-/** Whether triangles have the same labels, and no corners on seams but those that stand for all. */
+/** Whether triangles have the same labels, no edges in groups, and no corners on seams but those
+ * that stand for all. */
 bool SurfaceTopology::isUniform(std::span<const std::uint32_t> star) const
 {
   return std::ranges::all_of(star,
     [&](std::size_t t)
     {
-      return this->Part.haveSameLabels(star[0], t) &&
+      return this->Part.haveSameLabels(star[0], t) && !this->Part.hasEdgeSets(t) &&
              (this->Part.wedges.empty() ||
                std::equal(this->Corners.begin() + 3 * static_cast<std::ptrdiff_t>(t),
                  this->Corners.begin() + 3 * static_cast<std::ptrdiff_t>(t + 1),
@@ -180,8 +183,46 @@ bool SurfaceTopology::findMoves(std::uint32_t from, std::uint32_t to)
     });
 }
 
+/** Of each triangle that disappears, the other two edges become one: gives its groups to the
+ * triangle on the other side, at `from` or else at `to`. */
+void SurfaceTopology::carryEdges(std::uint32_t from, std::uint32_t to)
+{
+  for (const std::uint32_t t : this->star(from))
+  {
+    const auto [a, b] = this->others(t, from);
+    if (a == b || (a != to && b != to))
+    {
+      continue;
+    }
+    const std::uint32_t opposite = a == to ? b : a;
+    GroupSet set = this->edgeSet(t, to, opposite);
+    set = set != 0 ? set : this->edgeSet(t, from, opposite);
+    bool isCarried = set == 0;
+    for (const std::uint32_t end : { from, to })
+    {
+      for (const std::uint32_t other : this->star(end))
+      {
+        const auto [c, d] = this->others(other, end);
+        const bool isAcross = c != d && other != t && (c == opposite || d == opposite) &&
+                              c != from && d != from && c != to && d != to;
+        if (!isCarried && isAcross)
+        {
+          const std::size_t k = this->third(other, end, opposite);
+          const GroupSet own = this->Part.edgeSet(other, k);
+          this->Part.setEdgeSet(other, k, own != 0 ? own : set);
+          isCarried = true;
+        }
+      }
+    }
+  }
+}
+
 void SurfaceTopology::move(std::uint32_t from, std::uint32_t to)
 {
+  if (this->Part.edgeGroups)
+  {
+    this->carryEdges(from, to);
+  }
   if (!this->Part.wedges.empty())
   {
     this->findMoves(from, to);
@@ -249,8 +290,9 @@ double SurfaceTopology::fromBoundary(std::uint32_t from, std::uint32_t to) const
   return 0.0;
 }
 
-/** The edges at v of the boundary, of seams and between labels; 0 if its triangles have one label
- * and no seam. */
+/** The edges at v of the boundary, of seams, between labels and in groups; 0 if its triangles have
+ * one label, no seam and no edge in a group. More than there are if they are not all in the same
+ * groups: there a curve ends. */
 std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
 {
   const std::span<const std::uint32_t> star = this->star(v);
@@ -268,17 +310,26 @@ std::size_t SurfaceTopology::curvesAt(std::uint32_t v)
   }
   std::ranges::sort(this->Pairs);
   std::size_t curves = 0;
+  GroupSet groups = 0;
+  bool isEnd = false;
   for (std::size_t begin = 0, end = 0; begin < this->Pairs.size(); begin = end)
   {
     bool isAlike = true;
+    GroupSet own = 0;
     for (; end < this->Pairs.size() && this->Pairs[end][0] == this->Pairs[begin][0]; ++end)
     {
+      own = std::max(own, this->edgeSet(this->Pairs[end][1], v, this->Pairs[begin][0]));
       isAlike = isAlike && this->areAlike(
                              this->Pairs[begin][1], this->Pairs[end][1], v, this->Pairs[begin][0]);
     }
-    curves += end - begin == 1 || !isAlike ? 1 : 0;
+    if (end - begin == 1 || !isAlike)
+    {
+      isEnd = isEnd || (curves > 0 && own != groups);
+      groups = own;
+      ++curves;
+    }
   }
-  return curves;
+  return isEnd ? curves + 2 : curves;
 }
 
 /** Whether an edge of a vertex that was not touched has not two triangles, or has triangles of

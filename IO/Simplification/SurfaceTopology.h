@@ -121,6 +121,21 @@ private:
   void classify(std::uint32_t v);
   std::size_t curvesAt(std::uint32_t v);
   bool isCurve(std::uint32_t v, std::uint32_t w) const;
+  /** The place of the corner of a triangle that is neither of two others, where they have gone. */
+  std::size_t third(std::size_t triangle, std::uint32_t v, std::uint32_t w) const
+  {
+    const std::uint32_t* c = this->Corners.data() + 3 * triangle;
+    const auto isOther = [&](std::size_t k)
+    { return this->Target[c[k]] != v && this->Target[c[k]] != w; };
+    return isOther(0) ? 0 : isOther(1) ? 1 : 2;
+  }
+  /** The groups of the edge of a triangle between two of its corners, as this one has them. */
+  GroupSet edgeSet(std::size_t triangle, std::uint32_t v, std::uint32_t w) const
+  {
+    return this->Part.edgeGroups ? this->Part.edgeSet(triangle, this->third(triangle, v, w))
+                                 : GroupSet(0);
+  }
+  void carryEdges(std::uint32_t from, std::uint32_t to);
   bool areAlike(std::size_t one, std::size_t other, std::uint32_t v, std::uint32_t w) const;
   bool isUniform(std::span<const std::uint32_t> star) const;
   std::uint32_t& wedgeAt(std::size_t triangle, std::uint32_t v) const;

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 // Distances to the walls of tetrahedral meshes, against exact ones and all triangles.
 
@@ -168,6 +169,42 @@ TEST(WallDistance, DoesNotDependOnMemoryThreadsAndBlocks)
   EXPECT_TRUE(sameBits(parts.values, whole.values));
 }
 
+/** A wall between cells, stated for its faces: a plane through the cube, on both sides of which
+ * distances are those from it. Of the two cells of a face, any may name it. */
+TEST(WallDistance, FromFacesOfAGroupBetweenCells)
+{
+  StreamMesh stream = toStream(unitCube(6, 0.0));
+  constexpr double plane = 2.0 / 6.0;
+  std::vector<GroupSet> sets(stream.corners.size(), 0);
+  std::set<std::vector<std::int64_t>> seen;
+  for (std::size_t facet = 0; facet < sets.size(); ++facet)
+  {
+    const std::size_t cell = facet / 4 * 4;
+    std::vector<std::int64_t> corners(stream.corners.begin() + static_cast<std::ptrdiff_t>(cell),
+      stream.corners.begin() + static_cast<std::ptrdiff_t>(cell) + 4);
+    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(facet % 4));
+    const bool isOnPlane = std::ranges::all_of(
+      corners, [&](std::int64_t v) { return stream.positions[3 * v + 2] == plane; });
+    std::ranges::sort(corners);
+    sets[facet] = isOnPlane && seen.insert(corners).second ? 1 : 0;
+  }
+  stream.groups.groups = { { "baffle", {}, GroupOf::Facets } };
+  stream.groups.sets = { {}, { 0 } };
+  stream.cellColumns.push_back(makeColumn<GroupSet>(FacetGroupsName, sets, 4));
+  const std::vector<Where> baffle{ InGroup{ { "baffle" } } };
+  const Solved found = measure(MemoryMesh(stream), wallOf(baffle));
+  EXPECT_EQ(found.report.distance->sources, std::ssize(seen));
+  for (std::int64_t v = 0; v < stream.vertices(); ++v)
+  {
+    EXPECT_NEAR(found.values(v, 0), std::fabs(stream.positions[3 * v + 2] - plane), 1e-12);
+  }
+  // The same bits for any blocks; and together with the boundary the lesser of both.
+  EXPECT_TRUE(sameBits(measure(MemoryMesh(stream, 3), wallOf(baffle)).values, found.values));
+  const Solved boundary = measure(MemoryMesh(stream), wallOf());
+  const Solved both = measure(MemoryMesh(stream), wallOf({ baffle[0], OnBoundary{} }));
+  EXPECT_TRUE(sameBits(both.values.col(0), found.values.col(0).cwiseMin(boundary.values.col(0))));
+}
+
 TEST(WallDistance, HasErrors)
 {
   expectError([] { measure(MemoryMesh(toStream(unitSquare(4))), wallOf()); },
@@ -177,7 +214,7 @@ TEST(WallDistance, HasErrors)
     [&] {
       measure(cube, wallOf({ Region(Region::Box{ { 0.3, 0.3, 0.3 }, { 0.7, 0.7, 0.7 } }) }));
     },
-    "no face of the boundary of the mesh is wall");
+    "no face of the boundary or of a group of the mesh is wall");
   expectError(
     [&] {
       measure(cube, wallOf({ Region(Region::Sphere{ { 9, 9, 9 }, 1 }) }));

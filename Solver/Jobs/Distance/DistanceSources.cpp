@@ -100,6 +100,7 @@ std::span<const std::uint8_t> DistanceSources::facetsAt(const MeshBlock& block)
   this->start(block);
   const auto corners = static_cast<unsigned>(cornersOf(this->Columns.cellType()));
   this->Selected.assign(block.corners.size() / corners, 0);
+  this->Inner.assign(this->Selected.size(), 0);
   this->More.resize(this->Selected.size());
   // Without any place, all of the wall is of one.
   this->Groups.assign(
@@ -112,6 +113,8 @@ std::span<const std::uint8_t> DistanceSources::facetsAt(const MeshBlock& block)
     }
     else
     {
+      this->Parts[k]->atInnerFacets({ block, 0, block.corners }, this->More);
+      std::ranges::transform(this->Inner, this->More, this->Inner.begin(), std::bit_or<>());
       this->Parts[k]->atFacets({ block, 0, block.corners }, this->More);
     }
     this->noteGroups(k, this->More, corners);

@@ -44,6 +44,9 @@ public:
   std::span<const std::uint8_t> verticesAt(const MeshBlock& block);
   /** For the cells of the next block: bit k is 1 if the facet opposite to corner k is selected. */
   std::span<const std::uint8_t> facetsAt(const MeshBlock& block);
+  /** The same for those that are selected as facets, after facetsAt() of the block: they are
+   * sources between two cells, too. Of these, one has the bit. */
+  std::span<const std::uint8_t> innerFacets() const { return this->Inner; }
   /** The number of vertex `i` of the block in the original file, or in the stream. */
   std::int64_t numberOf(const MeshBlock& block, std::size_t i) const;
   /** The first place of `from` that selects vertex `k` of the block, or facet `k`, where these are
@@ -70,6 +73,7 @@ private:
   std::vector<SourceKind> Kinds;       ///< of the parts
   bool Prepared = false;
   std::vector<std::uint8_t> Selected; ///< of the block
+  std::vector<std::uint8_t> Inner;    ///< the same between two cells
   std::vector<std::uint8_t> More;     ///< of one of the selections
   std::vector<std::int32_t> Groups;   ///< of the block, if these are asked for; -1: none
 };

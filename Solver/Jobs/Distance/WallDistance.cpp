@@ -60,7 +60,7 @@ std::int64_t readWall(const StoredMesh& mesh, const DistanceDescription& descrip
   noteUnwelded(CellType::Tetrahedron, check.vertices(), check.cells(), run.report);
   if (wall.count() == 0)
   {
-    throw Error(name + ": no face of the boundary of the mesh is wall.");
+    throw Error(name + ": no face of the boundary or of a group of the mesh is wall.");
   }
   return wall.count();
 }

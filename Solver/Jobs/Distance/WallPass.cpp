@@ -55,6 +55,7 @@ void WallTriangles::addCells(const MeshBlock& block)
 {
   constexpr int Corners = 4;
   const std::span<const std::uint8_t> selected = this->From.facetsAt(block);
+  const std::span<const std::uint8_t> inner = this->From.innerFacets();
   forDistinctCells(CellType::Tetrahedron, block,
     [&](const std::int64_t* corners, std::size_t c)
     {
@@ -63,8 +64,14 @@ void WallTriangles::addCells(const MeshBlock& block)
         const CellFacet facet = facetOf(CellType::Tetrahedron, corners, k);
         // Both cells of an interior face are added, so that it is known as such, even if it is not
         // selected. Boundary faces have one cell, whose selection is stored.
-        const bool isWall = this->Everywhere || (selected[c] >> k & 1U) != 0;
         const std::int32_t group = this->From.group(Corners * c + static_cast<std::size_t>(k));
+        const bool isOfGroup = (inner[c] >> k & 1U) != 0;
+        if (isOfGroup)
+        {
+          // Wall in any case, whether another cell has it or not.
+          this->Inner[facet.vertex[0]].push_back({ facet.vertex[1], facet.vertex[2], group });
+        }
+        const bool isWall = this->Everywhere || (!isOfGroup && (selected[c] >> k & 1U) != 0);
         this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], isWall ? group + 1 : 0);
       }
     });
@@ -79,23 +86,37 @@ void WallTriangles::take(std::int64_t end)
     this->Open.take(this->Final,
       [&](std::int64_t middle, std::int64_t high, std::int32_t wall)
       {
-        if (wall == 0)
+        if (wall > 0)
         {
-          return;
+          this->add(middle, high, wall - 1);
         }
-        NumberedTriangle triangle;
-        const std::int64_t corners[3] = { this->Final, middle, high };
-        for (int k = 0; k < 3; ++k)
-        {
-          std::copy_n(this->Points.at(corners[k]), 3, triangle.points.point[k]);
-          triangle.numbers[k] = this->From.label(this->Numbers[corners[k]], wall - 1);
-        }
-        this->To.add(triangle);
       });
+    const auto ofGroups = this->Inner.find(this->Final);
+    if (ofGroups != this->Inner.end())
+    {
+      for (const OfGroup& facet : ofGroups->second)
+      {
+        this->add(facet.middle, facet.high, facet.group);
+      }
+      this->Inner.erase(ofGroups);
+    }
   }
   this->Open.release(this->Final);
   this->Points.release(this->Final);
   this->Numbers.release(this->Final);
+}
+
+/** Adds a triangle with the lowest corner `Final`. */
+void WallTriangles::add(std::int64_t middle, std::int64_t high, std::int32_t group)
+{
+  NumberedTriangle triangle;
+  const std::int64_t corners[3] = { this->Final, middle, high };
+  for (int k = 0; k < 3; ++k)
+  {
+    std::copy_n(this->Points.at(corners[k]), 3, triangle.points.point[k]);
+    triangle.numbers[k] = this->From.label(this->Numbers[corners[k]], group);
+  }
+  this->To.add(triangle);
 }
 
 void WallTriangles::finish()

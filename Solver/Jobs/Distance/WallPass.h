@@ -10,14 +10,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
+#include <vector>
 
 namespace smg
 {
 
 /** Collects the wall of a tetrahedral mesh in one reading, in the order of the stream: all boundary
- * triangles, or the selected ones. Cells that are flagged as duplicates or use a vertex twice do
- * not count. */
+ * triangles, or the selected ones; also triangles of groups between two cells. Cells that are
+ * flagged as duplicates or use a vertex twice do not count. */
 class WallTriangles
 {
 public:
@@ -35,13 +37,21 @@ public:
 private:
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
-  /** Takes the boundary triangles whose lowest vertex is below `end`. */
+  /** Takes the triangles of the wall whose lowest vertex is below `end`. */
   void take(std::int64_t end);
+  void add(std::int64_t middle, std::int64_t high, std::int32_t group);
 
   TriangleWriter To;
   DistanceSources& From;
   bool Everywhere;
   OpenFacets Open;
+  struct OfGroup
+  {
+    std::int64_t middle, high;
+    std::int32_t group; ///< see DistanceSources
+  };
+  /** Triangles that are selected as such, by their lowest corner, which is open. */
+  std::map<std::int64_t, std::vector<OfGroup>> Inner;
   Ring<double> Points;
   Ring<std::int64_t> Numbers;
   std::int64_t Vertices = 0, Final = 0;
